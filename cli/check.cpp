@@ -1,0 +1,71 @@
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "input_options.h"
+
+namespace regionmesh::cli {
+namespace {
+
+struct Arguments {
+    std::string model, json;
+    std::vector<std::string> sections;
+    bool quiet = false;
+    InputOptions input;
+};
+
+/// The oracle in the dense labels of the model's table; labels that the model does not know get numbers of their own.
+LabelOracle translate(const Census& census, LabelTable& labels) {
+    LabelOracle oracle = census.oracle;
+    std::vector<std::int64_t> euler;
+    for (Label dense = 0; dense < oracle.euler.size(); ++dense) {
+        const Label there = labels.dense(census.labels.input(dense));
+        if (there >= euler.size()) euler.resize(there + 1, 0);
+        euler[there] = oracle.euler[dense];
+    }
+    oracle.euler = std::move(euler);
+    return oracle;
+}
+
+void print_findings(const std::string& name, const CheckReport& report) {
+    fmt::print("{}: {} regions, {} pairs with an interface, {} quadruple points inside, quality {:.3f} at worst, {:.3f} on average\n", name,
+               report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min, report.quality.mean);
+    for (int kind = 0; kind < kViolationKindCount; ++kind) {
+        if (!report.counts[kind]) continue;
+        fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.counts[kind]);
+        int shown = 0;
+        for (const Violation& violation : report.violations)
+            if (violation.kind == static_cast<ViolationKind>(kind) && shown++ < 3) fmt::print("  {}\n", violation.text);
+    }
+    if (report.violation_count() == 0) fmt::print("no violations\n");
+}
+
+int check_command(const Arguments& arguments) {
+    ModelFile file = read_model(arguments.model);
+    CheckOptions options;
+    options.boundary_is_open = !arguments.input.cap();
+    if (!arguments.sections.empty()) {
+        const auto reader = arguments.input.open(arguments.sections);
+        options.oracle = translate(count_labels(*reader, {.cap = arguments.input.cap(), .background = arguments.input.background_labels()}), file.labels);
+    }
+    for (InputLabel label : arguments.input.background_labels()) options.background.push_back(file.labels.dense(label));
+    options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
+    const CheckReport report = check(file.model, options);
+    if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels));
+    if (!arguments.quiet) print_findings(arguments.model, report);
+    return report.violation_count() == 0 ? 0 : 3;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("check", "looks for cracks, folds, crossings and changes of topology; exit 3 if there are any");
+    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")->required();
+    command->add_option("--sections", arguments->sections, "the volume that the model was made from: compare with its labels");
+    arguments->input.add_to(*command);
+    command->add_option("--json", arguments->json, "findings to write as JSON");
+    command->add_flag("--quiet", arguments->quiet, "exit code only");
+    command->callback([arguments, &action] { action = [arguments] { return check_command(*arguments); }; });
+}
+
+}  // namespace regionmesh::cli

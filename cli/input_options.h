@@ -1,0 +1,34 @@
+// The options that say how to read a volume, shared by all commands that do.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "regionmesh/regionmesh.h"
+
+namespace regionmesh::cli {
+
+struct InputOptions {
+    std::string sweep = "auto";
+    std::string spacing, size, type;
+    std::vector<std::string> background;
+    bool no_background = false;
+    std::string boundary = "cap";
+
+    /// Adds --sweep, --spacing, --size, --type, --background, --no-background and --boundary.
+    void add_to(CLI::App& command);
+    /// Throws Error(kUsage) for a word that is no number.
+    std::unique_ptr<SectionReader> open(const std::vector<std::string>& inputs) const;
+    std::vector<InputLabel> background_labels() const;
+    bool cap() const { return boundary == "cap"; }
+};
+
+/// A count, share or size as typed; each throws Error(kUsage) naming the flag.
+std::uint64_t parse_count(const std::string& flag, const std::string& text);
+double parse_number(const std::string& flag, const std::string& text);
+double parse_share(const std::string& flag, const std::string& text);          // "90%" or "0.9"
+std::uint64_t parse_bytes(const std::string& flag, const std::string& text);   // "2GiB", "500MB", "1000000"
+
+}  // namespace regionmesh::cli

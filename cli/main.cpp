@@ -1,0 +1,47 @@
+#include <fmt/core.h>
+
+#include <new>
+
+#include "commands.h"
+#include "regionmesh/regionmesh.h"
+
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kUsage = 2;
+
+int run(const regionmesh::cli::Action& action) {
+    try {
+        return action();
+    } catch (const regionmesh::Error& error) {
+        fmt::print(stderr, "regionmesh: {}\n", error.what());
+        return error.code() == regionmesh::ErrorCode::kUsage ? kUsage : kBadInput;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "regionmesh: out of memory; give a smaller --memory or a lower target\n");
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "regionmesh: {}\n", error.what());
+    }
+    return kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Certified multi-region surface models from labelled planar sections");
+    app.name("regionmesh");
+    app.set_version_flag("--version", REGIONMESH_VERSION);
+    app.require_subcommand(1);
+    regionmesh::cli::Action action;
+    regionmesh::cli::add_reconstruct(app, action);
+    regionmesh::cli::add_check(app, action);
+    regionmesh::cli::add_info(app, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {
+        return app.exit(asked);
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "regionmesh: {}; regionmesh --help lists what there is\n", error.what());
+        return kUsage;
+    }
+    return run(action);
+}

@@ -1,0 +1,98 @@
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "input_options.h"
+#include "progress_line.h"
+
+namespace regionmesh::cli {
+namespace {
+
+struct Arguments {
+    std::vector<std::string> inputs;
+    std::string output, report;
+    std::string target_faces, reduce, max_error, min_quality = "0.1", memory = "2GiB", face_budget, perturbation = "1e-7";
+    int smooth = 0, threads = 1;
+    std::string smooth_filter = "none";
+    bool no_decimate = false, no_intersect_check = false, quiet = false;
+    std::uint32_t strips = 1;
+    InputOptions input;
+};
+
+ReconstructOptions to_options(const Arguments& arguments) {
+    ReconstructOptions options;
+    if (!arguments.target_faces.empty()) options.target_faces = parse_count("--target-faces", arguments.target_faces);
+    if (!arguments.reduce.empty()) options.reduce = parse_share("--reduce", arguments.reduce);
+    if (!arguments.max_error.empty()) options.max_error = parse_number("--max-error", arguments.max_error);
+    if (!arguments.face_budget.empty()) options.face_budget = parse_count("--face-budget", arguments.face_budget);
+    options.min_quality = parse_number("--min-quality", arguments.min_quality);
+    options.perturbation = parse_number("--perturbation", arguments.perturbation);
+    options.memory = parse_bytes("--memory", arguments.memory);
+    options.decimate = !arguments.no_decimate;
+    options.intersect_check = !arguments.no_intersect_check;
+    options.strips_per_batch = arguments.strips;
+    options.background = arguments.input.background_labels();
+    options.cap = arguments.input.cap();
+    return options;
+}
+
+void print_summary(const Arguments& arguments, const Report& report) {
+    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", arguments.output, report.final_faces, report.final_vertices, report.initial_faces);
+    fmt::print("quality {:.3f} at worst, {:.3f} on average; {} regions, {} pairs with an interface, {} quadruple points inside\n",
+               report.check.quality.min, report.check.quality.mean, report.check.regions.size(), report.check.region_pairs,
+               report.check.quadruple_points_inside);
+    if (report.stopped == "topology")
+        fmt::print("stopped before the target: no further edge can be collapsed without changing topology, folding, crossing or bad faces\n");
+    if (report.stopped == "max_error") fmt::print("stopped at the largest error allowed\n");
+    fmt::print("{:.2f} s, {:.0f} k faces/s, {} MB at most\n", report.seconds.at("total"),
+               static_cast<double>(report.initial_faces) / 1e3 / std::max(report.seconds.at("total"), 1e-9), report.peak_bytes / 1000000);
+    for (int kind = 0; kind < kViolationKindCount; ++kind)
+        if (report.check.counts[kind]) fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.check.counts[kind]);
+}
+
+int reconstruct_command(const Arguments& arguments) {
+    const ReconstructOptions options = to_options(arguments);
+    const auto reader = arguments.input.open(arguments.inputs);
+    ProgressLine line(arguments.quiet);
+    Reconstruction made = reconstruct(*reader, options, [&](const Progress& progress) { line.show(progress); });
+    line.clear();
+    double writing = 0;
+    {
+        const Timer timer(writing);
+        write_model(made.model, made.labels, arguments.output, {.background = made.background});
+    }
+    Report& report = made.report;
+    report.seconds["write"] = writing;
+    report.seconds["total"] += writing;
+    report.peak_bytes = peak_resident_bytes();
+    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, made.labels));
+    if (!arguments.quiet) print_summary(arguments, report);
+    return report.check.violation_count() == 0 ? 0 : 3;
+}
+
+}  // namespace
+
+void add_reconstruct(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("reconstruct", "sections in, a conforming, simplified, checked model out");
+    command->add_option("input", arguments->inputs, "volume (.npy .nii .nii.gz .tif .raw), directory of sections, or list of sections")->required();
+    command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
+    arguments->input.add_to(*command);
+    command->add_option("--target-faces", arguments->target_faces, "decimate to at most so many faces");
+    command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");
+    command->add_option("--max-error", arguments->max_error, "decimate as far as this rms distance allows, in the unit of the spacing");
+    command->add_option("--min-quality", arguments->min_quality, "least quality of a face that decimation makes; 0.26 is equilateral");
+    command->add_option("--smooth", arguments->smooth, "passes of smoothing; only 0 so far")->check(CLI::IsMember({0}));
+    command->add_option("--smooth-filter", arguments->smooth_filter, "only none so far")->check(CLI::IsMember({"none"}));
+    command->add_option("--memory", arguments->memory, "stay within this, such as 500MiB or 2GiB");
+    command->add_option("--face-budget", arguments->face_budget, "most faces held at once, instead of one derived from --memory");
+    command->add_option("--strips", arguments->strips, "strips between two looks at the budget")->check(CLI::PositiveNumber);
+    command->add_option("--threads", arguments->threads, "only 1 so far")->check(CLI::IsMember({1}));
+    command->add_option("--perturbation", arguments->perturbation, "largest cost added to tell equal edges apart");
+    command->add_flag("--no-decimate", arguments->no_decimate, "the plain reconstruction");
+    command->add_flag("--no-intersect-check", arguments->no_intersect_check, "let faces cross; faster");
+    command->add_option("--report", arguments->report, "JSON report to write");
+    command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+    command->callback([arguments, &action] { action = [arguments] { return reconstruct_command(*arguments); }; });
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,80 @@
+// A growing array of plain data that never copies large blocks to grow, and whose unused end costs no memory.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace regionmesh {
+
+/// Like std::vector for trivially copyable T, but grown by realloc: the C library moves large blocks by remapping pages,
+/// so that growing neither copies nor holds two blocks at once. Pages beyond `size()` are never touched.
+template <class T>
+class FlatArray {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    FlatArray() = default;
+    FlatArray(FlatArray&& other) noexcept { swap(other); }
+    FlatArray& operator=(FlatArray&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    FlatArray(const FlatArray&) = delete;
+    FlatArray& operator=(const FlatArray&) = delete;
+    ~FlatArray() { std::free(data_); }
+
+    std::uint32_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    T* data() { return data_; }
+    const T* data() const { return data_; }
+    T& operator[](std::uint32_t i) {
+        assert(i < size_);
+        return data_[i];
+    }
+    const T& operator[](std::uint32_t i) const {
+        assert(i < size_);
+        return data_[i];
+    }
+    T* begin() { return data_; }
+    T* end() { return data_ + size_; }
+    const T* begin() const { return data_; }
+    const T* end() const { return data_ + size_; }
+
+    void reserve(std::size_t capacity) {
+        if (capacity <= capacity_) return;
+        T* grown = static_cast<T*>(std::realloc(static_cast<void*>(data_), capacity * sizeof(T)));
+        if (!grown) throw std::bad_alloc();
+        data_ = grown;
+        capacity_ = capacity;
+    }
+    void push_back(const T& value) {
+        const T copy = value;
+        if (size_ == capacity_) reserve(capacity_ < 1024 ? 1024 : capacity_ + capacity_ / 2);
+        data_[size_++] = copy;
+    }
+    /// New elements are copies of `value`.
+    void resize(std::uint32_t size, const T& value = T{}) {
+        reserve(size);
+        for (std::uint32_t i = size_; i < size; ++i) data_[i] = value;
+        size_ = size;
+    }
+    std::size_t bytes() const { return std::size_t{size_} * sizeof(T); }
+
+private:
+    void swap(FlatArray& other) {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        std::swap(capacity_, other.capacity_);
+    }
+
+    T* data_ = nullptr;
+    std::uint32_t size_ = 0;
+    std::size_t capacity_ = 0;
+};
+
+}  // namespace regionmesh

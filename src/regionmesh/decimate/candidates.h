@@ -1,0 +1,68 @@
+// Which edges may be collapsed, what each would cost, and the heap that ranks them.
+#pragma once
+
+#include <vector>
+
+#include "regionmesh/decimate/decimate.h"
+#include "regionmesh/decimate/edge_heap.h"
+#include "regionmesh/decimate/placement.h"
+#include "regionmesh/model/label_set.h"
+
+namespace regionmesh {
+
+/// Ranks the candidate edges of a model. An edge is a candidate when its label set is that of the end that goes, which
+/// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
+class Candidates {
+public:
+    Candidates(const Model& model, const DecimateOptions& options);
+
+    /// Gathers all candidates anew. Returns the number of edges that strata forbid.
+    std::uint64_t refresh();
+
+    bool empty() const { return heap_.empty(); }
+    VertexId goes() const { return heap_.top(); }
+    VertexId stays() const { return partner_[index(heap_.top())]; }
+    EdgeEnds ends(VertexId goes, VertexId stays) const;
+
+    /// Puts the cheapest candidate aside until something near it changes.
+    void refuse();
+    /// Before the stars change: `goes` leaves, the merged quadric moves to `position`.
+    void merge(VertexId goes, VertexId stays, Vec3 position);
+    /// After: ranks the edges round `stays` again.
+    void update(VertexId goes, VertexId stays);
+
+    std::size_t bytes() const;
+
+private:
+    struct Neighbour {
+        VertexId vertex;
+        LabelSet labels;
+        int uses;
+    };
+    struct Best {
+        VertexId stays = kNoVertex;
+        float key = 0;
+        bool is_before(Best other) const { return key < other.key || (key == other.key && stays < other.stays); }
+    };
+
+    void count_labels();
+    void gather_quadrics();
+    void add_to_quadric(VertexId v, const Quadric& q);
+    void gather_neighbours(VertexId v);
+    int edge_label_count(VertexId v, const Neighbour& neighbour) const;
+    VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
+    float key(VertexId goes, VertexId stays) const;
+    Best best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden);
+    void rank(VertexId v, Best best);
+
+    const Model& model_;
+    const DecimateOptions& options_;
+    FlatArray<PackedQuadric> quadrics_;       // each relative to its vertex
+    FlatArray<std::uint8_t> label_counts_;
+    FlatArray<VertexId> partner_;             // where the cheapest edge of a vertex in the heap leads
+    FlatArray<float> floor_;                  // edges up to this key were refused since the last change
+    EdgeHeap heap_;
+    std::vector<Neighbour> neighbours_, other_neighbours_;
+};
+
+}  // namespace regionmesh

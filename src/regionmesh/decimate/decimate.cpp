@@ -1,0 +1,138 @@
+#include "regionmesh/decimate/decimate.h"
+
+#include <cmath>
+
+#include "regionmesh/decimate/candidates.h"
+#include "regionmesh/decimate/edge_star.h"
+#include "regionmesh/decimate/legality.h"
+#include "regionmesh/decimate/obstruction.h"
+
+namespace regionmesh {
+namespace {
+
+/// A cost below this share of the largest that the edge could have counts as none: the star is flat.
+constexpr double kFlat = 1e-9;
+
+class Decimation {
+public:
+    Decimation(Model& model, const DecimateOptions& options)
+        : model_(model), options_(options), tree_(model), candidates_(model, options) {
+        bounds_.min_quality = options.min_quality;
+    }
+
+    DecimateResult run() {
+        for (;;) {
+            if (model_.face_count() <= options_.target_faces) break;
+            result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
+            result_.bytes = tree_.bytes() + candidates_.bytes();
+            const std::uint64_t before = count(Verdict::kAccepted);
+            while (!candidates_.empty() && model_.face_count() > options_.target_faces) step();
+            if (model_.face_count() <= options_.target_faces) break;
+            if (count(Verdict::kAccepted) == before || !options_.refresh) {
+                result_.stopped = std::isfinite(options_.max_error) ? StopReason::kMaxError : StopReason::kTopology;
+                break;
+            }
+            ++result_.refreshes;
+        }
+        return result_;
+    }
+
+private:
+    std::uint64_t count(Verdict verdict) const { return result_.verdicts[static_cast<int>(verdict)]; }
+
+    /// Examines the cheapest candidate: collapses it, or puts it aside.
+    void step() {
+        const VertexId goes = candidates_.goes(), stays = candidates_.stays();
+        gather(model_, goes, stays, star_);
+        Vec3 position;
+        const Verdict verdict = examine(position);
+        ++result_.verdicts[static_cast<int>(verdict)];
+        if (verdict == Verdict::kAccepted) collapse(position);
+        else candidates_.refuse();
+        if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress();
+    }
+
+    Verdict examine(Vec3& position) {
+        const Verdict topology = topology_verdict(model_, star_);
+        if (topology != Verdict::kAccepted) return topology;
+        const EdgeEnds edge = candidates_.ends(star_.goes, star_.stays);
+        const Placement cheapest = place(edge);
+        position = cheapest.position;
+        ShapeResult shape = shape_verdict(model_, star_, position, bounds_);
+        if (is_flat(edge, cheapest.cost)) {
+            const Vec3 average = average_of_link(edge);
+            if (is_flat(edge, cost_at(edge, average))) {
+                const ShapeResult other = shape_verdict(model_, star_, average, bounds_);
+                const bool better = other.verdict == Verdict::kAccepted &&
+                                    (shape.verdict != Verdict::kAccepted || other.worst_quality > shape.worst_quality);
+                if (better) {
+                    position = average;
+                    shape = other;
+                } else if (shape.verdict == Verdict::kAccepted) {
+                    shape = shape_verdict(model_, star_, position, bounds_);  // its normals again
+                }
+            }
+        }
+        if (shape.verdict != Verdict::kAccepted) return shape.verdict;
+        if (!is_within_limits(position)) return Verdict::kIntersect;
+        if (options_.intersect_check && obstruction_.blocks(model_, tree_, star_, position)) return Verdict::kIntersect;
+        return Verdict::kAccepted;
+    }
+
+    bool is_flat(const EdgeEnds& edge, double cost) const {
+        const double weight = edge.goes_quadric.unpack().weight() + edge.stays_quadric.unpack().weight();
+        return cost <= kFlat * weight * length2(edge.goes - edge.stays);
+    }
+
+    /// P quality test 2; coordinates on the box stay.
+    Vec3 average_of_link(const EdgeEnds& edge) const {
+        Vec3 sum;
+        for (VertexId v : star_.link) sum += model_.position(v) - edge.stays;
+        Vec3 average = edge.stays + sum / static_cast<double>(star_.link.size());
+        for (int axis = 0; axis < 3; ++axis)
+            if (edge.stays_sides >> (2 * axis) & 3) average[axis] = edge.stays[axis];
+        return average;
+    }
+
+    bool is_within_limits(Vec3 p) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (model_[star_.stays].sides >> (2 * axis) & 3) continue;
+            if (!(options_.limits.low[axis] < p[axis] && p[axis] < options_.limits.high[axis])) return false;
+        }
+        return true;
+    }
+
+    void collapse(Vec3 position) {
+        candidates_.merge(star_.goes, star_.stays, position);
+        for (FaceId f : star_.dead) model_.remove_face(f);
+        model_.move_star(star_.goes, star_.stays);
+        model_[star_.stays].position = position;
+        for (const StarFace& f : star_.faces) {
+            Box box;
+            box.add(position);
+            box.add(f.at_a);
+            box.add(f.at_b);
+            tree_.grow(f.face, box);
+        }
+        candidates_.update(star_.goes, star_.stays);
+    }
+
+    Model& model_;
+    const DecimateOptions& options_;
+    ShapeBounds bounds_;
+    FaceTree tree_;
+    Candidates candidates_;
+    Obstruction obstruction_;
+    EdgeStar star_;
+    DecimateResult result_;
+    std::uint64_t steps_ = 0;
+};
+
+}  // namespace
+
+DecimateResult decimate(Model& model, const DecimateOptions& options) {
+    if (model.face_count() <= options.target_faces) return {};
+    return Decimation(model, options).run();
+}
+
+}  // namespace regionmesh

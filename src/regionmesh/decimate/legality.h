@@ -1,0 +1,32 @@
+// May this edge be collapsed? The tests of DESIGN 6 that need only the star of the edge and its neighbours.
+#pragma once
+
+#include "regionmesh/decimate/edge_star.h"
+#include "regionmesh/decimate/verdict.h"
+
+namespace regionmesh {
+
+/// Bounds of the shape tests.
+struct ShapeBounds {
+    double min_quality = 0.1;        // of modified faces; a face that was below may only get better
+    double min_turn_cosine = 0.2;    // between the normals of a face before and after
+    double min_dihedral_cosine = 0.99619469809174555;  // cosine of 5 degrees: faces at an edge are not closer
+};
+
+/// Strata and link: whether the topology of the region complex stays as it is.
+///   strata  the edge's label set equals that of the vertex that goes (P tests 3 and 4).
+///   link    Lk(goes) and Lk(stays) meet in exactly Lk(edge), in the complex and in the network of lines (Dey et al.
+///           1999; Vivodtzev et al. 2005); implies that the Euler characteristics stay (P test 5).
+Verdict topology_verdict(const Model& model, const EdgeStar& star);
+
+struct ShapeResult {
+    Verdict verdict;
+    double worst_quality;  // over the modified faces; of use when accepted
+};
+
+/// Fold, pinch and quality with the merged vertex at `position` (P tests 1, 2; quality test 1). Fills in the new normals.
+///   fold    no face turns by more than the bound.
+///   pinch   no two faces at an edge come closer than 5 degrees, nor does one pass through another's place.
+ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, const ShapeBounds& bounds);
+
+}  // namespace regionmesh

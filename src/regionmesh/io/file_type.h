@@ -1,0 +1,29 @@
+// What the extension of a file's name says.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace regionmesh::io {
+
+enum class FileType {
+    kNpy,
+    kNifti,
+    kRaw,
+    kPng,
+    kTiff,
+    kNiftiPair,   // .hdr, .img
+    kOtherImage,  // sections all the same, in a format that is not read: .pgm, .jpg and the like
+    kOther,
+};
+
+/// By extension, upper or lower case.
+FileType file_type(const std::filesystem::path& path);
+
+/// The extension as the user sees it, in lower case: ".png", ".nii.gz".
+std::string extension(const std::filesystem::path& path);
+
+inline constexpr const char* kFormatsRead =
+    ".npy .nii .nii.gz .tif .tiff .png .raw and directories of .png or .tif sections";
+
+}  // namespace regionmesh::io

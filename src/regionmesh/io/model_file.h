@@ -1,0 +1,49 @@
+// Surface models in files, by extension: .vtp and .ply.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "regionmesh/model/model.h"
+#include "regionmesh/volume/label_table.h"
+
+namespace regionmesh {
+
+struct WriteOptions {
+    std::vector<Label> background;  // written second in a pair, as the exterior is
+};
+
+/// Writes the living vertices and faces, numbered densely in order of id. First under a temporary name beside `path`,
+/// then renamed: a failed run leaves nothing, and what stood there before still stands. All six exterior sides are
+/// written as labels.exterior_label(). Each face is turned so that its normal points from its first label to its
+/// second: the smaller label first, background or exterior second; of these two the background first.
+///   .vtp  VTK PolyData, inline base64 with zlib, UInt64 header. Points Float64; cell array BoundaryLabels (Int64, two
+///         components; unsigned labels keep their bits); point array NodeType (Int8: 2, 3, 4 labels, where each side of
+///         the box a vertex lies on counts as one; +10 on the box); field data ExteriorLabel where it is not -1.
+///   .ply  binary little endian: double x, y, z, uchar node_type; faces with vertex_indices (uint) and int label_first,
+///         label_second; where a label needs more than 32 bits all are uint words label_first_low, label_first_high,
+///         label_second_low, label_second_high. A header line `comment exterior_label` names the exterior; background
+///         is not named.
+/// The bytes depend on the model, the labels and the options only. Memory: a few megabytes, and 4 bytes a vertex where
+/// some were removed. Throws Error(kUsage) for another extension, before anything is written, and Error(kOutput) when
+/// the file cannot be written or the disk is full.
+void write_model(const Model& model, const LabelTable& labels, const std::filesystem::path& path,
+                 const WriteOptions& options = {});
+
+/// A model read from a file, with its labels, as signed numbers. The file's exterior label (-1 if it names none)
+/// becomes the sides of the box again where every face with it lies exactly in a plane of the bounding box of all
+/// faces; vertices get the sides of their exterior faces. Where one does not (an oblique volume, another program's
+/// box), the exterior is an ordinary label of the table, and no vertex lies on a side.
+struct ModelFile {
+    Model model;
+    LabelTable labels;
+};
+
+/// Reads what write_model writes, and VTP files of other programs: one piece, triangles only, a cell array
+/// BoundaryLabels of two integers; ascii, inline or appended, raw or base64, zlib or no compression. Vertices keep
+/// their order and number. Throws Error(kInput) naming the file and what is wrong; sizes in the file are believed only
+/// as far as its bytes go.
+ModelFile read_model(const std::filesystem::path& path);
+
+}  // namespace regionmesh

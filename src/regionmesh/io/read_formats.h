@@ -1,0 +1,36 @@
+// One opener a format; open_sections chooses among them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "regionmesh/io/read_sections.h"
+
+namespace regionmesh::io {
+
+/// NumPy arrays of format 1, 2 and 3: shape (z, y, x) or (y, x), C or Fortran order, bool or integers of either byte
+/// order.
+std::unique_ptr<SectionReader> open_npy(const std::filesystem::path& path, const ReadOptions& options);
+
+/// NIfTI-1 and NIfTI-2 in one file, gzipped or not, whatever its name. The lattice repeats the affine of the sform,
+/// else of the qform, else the voxel sizes alone, in the unit of the file. Gzipped files are inflated section by
+/// section.
+std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Bare little-endian samples, x fastest, as options.raw_size and options.raw_type say.
+std::unique_ptr<SectionReader> open_raw(const std::filesystem::path& path, const ReadOptions& options);
+
+/// A TIFF whose pages are sections, or an ImageJ stack with one page for all of them. Spacing is read where ImageJ wrote
+/// one, with a unit.
+std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, const ReadOptions& options);
+
+/// PNG and one-page TIFF files, a section each, in the order given.
+std::unique_ptr<SectionReader> open_image_list(const std::vector<std::filesystem::path>& files,
+                                               const ReadOptions& options);
+
+/// The PNG or TIFF files of a directory in natural order. Other files are passed over, unless they are images that are
+/// not read here: leaving those out would leave out sections.
+std::unique_ptr<SectionReader> open_image_directory(const std::filesystem::path& directory, const ReadOptions& options);
+
+}  // namespace regionmesh::io

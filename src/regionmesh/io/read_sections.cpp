@@ -1,0 +1,56 @@
+#include "regionmesh/io/read_sections.h"
+
+#include "regionmesh/base/error.h"
+#include "regionmesh/io/file_type.h"
+#include "regionmesh/io/input_file.h"
+#include "regionmesh/io/read_formats.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions& options) {
+    std::error_code ignored;
+    const bool has_raw_option = options.raw_size || options.raw_type;
+    if (fs::is_directory(path, ignored)) {
+        if (has_raw_option)
+            io::fail(path, "--size and --type are for one raw file, and this is a directory; leave them out");
+        return io::open_image_directory(path, options);
+    }
+    const io::InputFile there(path);
+    if (has_raw_option) return io::open_raw(path, options);
+    switch (io::file_type(path)) {
+        case io::FileType::kNpy:
+            return io::open_npy(path, options);
+        case io::FileType::kNifti:
+            return io::open_nifti(path, options);
+        case io::FileType::kRaw:
+            return io::open_raw(path, options);
+        case io::FileType::kTiff:
+            return io::open_tiff(path, options);
+        case io::FileType::kPng:
+            return io::open_image_list({path}, options);
+        case io::FileType::kNiftiPair:
+            io::fail(path, "NIfTI pairs (.hdr and .img) are not read; join them into one .nii file");
+        case io::FileType::kOtherImage:
+        case io::FileType::kOther:
+            break;
+    }
+    io::fail(path, "unknown format '" + io::extension(path) + "'; regionmesh reads " + io::kFormatsRead);
+}
+
+}  // namespace
+
+std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs, const ReadOptions& options) {
+    if (inputs.empty())
+        throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
+    if (inputs.size() == 1) return open_one(inputs.front(), options);
+    if (options.raw_size || options.raw_type) {
+        io::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
+                                     " are given; give one");
+    }
+    return io::open_image_list(inputs, options);
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,98 @@
+#include "regionmesh/io/write_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "regionmesh/io/output_file.h"
+
+namespace regionmesh {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kQualityBin = 0.01;  // widths of the bins of QualityReport
+constexpr double kAngleBin = 10;
+
+Json quality_json(const QualityReport& quality) {
+    return {{"min", quality.min},
+            {"mean", quality.mean},
+            {"histogram", {{"bin_width", kQualityBin}, {"counts", quality.histogram}}},
+            {"min_angle", quality.min_angle},
+            {"max_angle", quality.max_angle},
+            {"angles", {{"bin_width", kAngleBin}, {"counts", quality.angle_histogram}}}};
+}
+
+Json label_json(InputLabel label, const LabelTable& labels) {
+    return labels.is_unsigned() ? Json(static_cast<std::uint64_t>(label)) : Json(label);
+}
+
+Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels) {
+    std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
+        return labels.less(labels.input(a.label), labels.input(b.label));
+    });
+    Json json = Json::array();
+    for (const RegionReport& region : regions)
+        json.push_back({{"label", label_json(labels.input(region.label), labels)},
+                        {"euler", region.euler},
+                        {"components", region.components},
+                        {"volume", region.volume},
+                        {"area", region.area}});
+    return json;
+}
+
+Json violations_json(const std::vector<Violation>& violations) {
+    Json json = Json::array();
+    for (const Violation& violation : violations)
+        json.push_back({{"kind", to_string(violation.kind)},
+                        {"text", violation.text},
+                        {"vertices", violation.vertices},
+                        {"faces", violation.faces}});
+    return json;
+}
+
+void put_check(Json& json, const CheckReport& report, const LabelTable& labels) {
+    json["quality"] = quality_json(report.quality);
+    json["regions"] = regions_json(report.regions, labels);
+    json["region_pairs"] = report.region_pairs;
+    json["quadruple_points_inside"] = report.quadruple_points_inside;
+    json["violations"] = violations_json(report.violations);
+    Json& counts = json["violation_counts"] = Json::object();
+    for (std::size_t kind = 0; kind < report.counts.size(); ++kind)
+        counts[to_string(static_cast<ViolationKind>(kind))] = report.counts[kind];
+}
+
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
+}  // namespace
+
+std::string report_json(const Report& report, const LabelTable& labels) {
+    Json json{{"initial_faces", report.initial_faces},
+              {"initial_vertices", report.initial_vertices},
+              {"final_faces", report.final_faces},
+              {"final_vertices", report.final_vertices},
+              {"seconds", report.seconds},
+              {"peak_bytes", report.peak_bytes},
+              {"peak_faces", report.peak_faces},
+              {"bytes_per_face", report.bytes_per_face}};
+    Json& verdicts = json["verdicts"] = Json::object();
+    for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
+    json["refreshes"] = report.refreshes;
+    json["stopped"] = report.stopped;
+    put_check(json, report.check, labels);
+    return text_of(json);
+}
+
+std::string check_json(const CheckReport& report, const LabelTable& labels) {
+    Json json;
+    put_check(json, report, labels);
+    return text_of(json);
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+}  // namespace regionmesh

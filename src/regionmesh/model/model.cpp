@@ -1,0 +1,105 @@
+#include "regionmesh/model/model.h"
+
+#include <utility>
+
+namespace regionmesh {
+
+VertexId Model::add_vertex(Vec3 position, SideSet sides, bool is_fixed) {
+    const Vertex vertex{.position = position, .star = kNoCorner, .sides = sides, .is_fixed = is_fixed};
+    ++vertex_count_;
+    if (free_vertex_ != kNoCorner) {
+        const VertexId v{free_vertex_};
+        free_vertex_ = vertices_[index(v)].star;
+        vertices_[index(v)] = vertex;
+        return v;
+    }
+    vertices_.push_back(vertex);
+    return VertexId{vertices_.size() - 1};
+}
+
+FaceId Model::add_face(VertexId a, VertexId b, VertexId c, Label first, Label second) {
+    if (first > second) {
+        std::swap(first, second);
+        std::swap(b, c);
+    }
+    FaceId f{free_face_};
+    if (free_face_ != kNoCorner) {
+        free_face_ = faces_[index(f)].next[0];
+    } else {
+        faces_.push_back({});
+        f = FaceId{faces_.size() - 1};
+    }
+    Face& face = faces_[index(f)];
+    face.vertices = {a, b, c};
+    face.labels = {first, second};
+    for (int place = 0; place < 3; ++place) {
+        Vertex& vertex = vertices_[index(face.vertices[place])];
+        face.next[place] = vertex.star;
+        vertex.star = index(f) << 2 | static_cast<Corner>(place);
+    }
+    ++face_count_;
+    return f;
+}
+
+void Model::unlink(VertexId v, Corner corner) {
+    Corner* link = &vertices_[index(v)].star;
+    while (*link != corner) link = &faces_[*link >> 2].next[*link & 3];
+    *link = faces_[corner >> 2].next[corner & 3];
+}
+
+void Model::remove_face(FaceId f) {
+    for (int place = 0; place < 3; ++place) unlink(faces_[index(f)].vertices[place], index(f) << 2 | static_cast<Corner>(place));
+    Face& face = faces_[index(f)];
+    face.vertices[0] = kNoVertex;
+    face.next[0] = free_face_;
+    free_face_ = index(f);
+    --face_count_;
+}
+
+void Model::remove_vertex(VertexId v) {
+    Vertex& vertex = vertices_[index(v)];
+    assert(vertex.is_alive && vertex.star == kNoCorner);
+    vertex.is_alive = false;
+    vertex.star = free_vertex_;
+    free_vertex_ = index(v);
+    --vertex_count_;
+}
+
+void Model::move_star(VertexId from, VertexId to) {
+    Corner last = kNoCorner;
+    for (Corner c = vertices_[index(from)].star; c != kNoCorner; c = faces_[c >> 2].next[c & 3]) {
+        faces_[c >> 2].vertices[c & 3] = to;
+        last = c;
+    }
+    if (last != kNoCorner) {
+        faces_[last >> 2].next[last & 3] = vertices_[index(to)].star;
+        vertices_[index(to)].star = vertices_[index(from)].star;
+    }
+    vertices_[index(from)].star = kNoCorner;
+    remove_vertex(from);
+}
+
+void Model::flip_faces() {
+    for (Face& face : faces_) {
+        if (face.vertices[0] == kNoVertex) continue;
+        // The corners of places 1 and 2 change places: so do the links that point at them, all of which say 1 or 2.
+        std::swap(face.vertices[1], face.vertices[2]);
+        std::swap(face.next[1], face.next[2]);
+    }
+    const auto turn = [](Corner& c) {
+        if (c != kNoCorner && (c & 3) != 0) c ^= 3;
+    };
+    for (Face& face : faces_) {
+        if (face.vertices[0] == kNoVertex) continue;
+        for (Corner& c : face.next) turn(c);
+    }
+    for (Vertex& vertex : vertices_)
+        if (vertex.is_alive) turn(vertex.star);
+}
+
+void Model::reserve(std::size_t vertices, std::size_t faces) {
+    vertices_.reserve(vertices);
+    faces_.reserve(faces);
+}
+
+}  // namespace regionmesh

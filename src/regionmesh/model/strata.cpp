@@ -1,0 +1,36 @@
+#include "regionmesh/model/strata.h"
+
+namespace regionmesh {
+namespace {
+
+void add_sides(LabelSet& set, SideSet sides) {
+    for (int side = 0; side < 6; ++side)
+        if (sides >> side & 1) set.add(exterior(side));
+}
+
+}  // namespace
+
+LabelSet vertex_labels(const Model& model, VertexId v) {
+    LabelSet set;
+    add_sides(set, model[v].sides);
+    model.for_star(v, [&](FaceId f, int) {
+        for (Label label : model[f].labels) set.add(label);
+    });
+    return set;
+}
+
+LabelSet edge_labels(const Model& model, VertexId u, VertexId v) {
+    LabelSet set;
+    int uses = 0;
+    model.for_star(u, [&](FaceId f, int place) {
+        const Face& face = model[f];
+        if (face.vertices[(place + 1) % 3] != v && face.vertices[(place + 2) % 3] != v) return;
+        for (Label label : face.labels) set.add(label);
+        uses += 2;
+    });
+    // Round an edge in the inside of the surface every label has two faces.
+    if (uses < 2 * set.size()) add_sides(set, model[u].sides & model[v].sides);
+    return set;
+}
+
+}  // namespace regionmesh

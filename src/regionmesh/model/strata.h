@@ -1,0 +1,16 @@
+// The stratum of a vertex or edge is its label set; exterior sides count (DESIGN 5).
+#pragma once
+
+#include "regionmesh/model/label_set.h"
+#include "regionmesh/model/model.h"
+
+namespace regionmesh {
+
+/// Labels of the faces round v, and the sides of the box that v lies on.
+LabelSet vertex_labels(const Model& model, VertexId v);
+
+/// Labels of the faces at the edge. Where the surface ends there (a label has one face only: the box was not capped, or
+/// the faces of a background were not made), the sides that both ends lie on count too. Three or more: a *line*.
+LabelSet edge_labels(const Model& model, VertexId u, VertexId v);
+
+}  // namespace regionmesh

@@ -1,0 +1,274 @@
+#include "regionmesh/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "regionmesh/base/error.h"
+#include "regionmesh/base/process.h"
+#include "regionmesh/decimate/decimate.h"
+#include "regionmesh/stream/section_window.h"
+#include "regionmesh/stream/weld.h"
+#include "regionmesh/tets/label_census.h"
+#include "regionmesh/tets/strip_mesher.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
+
+/// Positions are index times spacing; an origin is added at once where no direction matrix comes between.
+Lattice meshing_lattice(const Lattice& lattice) {
+    Lattice result = lattice;
+    if (!lattice.is_axis_aligned()) result.origin = {};
+    return result;
+}
+
+/// Background labels known before reading get the first dense numbers.
+std::vector<Label> dense_background(const ReconstructOptions& options, LabelTable& labels) {
+    std::vector<Label> background;
+    for (InputLabel label : options.background) background.push_back(labels.dense(label));
+    return background;
+}
+
+LabelTable table_for(const VolumeInfo& volume) { return LabelTable(volume.type == SampleType::kU64); }
+
+/// One run: its state, and the steps in the order of reconstruct() below.
+class Run {
+public:
+    Run(SectionReader& reader, const ReconstructOptions& options, const std::function<void(const Progress&)>& on_progress)
+        : reader_(reader), options_(options), on_progress_(on_progress), lattice_(reader.info().lattice) {
+        result_.labels = table_for(reader.info());
+        result_.background = dense_background(options, result_.labels);
+        progress_.section_count = reader.section_count();
+    }
+
+    void plan();
+    void build();
+    void bring_to_target();
+    void place_in_space();
+    void prove();
+    Reconstruction finish();
+
+private:
+    bool is_decimating() const { return options_.decimate && (options_.target_faces || options_.reduce || options_.max_error); }
+    std::uint64_t target_for(std::uint64_t initial_faces) const;
+    std::uint64_t target_so_far() const;
+    void keep_within_budget(bool is_last);
+    void decimate_to(std::uint64_t faces, bool is_last, bool refresh);
+    void note_bytes(std::size_t more);
+    void tell(const char* stage);
+    double& seconds(const char* stage) { return result_.report.seconds[stage]; }
+
+    SectionReader& reader_;
+    const ReconstructOptions& options_;
+    const std::function<void(const Progress&)>& on_progress_;
+    Lattice lattice_;
+    Reconstruction result_;
+    Progress progress_;
+    std::optional<std::uint64_t> total_faces_;  // of the unsimplified model, where a first pass counted them
+    std::uint64_t budget_ = kNoLimit;
+    LabelOracle oracle_;
+    StopReason stopped_ = StopReason::kTarget;
+};
+
+/// A first pass over the sections, where the target needs the total; and the face budget.
+void Run::plan() {
+    if (options_.face_budget) budget_ = *options_.face_budget;
+    else budget_ = face_budget_for(options_.memory, reader_.info());
+    if (!is_decimating() || !options_.reduce || !reader_.info().can_rewind) return;
+    tell("count");
+    const Timer timer(seconds("count"));
+    total_faces_ = count_labels(reader_, options_).face_count;
+    reader_.rewind();
+}
+
+/// Strips become faces, faces are welded to the model, and the model is kept within its budget (P 3.1-3.5).
+void Run::build() {
+    SectionWindow window(reader_, result_.labels);
+    const StripOptions strip_options{.cap = options_.cap, .background = result_.background};
+    StripMesher mesher(meshing_lattice(lattice_), reader_.info().sweep, strip_options);
+    LabelCensus census(lattice_, reader_.info().sweep, strip_options);
+    Weld weld(result_.model);
+    FaceBatch batch;
+    Report& report = result_.report;
+    for (;;) {
+        {
+            const Timer timer(seconds("read"));
+            if (!window.advance()) break;
+        }
+        {
+            const Timer timer(seconds("reconstruct"));
+            census.add(window.low(), window.high(), window.is_last());
+            batch.clear();
+            mesher.mesh(window.low(), window.high(), batch);
+            weld.add(batch);
+        }
+        report.initial_faces += batch.faces.size();
+        report.initial_vertices += batch.vertices.size();
+        progress_.sections_read = window.sections_read();
+        progress_.faces_read = report.initial_faces;
+        tell("reconstruct");
+        note_bytes(0);
+        const std::uint32_t strips = window.sections_read() - 1;
+        if (strips % options_.strips_per_batch == 0 && !window.is_last()) keep_within_budget(false);
+    }
+    oracle_ = census.oracle();
+}
+
+std::uint64_t Run::target_for(std::uint64_t initial_faces) const {
+    if (options_.target_faces) return *options_.target_faces;
+    if (options_.reduce) return static_cast<std::uint64_t>(std::llround(static_cast<double>(initial_faces) * (1 - *options_.reduce)));
+    return 0;
+}
+
+/// The share of the target that belongs to what has been read: decimating the first sections further than the last ones
+/// would make the model uneven.
+std::uint64_t Run::target_so_far() const {
+    const std::uint64_t read = result_.report.initial_faces;
+    if (options_.target_faces || !total_faces_) return target_for(read);
+    return target_for(*total_faces_) * read / std::max<std::uint64_t>(*total_faces_, 1);
+}
+
+void Run::keep_within_budget(bool is_last) {
+    if (!is_decimating() || result_.model.face_count() <= budget_) return;
+    // Down by a good part, so that the heap need not be built anew after every strip.
+    decimate_to(std::max(target_so_far(), budget_ * 6 / 10), is_last, false);
+    // Where topology or the largest error forbids more, the model goes on growing.
+    if (result_.model.face_count() > budget_) budget_ = std::uint64_t{result_.model.face_count()} * 3 / 2;
+}
+
+void Run::decimate_to(std::uint64_t faces, bool is_last, bool refresh) {
+    const Timer timer(seconds("decimate"));
+    DecimateOptions decimate_options;
+    decimate_options.target_faces = static_cast<std::uint32_t>(std::min(faces, kNoLimit));
+    if (options_.max_error) decimate_options.max_error = *options_.max_error;
+    decimate_options.min_quality = options_.min_quality;
+    decimate_options.perturbation = options_.perturbation;
+    decimate_options.scale = std::cbrt(lattice_.spacing.x * lattice_.spacing.y * lattice_.spacing.z);
+    decimate_options.intersect_check = options_.intersect_check;
+    decimate_options.refresh = refresh;
+    if (!is_last) {
+        // What comes later lies at or beyond the last section read.
+        const int axis = reader_.info().sweep.axes[2];
+        decimate_options.limits.high[axis] = meshing_lattice(lattice_).origin[axis] + (progress_.sections_read - 1) * lattice_.spacing[axis];
+    }
+    const char* stage = is_last ? "decimate" : "reconstruct";
+    decimate_options.on_progress = [&] { tell(stage); };
+    const DecimateResult done = decimate(result_.model, decimate_options);
+    for (int n = 0; n < kVerdictCount; ++n) result_.report.verdicts[n] += done.verdicts[n];
+    result_.report.refreshes += done.refreshes;
+    stopped_ = done.stopped;
+    note_bytes(done.bytes);
+}
+
+void Run::bring_to_target() {
+    if (!is_decimating()) {
+        result_.report.stopped = "none asked";
+        return;
+    }
+    tell("decimate");
+    decimate_to(target_for(result_.report.initial_faces), true, true);
+    result_.report.stopped = stopped_ == StopReason::kTarget ? "target" : stopped_ == StopReason::kMaxError ? "max_error" : "topology";
+}
+
+/// Applies the direction of the lattice, so that what is checked is what is written.
+void Run::place_in_space() {
+    if (lattice_.is_axis_aligned()) return;
+    const auto& d = lattice_.direction;
+    Model& model = result_.model;
+    for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
+        if (!model.is_alive(VertexId{n})) continue;
+        Vec3& p = model[VertexId{n}].position;
+        p = lattice_.origin + Vec3{d[0] * p.x + d[1] * p.y + d[2] * p.z, d[3] * p.x + d[4] * p.y + d[5] * p.z, d[6] * p.x + d[7] * p.y + d[8] * p.z};
+    }
+    const double determinant = d[0] * (d[4] * d[8] - d[5] * d[7]) - d[1] * (d[3] * d[8] - d[5] * d[6]) + d[2] * (d[3] * d[7] - d[4] * d[6]);
+    if (determinant < 0) model.flip_faces();
+}
+
+void Run::prove() {
+    tell("check");
+    const Timer timer(seconds("check"));
+    CheckOptions check_options;
+    check_options.boundary_is_open = !options_.cap;
+    check_options.background = result_.background;
+    check_options.oracle = std::move(oracle_);
+    check_options.crossing = options_.intersect_check;
+    check_options.label_text = [this](Label label) { return result_.labels.text(result_.labels.input(label)); };
+    result_.report.check = check(result_.model, check_options);
+}
+
+Reconstruction Run::finish() {
+    result_.report.final_faces = result_.model.face_count();
+    result_.report.final_vertices = result_.model.vertex_count();
+    result_.report.peak_bytes = peak_resident_bytes();
+    return std::move(result_);
+}
+
+void Run::note_bytes(std::size_t more) {
+    Report& report = result_.report;
+    report.peak_faces = std::max<std::uint64_t>(report.peak_faces, result_.model.face_count());
+    if (report.peak_faces == 0) return;
+    const double bytes = static_cast<double>(result_.model.bytes() + more) / static_cast<double>(report.peak_faces);
+    report.bytes_per_face = std::max(more ? report.bytes_per_face : 0.0, bytes);
+}
+
+void Run::tell(const char* stage) {
+    if (!on_progress_) return;
+    progress_.stage = stage;
+    progress_.faces_held = result_.model.face_count();
+    on_progress_(progress_);
+}
+
+}  // namespace
+
+Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options, const std::function<void(const Progress&)>& on_progress) {
+    double total = 0;
+    Reconstruction result;
+    {
+        const Timer timer(total);
+        Run run(reader, options, on_progress);
+        run.plan();
+        run.build();
+        run.bring_to_target();
+        run.place_in_space();
+        run.prove();
+        result = run.finish();
+    }
+    result.report.seconds["total"] = total;
+    return result;
+}
+
+std::uint64_t reading_bytes(const VolumeInfo& volume) {
+    const std::uint64_t width = volume.lattice.size[volume.sweep.axes[0]], height = volume.lattice.size[volume.sweep.axes[1]];
+    // The section as read, two with dense labels, two planes of six vertex numbers, and what the reader holds.
+    return width * height * (8 + 2 * 4 + 2 * 24 + 8) + (std::uint64_t{16} << 20);
+}
+
+std::uint64_t face_budget_for(std::uint64_t memory, const VolumeInfo& volume) {
+    const std::uint64_t reading = reading_bytes(volume);
+    if (memory < reading + (std::uint64_t{1} << 20))
+        throw Error(ErrorCode::kUsage, "--memory " + std::to_string(memory >> 20) + " MiB: sections of " + volume.source + " alone take " +
+                                           std::to_string((reading >> 20) + 1) + " MiB; give more, or another --sweep");
+    return std::min((memory - reading) / kBytesPerFace, kNoLimit);
+}
+
+Census count_labels(SectionReader& reader, const ReconstructOptions& options) {
+    Census census{.labels = table_for(reader.info()), .samples = {}, .oracle = {}};
+    const std::vector<Label> background = dense_background(options, census.labels);
+    SectionWindow window(reader, census.labels);
+    LabelCensus counter(reader.info().lattice, reader.info().sweep, {.cap = options.cap, .background = background});
+    const auto add_samples = [&](std::span<const Label> section) {
+        census.samples.resize(census.labels.size(), 0);
+        for (Label label : section) ++census.samples[label];
+    };
+    while (window.advance()) {
+        if (window.sections_read() == 2) add_samples(window.low());
+        add_samples(window.high());
+        counter.add(window.low(), window.high(), window.is_last());
+    }
+    census.face_count = counter.face_count();
+    census.oracle = counter.oracle();
+    return census;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,71 @@
+// The whole way from sections to a checked model.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "regionmesh/model/model.h"
+#include "regionmesh/report.h"
+#include "regionmesh/volume/label_table.h"
+#include "regionmesh/volume/section_reader.h"
+
+namespace regionmesh {
+
+/// What a run is asked for. The words are those of the command line.
+struct ReconstructOptions {
+    std::optional<std::uint64_t> target_faces = {};  // decimate to at most so many faces
+    std::optional<double> reduce = {};               // or remove this share of them, 0 to 1
+    std::optional<double> max_error = {};            // or as far as the rms distance allows, in the unit of the spacing
+    double min_quality = 0.1;                    // of every face that decimation touches
+    double perturbation = 1e-7;                  // P 4.5
+    bool decimate = true;                        // false: the plain reconstruction, whatever the targets say
+    bool intersect_check = true;
+    bool cap = true;                             // --boundary cap; false: open
+    std::vector<InputLabel> background{0};       // empty space: its faces with the exterior are not made
+    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process should stay within
+    std::optional<std::uint64_t> face_budget = {};   // most faces held at once, instead of one derived from memory
+    std::uint32_t strips_per_batch = 1;          // strips meshed before they are welded
+};
+
+/// Where a run is; for a progress line.
+struct Progress {
+    const char* stage = "";
+    std::uint32_t sections_read = 0, section_count = 0;
+    std::uint64_t faces_read = 0, faces_held = 0;
+};
+
+struct Reconstruction {
+    Model model;
+    LabelTable labels;
+    std::vector<Label> background;  // dense
+    Report report;
+};
+
+/// Reads all sections, builds the model on the fly within the face budget, decimates it to the target and checks it.
+/// Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader throws;
+/// Error(kUsage) for a target beyond what memory allows. Deterministic.
+Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},
+                           const std::function<void(const Progress&)>& on_progress = {});
+
+/// Faces that a model may have within `memory` bytes, beside the sections and tables that reading needs.
+std::uint64_t face_budget_for(std::uint64_t memory, const VolumeInfo& volume);
+
+/// Bytes that reading and meshing take beside the model.
+std::uint64_t reading_bytes(const VolumeInfo& volume);
+
+/// Bytes a face of the model, with what decimation adds (docs/memory.md).
+inline constexpr std::uint64_t kBytesPerFace = 96;
+
+/// Reads all sections and counts, without making a face.
+struct Census {
+    LabelTable labels;
+    std::vector<std::uint64_t> samples;  // by dense label
+    std::uint64_t face_count = 0;        // of the unsimplified model
+    LabelOracle oracle;
+};
+Census count_labels(SectionReader& reader, const ReconstructOptions& options = {});
+
+}  // namespace regionmesh

@@ -1,0 +1,363 @@
+#include "regionmesh/io/model_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <set>
+
+#include "io/temporary_folder.h"
+#include "regionmesh/base/error.h"
+#include "regionmesh/io/model_formats.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::HasSubstr;
+
+LabelTable labels_of(std::initializer_list<InputLabel> values, bool is_unsigned = false) {
+    LabelTable labels(is_unsigned);
+    for (const InputLabel value : values) labels.dense(value);
+    return labels;
+}
+
+void add_face(Model& model, std::array<std::uint32_t, 3> v, Label first, Label second) {
+    model.add_face(VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}, first, second);
+}
+
+// A tetrahedron of `inside` within `outside`; its coordinates need all bits of a double.
+Model tetrahedron(Label inside, Label outside) {
+    Model model;
+    for (const Vec3 p : {Vec3{0.1, 0, 0}, Vec3{1.0 / 3, 0, 1e-300}, Vec3{0, 1, -0.0}, Vec3{0, 0.7, 1e17}})
+        model.add_vertex(p);
+    for (const auto& v :
+         {std::array{0u, 2u, 1u}, std::array{0u, 1u, 3u}, std::array{1u, 2u, 3u}, std::array{2u, 0u, 3u}})
+        add_face(model, v, inside, outside);
+    return model;
+}
+
+// The box 1 x 1 x 2: dense label 0 in its lower half, 1 in its upper, capped. The surface of tests/data/vtp_*.vtp.
+Model two_boxes() {
+    Model model;
+    for (int i = 0; i < 12; ++i) {
+        const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
+        const int sides = 1 << x | 1 << (2 + y) | (z == 0 ? 1 << 4 : z == 2 ? 1 << 5 : 0);
+        model.add_vertex({1.0 * x, 1.0 * y, 1.0 * z}, static_cast<SideSet>(sides));
+    }
+    const auto quad = [&](std::array<std::uint32_t, 4> v, Label first, Label second) {
+        add_face(model, {v[0], v[1], v[2]}, first, second);
+        add_face(model, {v[0], v[2], v[3]}, first, second);
+    };
+    quad({0, 2, 3, 1}, 0, exterior(4));
+    quad({4, 5, 7, 6}, 0, 1);
+    quad({8, 9, 11, 10}, 1, exterior(5));
+    for (std::uint32_t label = 0; label < 2; ++label) {
+        const std::uint32_t low = 4 * label;
+        quad({low, low + 1, low + 5, low + 4}, label, exterior(2));
+        quad({low + 1, low + 3, low + 7, low + 5}, label, exterior(1));
+        quad({low + 3, low + 2, low + 6, low + 7}, label, exterior(3));
+        quad({low + 2, low, low + 4, low + 6}, label, exterior(0));
+    }
+    return model;
+}
+
+// A face in words that do not depend on ids: corner positions, the least first, and labels as text, the smaller text
+// first.
+using Words = std::pair<std::array<std::array<double, 3>, 3>, std::array<std::string, 2>>;
+
+std::multiset<Words> faces_of(const Model& model, const LabelTable& labels) {
+    std::multiset<Words> faces;
+    for (std::uint32_t i = 0; i < model.face_end(); ++i) {
+        if (!model.is_alive(FaceId{i})) continue;
+        Words words;
+        for (int place = 0; place < 3; ++place) {
+            const Vec3 p = model.corners(FaceId{i})[place];
+            words.first[place] = {p.x, p.y, p.z};
+        }
+        for (int k = 0; k < 2; ++k) {
+            const Label label = model[FaceId{i}].labels[k];
+            words.second[k] =
+                is_exterior(label) ? "side " + std::to_string(side_of(label)) : std::to_string(labels.input(label));
+        }
+        if (words.second[0] > words.second[1]) {
+            std::swap(words.second[0], words.second[1]);
+            std::swap(words.first[1], words.first[2]);
+        }
+        std::rotate(words.first.begin(), std::ranges::min_element(words.first), words.first.end());
+        faces.insert(words);
+    }
+    return faces;
+}
+
+std::map<std::array<double, 3>, SideSet> sides_of(const Model& model) {
+    std::map<std::array<double, 3>, SideSet> sides;
+    for (std::uint32_t i = 0; i < model.vertex_end(); ++i)
+        if (const Vec3 p = model.position(VertexId{i}); model.is_alive(VertexId{i}))
+            sides[{p.x, p.y, p.z}] = model[VertexId{i}].sides;
+    return sides;
+}
+
+void expect_same(const ModelFile& file, const Model& model, const LabelTable& labels) {
+    EXPECT_EQ(file.model.vertex_count(), model.vertex_count());
+    EXPECT_EQ(faces_of(file.model, file.labels), faces_of(model, labels));
+    EXPECT_EQ(sides_of(file.model), sides_of(model));
+}
+
+class ModelFileTest : public TemporaryFolder {
+protected:
+    ModelFile round_trip(const Model& model, const LabelTable& labels, const std::string& extension,
+                         const WriteOptions& options = {}) {
+        write_model(model, labels, path("m" + extension), options);
+        EXPECT_EQ(file_count(), 1) << "something is left beside the model";
+        ModelFile file = read_model(path("m" + extension));
+        std::filesystem::remove(path("m" + extension));
+        return file;
+    }
+    // What the file holds, face by face.
+    FileSurface surface_of(const Model& model, const LabelTable& labels, const std::string& extension,
+                           const WriteOptions& options = {}) {
+        write_model(model, labels, path("s" + extension), options);
+        return extension == ".vtp" ? read_vtp(path("s" + extension)) : read_ply(path("s" + extension));
+    }
+    std::string failure_of(const std::filesystem::path& file) {
+        try {
+            read_model(file);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::kInput);
+            EXPECT_THAT(error.what(), HasSubstr(file.filename().string()));
+            return error.what();
+        }
+        return "nothing thrown";
+    }
+    std::string failure_of_text(const std::string& name, const std::string& text) {
+        put_text(path(name), text);
+        return failure_of(path(name));
+    }
+};
+
+class BothFormats : public ModelFileTest, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(, BothFormats, testing::Values(".vtp", ".ply"),
+                         [](const auto& tested) { return std::string(tested.param + 1); });
+
+TEST_P(BothFormats, tetrahedron_comes_back_to_the_bit) {
+    const LabelTable labels = labels_of({5, 7});
+    const Model model = tetrahedron(0, 1);
+    expect_same(round_trip(model, labels, GetParam()), model, labels);
+}
+
+TEST_P(BothFormats, capped_boxes_come_back_with_their_sides) {
+    const LabelTable labels = labels_of({3, 5});
+    expect_same(round_trip(two_boxes(), labels, GetParam()), two_boxes(), labels);
+}
+
+TEST_P(BothFormats, what_was_removed_is_not_written) {
+    const LabelTable labels = labels_of({5, 7});
+    Model model = tetrahedron(0, 1);
+    const VertexId first{0};
+    const VertexId copy = model.add_vertex(model.position(first));
+    add_face(model, {1, 2, 3}, 0, 1);
+    model.remove_face(FaceId{2});
+    model.move_star(first, copy);
+    const ModelFile file = round_trip(model, labels, GetParam());
+    EXPECT_EQ(file.model.vertex_end(), 4u);
+    EXPECT_EQ(file.model.face_end(), 4u);
+    expect_same(file, model, labels);
+}
+
+TEST_P(BothFormats, smaller_label_comes_first_and_the_face_is_turned) {
+    const LabelTable labels = labels_of({7, 5});
+    expect_same(round_trip(tetrahedron(0, 1), labels, GetParam()), tetrahedron(0, 1), labels);
+    const FileSurface surface = surface_of(tetrahedron(0, 1), labels, GetParam());
+    EXPECT_THAT(surface.labels, testing::Each(std::array<InputLabel, 2>{5, 7}));
+    EXPECT_EQ(surface.faces[0], (std::array{0u, 1u, 2u}));
+}
+
+TEST_P(BothFormats, unsigned_labels_are_ordered_as_such_and_keep_their_bits) {
+    const InputLabel large = static_cast<InputLabel>(0xFFFFFFFFFFFFFFF0u);
+    const LabelTable labels = labels_of({large, 3}, true);
+    expect_same(round_trip(tetrahedron(0, 1), labels, GetParam()), tetrahedron(0, 1), labels);
+    EXPECT_THAT(surface_of(tetrahedron(0, 1), labels, GetParam()).labels,
+                testing::Each(std::array<InputLabel, 2>{3, large}));
+}
+
+TEST_P(BothFormats, background_comes_second_even_where_it_is_smaller) {
+    const LabelTable labels = labels_of({0, 5});
+    const FileSurface surface = surface_of(tetrahedron(1, 0), labels, GetParam(), {.background = {0}});
+    EXPECT_THAT(surface.labels, testing::Each(std::array<InputLabel, 2>{5, 0}));
+    EXPECT_EQ(surface.faces[0], (std::array{0u, 2u, 1u}));
+}
+
+TEST_P(BothFormats, exterior_comes_behind_all_others) {
+    for (const WriteOptions& options : {WriteOptions{}, WriteOptions{.background = {0, 1}}}) {
+        const FileSurface surface = surface_of(two_boxes(), labels_of({3, 5}), GetParam(), options);
+        EXPECT_THAT(surface.labels,
+                    testing::Each(testing::AnyOf(std::array<InputLabel, 2>{3, -1}, std::array<InputLabel, 2>{5, -1},
+                                                 std::array<InputLabel, 2>{3, 5})));
+        EXPECT_EQ(surface.exterior_label, -1);
+    }
+}
+
+TEST_P(BothFormats, labels_of_64_bits_come_back) {
+    constexpr InputLabel kLowest = std::numeric_limits<InputLabel>::min(),
+                         kHighest = std::numeric_limits<InputLabel>::max();
+    for (const LabelTable& labels :
+         {labels_of({kLowest, kHighest}), labels_of({-1, std::int64_t{1} << 40}), labels_of({kLowest, -1})})
+        expect_same(round_trip(two_boxes(), labels, GetParam()), two_boxes(), labels);
+}
+
+TEST_P(BothFormats, exterior_gives_way_to_negative_labels) {
+    const LabelTable labels = labels_of({-4, -1});
+    expect_same(round_trip(two_boxes(), labels, GetParam()), two_boxes(), labels);
+    EXPECT_EQ(surface_of(two_boxes(), labels, GetParam()).exterior_label, -5);
+}
+
+TEST_P(BothFormats, exterior_beside_the_planes_of_the_box_is_an_ordinary_label) {
+    Model model = two_boxes();
+    model[VertexId{0}].position.x = -1;
+    const LabelTable labels = labels_of({3, 5});
+    const ModelFile file = round_trip(model, labels, GetParam());
+    EXPECT_EQ(file.labels.size(), 3u);
+    EXPECT_EQ(file.labels.exterior_label(), -2);
+    for (std::uint32_t v = 0; v < file.model.vertex_end(); ++v) EXPECT_EQ(file.model[VertexId{v}].sides, 0);
+    for (std::uint32_t f = 0; f < file.model.face_end(); ++f)
+        for (const Label label : file.model[FaceId{f}].labels) EXPECT_FALSE(is_exterior(label));
+}
+
+TEST_P(BothFormats, empty_model_comes_back) {
+    const ModelFile file = round_trip({}, LabelTable(), GetParam());
+    EXPECT_EQ(file.model.vertex_count(), 0u);
+    EXPECT_EQ(file.model.face_count(), 0u);
+}
+
+TEST_P(BothFormats, arrays_of_several_blocks_come_back) {
+    Model model;
+    constexpr std::uint32_t kCount = 100'000;
+    model.add_vertex({0, 0, 0});
+    for (std::uint32_t i = 1; i <= kCount; ++i) model.add_vertex({0.001 * i, 1.0 / i, 0.5 * (i % 7)});
+    for (std::uint32_t i = 1; i < kCount; ++i) add_face(model, {0, i, i + 1}, i % 10, 10 + i % 3);
+    const LabelTable labels = labels_of({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+    expect_same(round_trip(model, labels, GetParam()), model, labels);
+}
+
+TEST_P(BothFormats, full_disk_is_an_output_error_and_leaves_nothing) {
+    const auto link = path(std::string("m") + GetParam());
+    std::filesystem::create_symlink("/dev/full", link);
+    try {
+        write_model(two_boxes(), labels_of({3, 5}), link);
+        ADD_FAILURE() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kOutput);
+        EXPECT_THAT(error.what(), HasSubstr("No space left on device"));
+    }
+    EXPECT_EQ(file_count(), 1);
+    EXPECT_THROW(write_model(two_boxes(), labels_of({3, 5}), path("none") / link.filename()), Error);
+}
+
+TEST_P(BothFormats, damaged_files_are_refused_or_read_but_never_crash) {
+    const std::string name = std::string("m") + GetParam();
+    write_model(two_boxes(), labels_of({3, 5}), path(name));
+    const std::string good = text_of(path(name));
+    const auto try_text = [&](const std::string& text) {
+        put_text(path(name), text);
+        try {
+            read_model(path(name));
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::kInput);
+        }
+    };
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        try_text(good.substr(0, i));
+        for (const char change : {'\x01', '\x80', '\x06'}) {
+            std::string bad = good;
+            bad[i] = static_cast<char>(bad[i] ^ change);
+            try_text(bad);
+        }
+    }
+}
+
+TEST_F(ModelFileTest, extension_is_matched_in_any_case_and_others_are_refused) {
+    const LabelTable labels = labels_of({3, 5});
+    expect_same(round_trip(two_boxes(), labels, ".VTP"), two_boxes(), labels);
+    try {
+        write_model(two_boxes(), labels, path("m.stl"));
+        ADD_FAILURE() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kUsage);
+        EXPECT_THAT(error.what(), HasSubstr("'.stl': use .vtp or .ply"));
+    }
+    EXPECT_THAT(failure_of(path("m.stl")), HasSubstr("use .vtp or .ply"));
+    EXPECT_EQ(file_count(), 0);
+}
+
+TEST_F(ModelFileTest, missing_files_and_folders_are_input_errors) {
+    for (const char* name : {"m.vtp", "m.ply"}) {
+        EXPECT_THAT(failure_of(path(name)), HasSubstr("cannot be read"));
+        std::filesystem::create_directory(path(name));
+        EXPECT_THAT(failure_of(path(name)), HasSubstr("cannot be read"));
+    }
+}
+
+TEST_F(ModelFileTest, every_encoding_of_the_vtk_writer_is_read) {
+    const LabelTable labels = labels_of({3, 5});
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(REGIONMESH_TEST_DATA)) {
+        if (!entry.path().filename().string().starts_with("vtp_")) continue;
+        SCOPED_TRACE(entry.path());
+        expect_same(read_model(entry.path()), two_boxes(), labels);
+        ++count;
+    }
+    EXPECT_EQ(count, 14);
+}
+
+TEST_F(ModelFileTest, ply_errors_name_what_is_wrong) {
+    write_model(tetrahedron(0, 1), labels_of({5, 7}), path("m.ply"));
+    const std::string good = text_of(path("m.ply"));
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = good;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    const std::size_t face = good.find("end_header\n") + 11 + 4 * 25;
+    std::string quad = good, far = good;
+    quad[face] = 4;
+    far[face + 1] = 9;
+    EXPECT_THAT(failure_of_text("m.ply", changed("property double x", "property float x")),
+                HasSubstr("properties that regionmesh writes"));
+    EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", "vertex 18446744073709551615")),
+                HasSubstr("more than a model can hold"));
+    EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", "vertex 4000000000")),
+                HasSubstr("where its header promises"));
+    EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", "vertex four")),
+                HasSubstr("bad number of vertices 'four'"));
+    EXPECT_THAT(failure_of_text("m.ply", good.substr(0, good.size() - 1)), HasSubstr("where its header promises"));
+    EXPECT_THAT(failure_of_text("m.ply", "solid"), HasSubstr("no PLY file"));
+    EXPECT_THAT(failure_of_text("m.ply", quad), HasSubstr("face 0 has 4 corners"));
+    EXPECT_THAT(failure_of_text("m.ply", far), HasSubstr("face 0 names vertex 9 of 4"));
+}
+
+TEST(FileView, node_type_counts_labels_and_sides) {
+    Model model = two_boxes();
+    const LabelTable labels = labels_of({3, 5});
+    const FileView view(model, labels, {});
+    EXPECT_EQ(view.node_type(VertexId{0}), 14);  // a corner of the box
+    EXPECT_EQ(view.node_type(VertexId{4}), 14);  // two regions on an edge of the box
+
+    // One vertex, its faces and its sides.
+    const auto type_of = [&](std::initializer_list<std::array<Label, 2>> pairs, SideSet sides) {
+        Model star;
+        for (int i = 0; i < 3; ++i) star.add_vertex({1.0 * i, 0, 0}, i == 0 ? sides : SideSet{0});
+        for (const auto& [first, second] : pairs) add_face(star, {0, 1, 2}, first, second);
+        return FileView(star, labels, {}).node_type(VertexId{0});
+    };
+    EXPECT_EQ(type_of({{0, 1}}, 0), 2);
+    EXPECT_EQ(type_of({{0, 1}, {1, 2}}, 0), 3);
+    EXPECT_EQ(type_of({{0, 1}, {2, 3}}, 0), 4);
+    EXPECT_EQ(type_of({{0, 1}, {2, 3}, {4, 5}}, 0), 4);
+    EXPECT_EQ(type_of({{0, exterior(4)}}, 1 << 4), 12);
+    EXPECT_EQ(type_of({{0, exterior(4)}, {0, exterior(0)}}, 1 << 4 | 1), 13);
+    EXPECT_EQ(type_of({{0, exterior(4)}, {1, exterior(4)}}, 1 << 4), 13);
+    EXPECT_EQ(type_of({{0, exterior(4)}, {1, exterior(4)}, {2, exterior(4)}}, 1 << 4), 14);
+}
+
+}  // namespace
+}  // namespace regionmesh
