@@ -53,8 +53,8 @@ private:
     bool is_decimating() const { return options_.decimate && (options_.target_faces || options_.reduce || options_.max_error); }
     std::uint64_t target_for(std::uint64_t initial_faces) const;
     std::uint64_t target_so_far() const;
-    void keep_within_budget(bool is_last);
-    void decimate_to(std::uint64_t faces, bool is_last, bool refresh);
+    void keep_within_budget(Weld& weld);
+    void decimate_to(std::uint64_t faces, bool is_last);
     void note_bytes(std::size_t more);
     void tell(const char* stage);
     double& seconds(const char* stage) { return result_.report.seconds[stage]; }
@@ -110,7 +110,7 @@ void Run::build() {
         tell("reconstruct");
         note_bytes(0);
         const std::uint32_t strips = window.sections_read() - 1;
-        if (strips % options_.strips_per_batch == 0 && !window.is_last()) keep_within_budget(false);
+        if (strips % options_.strips_per_batch == 0 && !window.is_last()) keep_within_budget(weld);
     }
     oracle_ = census.oracle();
 }
@@ -129,15 +129,16 @@ std::uint64_t Run::target_so_far() const {
     return target_for(*total_faces_) * read / std::max<std::uint64_t>(*total_faces_, 1);
 }
 
-void Run::keep_within_budget(bool is_last) {
+void Run::keep_within_budget(Weld& weld) {
     if (!is_decimating() || result_.model.face_count() <= budget_) return;
     // Down by a good part, so that the heap need not be built anew after every strip.
-    decimate_to(std::max(target_so_far(), budget_ * 6 / 10), is_last, false);
+    weld.renumber(result_.model.sort_spatially());
+    decimate_to(std::max(target_so_far(), budget_ * 6 / 10), false);
     // Where topology or the largest error forbids more, the model goes on growing.
     if (result_.model.face_count() > budget_) budget_ = std::uint64_t{result_.model.face_count()} * 3 / 2;
 }
 
-void Run::decimate_to(std::uint64_t faces, bool is_last, bool refresh) {
+void Run::decimate_to(std::uint64_t faces, bool is_last) {
     const Timer timer(seconds("decimate"));
     DecimateOptions decimate_options;
     decimate_options.target_faces = static_cast<std::uint32_t>(std::min(faces, kNoLimit));
@@ -146,7 +147,7 @@ void Run::decimate_to(std::uint64_t faces, bool is_last, bool refresh) {
     decimate_options.perturbation = options_.perturbation;
     decimate_options.scale = std::cbrt(lattice_.spacing.x * lattice_.spacing.y * lattice_.spacing.z);
     decimate_options.intersect_check = options_.intersect_check;
-    decimate_options.refresh = refresh;
+    decimate_options.refresh = is_last;
     if (!is_last) {
         // What comes later lies at or beyond the last section read.
         const int axis = reader_.info().sweep.axes[2];
@@ -167,7 +168,8 @@ void Run::bring_to_target() {
         return;
     }
     tell("decimate");
-    decimate_to(target_for(result_.report.initial_faces), true, true);
+    result_.model.sort_spatially();
+    decimate_to(target_for(result_.report.initial_faces), true);
     result_.report.stopped = stopped_ == StopReason::kTarget ? "target" : stopped_ == StopReason::kMaxError ? "max_error" : "topology";
 }
 

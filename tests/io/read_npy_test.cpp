@@ -81,7 +81,7 @@ TEST_F(ReadNpyTest, damaged_headers_are_refused) {
           "{'descr': '<u1', 'fortran_order': False}", "{'descr': '', 'fortran_order': False, 'shape': (1,1,1)}",
           "{'descr': '<u1', 'fortran_order': False, 'shape': (1,1,1",
           "{'descr': '<u1', 'fortran_order': False, 'shape': (1 1)}",
-          "{'descr': '<u1', 'fortran_order': False, 'shape': (-1,1,1)}", "{'other': 'x'}",
+          "{'descr': '<u1', 'fortran_order': False, 'shape': (-1,1,1)}", "{'other': 'x'}", "{'a\nb': 'x'}",
           "{'descr': '<u1' 'fortran_order': False}"}) {
         put_text(path("bad.npy"), npy_with_header(text));
         EXPECT_THAT(refusal({path("bad.npy")}), HasSubstr("bad.npy: the npy header is damaged")) << text;

@@ -16,11 +16,10 @@ constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-Candidates::Candidates(const Model& model, const DecimateOptions& options)
+Candidates::Candidates(Model& model, const DecimateOptions& options)
     : model_(model), options_(options), heap_(model.vertex_end()) {
     const std::uint32_t end = model.vertex_end();
     quadrics_.resize(end);
-    label_counts_.resize(end);
     partner_.resize(end, kNoVertex);
     floor_.resize(end, kNoFloor);
     count_labels();
@@ -28,12 +27,12 @@ Candidates::Candidates(const Model& model, const DecimateOptions& options)
 }
 
 std::size_t Candidates::bytes() const {
-    return quadrics_.bytes() + label_counts_.bytes() + partner_.bytes() + floor_.bytes() + heap_.bytes();
+    return quadrics_.bytes() + partner_.bytes() + floor_.bytes() + heap_.bytes();
 }
 
 void Candidates::count_labels() {
     for (std::uint32_t v = 0; v < model_.vertex_end(); ++v)
-        if (model_.is_alive(VertexId{v})) label_counts_[v] = static_cast<std::uint8_t>(vertex_labels(model_, VertexId{v}).size());
+        if (model_.is_alive(VertexId{v})) model_[VertexId{v}].label_count = static_cast<std::uint8_t>(vertex_labels(model_, VertexId{v}).size());
 }
 
 void Candidates::add_to_quadric(VertexId v, const Quadric& q) {
@@ -56,7 +55,7 @@ void Candidates::gather_quadrics() {
         for (VertexId v : face.vertices) add_to_quadric(v, plane);
         for (int n = 0; n < 3; ++n) {
             const VertexId a = face.vertices[n], b = face.vertices[(n + 1) % 3];
-            if (label_counts_[index(a)] < 3 || label_counts_[index(b)] < 3 || edge_labels(model_, a, b).size() < 3) continue;
+            if (label_count(a) < 3 || label_count(b) < 3 || edge_labels(model_, a, b).size() < 3) continue;
             const Vec3 along = p[(n + 1) % 3] - p[n];
             Quadric upright;
             upright.add_plane(cross(along, normal) / length(along), 0, kLineWeight * length2(along) / 2);
@@ -79,7 +78,7 @@ std::uint64_t Candidates::refresh() {
 /// neighbour follows v in exactly one face.
 void Candidates::gather_neighbours(VertexId v) {
     neighbours_.clear();
-    const bool is_simple = label_counts_[index(v)] == 2;
+    const bool is_simple = label_count(v) == 2;
     model_.for_star(v, [&](FaceId f, int place) {
         const Face& face = model_[f];
         const VertexId after = face.vertices[(place + 1) % 3];
@@ -97,14 +96,14 @@ void Candidates::gather_neighbours(VertexId v) {
 }
 
 int Candidates::edge_label_count(VertexId v, const Neighbour& neighbour) const {
-    if (label_counts_[index(v)] == 2) return 2;
+    if (label_count(v) == 2) return 2;
     if (neighbour.uses >= 2 * neighbour.labels.size()) return neighbour.labels.size();
     return edge_labels(model_, v, neighbour.vertex).size();  // the surface ends here: sides count
 }
 
 /// The end that would go, or none.
 VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
-    const bool a_may = label_counts_[index(a)] == count, b_may = label_counts_[index(b)] == count;
+    const bool a_may = label_count(a) == count, b_may = label_count(b) == count;
     if (a_may && b_may) return ((index(a) ^ index(b)) & 1) != 0 ? std::min(a, b) : std::max(a, b);
     return a_may ? a : b_may ? b : kNoVertex;
 }

@@ -14,7 +14,7 @@ namespace regionmesh {
 /// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
 class Candidates {
 public:
-    Candidates(const Model& model, const DecimateOptions& options);
+    Candidates(Model& model, const DecimateOptions& options);
 
     /// Gathers all candidates anew. Returns the number of edges that strata forbid.
     std::uint64_t refresh();
@@ -49,16 +49,16 @@ private:
     void gather_quadrics();
     void add_to_quadric(VertexId v, const Quadric& q);
     void gather_neighbours(VertexId v);
+    int label_count(VertexId v) const { return model_[v].label_count; }
     int edge_label_count(VertexId v, const Neighbour& neighbour) const;
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
     float key(VertexId goes, VertexId stays) const;
     Best best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden);
     void rank(VertexId v, Best best);
 
-    const Model& model_;
+    Model& model_;
     const DecimateOptions& options_;
     FlatArray<PackedQuadric> quadrics_;       // each relative to its vertex
-    FlatArray<std::uint8_t> label_counts_;
     FlatArray<VertexId> partner_;             // where the cheapest edge of a vertex in the heap leads
     FlatArray<float> floor_;                  // edges up to this key were refused since the last change
     EdgeHeap heap_;

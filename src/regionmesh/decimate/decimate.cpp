@@ -13,6 +13,9 @@ namespace {
 /// A cost below this share of the largest that the edge could have counts as none: the star is flat.
 constexpr double kFlat = 1e-9;
 
+/// Share of the face places in use below which faces are packed and their tree is built anew.
+constexpr double kCompactBelow = 0.5;
+
 class Decimation {
 public:
     Decimation(Model& model, const DecimateOptions& options)
@@ -26,7 +29,13 @@ public:
             result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
             result_.bytes = tree_.bytes() + candidates_.bytes();
             const std::uint64_t before = count(Verdict::kAccepted);
-            while (!candidates_.empty() && model_.face_count() > options_.target_faces) step();
+            while (!candidates_.empty() && model_.face_count() > options_.target_faces) {
+                step();
+                if (model_.face_count() < model_.face_end() * kCompactBelow) {
+                    model_.compact_faces();
+                    tree_ = FaceTree(model_);
+                }
+            }
             if (model_.face_count() <= options_.target_faces) break;
             if (count(Verdict::kAccepted) == before || !options_.refresh) {
                 result_.stopped = std::isfinite(options_.max_error) ? StopReason::kMaxError : StopReason::kTopology;
@@ -104,7 +113,10 @@ private:
 
     void collapse(Vec3 position) {
         candidates_.merge(star_.goes, star_.stays, position);
-        for (FaceId f : star_.dead) model_.remove_face(f);
+        for (FaceId f : star_.dead) {
+            model_.remove_face(f);
+            tree_.remove(f);
+        }
         model_.move_star(star_.goes, star_.stays);
         model_[star_.stays].position = position;
         for (const StarFace& f : star_.faces) {
@@ -112,7 +124,7 @@ private:
             box.add(position);
             box.add(f.at_a);
             box.add(f.at_b);
-            tree_.grow(f.face, box);
+            tree_.set(f.face, box);
         }
         candidates_.update(star_.goes, star_.stays);
     }

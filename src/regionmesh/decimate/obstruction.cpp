@@ -22,6 +22,16 @@ double length1(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 double rounding(Vec3 a, Vec3 b) { return 1e-10 * length1(a) * length1(b); }
 bool is_ahead(Vec3 out, Vec3 step) { return dot(out, step) > rounding(out, step); }
 
+/// A plane through an edge of t, square to t, has all of p beyond it: they lie beside each other.
+bool has_edge_between(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& p) {
+    const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+    for (int n = 0; n < 3; ++n) {
+        const Vec3 out = cross(t[(n + 1) % 3] - t[n], normal);
+        if (is_ahead(out, p[0] - t[n]) && is_ahead(out, p[1] - t[n]) && is_ahead(out, p[2] - t[n])) return true;
+    }
+    return false;
+}
+
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
     const int side = orientation(a, b, c, d);
     return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side && orientation(b, d, c, q) == side &&
@@ -35,7 +45,6 @@ bool Obstruction::blocks(const Model& model, const FaceTree& tree, const EdgeSta
     prepare(model, star, position);
     bool blocked = false;
     tree.search(box_, [&](FaceId f) {
-        if (!model.is_alive(f)) return true;
         const auto& v = model[f].vertices;
         if (v[0] == star.goes || v[1] == star.goes || v[2] == star.goes) return true;
         if (v[0] == star.stays || v[1] == star.stays || v[2] == star.stays) return true;
@@ -56,24 +65,28 @@ bool Obstruction::is_flat_on_box(const Model& model, const EdgeStar& star) const
 
 void Obstruction::prepare(const Model& model, const EdgeStar& star, Vec3 position) {
     position_ = position;
+    ends_ = {model.position(star.goes), model.position(star.stays)};
     box_ = Box{};
     box_.add(position);
     normal_ = Vec3{};
     for (const StarFace& f : star.faces) normal_ += f.new_normal;
     low_ = high_ = 0;
     link_.clear();
-    for (VertexId v : star.link) {
-        const Vec3 at = model.position(v);
-        box_.add(at);
-        const double along = dot(normal_, at - position);
+    const auto reach = [&](Vec3 p) {
+        box_.add(p);
+        const double along = dot(normal_, p - position);
         low_ = std::min(low_, along);
         high_ = std::max(high_, along);
-        link_.push_back({v, at, LinkPoint::kUnknown});
+    };
+    for (Vec3 end : ends_) reach(end);
+    for (VertexId v : star.link) {
+        link_.push_back({v, model.position(v), LinkPoint::kUnknown});
+        reach(link_.back().at);
     }
 }
 
 /// Cheap proofs that f cannot meet the new star outside what they share: a box, a slab, or a plane that holds the star on
-/// one side and f on the other. Sets shared_.
+/// one side and f on the other. Where f shares nothing they hold for all that is swept, too. Sets shared_.
 bool Obstruction::is_clear(const Model& model, FaceId f) {
     const auto p = model.corners(f);
     shared_ = 0;
@@ -89,10 +102,34 @@ bool Obstruction::is_clear(const Model& model, FaceId f) {
     if (shared_ == 1) {
         LinkPoint& a = *shared[0];
         const Vec3 out = a.at - position_;
-        return is_ahead(out, own[0] - a.at) && is_ahead(out, own[1] - a.at) && supports_at(a);
+        if (is_ahead(out, own[0] - a.at) && is_ahead(out, own[1] - a.at) && supports_at(a)) return true;
+        const Vec3 toward = along_star(own[0] + own[1] - a.at - a.at);
+        return is_ahead(toward, own[0] - a.at) && is_ahead(toward, own[1] - a.at) && is_ahead(toward, out) && is_behind(toward, a);
     }
     if (shared_ == 2) return supports_along(*shared[0], *shared[1], own[0]);
     if (shared_ == 3) return false;
+    return is_beyond(along_star((p[0] + p[1] + p[2]) / 3.0 - position_), p) || is_off_slab(p);
+}
+
+/// Without its part along the mean normal: separate faces of one sheet lie beside each other, not above.
+Vec3 Obstruction::along_star(Vec3 step) const { return step - dot(step, normal_) / std::max(length2(normal_), 1e-300) * normal_; }
+
+/// All of the new star but the link point itself is behind the plane through it, square to `out`.
+bool Obstruction::is_behind(Vec3 out, const LinkPoint& point) const {
+    return std::all_of(link_.begin(), link_.end(), [&](const LinkPoint& l) { return l.vertex == point.vertex || is_ahead(out, point.at - l.at); });
+}
+
+/// All of p lies farther along `out` than all that the star sweeps.
+bool Obstruction::is_beyond(Vec3 out, const std::array<Vec3, 3>& p) const {
+    const double near = std::min({dot(out, p[0] - position_), dot(out, p[1] - position_), dot(out, p[2] - position_)});
+    if (!(near > 0)) return false;
+    const double slack = rounding(out, p[0] - position_) + rounding(out, p[1] - position_) + rounding(out, p[2] - position_);
+    const auto is_nearer = [&](Vec3 q) { return dot(out, q - position_) + slack + rounding(out, q - position_) < near; };
+    return std::all_of(link_.begin(), link_.end(), [&](const LinkPoint& l) { return is_nearer(l.at); }) && is_nearer(ends_[0]) && is_nearer(ends_[1]);
+}
+
+/// All of p lies above or below all that the star sweeps, along its mean new normal.
+bool Obstruction::is_off_slab(const std::array<Vec3, 3>& p) const {
     bool above = true, below = true;
     for (Vec3 q : p) {
         const double along = dot(normal_, q - position_);
@@ -105,13 +142,8 @@ bool Obstruction::is_clear(const Model& model, FaceId f) {
 
 /// The plane through a link point, square to its spoke, has all the rest of the new star behind it.
 bool Obstruction::supports_at(LinkPoint& point) {
-    if (point.support == LinkPoint::kUnknown) {
-        const Vec3 out = point.at - position_;
-        const bool all = std::all_of(link_.begin(), link_.end(), [&](const LinkPoint& l) {
-            return l.vertex == point.vertex || is_ahead(out, point.at - l.at);
-        });
-        point.support = all ? LinkPoint::kSupports : LinkPoint::kDoesNot;
-    }
+    if (point.support == LinkPoint::kUnknown)
+        point.support = is_behind(point.at - position_, point) ? LinkPoint::kSupports : LinkPoint::kDoesNot;
     return point.support == LinkPoint::kSupports;
 }
 
@@ -145,7 +177,8 @@ bool Obstruction::meets_new_face(const Model& model, const EdgeStar& star, FaceI
             box.add(position_);
             box.add(made.at_a);
             box.add(made.at_b);
-            if (overlap(box, p) && meet({position_, made.at_a, made.at_b}, {p[0], p[1], p[2]})) return true;
+            const std::array<Vec3, 3> t{position_, made.at_a, made.at_b};
+            if (overlap(box, p) && !has_edge_between(t, p) && !has_edge_between(p, t) && meet({t[0], t[1], t[2]}, {p[0], p[1], p[2]})) return true;
         }
     }
     return false;

@@ -23,7 +23,12 @@ std::string why_not_opened(int error) {
 }  // namespace
 
 void fail(const std::filesystem::path& path, const std::string& text) {
-    throw Error(ErrorCode::kInput, path.string() + ": " + text);
+    std::string line = path.string() + ": " + text;
+    // Words of a damaged file, or of a library, must not break the line.
+    for (char& c : line) {
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    }
+    throw Error(ErrorCode::kInput, line);
 }
 
 void fail_section(const std::filesystem::path& path, std::uint64_t section, const std::string& text) {

@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "regionmesh/io/input_file.h"
 #include "regionmesh/io/volume_size.h"
@@ -14,10 +15,16 @@ namespace {
 
 constexpr std::uint64_t kMaxBlockBytes = std::uint64_t{1} << 30;
 
+/// How many bytes a byte of the file can become. A packbits pair gives 128; an LZW code, of nine bits or more, 4096.
+constexpr std::array<std::pair<int, std::uint64_t>, 5> kExpansions{{{COMPRESSION_NONE, 1},
+                                                                    {COMPRESSION_PACKBITS, 64},
+                                                                    {COMPRESSION_ADOBE_DEFLATE, kMaxInflation},
+                                                                    {COMPRESSION_DEFLATE, kMaxInflation},
+                                                                    {COMPRESSION_LZW, 4096}}};
+
 void keep_first(std::array<char, 256>& first, const char* format, va_list values) {
     if (first[0] != '\0') return;
     std::vsnprintf(first.data(), first.size(), format, values);
-    std::replace(first.begin(), first.end(), '\n', ' ');
     if (first[0] == '\0') first[0] = '?';
 }
 
@@ -114,22 +121,9 @@ void TiffFile::check_pixels(std::uint64_t section) const {
 /// A header must not claim more pixels than the file can unpack to. For the codecs not named here nothing is known.
 void TiffFile::check_backing(const ImageShape& shape, std::uint64_t section) const {
     std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-    switch (tag<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE)) {
-        case COMPRESSION_NONE:
-            most = 1;
-            break;
-        case COMPRESSION_PACKBITS:
-            most = 64;
-            break;  // two bytes become 128
-        case COMPRESSION_ADOBE_DEFLATE:
-        case COMPRESSION_DEFLATE:
-            most = kMaxInflation;
-            break;
-        case COMPRESSION_LZW:
-            most = 4096;
-            break;  // a code of nine bits or more stands for 4096 bytes at most
-        default:
-            break;
+    const auto compression = tag<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    for (const auto& [code, expansion] : kExpansions) {
+        if (code == compression) most = expansion;
     }
     const std::uint64_t row_bytes = (std::uint64_t{shape.width} * shape.channels * shape.bits + 7) / 8;
     if (row_bytes * shape.height / most <= size_) return;

@@ -2,102 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#if defined(__SSE__)
-#include <xmmintrin.h>
+#if defined(__SSE2__)
+#include <emmintrin.h>
 #endif
-
-#include "regionmesh/base/radix_sort.h"
 
 namespace regionmesh {
 namespace {
 
-/// Spreads the low ten bits, two zeros between each.
-std::uint32_t spread(std::uint32_t x) {
-    x = (x | x << 16) & 0x030000FFu;
-    x = (x | x << 8) & 0x0300F00Fu;
-    x = (x | x << 4) & 0x030C30C3u;
-    return (x | x << 2) & 0x09249249u;
-}
-
-float round_down(double x) {
-    const float f = static_cast<float>(x);
-    return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
-}
-float round_up(double x) {
-    const float f = static_cast<float>(x);
-    return f < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
-}
+constexpr std::int16_t kLowest = -32768, kHighest = 32767;
 
 }  // namespace
 
 FaceTree::FaceTree(const Model& model) {
-    sort_faces(model);
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    Boxes none;
-    std::fill(&none.low[0][0], &none.low[0][0] + 24, kInfinity);
-    std::fill(&none.high[0][0], &none.high[0][0] + 24, -kInfinity);
-    std::size_t groups = (order_.size() + kFan * kFan - 1) / (kFan * kFan);
-    for (;;) {
-        levels_.emplace_back(std::max<std::size_t>(groups, 1), none);
-        if (groups <= 1) break;
-        groups = (groups + kFan - 1) / kFan;
-    }
-    for (std::uint32_t f : order_) {
-        Box box;
-        for (Vec3 p : model.corners(FaceId{f})) box.add(p);
-        grow(FaceId{f}, box);
-    }
-}
-
-void FaceTree::sort_faces(const Model& model) {
     Box bounds;
     for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
         if (model.is_alive(VertexId{v})) bounds.add(model.position(VertexId{v}));
-    origin_ = model.vertex_count() ? bounds.low : Vec3{};
-    const Vec3 extent = model.vertex_count() ? bounds.high - bounds.low : Vec3{};
-    const double largest = std::max({extent.x, extent.y, extent.z, 1e-300});
-    std::vector<KeyedIndex> keyed;
-    keyed.reserve(model.face_count());
+    if (model.vertex_count() > 0) {
+        const Vec3 extent = bounds.high - bounds.low;
+        origin_ = bounds.low;
+        cells_per_length_ = 65500 / std::max({extent.x, extent.y, extent.z, 1e-300});
+    }
+    Boxes none;
+    std::fill(&none.low[0][0], &none.low[0][0] + 3 * kFan, kHighest);
+    std::fill(&none.high[0][0], &none.high[0][0] + 3 * kFan, kLowest);
+    for (std::size_t groups = (model.face_end() + kFan - 1) / kFan;; groups = (groups + kFan - 1) / kFan) {
+        levels_.emplace_back(std::max<std::size_t>(groups, 1), none);
+        if (groups <= 1) break;
+    }
     for (std::uint32_t f = 0; f < model.face_end(); ++f) {
         if (!model.is_alive(FaceId{f})) continue;
-        const auto [a, b, c] = model.corners(FaceId{f});
-        const Vec3 middle = ((a + b + c) / 3.0 - origin_) * (1023.0 / largest);
-        const auto cell = [](double x) { return spread(static_cast<std::uint32_t>(std::clamp(x, 0.0, 1023.0))); };
-        keyed.push_back({cell(middle.x) | cell(middle.y) << 1 | cell(middle.z) << 2, f});
-    }
-    radix_sort(keyed);
-    order_.reserve(keyed.size());
-    place_.resize(model.face_end());
-    for (const KeyedIndex& item : keyed) {
-        place_[item.index] = static_cast<std::uint32_t>(order_.size());
-        order_.push_back(item.index);
+        Box box;
+        for (Vec3 p : model.corners(FaceId{f})) box.add(p);
+        set(FaceId{f}, box);
     }
 }
 
-FaceTree::FloatBox FaceTree::outward(const Box& box) const {
-    FloatBox result;
+FaceTree::GridBox FaceTree::outward(const Box& box) const {
+    GridBox result;
     for (int axis = 0; axis < 3; ++axis) {
-        result.low[axis] = round_down(box.low[axis] - origin_[axis]);
-        result.high[axis] = round_up(box.high[axis] - origin_[axis]);
+        // Beyond the grid everything counts as being at its rim, on both sides of a comparison.
+        const double low = (box.low[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
+        const double high = (box.high[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
+        result.low[axis] = static_cast<std::int16_t>(std::clamp(low - 1, -32768.0, 32767.0));
+        result.high[axis] = static_cast<std::int16_t>(std::clamp(high + 1, -32768.0, 32767.0));
     }
     return result;
 }
 
-unsigned FaceTree::meeting(const Boxes& boxes, const FloatBox& box) {
-#if defined(__SSE__)
-    unsigned mask = 0;
-    for (std::uint32_t half = 0; half < kFan; half += 4) {
-        __m128 in = _mm_cmple_ps(_mm_loadu_ps(boxes.low[0] + half), _mm_set1_ps(box.high[0]));
-        in = _mm_and_ps(in, _mm_cmpge_ps(_mm_loadu_ps(boxes.high[0] + half), _mm_set1_ps(box.low[0])));
-        for (int axis = 1; axis < 3; ++axis) {
-            in = _mm_and_ps(in, _mm_cmple_ps(_mm_loadu_ps(boxes.low[axis] + half), _mm_set1_ps(box.high[axis])));
-            in = _mm_and_ps(in, _mm_cmpge_ps(_mm_loadu_ps(boxes.high[axis] + half), _mm_set1_ps(box.low[axis])));
-        }
-        mask |= static_cast<unsigned>(_mm_movemask_ps(in)) << half;
+unsigned FaceTree::meeting(const Boxes& boxes, const GridBox& box) {
+#if defined(__SSE2__)
+    __m128i out = _mm_setzero_si128();
+    for (int axis = 0; axis < 3; ++axis) {
+        const __m128i low = _mm_load_si128(reinterpret_cast<const __m128i*>(boxes.low[axis]));
+        const __m128i high = _mm_load_si128(reinterpret_cast<const __m128i*>(boxes.high[axis]));
+        out = _mm_or_si128(out, _mm_cmpgt_epi16(low, _mm_set1_epi16(box.high[axis])));
+        out = _mm_or_si128(out, _mm_cmplt_epi16(high, _mm_set1_epi16(box.low[axis])));
     }
-    return mask;
+    return ~static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(out, out))) & 0xFFu;
 #else
     unsigned mask = 0;
     for (std::uint32_t lane = 0; lane < kFan; ++lane) {
@@ -109,32 +71,39 @@ unsigned FaceTree::meeting(const Boxes& boxes, const FloatBox& box) {
 #endif
 }
 
-bool FaceTree::extend(Boxes& boxes, std::uint32_t lane, const FloatBox& box) {
+bool FaceTree::extend(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
     bool grew = false;
     for (int axis = 0; axis < 3; ++axis) {
-        if (box.low[axis] < boxes.low[axis][lane]) {
-            boxes.low[axis][lane] = box.low[axis];
-            grew = true;
-        }
-        if (box.high[axis] > boxes.high[axis][lane]) {
-            boxes.high[axis][lane] = box.high[axis];
-            grew = true;
-        }
+        grew |= box.low[axis] < boxes.low[axis][lane] || box.high[axis] > boxes.high[axis][lane];
+        boxes.low[axis][lane] = std::min(boxes.low[axis][lane], box.low[axis]);
+        boxes.high[axis][lane] = std::max(boxes.high[axis][lane], box.high[axis]);
     }
     return grew;
 }
 
-void FaceTree::grow(FaceId f, const Box& box) {
-    const FloatBox reach = outward(box);
-    std::uint32_t child = place_[index(f)] / kFan;
-    for (auto& level : levels_) {
-        if (!extend(level[child / kFan], child % kFan, reach)) return;
-        child /= kFan;
+void FaceTree::put(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+        boxes.low[axis][lane] = box.low[axis];
+        boxes.high[axis][lane] = box.high[axis];
     }
 }
 
+void FaceTree::set(FaceId f, const Box& box) {
+    const GridBox grid = outward(box);
+    std::uint32_t child = index(f);
+    put(levels_[0][child / kFan], child % kFan, grid);
+    for (std::size_t level = 1; level < levels_.size(); ++level) {
+        child /= kFan;
+        if (!extend(levels_[level][child / kFan], child % kFan, grid)) return;
+    }
+}
+
+void FaceTree::remove(FaceId f) {
+    put(levels_[0][index(f) / kFan], index(f) % kFan, {{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}});
+}
+
 std::size_t FaceTree::bytes() const {
-    std::size_t sum = 4 * order_.size() + place_.bytes();
+    std::size_t sum = 0;
     for (const auto& level : levels_) sum += level.size() * sizeof(Boxes);
     return sum;
 }

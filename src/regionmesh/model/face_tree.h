@@ -1,4 +1,4 @@
-// Which faces are near? Boxes over groups of eight, which follow the faces as they grow.
+// Which faces are near? A tree of boxes that follows the faces as they move and grow.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,20 @@
 
 namespace regionmesh {
 
-/// An eight-fold tree of boxes over the faces in Morton order of their middles. A face keeps its place for the life of
-/// the tree; when a collapse makes it larger, the boxes above it grow. Faces that die just stay unused.
-/// Boxes are floats, rounded outward, relative to the low corner of the model: 11.5 bytes a face all told.
+/// An eight-fold tree of boxes over the faces in order of id, which should be a spatial order (Model::sort_spatially).
+/// Boxes are rounded outward to 1/65535 of the model's extent, two bytes a coordinate, so that eight of them are compared
+/// at once: 14 bytes a face all told.
 class FaceTree {
 public:
     explicit FaceTree(const Model& model);
 
-    /// Face f now reaches at most through `box` as well. Requires that f was alive when the tree was built.
-    void grow(FaceId f, const Box& box);
+    /// Face f now lies in `box`. The boxes above it grow, and never shrink.
+    void set(FaceId f, const Box& box);
+    /// Face f is gone.
+    void remove(FaceId f);
 
-    /// Calls visit(FaceId) for every face whose group's box meets `box`: all faces that meet it, and others, dead ones
-    /// among them. A visit that returns false ends the search.
+    /// Calls visit(FaceId) for every face in the tree whose rounded box meets `box`. A visit that returns false ends the
+    /// search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const;
 
@@ -29,31 +31,29 @@ public:
 private:
     static constexpr std::uint32_t kFan = 8;
 
-    /// The boxes of eight groups, side by side for four-fold comparison.
-    struct Boxes {
-        float low[3][kFan];
-        float high[3][kFan];
+    struct GridBox {
+        std::int16_t low[3];
+        std::int16_t high[3];
     };
-    struct FloatBox {
-        float low[3];
-        float high[3];
+    /// Eight boxes side by side.
+    struct alignas(16) Boxes {
+        std::int16_t low[3][kFan];
+        std::int16_t high[3][kFan];
     };
 
-    FloatBox outward(const Box& box) const;
-    static unsigned meeting(const Boxes& boxes, const FloatBox& box);
-    static bool extend(Boxes& boxes, std::uint32_t lane, const FloatBox& box);
-    void sort_faces(const Model& model);
+    GridBox outward(const Box& box) const;
+    static unsigned meeting(const Boxes& boxes, const GridBox& box);
+    static bool extend(Boxes& boxes, std::uint32_t lane, const GridBox& box);
+    static void put(Boxes& boxes, std::uint32_t lane, const GridBox& box);
 
     Vec3 origin_;
-    std::vector<std::uint32_t> order_;        // faces in Morton order
-    FlatArray<std::uint32_t> place_;          // of each face in order_
-    std::vector<std::vector<Boxes>> levels_;  // levels_[0][g] bounds places 64 g .. 64 g + 63, eight to a box
+    double cells_per_length_ = 1;
+    std::vector<std::vector<Boxes>> levels_;  // levels_[0][g] holds the boxes of faces 8 g .. 8 g + 7
 };
 
 template <class Visit>
 void FaceTree::search(const Box& box, Visit&& visit) const {
-    if (order_.empty()) return;
-    const FloatBox wanted = outward(box);
+    const GridBox wanted = outward(box);
     struct Entry {
         std::uint32_t level, group;
     };
@@ -62,16 +62,10 @@ void FaceTree::search(const Box& box, Visit&& visit) const {
     stack[top++] = {static_cast<std::uint32_t>(levels_.size()) - 1, 0};
     while (top > 0) {
         const Entry entry = stack[--top];
-        unsigned mask = meeting(levels_[entry.level][entry.group], wanted);
-        for (; mask; mask &= mask - 1) {
+        for (unsigned mask = meeting(levels_[entry.level][entry.group], wanted); mask; mask &= mask - 1) {
             const std::uint32_t child = entry.group * kFan + static_cast<std::uint32_t>(__builtin_ctz(mask));
-            if (entry.level > 0) {
-                stack[top++] = {entry.level - 1, child};
-                continue;
-            }
-            const std::size_t first = std::size_t{child} * kFan;
-            for (std::size_t place = first; place < std::min<std::size_t>(first + kFan, order_.size()); ++place)
-                if (!visit(FaceId{order_[place]})) return;
+            if (entry.level > 0) stack[top++] = {entry.level - 1, child};
+            else if (!visit(FaceId{child})) return;
         }
     }
 }

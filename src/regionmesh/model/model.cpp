@@ -1,5 +1,6 @@
 #include "regionmesh/model/model.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace regionmesh {
@@ -32,13 +33,18 @@ FaceId Model::add_face(VertexId a, VertexId b, VertexId c, Label first, Label se
     Face& face = faces_[index(f)];
     face.vertices = {a, b, c};
     face.labels = {first, second};
+    link(f);
+    ++face_count_;
+    return f;
+}
+
+void Model::link(FaceId f) {
+    Face& face = faces_[index(f)];
     for (int place = 0; place < 3; ++place) {
         Vertex& vertex = vertices_[index(face.vertices[place])];
         face.next[place] = vertex.star;
         vertex.star = index(f) << 2 | static_cast<Corner>(place);
     }
-    ++face_count_;
-    return f;
 }
 
 void Model::unlink(VertexId v, Corner corner) {
@@ -95,6 +101,96 @@ void Model::flip_faces() {
     }
     for (Vertex& vertex : vertices_)
         if (vertex.is_alive) turn(vertex.star);
+}
+
+namespace {
+
+/// Spreads the low ten bits, two zeros between each.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | x << 16) & 0x030000FFu;
+    x = (x | x << 8) & 0x0300F00Fu;
+    x = (x | x << 4) & 0x030C30C3u;
+    return (x | x << 2) & 0x09249249u;
+}
+
+/// Places in a box as cells of a 1024-fold grid along a Morton curve.
+class MortonCurve {
+public:
+    explicit MortonCurve(const Box& box) : low_(box.low) {
+        const Vec3 extent = box.high - box.low;
+        cells_ = 1023 / std::max({extent.x, extent.y, extent.z, 1e-300});
+    }
+    std::uint32_t operator()(Vec3 p) const {
+        const Vec3 cell = (p - low_) * cells_;
+        const auto bits = [](double x) { return spread(static_cast<std::uint32_t>(std::clamp(x, 0.0, 1023.0))); };
+        return bits(cell.x) | bits(cell.y) << 1 | bits(cell.z) << 2;
+    }
+
+private:
+    Vec3 low_;
+    double cells_;
+};
+
+}  // namespace
+
+std::vector<KeyedIndex> Model::vertices_along_curve() const {
+    Box box;
+    for (const Vertex& vertex : vertices_)
+        if (vertex.is_alive) box.add(vertex.position);
+    const MortonCurve curve(box);
+    std::vector<KeyedIndex> order;
+    order.reserve(vertex_count_);
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+        if (vertices_[v].is_alive) order.push_back({curve(vertices_[v].position), v});
+    radix_sort(order);
+    return order;
+}
+
+/// By the place of the first of its vertices, which lie along the curve already.
+std::vector<KeyedIndex> Model::faces_along_curve() const {
+    std::vector<KeyedIndex> order;
+    order.reserve(face_count_);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+        if (is_alive(FaceId{f})) order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
+    radix_sort(order);
+    return order;
+}
+
+std::vector<VertexId> Model::sort_spatially() {
+    std::vector<VertexId> renumbered(vertices_.size(), kNoVertex);
+    {
+        FlatArray<Vertex> sorted;
+        sorted.reserve(vertices_.size());
+        for (const KeyedIndex& item : vertices_along_curve()) {
+            renumbered[item.index] = VertexId{sorted.size()};
+            sorted.push_back(vertices_[item.index]);
+        }
+        for (Vertex& vertex : sorted) vertex.star = kNoCorner;
+        vertices_ = std::move(sorted);
+        free_vertex_ = kNoCorner;
+    }
+    for (Face& face : faces_) {
+        if (face.vertices[0] == kNoVertex) continue;
+        for (VertexId& v : face.vertices) v = renumbered[index(v)];
+    }
+    FlatArray<Face> sorted;
+    sorted.reserve(faces_.size());
+    for (const KeyedIndex& item : faces_along_curve()) sorted.push_back(faces_[item.index]);
+    faces_ = std::move(sorted);
+    free_face_ = kNoCorner;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) link(FaceId{f});
+    return renumbered;
+}
+
+void Model::compact_faces() {
+    std::uint32_t kept = 0;
+    for (const Face& face : faces_)
+        if (face.vertices[0] != kNoVertex) faces_[kept++] = face;
+    faces_.resize(kept);
+    free_face_ = kNoCorner;
+    for (Vertex& vertex : vertices_)
+        if (vertex.is_alive) vertex.star = kNoCorner;
+    for (std::uint32_t f = 0; f < kept; ++f) link(FaceId{f});
 }
 
 void Model::reserve(std::size_t vertices, std::size_t faces) {

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "regionmesh/base/flat_array.h"
 #include "regionmesh/base/ids.h"
 #include "regionmesh/base/label.h"
+#include "regionmesh/base/radix_sort.h"
 #include "regionmesh/base/vec3.h"
 
 namespace regionmesh {
@@ -30,10 +32,12 @@ struct Vertex {
     SideSet sides = 0;                  // sides of the box it lies on; there it keeps its coordinate
     bool is_fixed = false;              // some of its faces are not here (front, seam): it neither moves nor goes
     bool is_alive = true;
+    std::uint8_t label_count = 0;       // of its stratum; kept while decimating (decimate/candidates.h)
 };
 static_assert(sizeof(Vertex) == 32);
 
-/// Flat arrays with free places, which are reused (P 3.3). Ids stay valid until the thing they name is removed.
+/// Flat arrays with free places, which are reused (P 3.3). Ids stay valid until the thing they name is removed
+/// or renumbered.
 /// Iterate over [0, vertex_end()) or [0, face_end()) and skip what is not alive.
 class Model {
 public:
@@ -75,6 +79,12 @@ public:
         }
     }
 
+    /// Renumbers vertices and faces along a Morton curve, without free places: what is near in space is near in memory,
+    /// and in FaceTree. Returns the new id of each old vertex (kNoVertex for free places). Holds a second copy meanwhile.
+    std::vector<VertexId> sort_spatially();
+    /// Renumbers faces only, in their order, without free places.
+    void compact_faces();
+
     /// Turns all faces round and exchanges nothing else: for a mirroring map of the positions.
     void flip_faces();
 
@@ -84,6 +94,9 @@ public:
 
 private:
     void unlink(VertexId v, Corner corner);
+    void link(FaceId f);
+    std::vector<KeyedIndex> vertices_along_curve() const;
+    std::vector<KeyedIndex> faces_along_curve() const;
 
     FlatArray<Vertex> vertices_;
     FlatArray<Face> faces_;

@@ -16,4 +16,8 @@ void Weld::add(const FaceBatch& batch) {
     for (VertexId v : front_) model_[v].is_fixed = true;
 }
 
+void Weld::renumber(const std::vector<VertexId>& new_ids) {
+    for (VertexId& v : front_) v = new_ids[index(v)];
+}
+
 }  // namespace regionmesh
