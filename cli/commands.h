@@ -10,6 +10,7 @@ namespace regionmesh::cli {
 using Action = std::function<int()>;
 
 void add_reconstruct(CLI::App& app, Action& action);
+void add_decimate(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 

@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     regionmesh::cli::Action action;
     regionmesh::cli::add_reconstruct(app, action);
+    regionmesh::cli::add_decimate(app, action);
     regionmesh::cli::add_check(app, action);
     regionmesh::cli::add_info(app, action);
     try {

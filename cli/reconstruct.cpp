@@ -51,6 +51,8 @@ void print_summary(const Arguments& arguments, const Report& report) {
 
 int reconstruct_command(const Arguments& arguments) {
     const ReconstructOptions options = to_options(arguments);
+    require_writable_model(arguments.output);
+    if (!arguments.report.empty()) require_writable(arguments.report);
     const auto reader = arguments.input.open(arguments.inputs);
     ProgressLine line(arguments.quiet);
     Reconstruction made = reconstruct(*reader, options, [&](const Progress& progress) { line.show(progress); });

@@ -55,7 +55,7 @@ private:
     std::uint64_t target_so_far() const;
     void keep_within_budget(Weld& weld);
     void decimate_to(std::uint64_t faces, bool is_last);
-    void note_bytes(std::size_t more);
+    void note_bytes(std::uint64_t faces, std::size_t bytes);
     void tell(const char* stage);
     double& seconds(const char* stage) { return result_.report.seconds[stage]; }
 
@@ -68,6 +68,7 @@ private:
     std::optional<std::uint64_t> total_faces_;  // of the unsimplified model, where a first pass counted them
     std::uint64_t budget_ = kNoLimit;
     LabelOracle oracle_;
+    std::size_t most_bytes_ = 0;                // of model and decimation together, so far
     StopReason stopped_ = StopReason::kTarget;
 };
 
@@ -108,7 +109,7 @@ void Run::build() {
         progress_.sections_read = window.sections_read();
         progress_.faces_read = report.initial_faces;
         tell("reconstruct");
-        note_bytes(0);
+        note_bytes(result_.model.face_count(), result_.model.bytes());
         const std::uint32_t strips = window.sections_read() - 1;
         if (strips % options_.strips_per_batch == 0 && !window.is_last()) keep_within_budget(weld);
     }
@@ -155,11 +156,13 @@ void Run::decimate_to(std::uint64_t faces, bool is_last) {
     }
     const char* stage = is_last ? "decimate" : "reconstruct";
     decimate_options.on_progress = [&] { tell(stage); };
+    const std::uint64_t held = result_.model.face_count();
+    const std::size_t model_bytes = result_.model.bytes();
     const DecimateResult done = decimate(result_.model, decimate_options);
     for (int n = 0; n < kVerdictCount; ++n) result_.report.verdicts[n] += done.verdicts[n];
     result_.report.refreshes += done.refreshes;
     stopped_ = done.stopped;
-    note_bytes(done.bytes);
+    note_bytes(held, model_bytes + done.bytes);
 }
 
 void Run::bring_to_target() {
@@ -206,12 +209,12 @@ Reconstruction Run::finish() {
     return std::move(result_);
 }
 
-void Run::note_bytes(std::size_t more) {
+void Run::note_bytes(std::uint64_t faces, std::size_t bytes) {
     Report& report = result_.report;
-    report.peak_faces = std::max<std::uint64_t>(report.peak_faces, result_.model.face_count());
-    if (report.peak_faces == 0) return;
-    const double bytes = static_cast<double>(result_.model.bytes() + more) / static_cast<double>(report.peak_faces);
-    report.bytes_per_face = std::max(more ? report.bytes_per_face : 0.0, bytes);
+    if (faces == 0 || bytes < most_bytes_) return;
+    most_bytes_ = bytes;
+    report.peak_faces = std::max(report.peak_faces, faces);
+    report.bytes_per_face = static_cast<double>(bytes) / static_cast<double>(faces);
 }
 
 void Run::tell(const char* stage) {

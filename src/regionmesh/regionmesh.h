@@ -5,6 +5,7 @@
 #include "regionmesh/check/check.h"
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/io/model_file.h"
+#include "regionmesh/io/output_file.h"
 #include "regionmesh/io/read_sections.h"
 #include "regionmesh/io/write_report.h"
 #include "regionmesh/model/model.h"

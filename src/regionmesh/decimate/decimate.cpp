@@ -1,5 +1,6 @@
 #include "regionmesh/decimate/decimate.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "regionmesh/decimate/candidates.h"
@@ -67,25 +68,22 @@ private:
         const EdgeEnds edge = candidates_.ends(star_.goes, star_.stays);
         const Placement cheapest = place(edge);
         position = cheapest.position;
+        keep_level(position);
         ShapeResult shape = shape_verdict(model_, star_, position, bounds_);
-        if (is_flat(edge, cheapest.cost)) {
-            const Vec3 average = average_of_link(edge);
-            if (is_flat(edge, cost_at(edge, average))) {
-                const ShapeResult other = shape_verdict(model_, star_, average, bounds_);
-                const bool better = other.verdict == Verdict::kAccepted &&
-                                    (shape.verdict != Verdict::kAccepted || other.worst_quality > shape.worst_quality);
-                if (better) {
-                    position = average;
-                    shape = other;
-                } else if (shape.verdict == Verdict::kAccepted) {
-                    shape = shape_verdict(model_, star_, position, bounds_);  // its normals again
-                }
-            }
-        }
+        if (is_flat(edge, cheapest.cost)) prefer_average(edge, position, shape);
         if (shape.verdict != Verdict::kAccepted) return shape.verdict;
         if (!is_within_limits(position)) return Verdict::kIntersect;
         if (options_.intersect_check && obstruction_.blocks(model_, tree_, star_, position)) return Verdict::kIntersect;
         return Verdict::kAccepted;
+    }
+
+    /// Where the whole star lies in a plane square to an axis, the merged vertex does, to the last bit.
+    void keep_level(Vec3& position) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double level = model_.position(star_.goes)[axis];
+            const auto is_level = [&](const StarFace& f) { return f.at_a[axis] == level && f.at_b[axis] == level; };
+            if (model_.position(star_.stays)[axis] == level && std::all_of(star_.faces.begin(), star_.faces.end(), is_level)) position[axis] = level;
+        }
     }
 
     bool is_flat(const EdgeEnds& edge, double cost) const {
@@ -93,7 +91,22 @@ private:
         return cost <= kFlat * weight * length2(edge.goes - edge.stays);
     }
 
-    /// P quality test 2; coordinates on the box stay.
+    /// On a flat star every place in the plane costs nothing: the average of the link is taken where it gives the better
+    /// worst quality (P quality test 2).
+    void prefer_average(const EdgeEnds& edge, Vec3& position, ShapeResult& shape) {
+        Vec3 average = average_of_link(edge);
+        keep_level(average);
+        if (!is_flat(edge, cost_at(edge, average))) return;
+        const ShapeResult other = shape_verdict(model_, star_, average, bounds_);
+        if (other.verdict == Verdict::kAccepted && (shape.verdict != Verdict::kAccepted || other.worst_quality > shape.worst_quality)) {
+            position = average;
+            shape = other;
+        } else {
+            set_normals(star_, position);
+        }
+    }
+
+    /// Coordinates on the box stay.
     Vec3 average_of_link(const EdgeEnds& edge) const {
         Vec3 sum;
         for (VertexId v : star_.link) sum += model_.position(v) - edge.stays;

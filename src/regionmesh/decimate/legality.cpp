@@ -92,10 +92,16 @@ Verdict topology_verdict(const Model& model, const EdgeStar& star) {
     return Verdict::kAccepted;
 }
 
-ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
+void set_normals(EdgeStar& star, Vec3 position) {
     for (StarFace& f : star.faces) {
         f.new_normal = area_vector(position, f.at_a, f.at_b);
         f.new_length = length(f.new_normal);
+    }
+}
+
+ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
+    set_normals(star, position);
+    for (const StarFace& f : star.faces) {
         if (!(dot(f.old_normal, f.new_normal) > bounds.min_turn_cosine * f.old_length * f.new_length)) return {Verdict::kFold, 0};
     }
     if (pinches_at_spokes(star, bounds.min_dihedral_cosine) || pinches_at_link(model, star, position, bounds.min_dihedral_cosine))

@@ -24,7 +24,10 @@ struct ShapeResult {
     double worst_quality;  // over the modified faces; of use when accepted
 };
 
-/// Fold, pinch and quality with the merged vertex at `position` (P tests 1, 2; quality test 1). Fills in the new normals.
+/// Fills in the normals that the surviving faces would have with the merged vertex at `position`.
+void set_normals(EdgeStar& star, Vec3 position);
+
+/// Fold, pinch and quality with the merged vertex at `position` (P tests 1, 2; quality test 1). Sets the normals, too.
 ///   fold    no face turns by more than the bound.
 ///   pinch   no two faces at an edge come closer than 5 degrees, nor does one pass through another's place.
 ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, const ShapeBounds& bounds);

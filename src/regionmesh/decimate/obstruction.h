@@ -17,31 +17,47 @@ public:
     bool blocks(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
 
 private:
-    struct LinkPoint {
-        VertexId vertex;
-        Vec3 at;
+    using Corners = std::array<Vec3, 3>;
+
+    /// A plane through `at`, square to `out`.
+    struct Wall {
+        Vec3 at, out;
+    };
+    /// A face of the new star, from the merged vertex to the link edge a-b, with a wall on each edge: the face lies behind
+    /// all three. The wall on the link edge may even have the whole star behind it.
+    struct NewFace {
+        VertexId a, b;
+        Corners corners;             // merged vertex, a, b
+        Box box;
+        std::array<Wall, 3> walls;   // on the edges after the corners of the same places: [1] is the link edge's
         enum { kUnknown, kSupports, kDoesNot } support;
+    };
+    /// What the face looked at shares with the link.
+    struct Shared {
+        int count = 0;
+        std::array<VertexId, 3> vertices;
+        Vec3 at;                     // one of them
+        std::array<Vec3, 3> own;     // its other corners
     };
 
     void prepare(const Model& model, const EdgeStar& star, Vec3 position);
-    bool is_flat_on_box(const Model& model, const EdgeStar& star) const;
-    bool is_clear(const Model& model, FaceId f);
-    Vec3 along_star(Vec3 step) const;
-    bool is_behind(Vec3 out, const LinkPoint& point) const;
-    bool is_beyond(Vec3 out, const std::array<Vec3, 3>& p) const;
-    bool is_off_slab(const std::array<Vec3, 3>& p) const;
-    bool supports_at(LinkPoint& point);
-    bool supports_along(const LinkPoint& a, const LinkPoint& b, Vec3 x) const;
-    bool meets_new_face(const Model& model, const EdgeStar& star, FaceId f) const;
+    Shared find_shared(const std::array<VertexId, 3>& vertices, const Corners& p) const;
+    bool is_clear(const Shared& shared, const Corners& p);
+    bool supports(NewFace& face) const;
+    bool is_beyond_all(const Corners& p) const;
+    bool is_off_slab(const Corners& p) const;
+    bool meets_new_face(const std::array<VertexId, 3>& vertices, const Corners& p) const;
     bool is_swept(const Model& model, const EdgeStar& star, Vec3 q) const;
 
     Vec3 position_;
-    std::array<Vec3, 2> ends_;   // where the edge is now
-    Vec3 normal_;                // sum of the new faces' normals
-    double low_ = 0, high_ = 0;  // extent along it, from position_, of all that the star sweeps
-    Box box_;                    // of all that the star sweeps
-    std::vector<LinkPoint> link_;
-    int shared_ = 0;             // of the face looked at last: corners that are link points
+    std::array<Vec3, 2> ends_;       // where the edge is now
+    Vec3 normal_;                    // sum of the new faces' normals
+    double low_ = 0, high_ = 0;      // extent along it, from position_, of all that the star sweeps
+    Box box_;                        // of all that the star sweeps
+    std::vector<NewFace> faces_;
+    std::vector<VertexId> link_;
+    std::vector<Vec3> link_at_;
+    std::uint64_t link_bits_ = 0;    // a bit for each link vertex, by id modulo 64
 };
 
 }  // namespace regionmesh

@@ -9,6 +9,7 @@
 
 #include "regionmesh/base/error.h"
 #include "regionmesh/io/model_formats.h"
+#include "regionmesh/io/output_file.h"
 
 namespace regionmesh {
 namespace {
@@ -42,8 +43,8 @@ std::optional<int> side_of_face(const FileSurface& surface, const std::array<std
     return std::nullopt;
 }
 
-// Whether all faces with the exterior lie in the planes of the box; one that does not makes the exterior an ordinary
-// label.
+// Whether all faces with the exterior lie in the planes of the box. Where one does not (the lattice was turned), the
+// exterior is taken as a whole: side 0, and no vertex is on a side.
 bool exterior_is_box(const FileSurface& surface, const Box& box) {
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
         if (std::ranges::count(surface.labels[f], surface.exterior_label) > 0 &&
@@ -64,8 +65,12 @@ ModelFile assemble(const FileSurface& surface) {
         std::array<Label, 2> labels;
         for (int i = 0; i < 2; ++i) {
             const InputLabel label = surface.labels[f][i];
-            if (!has_sides || label != surface.exterior_label) {
+            if (label != surface.exterior_label) {
                 labels[i] = file.labels.dense(label);
+                continue;
+            }
+            if (!has_sides) {
+                labels[i] = exterior(0);
                 continue;
             }
             const int side = *side_of_face(surface, surface.faces[f], box);
@@ -124,6 +129,12 @@ void write_model(const Model& model, const LabelTable& labels, const std::filesy
     if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kUsage, path);
     const FileView view(model, labels, options.background);
     extension == ".vtp" ? write_vtp(view, path) : write_ply(view, path);
+}
+
+void require_writable_model(const std::filesystem::path& path) {
+    const std::string extension = extension_of(path);
+    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kUsage, path);
+    require_writable(path);
 }
 
 ModelFile read_model(const std::filesystem::path& path) {

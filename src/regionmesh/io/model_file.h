@@ -31,10 +31,13 @@ struct WriteOptions {
 void write_model(const Model& model, const LabelTable& labels, const std::filesystem::path& path,
                  const WriteOptions& options = {});
 
+/// Throws what write_model would for the extension and the folder of `path`: before the work, not after it.
+void require_writable_model(const std::filesystem::path& path);
+
 /// A model read from a file, with its labels, as signed numbers. The file's exterior label (-1 if it names none)
 /// becomes the sides of the box again where every face with it lies exactly in a plane of the bounding box of all
 /// faces; vertices get the sides of their exterior faces. Where one does not (an oblique volume, another program's
-/// box), the exterior is an ordinary label of the table, and no vertex lies on a side.
+/// box), all exterior faces get side 0, and no vertex lies on a side.
 struct ModelFile {
     Model model;
     LabelTable labels;

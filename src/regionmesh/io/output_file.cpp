@@ -82,4 +82,10 @@ void OutputFile::fail(int error_number) const {
                                                 std::generic_category().message(error_number)));
 }
 
+void require_writable(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) const OutputFile probe(path);
+}
+
 }  // namespace regionmesh

@@ -40,4 +40,7 @@ private:
     std::uint64_t size_ = 0;
 };
 
+/// Throws Error(kOutput) where a file could not be written at `path`; leaves all as it is. For a look before long work.
+void require_writable(const std::filesystem::path& path);
+
 }  // namespace regionmesh

@@ -1,0 +1,75 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "commands.h"
+#include "input_options.h"
+
+namespace regionmesh::cli {
+namespace {
+
+struct Arguments {
+    std::string model, output;
+    std::string target_faces, reduce, max_error, min_quality = "0.1", perturbation = "1e-7";
+    bool no_intersect_check = false, quiet = false;
+};
+
+DecimateOptions to_options(const Arguments& arguments, const Model& model) {
+    DecimateOptions options;
+    if (!arguments.target_faces.empty()) options.target_faces = static_cast<std::uint32_t>(std::min<std::uint64_t>(parse_count("--target-faces", arguments.target_faces), model.face_count()));
+    if (!arguments.reduce.empty()) options.target_faces = static_cast<std::uint32_t>(std::llround(model.face_count() * (1 - parse_share("--reduce", arguments.reduce))));
+    if (!arguments.max_error.empty()) options.max_error = parse_number("--max-error", arguments.max_error);
+    options.min_quality = parse_number("--min-quality", arguments.min_quality);
+    options.perturbation = parse_number("--perturbation", arguments.perturbation);
+    options.intersect_check = !arguments.no_intersect_check;
+    // The mean edge, from the mean area of an equilateral face.
+    double area = 0;
+    for (std::uint32_t f = 0; f < model.face_end(); ++f) {
+        const auto [a, b, c] = model.corners(FaceId{f});
+        area += 0.5 * length(cross(b - a, c - a));
+    }
+    if (model.face_count() > 0) options.scale = std::sqrt(4 / std::sqrt(3.0) * area / model.face_count());
+    return options;
+}
+
+int decimate_command(const Arguments& arguments) {
+    if (arguments.target_faces.empty() && arguments.reduce.empty() && arguments.max_error.empty())
+        throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
+    require_writable_model(arguments.output);
+    ModelFile file = read_model(arguments.model);
+    const CheckReport before = check(file.model);
+    if (before.violation_count() > 0)
+        throw Error(ErrorCode::kInput, fmt::format("{}: {} violations; only a sound model can be decimated soundly: see regionmesh check", arguments.model, before.violation_count()));
+    const std::uint32_t initial = file.model.face_count();
+    const DecimateOptions options = to_options(arguments, file.model);
+    file.model.sort_spatially();
+    const DecimateResult done = decimate(file.model, options);
+    CheckOptions check_options;
+    check_options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
+    const CheckReport after = check(file.model, check_options);
+    write_model(file.model, file.labels, arguments.output);
+    if (!arguments.quiet) {
+        fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output, file.model.face_count(), initial, after.quality.min, after.violation_count());
+        if (done.stopped == StopReason::kTopology) fmt::print("stopped before the target: no further edge can be collapsed\n");
+    }
+    return after.violation_count() == 0 ? 0 : 3;
+}
+
+}  // namespace
+
+void add_decimate(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("decimate", "a sound labelled surface in, with fewer faces out");
+    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")->required();
+    command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
+    command->add_option("--target-faces", arguments->target_faces, "at most so many faces");
+    command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");
+    command->add_option("--max-error", arguments->max_error, "as far as this rms distance allows");
+    command->add_option("--min-quality", arguments->min_quality, "least quality of a face that decimation makes");
+    command->add_option("--perturbation", arguments->perturbation, "largest cost added to tell equal edges apart");
+    command->add_flag("--no-intersect-check", arguments->no_intersect_check, "let faces cross; faster");
+    command->add_flag("--quiet", arguments->quiet, "no summary");
+    command->callback([arguments, &action] { action = [arguments] { return decimate_command(*arguments); }; });
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,43 @@
+// Runs of the whole pipeline, as short as a test wants them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "regionmesh/pipeline.h"
+#include "support/volumes.h"
+
+namespace regionmesh::test {
+
+/// Fails and says what was found, unless there are no violations.
+inline void expect_sound(const CheckReport& report) {
+    EXPECT_EQ(report.violation_count(), 0u);
+    for (std::size_t n = 0; n < std::min<std::size_t>(report.violations.size(), 5); ++n)
+        ADD_FAILURE() << to_string(report.violations[n].kind) << ": " << report.violations[n].text;
+}
+
+/// All labels are regions, nothing is decimated.
+inline ReconstructOptions plain() { return {.decimate = false, .background = {}}; }
+
+/// All labels are regions; this share of the faces goes.
+inline ReconstructOptions reduced(double share) { return {.reduce = share, .background = {}}; }
+
+/// From the first section, whatever was read before.
+inline Reconstruction run(ArrayVolume& volume, const ReconstructOptions& options = plain()) {
+    volume.rewind();
+    return reconstruct(volume, options);
+}
+inline Reconstruction run(ArrayVolume&& volume, const ReconstructOptions& options = plain()) { return run(volume, options); }
+
+/// The faces and vertices that are there, in order.
+template <class Visit>
+void for_faces(const Model& model, Visit&& visit) {
+    for (std::uint32_t f = 0; f < model.face_end(); ++f)
+        if (model.is_alive(FaceId{f})) visit(FaceId{f});
+}
+template <class Visit>
+void for_vertices(const Model& model, Visit&& visit) {
+    for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
+        if (model.is_alive(VertexId{v})) visit(VertexId{v});
+}
+
+}  // namespace regionmesh::test

@@ -1,0 +1,104 @@
+#include "support/strata_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "regionmesh/base/union_find.h"
+#include "regionmesh/model/strata.h"
+
+namespace regionmesh::test {
+namespace {
+
+std::vector<Label> sorted(const LabelSet& set) {
+    std::vector<Label> labels(set.begin(), set.end());
+    std::ranges::sort(labels);
+    return labels;
+}
+
+using Edge = std::pair<VertexId, VertexId>;
+
+Edge edge_of(VertexId a, VertexId b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Vertices, edges and faces as numbers in one row, each with its label set.
+class Simplices {
+public:
+    explicit Simplices(const Model& model) {
+        for (std::uint32_t v = 0; v < model.vertex_end(); ++v) add(model.is_alive(VertexId{v}) ? sorted(vertex_labels(model, VertexId{v})) : std::vector<Label>{}, 0);
+        for (std::uint32_t f = 0; f < model.face_end(); ++f)
+            if (model.is_alive(FaceId{f})) add_face(model, FaceId{f});
+    }
+
+    StrataList strata() const {
+        UnionFind joined(static_cast<std::uint32_t>(labels_.size()));
+        for (const auto& [low, high] : incidences_)
+            if (labels_[low] == labels_[high]) joined.join(low, high);
+        StrataList list;
+        for (std::uint32_t n = 0; n < labels_.size(); ++n) {
+            if (labels_[n].empty()) continue;
+            Stratum& stratum = list[labels_[n]];
+            stratum.euler += dimension_[n] == 1 ? -1 : 1;
+            stratum.components += joined.find(n) == n;
+        }
+        return list;
+    }
+
+private:
+    std::uint32_t add(std::vector<Label> labels, int dimension) {
+        labels_.push_back(std::move(labels));
+        dimension_.push_back(dimension);
+        return static_cast<std::uint32_t>(labels_.size()) - 1;
+    }
+
+    void add_face(const Model& model, FaceId f) {
+        const auto& v = model[f].vertices;
+        const std::uint32_t face = add({model[f].labels[0], model[f].labels[1]}, 2);
+        for (int n = 0; n < 3; ++n) {
+            const Edge edge = edge_of(v[n], v[(n + 1) % 3]);
+            auto at = edges_.find(edge);
+            if (at == edges_.end()) {
+                at = edges_.emplace(edge, add(sorted(edge_labels(model, edge.first, edge.second)), 1)).first;
+                incidences_.push_back({index(edge.first), at->second});
+                incidences_.push_back({index(edge.second), at->second});
+            }
+            incidences_.push_back({at->second, face});
+        }
+    }
+
+    std::vector<std::vector<Label>> labels_;
+    std::vector<int> dimension_;
+    std::map<Edge, std::uint32_t> edges_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences_;
+};
+
+int lines_at(const Model& model, VertexId v) {
+    std::vector<VertexId> neighbours;
+    model.for_star(v, [&](FaceId f, int place) {
+        for (int n = 1; n < 3; ++n) neighbours.push_back(model[f].vertices[(place + n) % 3]);
+    });
+    std::ranges::sort(neighbours);
+    const auto rest = std::ranges::unique(neighbours);
+    return static_cast<int>(std::count_if(neighbours.begin(), rest.begin(), [&](VertexId w) { return edge_labels(model, v, w).size() > 2; }));
+}
+
+}  // namespace
+
+std::ostream& operator<<(std::ostream& out, const Stratum& stratum) {
+    return out << stratum.components << " components with Euler characteristic " << stratum.euler;
+}
+
+StrataList list_strata(const Model& model) { return Simplices(model).strata(); }
+
+void expect_generic(const Model& model) {
+    for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
+        const VertexId v{n};
+        if (!model.is_alive(v)) continue;
+        const LabelSet labels = vertex_labels(model, v);
+        ASSERT_TRUE(labels.size() >= 2 && labels.size() <= 4) << "vertex " << n << " has " << labels.size() << " labels";
+        const bool is_corner_of_box = std::ranges::count_if(labels, is_exterior) == 3;
+        ASSERT_EQ(lines_at(model, v), is_corner_of_box ? 3 : labels.size() == 2 ? 0 : labels.size() == 3 ? 2 : 4) << "at vertex " << n;
+    }
+}
+
+}  // namespace regionmesh::test

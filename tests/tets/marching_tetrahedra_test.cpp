@@ -1,0 +1,145 @@
+#include "regionmesh/tets/marching_tetrahedra.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include "regionmesh/base/triangle.h"
+
+namespace regionmesh {
+namespace {
+
+Vec3 node(Step step) { return {double(step & 1), double(step >> 1 & 1), double(step >> 2 & 1)}; }
+
+Vec3 centroid_of(CornerSet set, const Step* corners) {
+    Vec3 sum;
+    for (int c = 0; c < 4; ++c)
+        if (set >> c & 1) sum += node(corners[c]);
+    return sum / std::popcount(set);
+}
+
+std::array<Vec3, 3> corners_of(const CaseFace& face, const Step* corners) {
+    return {centroid_of(face.vertices[0], corners), centroid_of(face.vertices[1], corners), centroid_of(face.vertices[2], corners)};
+}
+
+/// Calls visit(tetrahedron's steps, labels, faces) for every tetrahedron of the cell and all labels 0 to 3.
+template <class Visit>
+void for_all_cases(Visit&& visit) {
+    for (int kind = kFirstTetrahedron; kind < kKindCount; ++kind) {
+        const auto& steps = kKinds[kind].steps;
+        const TetrahedronCases cases = make_tetrahedron_cases(steps);
+        for (Label n = 0; n < 256; ++n) {
+            const std::array<Label, 4> label{n & 3, n >> 2 & 3, n >> 4 & 3, n >> 6};
+            visit(steps, label, cases[tetrahedron_pattern(label[0], label[1], label[2], label[3])]);
+        }
+    }
+}
+
+std::size_t label_count(CornerSet set, const std::array<Label, 4>& label) {
+    std::set<Label> labels;
+    for (int c = 0; c < 4; ++c)
+        if (set >> c & 1) labels.insert(label[c]);
+    return labels.size();
+}
+
+TEST(MarchingTetrahedra, one_to_four_labels_make_0_1_2_5_12_faces) {
+    for_all_cases([](const auto&, const auto& label, const auto& faces) {
+        const std::size_t labels = label_count(15, label);
+        const bool is_two_against_two = labels == 2 && std::ranges::count(label, label[0]) == 2;
+        EXPECT_EQ(faces.size(), labels == 1 ? 0u : is_two_against_two ? 2u : labels == 2 ? 1u : labels == 3 ? 5u : 12u);
+    });
+}
+
+TEST(MarchingTetrahedra, patterns_that_no_labels_make_are_empty) {
+    const TetrahedronCases cases = make_tetrahedron_cases(kKinds[kFirstTetrahedron].steps);
+    const auto made = std::ranges::count_if(cases, [](const auto& faces) { return !faces.empty(); });
+    EXPECT_EQ(made, 14) << "fifteen ways to part four corners, and one of them has no face";
+}
+
+TEST(MarchingTetrahedra, vertices_are_simplices_whose_corners_all_differ) {
+    for_all_cases([](const auto&, const auto& label, const auto& faces) {
+        for (const CaseFace& face : faces)
+            for (CornerSet set : face.vertices) {
+                EXPECT_GE(std::popcount(set), 2);
+                EXPECT_EQ(label_count(set, label), std::size_t(std::popcount(set)));
+            }
+    });
+}
+
+TEST(MarchingTetrahedra, a_face_separates_two_labels_and_its_vertices_see_both) {
+    for_all_cases([](const auto&, const auto& label, const auto& faces) {
+        for (const CaseFace& face : faces) {
+            EXPECT_NE(label[face.first], label[face.second]);
+            for (CornerSet set : face.vertices)
+                for (int corner : {face.first, face.second}) {
+                    bool sees = false;
+                    for (int c = 0; c < 4; ++c) sees |= (set >> c & 1) && label[c] == label[corner];
+                    EXPECT_TRUE(sees);
+                }
+        }
+    });
+}
+
+TEST(MarchingTetrahedra, normal_points_from_first_to_second_corner) {
+    for_all_cases([](const auto& steps, const auto&, const auto& faces) {
+        for (const CaseFace& face : faces) {
+            const auto p = corners_of(face, steps.data());
+            const Vec3 normal = area_vector(p[0], p[1], p[2]);
+            EXPECT_LT(dot(normal, node(steps[face.first]) - p[0]), -1e-9);
+            EXPECT_GT(dot(normal, node(steps[face.second]) - p[0]), 1e-9);
+        }
+    });
+}
+
+TEST(MarchingTetrahedra, faces_have_quality_above_0_138) {
+    for_all_cases([](const auto& steps, const auto&, const auto& faces) {
+        for (const CaseFace& face : faces) {
+            const auto p = corners_of(face, steps.data());
+            EXPECT_GT(face_quality(p[0], p[1], p[2]), 0.138);
+        }
+    });
+}
+
+TEST(LatticeTriangle, one_to_three_labels_make_1_3_6_faces) {
+    const TriangleCases cases = make_triangle_cases({0, 1, 3});
+    EXPECT_EQ(cases[triangle_pattern(7, 7, 7)].size(), 1u);
+    EXPECT_EQ(cases[triangle_pattern(7, 7, 8)].size(), 3u);
+    EXPECT_EQ(cases[triangle_pattern(7, 8, 7)].size(), 3u);
+    EXPECT_EQ(cases[triangle_pattern(8, 7, 7)].size(), 3u);
+    EXPECT_EQ(cases[triangle_pattern(7, 8, 9)].size(), 6u);
+}
+
+TEST(LatticeTriangle, faces_tile_the_triangle_and_turn_as_it_does) {
+    for (const std::array<Step, 3>& steps : {std::array<Step, 3>{0, 1, 3}, std::array<Step, 3>{4, 7, 6}}) {
+        const std::array<Step, 4> corners{steps[0], steps[1], steps[2], 0};
+        const Vec3 whole = area_vector(node(steps[0]), node(steps[1]), node(steps[2]));
+        for (const auto& faces : make_triangle_cases(steps)) {
+            if (faces.empty()) continue;
+            Vec3 sum;
+            for (const CaseFace& face : faces) {
+                const auto p = corners_of(face, corners.data());
+                const Vec3 area = area_vector(p[0], p[1], p[2]);
+                EXPECT_GT(dot(area, whole), 0);
+                EXPECT_GT(face_quality(p[0], p[1], p[2]), 0.138);
+                sum += area;
+            }
+            EXPECT_NEAR(length(sum - whole), 0, 1e-12);
+        }
+    }
+}
+
+TEST(LatticeTriangle, three_labels_share_the_area_evenly) {
+    const std::array<Step, 4> corners{0, 1, 3, 0};
+    const TriangleCases cases = make_triangle_cases({0, 1, 3});
+    std::array<double, 3> area{};
+    for (const CaseFace& face : cases[triangle_pattern(0, 1, 2)]) {
+        const auto p = corners_of(face, corners.data());
+        area[face.first] += 0.5 * length(area_vector(p[0], p[1], p[2]));
+    }
+    for (double a : area) EXPECT_NEAR(a, 1.0 / 6, 1e-12);
+}
+
+}  // namespace
+}  // namespace regionmesh
