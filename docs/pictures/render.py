@@ -16,7 +16,7 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 WIDTH, HEIGHT = 1400, 740
 FAR = 1e4
-CLOSE_UP = (14, 14, 0)  # from the corner of the cut to the middle of the close-up
+CLOSE_UP = (3, 21, 5)  # from the corner of the cut to the middle of the close-up
 
 
 def region_colours(labels):
@@ -49,10 +49,18 @@ def coloured(model, column, colours):
     return copy
 
 
-def clipped(model, wedge):
+def plane_at(corner, axis):
+    plane = vtk.vtkPlane()
+    plane.SetOrigin(corner)
+    plane.SetNormal(*(float(a == axis) for a in range(3)))
+    return plane
+
+
+def clipped(model, function):
+    """What lies where the function is positive."""
     clip = vtk.vtkClipPolyData()
     clip.SetInputData(model)
-    clip.SetClipFunction(wedge)
+    clip.SetClipFunction(function)
     clip.Update()
     return clip.GetOutput()
 
@@ -70,7 +78,7 @@ def surface_actor(model, hidden, with_edges):
     style.SetBackfaceCulling(hidden == "back")
     style.SetFrontfaceCulling(hidden == "front")
     style.SetEdgeVisibility(with_edges)
-    style.SetEdgeColor(0.25, 0.25, 0.28)
+    style.SetEdgeColor(0.33, 0.33, 0.36)
     return actor
 
 
@@ -119,22 +127,15 @@ def caps(model, corner, colours):
             continue
         surface = boundary_of(model, label)
         for axis in range(3):
-            plane = vtk.vtkPlane()
-            plane.SetOrigin(corner)
-            plane.SetNormal(*(float(a == axis) for a in range(3)))
             cut = vtk.vtkCutter()
             cut.SetInputData(surface)
-            cut.SetCutFunction(plane)
+            cut.SetCutFunction(plane_at(corner, axis))
             fill = vtk.vtkContourTriangulator()
             fill.SetInputConnection(cut.GetOutputPort())
-            quarter = vtk.vtkBox()
-            quarter.SetBounds(*(bound for a in range(3) for bound in ((-FAR, FAR) if a == axis else (corner[a], FAR))))
-            clip = vtk.vtkClipPolyData()
-            clip.SetInputConnection(fill.GetOutputPort())
-            clip.SetClipFunction(quarter)
-            clip.InsideOutOn()
-            clip.Update()
-            piece = clip.GetOutput()
+            fill.Update()
+            piece = fill.GetOutput()
+            for other in {0, 1, 2} - {axis}:
+                piece = clipped(piece, plane_at(corner, other))
             rgb = numpy.tile(numpy.array(colour, dtype=numpy.uint8), (piece.GetNumberOfCells(), 1))
             array = numpy_to_vtk(rgb.reshape(-1, 3), deep=True)
             array.SetName("colour")
@@ -202,7 +203,7 @@ def main():
     window.SetSize(WIDTH, HEIGHT)
     eye = (0.62, 0.6, 0.5)
     window.AddRenderer(scene(parts, (0, 0, 0.6, 1), False, corner, eye, 1.2 * (bounds[5] - bounds[4])))
-    window.AddRenderer(scene(parts, (0.6, 0, 1, 1), True, [c + d for c, d in zip(corner, CLOSE_UP)], eye, 36))
+    window.AddRenderer(scene(parts, (0.6, 0, 1, 1), True, [c + d for c, d in zip(corner, CLOSE_UP)], eye, 40))
     window.Render()
     write_png(window, sys.argv[2])
 

@@ -112,8 +112,8 @@ TEST(StripMesher, vertices_know_the_sides_they_lie_on) {
 TEST(StripMesher, an_open_box_has_no_faces_with_the_exterior) {
     test::ArrayVolume volume = test::noise_volume({5, 5, 5}, 3, 4);
     const Reconstruction made = run(volume, {.decimate = false, .cap = false, .background = {}});
+    EXPECT_GT(made.model.face_count(), 0u);
     test::for_faces(made.model, [&](FaceId f) { EXPECT_FALSE(is_exterior(made.model[f].labels[1])); });
-    test::expect_sound(made.report.check);
 }
 
 TEST(StripMesher, a_background_has_no_faces_with_the_exterior_but_with_regions) {

@@ -52,7 +52,7 @@ void check_crossing(const Model& model, Findings& findings) {
         if (is_degenerate({p[0], p[1], p[2]})) continue;  // named already
         Box box;
         for (Vec3 corner : p) box.add(corner);
-        tree.search(box, [&](FaceId g) {
+        tree.search(box, [&](FaceId g, const FaceTree::GridBox&) {
             if (g <= f || !boxes_overlap(p, model.corners(g))) return true;
             const auto q = model.corners(g);
             if (is_degenerate({q[0], q[1], q[2]})) return true;

@@ -78,7 +78,7 @@ private:
         box.add(from);
         box.add(from + reach_ * kRay);
         Hit nearest;
-        tree.search(box, [&](FaceId f) {
+        tree.search(box, [&](FaceId f, const FaceTree::GridBox&) {
             if (joined_.find(index(model_[f].vertices[0])) != joined_.find(index(part.farthest))) {
                 const Hit hit = hit_at(f, from);
                 if (hit.distance < nearest.distance) nearest = hit;

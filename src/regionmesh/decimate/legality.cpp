@@ -45,8 +45,9 @@ bool pinches_at_spokes(const EdgeStar& star, double max_cosine) {
         const StarFace& f = star.faces[i];
         for (std::size_t j = i + 1; j < star.faces.size(); ++j) {
             const StarFace& g = star.faces[j];
-            const bool opposite = f.a == g.b || f.b == g.a, same = f.a == g.a || f.b == g.b;
-            if (!opposite && !same) continue;
+            const bool opposite = (f.a == g.b) | (f.b == g.a);
+            const bool same = (f.a == g.a) | (f.b == g.b);
+            if (!(opposite | same)) continue;
             if (is_pinched(f.new_normal, f.new_length, g.new_normal, g.new_length, opposite, max_cosine)) return true;
         }
     }

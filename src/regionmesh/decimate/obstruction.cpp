@@ -14,14 +14,6 @@ bool is_ahead(Vec3 out, Vec3 step) {
     return x + y + z > 1e-10 * (std::abs(x) + std::abs(y) + std::abs(z));
 }
 
-bool overlap(const Box& box, const std::array<Vec3, 3>& p) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (p[0][axis] > box.high[axis] && p[1][axis] > box.high[axis] && p[2][axis] > box.high[axis]) return false;
-        if (p[0][axis] < box.low[axis] && p[1][axis] < box.low[axis] && p[2][axis] < box.low[axis]) return false;
-    }
-    return true;
-}
-
 /// A plane through an edge of t, square to t, has all of p beyond it: they lie beside each other.
 bool has_edge_between(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& p) {
     const Vec3 normal = area_vector(t[0], t[1], t[2]);
@@ -70,38 +62,46 @@ bool is_flat(const Model& model, const EdgeStar& star, Vec3 position) {
 
 bool Obstruction::blocks(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position) {
     if (is_flat(model, star, position)) return false;
-    prepare(model, star, position);
+    prepare(model, tree, star, position);
     bool blocked = false;
-    tree.search(box_, [&](FaceId f) {
+    tree.search(box_, [&](FaceId f, const FaceTree::GridBox& box) {
+        if (!is_near(box)) return true;
         const auto& v = model[f].vertices;
         if (v[0] == star.goes || v[1] == star.goes || v[2] == star.goes) return true;
         if (v[0] == star.stays || v[1] == star.stays || v[2] == star.stays) return true;
-        const Corners p = model.corners(f);
-        if (!overlap(box_, p)) return true;
-        const Shared shared = find_shared(v, p);
-        if (is_clear(shared, p)) return true;
-        blocked = meets_new_face(v, p) || (shared.count == 0 && is_swept(model, star, p[0]));
+        const OldFace old = look_at(model, f);
+        if (is_clear(old)) return true;
+        blocked = meets_new_face(old, box) || (old.shared == 0 && is_swept(model, star, old.corners[0]));
         return !blocked;
     });
     return blocked;
 }
 
-void Obstruction::prepare(const Model& model, const EdgeStar& star, Vec3 position) {
+void Obstruction::prepare(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position) {
     position_ = position;
     ends_ = {model.position(star.goes), model.position(star.stays)};
-    box_ = Box{};
-    box_.add(position);
     normal_ = Vec3{};
     faces_.clear();
+    cells_.clear();
+    cell_count_ = 0;
     for (const StarFace& f : star.faces) {
         normal_ += f.new_normal;
-        NewFace made{f.a, f.b, {position, f.at_a, f.at_b}, {}, {}, NewFace::kUnknown};
+        NewFace made{f.a, f.b, {position, f.at_a, f.at_b}, {}, NewFace::kUnknown};
+        Box cell;
+        cell.add(model.position(f.apex));
         for (int n = 0; n < 3; ++n) {
-            made.box.add(made.corners[n]);
+            cell.add(made.corners[n]);
             made.walls[n] = {made.corners[n], cross(made.corners[(n + 1) % 3] - made.corners[n], f.new_normal)};
         }
         faces_.push_back(made);
+        add_cell(tree, cell);
     }
+    for (VertexId apex : star.apexes) {
+        Box cell;
+        for (Vec3 p : {position, ends_[0], ends_[1], model.position(apex)}) cell.add(p);
+        add_cell(tree, cell);
+    }
+    box_ = Box{};
     low_ = high_ = 0;
     const auto reach = [&](Vec3 p) {
         box_.add(p);
@@ -109,6 +109,7 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, Vec3 positio
         low_ = std::min(low_, along);
         high_ = std::max(high_, along);
     };
+    reach(position);
     for (Vec3 end : ends_) reach(end);
     link_.assign(star.link.begin(), star.link.end());
     link_at_.clear();
@@ -120,36 +121,48 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, Vec3 positio
     }
 }
 
-Obstruction::Shared Obstruction::find_shared(const std::array<VertexId, 3>& vertices, const Corners& p) const {
-    Shared shared;
+void Obstruction::add_cell(const FaceTree& tree, const Box& box) {
+    const std::uint32_t lane = cell_count_++ % FaceTree::kFan;
+    if (lane == 0) cells_.push_back(FaceTree::Boxes::none());
+    cells_.back().put(lane, tree.outward(box));
+}
+
+/// Does any cell of the star reach the box?
+bool Obstruction::is_near(const FaceTree::GridBox& box) const {
+    return std::any_of(cells_.begin(), cells_.end(), [&](const FaceTree::Boxes& cells) { return cells.meeting(box) != 0; });
+}
+
+Obstruction::OldFace Obstruction::look_at(const Model& model, FaceId f) const {
+    OldFace old;
+    old.vertices = model[f].vertices;
+    old.corners = model.corners(f);
     int own = 0;
     for (int n = 0; n < 3; ++n) {
-        if ((link_bits_ & bit_of(vertices[n])) != 0 && std::find(link_.begin(), link_.end(), vertices[n]) != link_.end()) {
-            shared.at = p[n];
-            shared.vertices[shared.count++] = vertices[n];
+        const VertexId v = old.vertices[n];
+        if ((link_bits_ & bit_of(v)) != 0 && std::find(link_.begin(), link_.end(), v) != link_.end()) {
+            old.shared_at = old.corners[n];
+            old.shared_vertices[old.shared++] = v;
         } else {
-            shared.own[own++] = p[n];
+            old.own[own++] = old.corners[n];
         }
     }
-    return shared;
+    return old;
 }
 
 /// Cheap proofs that a face cannot meet the new star outside what they share: a wall on a link edge that has the star
-/// behind it and the face before it, or touching it in shared corners only; beyond everything; above or below everything.
-/// Where the face shares nothing they hold for all that is swept, too.
-bool Obstruction::is_clear(const Shared& shared, const Corners& p) {
-    if (shared.count == 3) return false;
+/// behind it and the face before it but for shared corners; or the face lies above or below everything. Where the face
+/// shares nothing they hold for all that is swept, too.
+bool Obstruction::is_clear(const OldFace& old) {
+    if (old.shared == 3) return false;
+    if (old.shared == 0) return is_off_slab(old.corners);
     for (NewFace& face : faces_) {
         const auto is_end = [&](VertexId v) { return v == face.a || v == face.b; };
-        if (shared.count >= 1 && !is_end(shared.vertices[0])) continue;
-        if (shared.count == 2 && !is_end(shared.vertices[1])) continue;
-        const Wall& wall = face.walls[1];
-        const Vec3 at = shared.count > 0 ? shared.at : wall.at;
+        if (!is_end(old.shared_vertices[0]) || (old.shared == 2 && !is_end(old.shared_vertices[1]))) continue;
         bool before = true;
-        for (int n = 0; n < 3 - shared.count && before; ++n) before = is_ahead(wall.out, shared.own[n] - at);
+        for (int n = 0; n < 3 - old.shared && before; ++n) before = is_ahead(face.walls[1].out, old.own[n] - old.shared_at);
         if (before && supports(face)) return true;
     }
-    return shared.count == 0 && (is_off_slab(p) || is_beyond_all(p));
+    return false;
 }
 
 /// Is all that the star sweeps, but the ends of its link edge, behind the wall on that edge?
@@ -162,21 +175,6 @@ bool Obstruction::supports(NewFace& face) const {
         face.support = all ? NewFace::kSupports : NewFace::kDoesNot;
     }
     return face.support == NewFace::kSupports;
-}
-
-/// The face lies farther along the way to its middle than all that the star sweeps. The way has no part along the mean
-/// normal: separate faces of one sheet lie beside each other, not above.
-bool Obstruction::is_beyond_all(const Corners& p) const {
-    const Vec3 middle = (p[0] + p[1] + p[2]) / 3.0 - position_;
-    const Vec3 out = middle - dot(middle, normal_) / std::max(length2(normal_), 1e-300) * normal_;
-    int nearest = 0;
-    for (int n = 1; n < 3; ++n)
-        if (dot(out, p[n] - p[nearest]) < 0) nearest = n;
-    const Vec3 at = p[nearest];
-    for (int n = 0; n < 3; ++n)
-        if (n != nearest && !is_ahead(out, p[n] - at)) return false;
-    return is_ahead(out, at - position_) && is_ahead(out, at - ends_[0]) && is_ahead(out, at - ends_[1]) &&
-           std::all_of(link_at_.begin(), link_at_.end(), [&](Vec3 q) { return is_ahead(out, at - q); });
 }
 
 /// The face lies above or below all that the star sweeps, along the mean new normal.
@@ -193,27 +191,32 @@ bool Obstruction::is_off_slab(const Corners& p) const {
     return above || below;
 }
 
-bool Obstruction::meets_new_face(const std::array<VertexId, 3>& vertices, const Corners& p) const {
-    for (const NewFace& face : faces_) {
-        if (!overlap(face.box, p)) continue;
-        int at_a = -1, at_b = -1;
-        for (int n = 0; n < 3; ++n) {
-            if (vertices[n] == face.a) at_a = n;
-            if (vertices[n] == face.b) at_b = n;
-        }
-        const auto& t = face.corners;
-        if (at_a >= 0 && at_b >= 0) {
-            if (meet_beyond_edge(t[1], t[2], t[0], p[3 - at_a - at_b])) return true;
-        } else if (at_a >= 0) {
-            if (do_cones_meet(t[1], t[2], t[0], p[(at_a + 1) % 3], p[(at_a + 2) % 3])) return true;
-        } else if (at_b >= 0) {
-            if (do_cones_meet(t[2], t[0], t[1], p[(at_b + 1) % 3], p[(at_b + 2) % 3])) return true;
-        } else {
-            const auto is_before = [&](const Wall& wall) {
-                return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) && is_ahead(wall.out, p[2] - wall.at);
-            };
-            if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2]) || has_edge_between(p, t)) continue;
-            if (meet({t[0], t[1], t[2]}, {p[0], p[1], p[2]})) return true;
+bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& box) const {
+    const Corners& p = old.corners;
+    for (std::uint32_t group = 0; group * FaceTree::kFan < faces_.size(); ++group) {
+        for (unsigned mask = cells_[group].meeting(box); mask; mask &= mask - 1) {
+            const std::uint32_t n = group * FaceTree::kFan + static_cast<std::uint32_t>(__builtin_ctz(mask));
+            if (n >= faces_.size()) break;
+            const NewFace& face = faces_[n];
+            const Corners& t = face.corners;
+            int at_a = -1, at_b = -1;
+            for (int place = 0; place < 3 && old.shared > 0; ++place) {
+                if (old.vertices[place] == face.a) at_a = place;
+                if (old.vertices[place] == face.b) at_b = place;
+            }
+            if (at_a >= 0 && at_b >= 0) {
+                if (meet_beyond_edge(t[1], t[2], t[0], p[3 - at_a - at_b])) return true;
+            } else if (at_a >= 0) {
+                if (do_cones_meet(t[1], t[2], t[0], p[(at_a + 1) % 3], p[(at_a + 2) % 3])) return true;
+            } else if (at_b >= 0) {
+                if (do_cones_meet(t[2], t[0], t[1], p[(at_b + 1) % 3], p[(at_b + 2) % 3])) return true;
+            } else {
+                const auto is_before = [&](const Wall& wall) {
+                    return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) && is_ahead(wall.out, p[2] - wall.at);
+                };
+                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2]) || has_edge_between(p, t)) continue;
+                if (meet({t[0], t[1], t[2]}, {p[0], p[1], p[2]})) return true;
+            }
         }
     }
     return false;

@@ -28,25 +28,27 @@ private:
     struct NewFace {
         VertexId a, b;
         Corners corners;             // merged vertex, a, b
-        Box box;
         std::array<Wall, 3> walls;   // on the edges after the corners of the same places: [1] is the link edge's
         enum { kUnknown, kSupports, kDoesNot } support;
     };
-    /// What the face looked at shares with the link.
-    struct Shared {
-        int count = 0;
+    /// A face outside the star, and what it shares with the link.
+    struct OldFace {
         std::array<VertexId, 3> vertices;
-        Vec3 at;                     // one of them
-        std::array<Vec3, 3> own;     // its other corners
+        Corners corners;
+        int shared = 0;
+        std::array<VertexId, 3> shared_vertices;
+        Vec3 shared_at;              // one of them
+        std::array<Vec3, 3> own;     // the other corners
     };
 
-    void prepare(const Model& model, const EdgeStar& star, Vec3 position);
-    Shared find_shared(const std::array<VertexId, 3>& vertices, const Corners& p) const;
-    bool is_clear(const Shared& shared, const Corners& p);
+    void prepare(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
+    void add_cell(const FaceTree& tree, const Box& box);
+    bool is_near(const FaceTree::GridBox& box) const;
+    OldFace look_at(const Model& model, FaceId f) const;
+    bool is_clear(const OldFace& old);
     bool supports(NewFace& face) const;
-    bool is_beyond_all(const Corners& p) const;
     bool is_off_slab(const Corners& p) const;
-    bool meets_new_face(const std::array<VertexId, 3>& vertices, const Corners& p) const;
+    bool meets_new_face(const OldFace& old, const FaceTree::GridBox& box) const;
     bool is_swept(const Model& model, const EdgeStar& star, Vec3 q) const;
 
     Vec3 position_;
@@ -55,6 +57,8 @@ private:
     double low_ = 0, high_ = 0;      // extent along it, from position_, of all that the star sweeps
     Box box_;                        // of all that the star sweeps
     std::vector<NewFace> faces_;
+    std::vector<FaceTree::Boxes> cells_;  // box of each new face with the tetrahedron it sweeps; then of the dead faces'
+    std::uint32_t cell_count_ = 0;
     std::vector<VertexId> link_;
     std::vector<Vec3> link_at_;
     std::uint64_t link_bits_ = 0;    // a bit for each link vertex, by id modulo 64

@@ -11,6 +11,7 @@ namespace regionmesh {
 namespace {
 
 constexpr std::int16_t kLowest = -32768, kHighest = 32767;
+constexpr FaceTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}};
 
 }  // namespace
 
@@ -23,11 +24,8 @@ FaceTree::FaceTree(const Model& model) {
         origin_ = bounds.low;
         cells_per_length_ = 65500 / std::max({extent.x, extent.y, extent.z, 1e-300});
     }
-    Boxes none;
-    std::fill(&none.low[0][0], &none.low[0][0] + 3 * kFan, kHighest);
-    std::fill(&none.high[0][0], &none.high[0][0] + 3 * kFan, kLowest);
     for (std::size_t groups = (model.face_end() + kFan - 1) / kFan;; groups = (groups + kFan - 1) / kFan) {
-        levels_.emplace_back(std::max<std::size_t>(groups, 1), none);
+        levels_.emplace_back(std::max<std::size_t>(groups, 1), Boxes::none());
         if (groups <= 1) break;
     }
     for (std::uint32_t f = 0; f < model.face_end(); ++f) {
@@ -50,21 +48,21 @@ FaceTree::GridBox FaceTree::outward(const Box& box) const {
     return result;
 }
 
-unsigned FaceTree::meeting(const Boxes& boxes, const GridBox& box) {
+unsigned FaceTree::Boxes::meeting(const GridBox& box) const {
 #if defined(__SSE2__)
     __m128i out = _mm_setzero_si128();
     for (int axis = 0; axis < 3; ++axis) {
-        const __m128i low = _mm_load_si128(reinterpret_cast<const __m128i*>(boxes.low[axis]));
-        const __m128i high = _mm_load_si128(reinterpret_cast<const __m128i*>(boxes.high[axis]));
-        out = _mm_or_si128(out, _mm_cmpgt_epi16(low, _mm_set1_epi16(box.high[axis])));
-        out = _mm_or_si128(out, _mm_cmplt_epi16(high, _mm_set1_epi16(box.low[axis])));
+        const __m128i lowest = _mm_load_si128(reinterpret_cast<const __m128i*>(low[axis]));
+        const __m128i highest = _mm_load_si128(reinterpret_cast<const __m128i*>(high[axis]));
+        out = _mm_or_si128(out, _mm_cmpgt_epi16(lowest, _mm_set1_epi16(box.high[axis])));
+        out = _mm_or_si128(out, _mm_cmplt_epi16(highest, _mm_set1_epi16(box.low[axis])));
     }
     return ~static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(out, out))) & 0xFFu;
 #else
     unsigned mask = 0;
     for (std::uint32_t lane = 0; lane < kFan; ++lane) {
         bool in = true;
-        for (int axis = 0; axis < 3; ++axis) in &= boxes.low[axis][lane] <= box.high[axis] && boxes.high[axis][lane] >= box.low[axis];
+        for (int axis = 0; axis < 3; ++axis) in &= low[axis][lane] <= box.high[axis] && high[axis][lane] >= box.low[axis];
         mask |= static_cast<unsigned>(in) << lane;
     }
     return mask;
@@ -81,17 +79,27 @@ bool FaceTree::extend(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
     return grew;
 }
 
-void FaceTree::put(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
+FaceTree::Boxes FaceTree::Boxes::none() {
+    Boxes boxes;
+    for (std::uint32_t lane = 0; lane < kFan; ++lane) boxes.put(lane, kNothing);
+    return boxes;
+}
+
+FaceTree::GridBox FaceTree::Boxes::operator[](std::uint32_t lane) const {
+    return {{low[0][lane], low[1][lane], low[2][lane]}, {high[0][lane], high[1][lane], high[2][lane]}};
+}
+
+void FaceTree::Boxes::put(std::uint32_t lane, const GridBox& box) {
     for (int axis = 0; axis < 3; ++axis) {
-        boxes.low[axis][lane] = box.low[axis];
-        boxes.high[axis][lane] = box.high[axis];
+        low[axis][lane] = box.low[axis];
+        high[axis][lane] = box.high[axis];
     }
 }
 
 void FaceTree::set(FaceId f, const Box& box) {
     const GridBox grid = outward(box);
     std::uint32_t child = index(f);
-    put(levels_[0][child / kFan], child % kFan, grid);
+    levels_[0][child / kFan].put(child % kFan, grid);
     for (std::size_t level = 1; level < levels_.size(); ++level) {
         child /= kFan;
         if (!extend(levels_[level][child / kFan], child % kFan, grid)) return;
@@ -99,7 +107,7 @@ void FaceTree::set(FaceId f, const Box& box) {
 }
 
 void FaceTree::remove(FaceId f) {
-    put(levels_[0][index(f) / kFan], index(f) % kFan, {{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}});
+    levels_[0][index(f) / kFan].put(index(f) % kFan, kNothing);
 }
 
 std::size_t FaceTree::bytes() const {

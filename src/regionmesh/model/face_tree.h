@@ -14,23 +14,9 @@ namespace regionmesh {
 /// at once: 14 bytes a face all told.
 class FaceTree {
 public:
-    explicit FaceTree(const Model& model);
-
-    /// Face f now lies in `box`. The boxes above it grow, and never shrink.
-    void set(FaceId f, const Box& box);
-    /// Face f is gone.
-    void remove(FaceId f);
-
-    /// Calls visit(FaceId) for every face in the tree whose rounded box meets `box`. A visit that returns false ends the
-    /// search.
-    template <class Visit>
-    void search(const Box& box, Visit&& visit) const;
-
-    std::size_t bytes() const;
-
-private:
     static constexpr std::uint32_t kFan = 8;
 
+    /// A box in cells of the grid.
     struct GridBox {
         std::int16_t low[3];
         std::int16_t high[3];
@@ -39,12 +25,34 @@ private:
     struct alignas(16) Boxes {
         std::int16_t low[3][kFan];
         std::int16_t high[3][kFan];
+
+        /// Boxes that meet nothing.
+        static Boxes none();
+        GridBox operator[](std::uint32_t lane) const;
+        void put(std::uint32_t lane, const GridBox& box);
+        /// Bit n is set when box n meets `box`.
+        unsigned meeting(const GridBox& box) const;
     };
 
+    explicit FaceTree(const Model& model);
+
+    /// The smallest box of the grid round `box`, and a little more.
     GridBox outward(const Box& box) const;
-    static unsigned meeting(const Boxes& boxes, const GridBox& box);
+
+    /// Face f now lies in `box`. The boxes above it grow, and never shrink.
+    void set(FaceId f, const Box& box);
+    /// Face f is gone.
+    void remove(FaceId f);
+
+    /// Calls visit(FaceId, GridBox) for every face in the tree whose rounded box, which is given, meets `box`. A visit
+    /// that returns false ends the search.
+    template <class Visit>
+    void search(const Box& box, Visit&& visit) const;
+
+    std::size_t bytes() const;
+
+private:
     static bool extend(Boxes& boxes, std::uint32_t lane, const GridBox& box);
-    static void put(Boxes& boxes, std::uint32_t lane, const GridBox& box);
 
     Vec3 origin_;
     double cells_per_length_ = 1;
@@ -62,10 +70,11 @@ void FaceTree::search(const Box& box, Visit&& visit) const {
     stack[top++] = {static_cast<std::uint32_t>(levels_.size()) - 1, 0};
     while (top > 0) {
         const Entry entry = stack[--top];
-        for (unsigned mask = meeting(levels_[entry.level][entry.group], wanted); mask; mask &= mask - 1) {
-            const std::uint32_t child = entry.group * kFan + static_cast<std::uint32_t>(__builtin_ctz(mask));
+        const Boxes& boxes = levels_[entry.level][entry.group];
+        for (unsigned mask = boxes.meeting(wanted); mask; mask &= mask - 1) {
+            const std::uint32_t lane = static_cast<std::uint32_t>(__builtin_ctz(mask)), child = entry.group * kFan + lane;
             if (entry.level > 0) stack[top++] = {entry.level - 1, child};
-            else if (!visit(FaceId{child})) return;
+            else if (!visit(FaceId{child}, boxes[lane])) return;
         }
     }
 }
