@@ -62,7 +62,8 @@ void add_check(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("check", "looks for cracks, folds, crossings and changes of topology; exit 3 if there are any");
     command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")->required();
     command->add_option("--sections", arguments->sections, "the volume that the model was made from: compare with its labels");
-    arguments->input.add_to(*command);
+    arguments->input.add_volume_options(*command);
+    arguments->input.add_label_options(*command);
     command->add_option("--json", arguments->json, "findings to write as JSON");
     command->add_flag("--quiet", arguments->quiet, "exit code only");
     command->callback([arguments, &action] { action = [arguments] { return check_command(*arguments); }; });

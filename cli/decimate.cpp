@@ -12,6 +12,7 @@ struct Arguments {
     std::string model, output;
     std::string target_faces, reduce, max_error, min_quality = "0.1", perturbation = "1e-7";
     bool no_intersect_check = false, quiet = false;
+    InputOptions input;
 };
 
 DecimateOptions to_options(const Arguments& arguments, const Model& model) {
@@ -37,17 +38,19 @@ int decimate_command(const Arguments& arguments) {
         throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
     require_writable_model(arguments.output);
     ModelFile file = read_model(arguments.model);
-    const CheckReport before = check(file.model);
+    CheckOptions check_options;
+    check_options.boundary_is_open = !arguments.input.cap();
+    for (InputLabel label : arguments.input.background_labels()) check_options.background.push_back(file.labels.dense(label));
+    check_options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
+    const CheckReport before = check(file.model, check_options);
     if (before.violation_count() > 0)
         throw Error(ErrorCode::kInput, fmt::format("{}: {} violations; only a sound model can be decimated soundly: see regionmesh check", arguments.model, before.violation_count()));
     const std::uint32_t initial = file.model.face_count();
     const DecimateOptions options = to_options(arguments, file.model);
     file.model.sort_spatially();
     const DecimateResult done = decimate(file.model, options);
-    CheckOptions check_options;
-    check_options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
     const CheckReport after = check(file.model, check_options);
-    write_model(file.model, file.labels, arguments.output);
+    write_model(file.model, file.labels, arguments.output, {.background = check_options.background});
     if (!arguments.quiet) {
         fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output, file.model.face_count(), initial, after.quality.min, after.violation_count());
         if (done.stopped == StopReason::kTopology) fmt::print("stopped before the target: no further edge can be collapsed\n");
@@ -62,6 +65,7 @@ void add_decimate(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("decimate", "a sound labelled surface in, with fewer faces out");
     command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")->required();
     command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
+    arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "at most so many faces");
     command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");
     command->add_option("--max-error", arguments->max_error, "as far as this rms distance allows");

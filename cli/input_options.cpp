@@ -64,12 +64,15 @@ std::uint64_t parse_bytes(const std::string& flag, const std::string& text) {
     refuse(flag, text, "a size, such as 500MiB or 2GiB");
 }
 
-void InputOptions::add_to(CLI::App& command) {
+void InputOptions::add_volume_options(CLI::App& command) {
     command.add_option("--sweep", sweep, "axis along which sections are read; auto: the one with the smallest section")
         ->check(CLI::IsMember({"x", "y", "z", "auto"}));
     command.add_option("--spacing", spacing, "distance of samples X,Y,Z instead of the file's own");
     command.add_option("--size", size, "raw files: samples X,Y,Z");
     command.add_option("--type", type, "raw files: uint8, int16, ... uint64, little endian");
+}
+
+void InputOptions::add_label_options(CLI::App& command) {
     command.add_option("--background", background, "label of empty space, 0 if not given; may be repeated");
     command.add_flag("--no-background", no_background, "every label is a region");
     command.add_option("--boundary", boundary, "faces on the six sides of the box: cap or open")->check(CLI::IsMember({"cap", "open"}));

@@ -17,8 +17,10 @@ struct InputOptions {
     bool no_background = false;
     std::string boundary = "cap";
 
-    /// Adds --sweep, --spacing, --size, --type, --background, --no-background and --boundary.
-    void add_to(CLI::App& command);
+    /// Adds --sweep, --spacing, --size and --type.
+    void add_volume_options(CLI::App& command);
+    /// Adds --background, --no-background and --boundary.
+    void add_label_options(CLI::App& command);
     /// Throws Error(kUsage) for a word that is no number.
     std::unique_ptr<SectionReader> open(const std::vector<std::string>& inputs) const;
     std::vector<InputLabel> background_labels() const;

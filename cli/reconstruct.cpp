@@ -78,7 +78,8 @@ void add_reconstruct(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("reconstruct", "sections in, a conforming, simplified, checked model out");
     command->add_option("input", arguments->inputs, "volume (.npy .nii .nii.gz .tif .raw), directory of sections, or list of sections")->required();
     command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
-    arguments->input.add_to(*command);
+    arguments->input.add_volume_options(*command);
+    arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "decimate to at most so many faces");
     command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");
     command->add_option("--max-error", arguments->max_error, "decimate as far as this rms distance allows, in the unit of the spacing");

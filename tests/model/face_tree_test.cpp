@@ -122,7 +122,7 @@ TEST(FaceTree, of_an_empty_model_finds_nothing) {
     EXPECT_TRUE(found_in(FaceTree(model), {{0, 0, 0}, {1, 1, 1}}).empty());
 }
 
-TEST(FaceTree, of_eight_or_nine_faces_finds_all) {
+TEST(FaceTree, finds_nothing_but_faces_in_a_box_round_the_whole_model) {
     for (std::uint32_t faces : {1, 7, 8, 9, 64, 65}) {
         Model model;
         for (std::uint32_t n = 0; n < faces; ++n) {
@@ -130,7 +130,10 @@ TEST(FaceTree, of_eight_or_nine_faces_finds_all) {
             const VertexId a = model.add_vertex({x, 0, 0}), b = model.add_vertex({x, 1, 0}), c = model.add_vertex({x, 0, 1});
             model.add_face(a, b, c, 0, 1);
         }
-        EXPECT_EQ(found_in(FaceTree(model), {{-1, -1, -1}, {100, 2, 2}}).size(), faces);
+        FaceTree tree(model);
+        EXPECT_EQ(found_in(tree, {{-1, -1, -1}, {100, 2, 2}}).size(), faces);
+        tree.remove(FaceId{0});
+        EXPECT_EQ(found_in(tree, {{-1, -1, -1}, {100, 2, 2}}).size(), faces - 1);
     }
 }
 

@@ -25,6 +25,7 @@ private:
 
 /// "region 17", in the words of the input where they are known.
 inline std::string region_name(const CheckOptions& options, Label label) {
+    if (is_exterior(label)) return "the exterior";
     return "region " + (options.label_text ? options.label_text(label) : std::to_string(label) + " (dense)");
 }
 

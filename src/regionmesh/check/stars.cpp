@@ -121,7 +121,8 @@ private:
         }
         std::sort(neighbours_.begin(), neighbours_.end());
         neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
-        if (neighbours_.size() < 3) findings_.add(ViolationKind::kFewEdges, {index(v)}, {}, name(v) + " has fewer than three edges");
+        const bool may_be_rim = model_[v].sides != 0 && (options_.boundary_is_open || std::any_of(labels.begin(), labels.end(), [&](Label label) { return is_background(label); }));
+        if (neighbours_.size() < 3 && !may_be_rim) findings_.add(ViolationKind::kFewEdges, {index(v)}, {}, name(v) + " has fewer than three edges");
         for (Label label : labels) {
             region(label).euler += 1;
             look_at_fan(v, label);
