@@ -27,7 +27,7 @@ bool do_meet(const Box& a, const Box& b) {
 
 Faces found_in(const FaceTree& tree, const Box& box) {
     Faces faces;
-    tree.search(box, [&](FaceId f) {
+    tree.search(box, [&](FaceId f, const FaceTree::GridBox&) {
         EXPECT_TRUE(faces.insert(index(f)).second) << "visited twice";
         return true;
     });
@@ -113,7 +113,7 @@ TEST(FaceTree, finds_faces_that_left_the_box_it_was_built_for) {
 TEST(FaceTree, search_ends_when_told) {
     const Model model = sorted_noise();
     int visited = 0;
-    FaceTree(model).search({{0, 0, 0}, {9, 9, 9}}, [&](FaceId) { return ++visited < 3; });
+    FaceTree(model).search({{0, 0, 0}, {9, 9, 9}}, [&](FaceId, const FaceTree::GridBox&) { return ++visited < 3; });
     EXPECT_EQ(visited, 3);
 }
 

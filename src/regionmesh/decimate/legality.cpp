@@ -39,8 +39,19 @@ bool is_pinched(Vec3 n, double n_length, Vec3 m, double m_length, bool opposite,
     return cosine > max_cosine * n_length * m_length;
 }
 
+/// All new faces look at most 60 degrees away from their mean: no two of a disk are near to closing.
+bool is_nearly_flat(const EdgeStar& star) {
+    Vec3 sum;
+    for (const StarFace& f : star.faces) sum += f.new_normal;
+    const double bound = 0.5 * length(sum);
+    return std::all_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) { return dot(f.new_normal, sum) > bound * f.new_length; });
+}
+
 /// Pages at the edges from the merged vertex.
-bool pinches_at_spokes(const EdgeStar& star, double max_cosine) {
+bool pinches_at_spokes(const Model& model, const EdgeStar& star, double max_cosine) {
+    const auto& labels = model[star.dead.front()].labels;
+    const bool is_disk = std::all_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) { return model[f.face].labels == labels; });
+    if (is_disk && is_nearly_flat(star)) return false;
     for (std::size_t i = 0; i < star.faces.size(); ++i) {
         const StarFace& f = star.faces[i];
         for (std::size_t j = i + 1; j < star.faces.size(); ++j) {
@@ -105,7 +116,7 @@ ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, con
     for (const StarFace& f : star.faces) {
         if (!(dot(f.old_normal, f.new_normal) > bounds.min_turn_cosine * f.old_length * f.new_length)) return {Verdict::kFold, 0};
     }
-    if (pinches_at_spokes(star, bounds.min_dihedral_cosine) || pinches_at_link(model, star, position, bounds.min_dihedral_cosine))
+    if (pinches_at_spokes(model, star, bounds.min_dihedral_cosine) || pinches_at_link(model, star, position, bounds.min_dihedral_cosine))
         return {Verdict::kPinch, 0};
     double worst = 1;
     for (const StarFace& f : star.faces) {

@@ -24,16 +24,12 @@ bool has_edge_between(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& p
     return false;
 }
 
-/// A plane through p and a or b, square to the triangle p a b, has x and y beyond it.
+/// A plane through p and a or b, square to the triangle p a b, has x and y beyond it: the two triangles at p lie beside
+/// each other.
 bool has_ray_between(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
     const Vec3 normal = cross(a - p, b - p);
     const Vec3 beyond_a = cross(a - p, normal), beyond_b = cross(normal, b - p);
     return (is_ahead(beyond_a, x - p) && is_ahead(beyond_a, y - p)) || (is_ahead(beyond_b, x - p) && is_ahead(beyond_b, y - p));
-}
-
-/// Do triangles p a b and p x y meet outside p?
-bool do_cones_meet(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
-    return !has_ray_between(p, a, b, x, y) && !has_ray_between(p, x, y, a, b) && meet_beyond_vertex(p, a, b, x, y);
 }
 
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
@@ -71,7 +67,7 @@ bool Obstruction::blocks(const Model& model, const FaceTree& tree, const EdgeSta
         if (v[0] == star.stays || v[1] == star.stays || v[2] == star.stays) return true;
         const OldFace old = look_at(model, f);
         if (is_clear(old)) return true;
-        blocked = meets_new_face(old, box) || (old.shared == 0 && is_swept(model, star, old.corners[0]));
+        blocked = meets_new_face(old, box) || (old.shared == 0 && is_swept(model, star, old.corners[0], box));
         return !blocked;
     });
     return blocked;
@@ -207,9 +203,9 @@ bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& bo
             if (at_a >= 0 && at_b >= 0) {
                 if (meet_beyond_edge(t[1], t[2], t[0], p[3 - at_a - at_b])) return true;
             } else if (at_a >= 0) {
-                if (do_cones_meet(t[1], t[2], t[0], p[(at_a + 1) % 3], p[(at_a + 2) % 3])) return true;
+                if (meets_at_corner(face, 1, p, at_a)) return true;
             } else if (at_b >= 0) {
-                if (do_cones_meet(t[2], t[0], t[1], p[(at_b + 1) % 3], p[(at_b + 2) % 3])) return true;
+                if (meets_at_corner(face, 2, p, at_b)) return true;
             } else {
                 const auto is_before = [&](const Wall& wall) {
                     return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) && is_ahead(wall.out, p[2] - wall.at);
@@ -222,16 +218,30 @@ bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& bo
     return false;
 }
 
+/// Do the new face and the old one, which share corner `corner` of the first and `place` of the second, meet outside it?
+bool Obstruction::meets_at_corner(const NewFace& face, int corner, const Corners& p, int place) {
+    const Vec3 at = p[place], x = p[(place + 1) % 3], y = p[(place + 2) % 3];
+    const Wall &before = face.walls[corner - 1], &after = face.walls[corner];
+    if ((is_ahead(after.out, x - at) && is_ahead(after.out, y - at)) || (is_ahead(before.out, x - at) && is_ahead(before.out, y - at))) return false;
+    const Vec3 a = face.corners[(corner + 1) % 3], b = face.corners[(corner + 2) % 3];
+    return !has_ray_between(at, x, y, a, b) && meet_beyond_vertex(at, a, b, x, y);
+}
+
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
 /// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
-bool Obstruction::is_swept(const Model& model, const EdgeStar& star, Vec3 q) const {
-    for (int axis = 0; axis < 3; ++axis)
-        if (q[axis] < box_.low[axis] || q[axis] > box_.high[axis]) return false;
-    for (const StarFace& f : star.faces)
-        if (is_in_tetrahedron(position_, model.position(f.apex), f.at_a, f.at_b, q)) return true;
-    return std::any_of(star.apexes.begin(), star.apexes.end(), [&](VertexId apex) {
-        return is_in_tetrahedron(position_, ends_[0], ends_[1], model.position(apex), q);
-    });
+bool Obstruction::is_swept(const Model& model, const EdgeStar& star, Vec3 q, const FaceTree::GridBox& box) const {
+    for (std::uint32_t group = 0; group < cells_.size(); ++group) {
+        for (unsigned mask = cells_[group].meeting(box); mask; mask &= mask - 1) {
+            const std::uint32_t n = group * FaceTree::kFan + static_cast<std::uint32_t>(__builtin_ctz(mask));
+            if (n < star.faces.size()) {
+                const StarFace& f = star.faces[n];
+                if (is_in_tetrahedron(position_, model.position(f.apex), f.at_a, f.at_b, q)) return true;
+            } else if (is_in_tetrahedron(position_, ends_[0], ends_[1], model.position(star.apexes[n - star.faces.size()]), q)) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 }  // namespace regionmesh

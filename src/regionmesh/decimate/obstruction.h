@@ -49,7 +49,8 @@ private:
     bool supports(NewFace& face) const;
     bool is_off_slab(const Corners& p) const;
     bool meets_new_face(const OldFace& old, const FaceTree::GridBox& box) const;
-    bool is_swept(const Model& model, const EdgeStar& star, Vec3 q) const;
+    static bool meets_at_corner(const NewFace& face, int corner, const Corners& p, int place);
+    bool is_swept(const Model& model, const EdgeStar& star, Vec3 q, const FaceTree::GridBox& box) const;
 
     Vec3 position_;
     std::array<Vec3, 2> ends_;       // where the edge is now

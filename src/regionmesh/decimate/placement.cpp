@@ -49,12 +49,14 @@ Placement place(const EdgeEnds& edge) {
     system.xx += pull, system.yy += pull, system.zz += pull;
     Vec3 right = -q.b;
     const auto is_locked = [&](int axis) { return (edge.stays_sides >> (2 * axis) & 3) != 0; };
-    for (int axis = 0; axis < 3; ++axis)
-        if (is_locked(axis)) lock(system, right, axis, edge.stays[axis] - middle[axis], q.weight() + pull);
+    if (edge.stays_sides != 0)
+        for (int axis = 0; axis < 3; ++axis)
+            if (is_locked(axis)) lock(system, right, axis, edge.stays[axis] - middle[axis], q.weight() + pull);
     const Vec3 step = solve(system, right);
     Placement result{middle + step, 0};
-    for (int axis = 0; axis < 3; ++axis)
-        if (is_locked(axis)) result.position[axis] = edge.stays[axis];
+    if (edge.stays_sides != 0)
+        for (int axis = 0; axis < 3; ++axis)
+            if (is_locked(axis)) result.position[axis] = edge.stays[axis];
     result.cost = std::max(q.at(result.position - middle), 0.0);
     return result;
 }

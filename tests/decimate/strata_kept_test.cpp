@@ -1,0 +1,73 @@
+// Whatever decimation does, the list of all strata stays (DESIGN 5).
+#include <gtest/gtest.h>
+
+#include "regionmesh/decimate/decimate.h"
+#include "support/runs.h"
+#include "support/strata_list.h"
+
+namespace regionmesh {
+namespace {
+
+struct Case {
+    const char* name;
+    test::ArrayVolume volume;
+    ReconstructOptions options = test::plain();
+};
+
+std::vector<Case> cases() {
+    std::vector<Case> all{{"solid", test::solid_volume({5, 5, 5})},
+                          {"ball", test::ball_volume({9, 9, 9}, 3)},
+                          {"two labels", test::noise_volume({7, 7, 7}, 2, 1)},
+                          {"four labels", test::noise_volume({7, 7, 7}, 4, 2)},
+                          {"many labels", test::noise_volume({6, 6, 6}, 100, 3)},
+                          {"grains", test::grain_volume({12, 12, 12}, 9, 4)},
+                          {"flat grains", test::grain_volume({9, 9, 9}, 9, 5).spaced({1, 2, 5})}};
+    all.push_back({"background", test::noise_volume({7, 7, 7}, 3, 6), {.decimate = false, .background = {0}}});
+    all.push_back({"grains and background", test::grain_volume({12, 12, 12}, 9, 7), {.decimate = false, .background = {0, 3}}});
+    all.push_back({"open", test::noise_volume({6, 6, 6}, 3, 8), {.decimate = false, .cap = false, .background = {}}});
+    return all;
+}
+
+TEST(StrataKept, when_decimated_as_far_as_topology_allows) {
+    for (Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        Model model = test::run(c.volume, c.options).model;
+        const test::StrataList before = test::list_strata(model);
+        decimate(model, {});
+        EXPECT_EQ(test::list_strata(model), before);
+    }
+}
+
+TEST(StrataKept, with_neither_quality_nor_intersect_verdicts) {
+    for (Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        Model model = test::run(c.volume, c.options).model;
+        const test::StrataList before = test::list_strata(model);
+        decimate(model, {.min_quality = 0, .perturbation = 1e-3, .intersect_check = false});
+        EXPECT_EQ(test::list_strata(model), before);
+    }
+}
+
+TEST(StrataKept, and_every_vertex_stays_generic) {
+    for (Case& c : cases()) {
+        if (!c.options.cap || !c.options.background.empty()) continue;
+        SCOPED_TRACE(c.name);
+        Model model = test::run(c.volume, c.options).model;
+        decimate(model, {});
+        test::expect_generic(model);
+    }
+}
+
+TEST(StrataKept, after_a_decimated_model_is_decimated_again) {
+    Model model = test::run(test::grain_volume({12, 12, 12}, 9, 4)).model;
+    const test::StrataList before = test::list_strata(model);
+    for (std::uint32_t target : {2000u, 1000u, 500u, 0u}) {
+        decimate(model, {.target_faces = target});
+        model.sort_spatially();
+        EXPECT_EQ(test::list_strata(model), before);
+    }
+    test::expect_sound(check(model));
+}
+
+}  // namespace
+}  // namespace regionmesh
