@@ -10,9 +10,15 @@
 #include "regionmesh/stream/weld.h"
 #include "regionmesh/tets/label_census.h"
 #include "regionmesh/tets/strip_mesher.h"
+#include "regionmesh/tile/tiles.h"
 
 namespace regionmesh {
 namespace {
+
+/// Collapses that cost less than this, in units of spacing^4, are made in tiles already: about a hundredth of the spacing
+/// for a face of two. But a tile keeps so many times the share of faces that the target leaves.
+constexpr double kTileCostLevel = 1e-3;
+constexpr double kTileMargin = 1.25;
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
 
@@ -51,6 +57,12 @@ public:
 
 private:
     bool is_decimating() const { return options_.decimate && (options_.target_faces || options_.reduce || options_.max_error); }
+    bool read(SectionWindow& window);
+    void note_strip(const SectionWindow& window, const FaceBatch& batch);
+    void decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip, const TilePlan& plan);
+    DecimateOptions decimate_options() const;
+    void add_verdicts(const VerdictCounts& counts);
+    double target_share() const;
     std::uint64_t target_for(std::uint64_t initial_faces) const;
     std::uint64_t target_so_far() const;
     void keep_within_budget(Weld& weld);
@@ -76,44 +88,76 @@ private:
 void Run::plan() {
     if (options_.face_budget) budget_ = *options_.face_budget;
     else budget_ = face_budget_for(options_.memory, reader_.info());
-    if (!is_decimating() || !options_.reduce || !reader_.info().can_rewind) return;
+    if (!is_decimating() || !(options_.reduce || options_.target_faces) || !reader_.info().can_rewind) return;
     tell("count");
     const Timer timer(seconds("count"));
     total_faces_ = count_labels(reader_, options_).face_count;
     reader_.rewind();
 }
 
-/// Strips become faces, faces are welded to the model, and the model is kept within its budget (P 3.1-3.5).
+/// Strips become faces; runs of strips are decimated tile by tile up to a low cost level and welded to the model, which
+/// is kept within its budget (P 3.1-3.5).
 void Run::build() {
     SectionWindow window(reader_, result_.labels);
     const StripOptions strip_options{.cap = options_.cap, .background = result_.background};
     StripMesher mesher(meshing_lattice(lattice_), reader_.info().sweep, strip_options);
     LabelCensus census(lattice_, reader_.info().sweep, strip_options);
+    const TilePlan plan = plan_tiles(meshing_lattice(lattice_), reader_.info().sweep);
+    const std::uint32_t run_strips = is_decimating() ? plan.run_strips : options_.strips_per_batch;
     Weld weld(result_.model);
-    FaceBatch batch;
-    Report& report = result_.report;
-    for (;;) {
-        {
-            const Timer timer(seconds("read"));
-            if (!window.advance()) break;
-        }
+    FaceBatch batch, run;
+    while (read(window)) {
         {
             const Timer timer(seconds("reconstruct"));
             census.add(window.low(), window.high(), window.is_last());
             batch.clear();
             mesher.mesh(window.low(), window.high(), batch);
-            weld.add(batch);
+            run.append(batch);
         }
-        report.initial_faces += batch.faces.size();
-        report.initial_vertices += batch.vertices.size();
-        progress_.sections_read = window.sections_read();
-        progress_.faces_read = report.initial_faces;
-        tell("reconstruct");
-        note_bytes(result_.model.face_count(), result_.model.bytes());
+        note_strip(window, batch);
         const std::uint32_t strips = window.sections_read() - 1;
-        if (strips % options_.strips_per_batch == 0 && !window.is_last()) keep_within_budget(weld);
+        if (strips % run_strips != 0 && !window.is_last()) continue;
+        if (is_decimating()) decimate_run(run, weld.front(), (strips - 1) / run_strips * run_strips, plan);
+        {
+            const Timer timer(seconds("reconstruct"));
+            weld.add(run);
+            run.clear();
+        }
+        note_bytes(result_.model.face_count(), result_.model.bytes());
+        if (!window.is_last()) keep_within_budget(weld);
     }
     oracle_ = census.oracle();
+}
+
+bool Run::read(SectionWindow& window) {
+    const Timer timer(seconds("read"));
+    return window.advance();
+}
+
+void Run::note_strip(const SectionWindow& window, const FaceBatch& batch) {
+    result_.report.initial_faces += batch.faces.size();
+    result_.report.initial_vertices += batch.vertices.size();
+    progress_.sections_read = window.sections_read();
+    progress_.faces_read = result_.report.initial_faces;
+    tell("reconstruct");
+}
+
+/// First stage: in tiles, as far as is safe whatever the target, and never below what the target will leave.
+void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip, const TilePlan& plan) {
+    const double share = target_share();
+    if (share * kTileMargin >= 1) return;
+    const Timer timer(seconds("decimate tiles"));
+    TileOptions tile_options{.cost_level = kTileCostLevel, .keep_share = share * kTileMargin, .decimate = decimate_options()};
+    tile_options.decimate.on_progress = [&] { tell("reconstruct"); };
+    const TileResult done = decimate_tiles(run, carried, first_strip, plan, tile_options);
+    add_verdicts(done.verdicts);
+}
+
+/// Share of the faces that the target leaves; 1 while nobody knows the total, 0 where only the error bounds.
+double Run::target_share() const {
+    if (options_.reduce) return 1 - *options_.reduce;
+    if (!options_.target_faces) return 0;
+    return total_faces_ ? static_cast<double>(*options_.target_faces) / static_cast<double>(std::max<std::uint64_t>(*total_faces_, 1)) : 1;
 }
 
 std::uint64_t Run::target_for(std::uint64_t initial_faces) const {
@@ -126,7 +170,7 @@ std::uint64_t Run::target_for(std::uint64_t initial_faces) const {
 /// would make the model uneven.
 std::uint64_t Run::target_so_far() const {
     const std::uint64_t read = result_.report.initial_faces;
-    if (options_.target_faces || !total_faces_) return target_for(read);
+    if (!total_faces_) return target_for(read);
     return target_for(*total_faces_) * read / std::max<std::uint64_t>(*total_faces_, 1);
 }
 
@@ -139,27 +183,36 @@ void Run::keep_within_budget(Weld& weld) {
     if (result_.model.face_count() > budget_) budget_ = std::uint64_t{result_.model.face_count()} * 3 / 2;
 }
 
+DecimateOptions Run::decimate_options() const {
+    DecimateOptions own;
+    if (options_.max_error) own.max_error = *options_.max_error;
+    own.min_quality = options_.min_quality;
+    own.perturbation = options_.perturbation;
+    own.scale = std::cbrt(lattice_.spacing.x * lattice_.spacing.y * lattice_.spacing.z);
+    own.intersect_check = options_.intersect_check;
+    return own;
+}
+
+void Run::add_verdicts(const VerdictCounts& counts) {
+    for (int n = 0; n < kVerdictCount; ++n) result_.report.verdicts[n] += counts[n];
+}
+
 void Run::decimate_to(std::uint64_t faces, bool is_last) {
     const Timer timer(seconds("decimate"));
-    DecimateOptions decimate_options;
-    decimate_options.target_faces = static_cast<std::uint32_t>(std::min(faces, kNoLimit));
-    if (options_.max_error) decimate_options.max_error = *options_.max_error;
-    decimate_options.min_quality = options_.min_quality;
-    decimate_options.perturbation = options_.perturbation;
-    decimate_options.scale = std::cbrt(lattice_.spacing.x * lattice_.spacing.y * lattice_.spacing.z);
-    decimate_options.intersect_check = options_.intersect_check;
-    decimate_options.refresh = is_last;
+    DecimateOptions own = decimate_options();
+    own.target_faces = static_cast<std::uint32_t>(std::min(faces, kNoLimit));
+    own.refresh = is_last;
     if (!is_last) {
         // What comes later lies at or beyond the last section read.
         const int axis = reader_.info().sweep.axes[2];
-        decimate_options.limits.high[axis] = meshing_lattice(lattice_).origin[axis] + (progress_.sections_read - 1) * lattice_.spacing[axis];
+        own.limits.high[axis] = meshing_lattice(lattice_).origin[axis] + (progress_.sections_read - 1) * lattice_.spacing[axis];
     }
     const char* stage = is_last ? "decimate" : "reconstruct";
-    decimate_options.on_progress = [&] { tell(stage); };
+    own.on_progress = [&] { tell(stage); };
     const std::uint64_t held = result_.model.face_count();
     const std::size_t model_bytes = result_.model.bytes();
-    const DecimateResult done = decimate(result_.model, decimate_options);
-    for (int n = 0; n < kVerdictCount; ++n) result_.report.verdicts[n] += done.verdicts[n];
+    const DecimateResult done = decimate(result_.model, own);
+    add_verdicts(done.verdicts);
     result_.report.refreshes += done.refreshes;
     stopped_ = done.stopped;
     note_bytes(held, model_bytes + done.bytes);

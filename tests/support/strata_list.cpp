@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <string>
 
 #include "regionmesh/base/union_find.h"
 #include "regionmesh/model/strata.h"
@@ -17,6 +18,12 @@ std::vector<Label> sorted(const LabelSet& set) {
     return labels;
 }
 
+std::string text_of(const std::vector<Label>& labels) {
+    std::string text;
+    for (Label label : labels) text += is_exterior(label) ? "side " + std::to_string(side_of(label)) + ", " : std::to_string(label) + ", ";
+    return text.substr(0, text.size() - 2);
+}
+
 using Edge = std::pair<VertexId, VertexId>;
 
 Edge edge_of(VertexId a, VertexId b) { return {std::min(a, b), std::max(a, b)}; }
@@ -25,7 +32,10 @@ Edge edge_of(VertexId a, VertexId b) { return {std::min(a, b), std::max(a, b)}; 
 class Simplices {
 public:
     explicit Simplices(const Model& model) {
-        for (std::uint32_t v = 0; v < model.vertex_end(); ++v) add(model.is_alive(VertexId{v}) ? sorted(vertex_labels(model, VertexId{v})) : std::vector<Label>{}, 0);
+        for (std::uint32_t v = 0; v < model.vertex_end(); ++v) {
+            const bool is_alive = model.is_alive(VertexId{v});
+            add(is_alive ? sorted(vertex_labels(model, VertexId{v})) : std::vector<Label>{}, 0);
+        }
         for (std::uint32_t f = 0; f < model.face_end(); ++f)
             if (model.is_alive(FaceId{f})) add_face(model, FaceId{f});
     }
@@ -89,6 +99,15 @@ std::ostream& operator<<(std::ostream& out, const Stratum& stratum) {
 }
 
 StrataList list_strata(const Model& model) { return Simplices(model).strata(); }
+
+void expect_same_strata(const StrataList& found, const StrataList& expected) {
+    for (const StrataList* list : {&found, &expected})
+        for (const auto& [labels, stratum] : *list) {
+            if (list == &expected && found.contains(labels)) continue;
+            const auto at = [&](const StrataList& in) { return in.contains(labels) ? in.at(labels) : Stratum{}; };
+            EXPECT_EQ(at(found), at(expected)) << "where these meet: " << text_of(labels);
+        }
+}
 
 void expect_generic(const Model& model) {
     for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {

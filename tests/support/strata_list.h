@@ -22,6 +22,9 @@ std::ostream& operator<<(std::ostream& out, const Stratum& stratum);
 using StrataList = std::map<std::vector<Label>, Stratum>;
 StrataList list_strata(const Model& model);
 
+/// Fails with one line for each stratum that differs.
+void expect_same_strata(const StrataList& found, const StrataList& expected);
+
 /// Fails unless every vertex has two, three or four labels, and as many lines end there as labels make (DESIGN 4): none
 /// inside an interface, two on a line, four at a point, three at a corner of the box. Requires a capped box.
 void expect_generic(const Model& model);

@@ -16,6 +16,12 @@ void Weld::add(const FaceBatch& batch) {
     for (VertexId v : front_) model_[v].is_fixed = true;
 }
 
+std::vector<BatchVertex> Weld::front() const {
+    std::vector<BatchVertex> vertices;
+    for (VertexId v : front_) vertices.push_back({model_[v].position, model_[v].sides});
+    return vertices;
+}
+
 void Weld::renumber(const std::vector<VertexId>& new_ids) {
     for (VertexId& v : front_) v = new_ids[index(v)];
 }

@@ -17,6 +17,9 @@ public:
     /// Requires batches in the order in which they were made, and that no front vertex was removed from the model.
     void add(const FaceBatch& batch);
 
+    /// The vertices that the next batch carries.
+    std::vector<BatchVertex> front() const;
+
     /// The vertices of the model have new ids (Model::sort_spatially).
     void renumber(const std::vector<VertexId>& new_ids);
 

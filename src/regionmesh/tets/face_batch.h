@@ -28,6 +28,9 @@ struct FaceBatch {
     std::vector<BatchFace> faces;
     std::vector<std::uint32_t> open;
 
+    /// Appends the batch that follows: its carried vertices are this one's open ones.
+    void append(const FaceBatch& next);
+
     void clear() {
         carried = 0;
         vertices.clear();

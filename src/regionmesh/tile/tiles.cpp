@@ -1,0 +1,183 @@
+#include "regionmesh/tile/tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regionmesh {
+namespace {
+
+constexpr std::uint32_t kTileCells = 32;
+constexpr std::uint32_t kShortestRun = 8;
+constexpr std::uint64_t kSamplesPerRun = 4u << 20;
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+/// A run's batch while its tiles are taken out, decimated and put back.
+class RunTiles {
+public:
+    RunTiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip, const TilePlan& plan, const TileOptions& options)
+        : batch_(batch), carried_(carried), first_strip_(first_strip), plan_(plan), options_(options) {
+        for (int a = 0; a < 2; ++a) tile_count_[a] = (cells(a) + plan.tile_cells - 1) / plan.tile_cells;
+    }
+
+    TileResult run() {
+        sort_faces_by_tile();
+        find_rim();
+        made_.carried = batch_.carried;
+        for (std::uint32_t tile = 0; tile + 1 < tile_start_.size(); ++tile)
+            if (tile_start_[tile] < tile_start_[tile + 1]) decimate_tile(tile);
+        for (std::uint32_t local : batch_.open) made_.open.push_back(made_number(local));
+        batch_ = std::move(made_);
+        return result_;
+    }
+
+private:
+    static constexpr std::uint32_t kInside = 0, kRim = 1;
+
+    std::uint32_t cells(int a) const { return plan_.lattice.size[plan_.sweep.axes[a]] - 1; }
+    const BatchVertex& vertex(std::uint32_t local) const {
+        return local < batch_.carried ? carried_[local] : batch_.vertices[local - batch_.carried];
+    }
+    std::uint32_t vertex_end() const { return batch_.carried + static_cast<std::uint32_t>(batch_.vertices.size()); }
+
+    /// The tile of the cell that a face lies in; on the far sides of the box, of the cell before.
+    std::uint32_t tile_of(const BatchFace& face) const {
+        const Vec3 middle = (vertex(face.vertices[0]).position + vertex(face.vertices[1]).position + vertex(face.vertices[2]).position) / 3.0;
+        std::uint32_t tile = 0;
+        for (int a = 1; a >= 0; --a) {
+            const int axis = plan_.sweep.axes[a];
+            const double cell = std::floor((middle[axis] - plan_.lattice.origin[axis]) / plan_.lattice.spacing[axis]);
+            const auto clamped = static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells(a) - 1.0));
+            tile = tile * tile_count_[a] + clamped / plan_.tile_cells;
+        }
+        return tile;
+    }
+
+    void sort_faces_by_tile() {
+        std::vector<std::uint32_t> tile_of_face;
+        tile_of_face.reserve(batch_.faces.size());
+        tile_start_.assign(std::size_t{tile_count_[0]} * tile_count_[1] + 1, 0);
+        for (const BatchFace& face : batch_.faces) {
+            tile_of_face.push_back(tile_of(face));
+            ++tile_start_[tile_of_face.back() + 1];
+        }
+        for (std::size_t t = 1; t < tile_start_.size(); ++t) tile_start_[t] += tile_start_[t - 1];
+        std::vector<std::uint32_t> next(tile_start_.begin(), tile_start_.end() - 1);
+        order_.resize(batch_.faces.size());
+        for (std::uint32_t f = 0; f < tile_of_face.size(); ++f) order_[next[tile_of_face[f]]++] = f;
+    }
+
+    /// Marks vertices that are carried, open, or in more than one tile.
+    void find_rim() {
+        rim_.assign(vertex_end(), kInside);
+        std::fill(rim_.begin(), rim_.begin() + batch_.carried, kRim);
+        for (std::uint32_t local : batch_.open) rim_[local] = kRim;
+        std::vector<std::uint32_t> seen_in(vertex_end(), kNone);
+        for (std::uint32_t tile = 0; tile + 1 < tile_start_.size(); ++tile)
+            for (std::uint32_t n = tile_start_[tile]; n < tile_start_[tile + 1]; ++n)
+                for (std::uint32_t local : batch_.faces[order_[n]].vertices) {
+                    if (seen_in[local] != kNone && seen_in[local] != tile) rim_[local] = kRim;
+                    seen_in[local] = tile;
+                }
+        in_tile_.assign(vertex_end(), kNone);
+        made_numbers_.assign(vertex_end(), kNone);
+        for (std::uint32_t local = 0; local < batch_.carried; ++local) made_numbers_[local] = local;
+    }
+
+    Box limits_of(std::uint32_t tile) const {
+        const std::uint32_t place[2] = {tile % tile_count_[0], tile / tile_count_[0]};
+        Box box;
+        for (int a = 0; a < 3; ++a) {
+            const int axis = plan_.sweep.axes[a];
+            const std::uint32_t first = a < 2 ? place[a] * plan_.tile_cells : first_strip_;
+            const std::uint32_t last = std::min(first + (a < 2 ? plan_.tile_cells : plan_.run_strips), cells(a));
+            box.low[axis] = plan_.lattice.origin[axis] + first * plan_.lattice.spacing[axis];
+            box.high[axis] = plan_.lattice.origin[axis] + last * plan_.lattice.spacing[axis];
+        }
+        return box;
+    }
+
+    void decimate_tile(std::uint32_t tile) {
+        Model model;
+        std::vector<std::uint32_t> locals;  // batch numbers of the tile's vertices
+        for (std::uint32_t n = tile_start_[tile]; n < tile_start_[tile + 1]; ++n) {
+            const BatchFace& face = batch_.faces[order_[n]];
+            std::array<VertexId, 3> corner;
+            for (int c = 0; c < 3; ++c) {
+                const std::uint32_t local = face.vertices[c];
+                if (in_tile_[local] == kNone) {
+                    in_tile_[local] = index(model.add_vertex(vertex(local).position, vertex(local).sides, rim_[local] == kRim));
+                    locals.push_back(local);
+                }
+                corner[c] = VertexId{in_tile_[local]};
+            }
+            model.add_face(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]);
+        }
+        for (std::uint32_t local : locals) in_tile_[local] = kNone;
+        const std::vector<VertexId> sorted = model.sort_spatially();
+        DecimateOptions own = options_.decimate;
+        own.target_faces = static_cast<std::uint32_t>(std::ceil(options_.keep_share * model.face_count()));
+        own.max_cost = options_.cost_level * std::pow(own.scale, 4);
+        own.refresh = false;
+        own.limits = limits_of(tile);
+        const std::size_t model_bytes = model.bytes();
+        const DecimateResult done = decimate(model, own);
+        result_.bytes = std::max(result_.bytes, model_bytes + done.bytes);
+        for (int n = 0; n < kVerdictCount; ++n) result_.verdicts[n] += done.verdicts[n];
+        put_back(model, locals, sorted);
+    }
+
+    /// Appends what is left of a tile. Its rim is shared: numbered once for all tiles.
+    void put_back(const Model& model, const std::vector<std::uint32_t>& locals, const std::vector<VertexId>& sorted) {
+        std::vector<std::uint32_t> number(model.vertex_end(), kNone);
+        for (std::uint32_t n = 0; n < locals.size(); ++n)
+            if (rim_[locals[n]] == kRim) number[index(sorted[n])] = made_number(locals[n]);
+        for (std::uint32_t f = 0; f < model.face_end(); ++f) {
+            if (!model.is_alive(FaceId{f})) continue;
+            BatchFace face{{}, model[FaceId{f}].labels};
+            for (int c = 0; c < 3; ++c) {
+                const VertexId v = model[FaceId{f}].vertices[c];
+                if (number[index(v)] == kNone) number[index(v)] = add_vertex({model[v].position, model[v].sides});
+                face.vertices[c] = number[index(v)];
+            }
+            made_.faces.push_back(face);
+        }
+    }
+
+    std::uint32_t add_vertex(const BatchVertex& made) {
+        made_.vertices.push_back(made);
+        return made_.carried + static_cast<std::uint32_t>(made_.vertices.size()) - 1;
+    }
+    /// Number of a rim vertex in the batch that is made.
+    std::uint32_t made_number(std::uint32_t local) {
+        if (made_numbers_[local] == kNone) made_numbers_[local] = add_vertex(vertex(local));
+        return made_numbers_[local];
+    }
+
+    FaceBatch& batch_;
+    std::span<const BatchVertex> carried_;
+    std::uint32_t first_strip_;
+    const TilePlan& plan_;
+    const TileOptions& options_;
+    std::uint32_t tile_count_[2];
+    std::vector<std::uint32_t> tile_start_, order_;  // faces by tile
+    std::vector<std::uint8_t> rim_;
+    std::vector<std::uint32_t> in_tile_;             // batch number to tile vertex, for the tile in hand
+    std::vector<std::uint32_t> made_numbers_;        // batch number to made number, for carried and rim vertices
+    FaceBatch made_;
+    TileResult result_;
+};
+
+}  // namespace
+
+TilePlan plan_tiles(const Lattice& lattice, Sweep sweep) {
+    const std::uint64_t section = std::uint64_t{lattice.size[sweep.axes[0]]} * lattice.size[sweep.axes[1]];
+    const auto strips = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kSamplesPerRun / section, kShortestRun, kTileCells));
+    return {lattice, sweep, strips, kTileCells};
+}
+
+TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip, const TilePlan& plan,
+                          const TileOptions& options) {
+    return RunTiles(batch, carried, first_strip, plan, options).run();
+}
+
+}  // namespace regionmesh

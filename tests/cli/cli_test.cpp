@@ -1,0 +1,206 @@
+// The program as a user runs it: exit codes, one line on stderr, no file left behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "io/temporary_folder.h"
+#include "regionmesh/regionmesh.h"
+#include "support/runs.h"
+#include "support/shapes.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+struct Ran {
+    int code = -1;
+    std::string out, error;
+};
+
+std::string data(const std::string& name) { return std::string(REGIONMESH_TEST_DATA) + "/" + name; }
+
+class Cli : public TemporaryFolder {
+protected:
+    void SetUp() override {
+        std::filesystem::create_directory(path("out"));
+        put_text(path("volume.raw"), raw_text());
+    }
+
+    Ran run(const std::string& arguments) const {
+        const std::string command = std::string("'") + REGIONMESH_PROGRAM + "' " + arguments + " >'" + path("stdout").string() + "' 2>'" +
+                                    path("stderr").string() + "' </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(path("stdout")), text_of(path("stderr"))};
+    }
+
+    /// Arguments that read the volume of this test, a ball of 1 in 0.
+    std::string volume() const { return path("volume.raw").string() + " --size 9,9,9 --type uint8 "; }
+    std::string out(const std::string& name) const { return path("out/" + name).string(); }
+    std::ptrdiff_t files_left() const {
+        return std::distance(std::filesystem::directory_iterator(path("out")), std::filesystem::directory_iterator());
+    }
+
+    void expect_refusal(const std::string& arguments, int code, const std::string& said) const {
+        SCOPED_TRACE(arguments);
+        const Ran ran = run(arguments);
+        EXPECT_EQ(ran.code, code);
+        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
+        EXPECT_THAT(ran.error, HasSubstr(said));
+        EXPECT_EQ(ran.out, "");
+        EXPECT_EQ(files_left(), 0) << "something was left behind";
+    }
+
+private:
+    static std::string raw_text() {
+        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
+        return {ball.labels().begin(), ball.labels().end()};
+    }
+};
+
+TEST_F(Cli, reconstruct_writes_a_model_and_a_report) {
+    const Ran ran = run("reconstruct " + volume() + "-o " + out("m.vtp") + " --reduce 50% --report " + out("r.json"));
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_EQ(ran.error, "");
+    EXPECT_THAT(ran.out, HasSubstr("faces"));
+    EXPECT_EQ(files_left(), 2);
+    EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"final_faces\""));
+    const ModelFile file = read_model(out("m.vtp"));
+    test::expect_sound(check(file.model));
+}
+
+TEST_F(Cli, quiet_says_nothing) {
+    const Ran ran = run("reconstruct " + volume() + "-o " + out("m.ply") + " --quiet");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out + ran.error, "");
+}
+
+TEST_F(Cli, written_models_pass_check_against_their_volume) {
+    for (const std::string& more : {"", "--no-background ", "--boundary open "}) {
+        SCOPED_TRACE(more);
+        EXPECT_EQ(run("reconstruct " + volume() + more + "-o " + out("m.vtp") + " --reduce 0.5").code, 0);
+        const Ran ran = run("check " + out("m.vtp") + " " + more + "--sections " + volume() + " --json " + out("c.json"));
+        EXPECT_EQ(ran.code, 0) << ran.out << ran.error;
+        EXPECT_THAT(ran.out, HasSubstr("no violations"));
+    }
+}
+
+TEST_F(Cli, info_prints_what_a_volume_is) {
+    const Ran ran = run("info " + volume() + "--spacing 1,2,5");
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    for (const char* said : {"9 x 9 x 9", "1 x 2 x 5", "uint8", "labels     2", "faces unsimplified"}) EXPECT_THAT(ran.out, HasSubstr(said));
+}
+
+TEST_F(Cli, bad_input_is_exit_1) {
+    const std::string to = " -o " + out("m.vtp");
+    expect_refusal("reconstruct " + path("nothing.npy").string() + to, 1, "nothing.npy");
+    expect_refusal("info " + path("nothing.npy").string(), 1, "nothing.npy");
+    put_text(path("words.txt"), "no volume");
+    expect_refusal("reconstruct " + path("words.txt").string() + to, 1, "words.txt");
+    put_text(path("empty.npy"), "");
+    expect_refusal("reconstruct " + path("empty.npy").string() + to, 1, "empty.npy");
+    expect_refusal("reconstruct " + data("npy/one_section_uint8.npy") + to, 1, "one_section_uint8.npy");
+    expect_refusal("reconstruct " + data("npy/bad/empty.npy") + to, 1, "empty.npy");
+    expect_refusal("reconstruct " + data("npy/bad/float32.npy") + to, 1, "float32.npy");
+    expect_refusal("reconstruct " + path("volume.raw").string() + " --size 9,9,10 --type uint8" + to, 1, "volume.raw");
+    expect_refusal("check " + path("nothing.vtp").string(), 1, "nothing.vtp");
+}
+
+TEST_F(Cli, an_empty_folder_is_exit_1) {
+    std::filesystem::create_directory(path("sections"));
+    expect_refusal("reconstruct " + path("sections").string() + " -o " + out("m.vtp"), 1, "sections");
+}
+
+TEST_F(Cli, bad_usage_is_exit_2) {
+    const std::string to = "-o " + out("m.vtp");
+    expect_refusal("", 2, "regionmesh");
+    expect_refusal("dance", 2, "regionmesh");
+    expect_refusal("reconstruct", 2, "regionmesh");
+    expect_refusal("reconstruct " + volume(), 2, "--output");
+    expect_refusal("reconstruct " + volume() + to + " --target-faces many", 2, "many");
+    expect_refusal("reconstruct " + volume() + to + " --target-faces -5", 2, "target-faces");
+    expect_refusal("reconstruct " + volume() + to + " --reduce 150%", 2, "150%");
+    expect_refusal("reconstruct " + volume() + to + " --max-error x", 2, "max-error");
+    expect_refusal("reconstruct " + volume() + to + " --memory 1", 2, "--memory");
+    expect_refusal("reconstruct " + volume() + to + " --memory 3quarts", 2, "3quarts");
+    expect_refusal("reconstruct " + volume() + to + " --sweep w", 2, "sweep");
+    expect_refusal("reconstruct " + volume() + to + " --spacing 1,2", 2, "--spacing");
+    expect_refusal("reconstruct " + volume() + to + " --spacing 1,0,1", 2, "--spacing");
+    expect_refusal("reconstruct " + volume() + to + " --background -x", 2, "background");
+    expect_refusal("reconstruct " + path("volume.raw").string() + " --size 9,9 --type uint8 " + to, 2, "--size");
+    expect_refusal("reconstruct " + volume() + to + " --no-such-flag", 2, "no-such-flag");
+}
+
+TEST_F(Cli, an_output_that_cannot_be_written_is_refused_and_leaves_nothing) {
+    for (const std::string& to : {out("m.obj"), out("m"), out("none/m.vtp"), path("volume.raw").string() + "/m.vtp"}) {
+        SCOPED_TRACE(to);
+        const Ran ran = run("reconstruct " + volume() + "-o " + to);
+        EXPECT_TRUE(ran.code == 1 || ran.code == 2) << ran.code;
+        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
+        EXPECT_EQ(files_left(), 0);
+    }
+}
+
+TEST_F(Cli, a_full_disk_is_one_line_and_leaves_nothing) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    std::filesystem::create_symlink("/dev/full", path("full.vtp"));
+    const Ran ran = run("reconstruct " + volume() + "-o " + path("full.vtp").string());
+    // The model may be written beside the link and take its place; if it goes through the link the disk is full.
+    if (ran.code == 0) return;
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
+}
+
+TEST_F(Cli, a_file_size_limit_is_one_line_and_leaves_nothing) {
+    const std::string command = "trap '' XFSZ; ulimit -f 2; '" + std::string(REGIONMESH_PROGRAM) + "' reconstruct " + volume() + "-o " + out("m.vtp") +
+                                " 2>'" + path("stderr").string() + "' >'" + path("stdout").string() + "'";
+    const int status = std::system(("bash -c \"" + command + "\"").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_EQ(std::ranges::count(text_of(path("stderr")), '\n'), 1) << text_of(path("stderr"));
+    EXPECT_EQ(files_left(), 0);
+}
+
+TEST_F(Cli, check_of_a_broken_model_is_exit_3) {
+    Model model = test::octahedron();
+    model.remove_face(FaceId{0});
+    LabelTable labels;
+    for (InputLabel label : {5, 7}) labels.dense(label);
+    write_model(model, labels, path("broken.vtp"), {});
+    const Ran ran = run("check " + path("broken.vtp").string() + " --json " + path("c.json").string());
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_EQ(ran.error, "");
+    EXPECT_THAT(ran.out, HasSubstr("open_edge"));
+    EXPECT_THAT(ran.out, Not(HasSubstr("no violations")));
+    EXPECT_THAT(text_of(path("c.json")), HasSubstr("open_edge"));
+    EXPECT_EQ(run("check --quiet " + path("broken.vtp").string()).code, 3);
+}
+
+TEST_F(Cli, check_of_a_good_model_is_exit_0) {
+    LabelTable labels;
+    for (InputLabel label : {5, 7}) labels.dense(label);
+    write_model(test::octahedron(), labels, path("good.ply"), {});
+    EXPECT_EQ(run("check " + path("good.ply").string()).code, 0);
+}
+
+TEST_F(Cli, check_finds_that_a_model_is_of_another_volume) {
+    EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("m.vtp")).code, 0);
+    std::string labels = text_of(path("volume.raw"));
+    labels[4 * 81 + 4 * 9 + 4] = 2;
+    put_text(path("volume.raw"), labels);
+    const Ran ran = run("check " + out("m.vtp") + " --sections " + volume());
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_THAT(ran.out, HasSubstr("euler"));
+}
+
+TEST_F(Cli, help_and_version_are_exit_0) {
+    EXPECT_THAT(run("--help").out, HasSubstr("reconstruct"));
+    EXPECT_EQ(run("--help").code, 0);
+    EXPECT_EQ(run("reconstruct --help").code, 0);
+    EXPECT_EQ(run("--version").code, 0);
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,133 @@
+// What may not change with the budget, and what the budget must hold: equivalence, determinism, memory.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/digest.h"
+#include "support/runs.h"
+#include "support/strata_list.h"
+
+namespace regionmesh {
+namespace {
+
+using test::run;
+
+/// One block of grains after the other along z, every second one mirrored.
+test::ArrayVolume blocks(std::uint32_t side, std::uint32_t count) {
+    const test::ArrayVolume block = test::grain_volume({side, side, side}, side / 2, 6);
+    std::vector<InputLabel> labels;
+    for (std::uint32_t n = 0; n < count; ++n)
+        for (std::uint32_t z = 0; z < side; ++z)
+            for (std::uint32_t y = 0; y < side; ++y)
+                for (std::uint32_t x = 0; x < side; ++x) labels.push_back(block.at(x, y, n % 2 ? side - 1 - z : z));
+    return {{side, side, side * count}, std::move(labels)};
+}
+
+ReconstructOptions with_budget(std::uint64_t target, std::uint64_t budget) {
+    ReconstructOptions options{.target_faces = target, .background = {}};
+    options.face_budget = budget;
+    return options;
+}
+
+TEST(Equivalence, strips_per_batch_changes_nothing_while_the_budget_does_not_bind) {
+    for (std::uint64_t target : {1000000u, 1500u}) {
+        test::ArrayVolume volume = test::grain_volume({16, 15, 14}, 8, 1);
+        ReconstructOptions options = with_budget(target, 10000000);
+        const Reconstruction one = run(volume, options);
+        options.strips_per_batch = 1000;
+        const Reconstruction all = run(volume, options);
+        EXPECT_EQ(test::digest(one.model), test::digest(all.model));
+        EXPECT_EQ(one.report.verdicts, all.report.verdicts);
+        if (target == 1500) EXPECT_LE(one.report.final_faces, 1500u);
+    }
+}
+
+TEST(Equivalence, a_budget_that_never_binds_is_no_budget) {
+    test::ArrayVolume volume = test::noise_volume({9, 9, 9}, 4, 1);
+    const Reconstruction bounded = run(volume, with_budget(3000, 10000000));
+    EXPECT_EQ(test::digest(bounded.model), test::digest(run(volume, {.target_faces = 3000, .background = {}}).model));
+}
+
+TEST(Determinism, the_same_run_twice_gives_the_same_bytes) {
+    test::ArrayVolume volume = test::grain_volume({20, 20, 20}, 10, 2);
+    for (const ReconstructOptions& options : {test::plain(), test::reduced(0.9), with_budget(1500, 6000)})
+        EXPECT_EQ(test::digest(run(volume, options).model), test::digest(run(volume, options).model));
+}
+
+TEST(Determinism, what_ran_before_does_not_matter) {
+    test::ArrayVolume volume = test::noise_volume({9, 9, 9}, 4, 2);
+    const std::uint64_t first = test::digest(run(volume, test::reduced(0.8)).model);
+    run(test::grain_volume({20, 20, 20}, 10, 2), with_budget(1500, 6000));
+    EXPECT_EQ(test::digest(run(volume, test::reduced(0.8)).model), first);
+}
+
+TEST(OnTheFly, a_budget_that_binds_leaves_a_sound_model) {
+    test::ArrayVolume volume = blocks(20, 2);
+    const Reconstruction whole = run(volume);
+    for (std::uint64_t budget : {4000u, 6000u, 10000u}) {
+        SCOPED_TRACE("budget " + std::to_string(budget));
+        const Reconstruction made = run(volume, with_budget(2500, budget));
+        ASSERT_GT(whole.report.initial_faces, 2 * budget) << "the budget does not bind";
+        test::expect_sound(made.report.check);
+        EXPECT_EQ(made.report.initial_faces, whole.report.initial_faces);
+        EXPECT_LE(made.report.final_faces, 2500u);
+        test::expect_same_strata(test::list_strata(made.model), test::list_strata(whole.model));
+    }
+}
+
+TEST(OnTheFly, noise_beyond_the_budget_stays_sound) {
+    for (std::uint64_t seed : {1, 2, 3}) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        test::ArrayVolume volume = test::noise_volume({8, 8, 16}, 3, seed);
+        const Reconstruction made = run(volume, with_budget(1000, 3000));
+        test::expect_sound(made.report.check);
+        test::expect_same_strata(test::list_strata(made.model), test::list_strata(run(volume).model));
+    }
+}
+
+TEST(OnTheFly, backgrounds_and_open_boxes_stay_sound) {
+    test::ArrayVolume volume = blocks(16, 2);
+    ReconstructOptions options = with_budget(1500, 4000);
+    options.background = {0, 1};
+    test::expect_sound(run(volume, options).report.check);
+    options.background = {};
+    options.cap = false;
+    test::expect_sound(run(volume, options).report.check);
+}
+
+TEST(OnTheFly, every_sweep_and_batch_stays_sound) {
+    for (const Sweep& sweep : {kSweepX, kSweepY, kSweepZ})
+        for (std::uint32_t strips : {1u, 3u}) {
+            test::ArrayVolume volume = test::grain_volume({18, 20, 22}, 9, 3).spaced({1, 2, 5}).swept(sweep);
+            ReconstructOptions options = with_budget(2000, 5000);
+            options.strips_per_batch = strips;
+            test::expect_sound(run(volume, options).report.check);
+        }
+}
+
+TEST(Memory, peak_is_near_the_budget) {
+    test::ArrayVolume volume = blocks(20, 2);
+    for (std::uint64_t budget : {5000u, 8000u}) {
+        const Reconstruction made = run(volume, with_budget(2000, budget));
+        EXPECT_GT(made.report.initial_faces, 2 * budget);
+        // Beyond the budget by the faces of one strip at most.
+        EXPECT_LE(made.report.peak_faces, budget + 3000);
+    }
+}
+
+TEST(Memory, peak_does_not_grow_with_the_number_of_sections) {
+    const Reconstruction half = run(blocks(16, 3), with_budget(2000, 6000));
+    const Reconstruction whole = run(blocks(16, 6), with_budget(2000, 6000));
+    EXPECT_GT(whole.report.initial_faces, half.report.initial_faces * 19 / 10);
+    EXPECT_LE(whole.report.peak_faces, half.report.peak_faces * 11 / 10);
+}
+
+TEST(Memory, the_budget_follows_from_memory) {
+    const test::ArrayVolume volume = test::solid_volume({100, 100, 100});
+    const std::uint64_t reading = reading_bytes(volume.info());
+    EXPECT_EQ(face_budget_for(reading + 96 * 1000000, volume.info()), 1000000u);
+    EXPECT_GT(reading, 100u * 100 * 64);
+}
+
+}  // namespace
+}  // namespace regionmesh
