@@ -1,0 +1,126 @@
+#include "regionmesh/tile/tiles.h"
+
+#include <gtest/gtest.h>
+
+#include "regionmesh/stream/section_window.h"
+#include "regionmesh/stream/weld.h"
+#include "regionmesh/tets/label_census.h"
+#include "regionmesh/tets/strip_mesher.h"
+#include "support/digest.h"
+#include "support/runs.h"
+
+namespace regionmesh {
+namespace {
+
+/// The whole volume as one batch, with what its labels say.
+struct Batch {
+    explicit Batch(test::ArrayVolume& volume) : lattice(volume.info().lattice) {
+        LabelTable labels;
+        SectionWindow window(volume, labels);
+        StripMesher mesher(lattice, kSweepZ, {});
+        LabelCensus census(lattice, kSweepZ, {});
+        while (window.advance()) {
+            FaceBatch strip;
+            census.add(window.low(), window.high(), window.is_last());
+            mesher.mesh(window.low(), window.high(), strip);
+            whole.append(strip);
+        }
+        oracle = census.oracle();
+    }
+    Model model() const {
+        Model made;
+        Weld(made).add(whole);
+        return made;
+    }
+
+    Lattice lattice;
+    FaceBatch whole;
+    LabelOracle oracle;
+};
+
+/// Tiles of so many cells, one run for all sections.
+TilePlan plan_of(const Batch& batch, std::uint32_t cells) { return {batch.lattice, kSweepZ, batch.lattice.size[2], cells}; }
+
+TEST(FaceBatch, appended_strips_make_the_model_of_strips_welded_one_by_one) {
+    test::ArrayVolume volume = test::noise_volume({6, 5, 7}, 4, 1);
+    const Batch batch(volume);
+    EXPECT_TRUE(batch.whole.open.empty());
+    EXPECT_EQ(test::surface_digest(batch.model()), test::surface_digest(test::run(volume).model));
+}
+
+TEST(Tiles, remove_faces_and_keep_what_the_labels_say) {
+    test::ArrayVolume volume = test::grain_volume({33, 26, 9}, 9, 3);
+    Batch batch(volume);
+    const std::size_t faces = batch.whole.faces.size();
+    const TileResult result = decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0, .decimate = {}});
+    EXPECT_LT(batch.whole.faces.size(), faces * 7 / 10);
+    EXPECT_GT(result.verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
+    CheckOptions options;
+    options.oracle = batch.oracle;
+    test::expect_sound(check(batch.model(), options));
+}
+
+TEST(Tiles, stay_in_their_boxes) {
+    test::ArrayVolume volume = test::ball_volume({21, 21, 21}, 7);
+    Batch batch(volume);
+    Model before = batch.model();
+    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 5), {.cost_level = 1, .keep_share = 0, .decimate = {}});
+    // A face that reaches across x = 5, 10, 15 would lie in two tiles.
+    for (const BatchFace& face : batch.whole.faces)
+        for (double wall : {5.0, 10.0, 15.0}) {
+            int below = 0, above = 0;
+            for (std::uint32_t v : face.vertices) {
+                below += batch.whole.vertices[v].position.x < wall;
+                above += batch.whole.vertices[v].position.x > wall;
+            }
+            EXPECT_TRUE(below == 0 || above == 0);
+        }
+    EXPECT_LT(batch.whole.faces.size(), before.face_count());
+}
+
+TEST(Tiles, keep_the_share_they_are_told_to) {
+    test::ArrayVolume volume = test::solid_volume({17, 17, 5});
+    Batch batch(volume);
+    const std::size_t faces = batch.whole.faces.size();
+    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0.5, .decimate = {}});
+    EXPECT_GE(batch.whole.faces.size(), faces / 2 - 16);
+    EXPECT_LE(batch.whole.faces.size(), faces / 2 + 16);
+}
+
+TEST(Tiles, leave_carried_and_open_vertices_as_they_are) {
+    test::ArrayVolume volume = test::grain_volume({12, 12, 7}, 4, 5);
+    LabelTable labels;
+    SectionWindow window(volume, labels);
+    StripMesher mesher(volume.info().lattice, kSweepZ, {});
+    Model model;
+    Weld weld(model);
+    FaceBatch run;
+    const TilePlan plan{volume.info().lattice, kSweepZ, 3, 8};
+    for (std::uint32_t strip = 0; window.advance(); ++strip) {
+        FaceBatch next;
+        mesher.mesh(window.low(), window.high(), next);
+        run.append(next);
+        if (strip % 3 != 2) continue;
+        std::vector<Vec3> open;
+        for (std::uint32_t v : run.open) open.push_back(v < run.carried ? weld.front()[v].position : run.vertices[v - run.carried].position);
+        decimate_tiles(run, weld.front(), strip - 2, plan, {.cost_level = 1e-2, .keep_share = 0, .decimate = {}});
+        weld.add(run);
+        ASSERT_EQ(weld.front().size(), open.size());
+        for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(weld.front()[n].position, open[n]);
+        run.clear();
+    }
+    test::expect_sound(check(model));
+}
+
+TEST(TilePlan, comes_from_the_size_alone) {
+    Lattice lattice;
+    lattice.size = {512, 512, 100};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 16u);
+    lattice.size = {64, 64, 64};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 32u);
+    lattice.size = {5000, 5000, 64};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 8u);
+}
+
+}  // namespace
+}  // namespace regionmesh
