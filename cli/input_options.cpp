@@ -9,7 +9,7 @@ namespace regionmesh::cli {
 namespace {
 
 [[noreturn]] void refuse(const std::string& flag, const std::string& text, const std::string& wanted) {
-    throw Error(ErrorCode::kUsage, fmt::format("{} {}: not {}", flag, text, wanted));
+    throw Error(ErrorCode::kInput, fmt::format("{} {}: not {}", flag, text, wanted));
 }
 
 std::vector<std::string> split(const std::string& text) {

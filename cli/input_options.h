@@ -21,13 +21,13 @@ struct InputOptions {
     void add_volume_options(CLI::App& command);
     /// Adds --background, --no-background and --boundary.
     void add_label_options(CLI::App& command);
-    /// Throws Error(kUsage) for a word that is no number.
+    /// Throws Error(kInput) for a word that is no number.
     std::unique_ptr<SectionReader> open(const std::vector<std::string>& inputs) const;
     std::vector<InputLabel> background_labels() const;
     bool cap() const { return boundary == "cap"; }
 };
 
-/// A count, share or size as typed; each throws Error(kUsage) naming the flag.
+/// A count, share or size as typed; each throws Error(kInput) naming the flag.
 std::uint64_t parse_count(const std::string& flag, const std::string& text);
 double parse_number(const std::string& flag, const std::string& text);
 double parse_share(const std::string& flag, const std::string& text);          // "90%" or "0.9"

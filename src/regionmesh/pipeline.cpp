@@ -305,7 +305,7 @@ std::uint64_t reading_bytes(const VolumeInfo& volume) {
 std::uint64_t face_budget_for(std::uint64_t memory, const VolumeInfo& volume) {
     const std::uint64_t reading = reading_bytes(volume);
     if (memory < reading + (std::uint64_t{1} << 20))
-        throw Error(ErrorCode::kUsage, "--memory " + std::to_string(memory >> 20) + " MiB: sections of " + volume.source + " alone take " +
+        throw Error(ErrorCode::kInput, "--memory " + std::to_string(memory >> 20) + " MiB: sections of " + volume.source + " alone take " +
                                            std::to_string((reading >> 20) + 1) + " MiB; give more, or another --sweep");
     return std::min((memory - reading) / kBytesPerFace, kNoLimit);
 }

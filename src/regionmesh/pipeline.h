@@ -46,7 +46,7 @@ struct Reconstruction {
 
 /// Reads all sections, builds the model on the fly within the face budget, decimates it to the target and checks it.
 /// Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader throws;
-/// Error(kUsage) for a target beyond what memory allows. Deterministic.
+/// Error(kInput) for a target beyond what memory allows. Deterministic.
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},
                            const std::function<void(const Progress&)>& on_progress = {});
 

@@ -282,7 +282,7 @@ TEST_F(ModelFileTest, extension_is_matched_in_any_case_and_others_are_refused) {
         write_model(two_boxes(), labels, path("m.stl"));
         ADD_FAILURE() << "nothing thrown";
     } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ErrorCode::kUsage);
+        EXPECT_EQ(error.code(), ErrorCode::kOutput);
         EXPECT_THAT(error.what(), HasSubstr("'.stl': use .vtp or .ply"));
     }
     EXPECT_THAT(failure_of(path("m.stl")), HasSubstr("use .vtp or .ply"));

@@ -95,6 +95,13 @@ TEST(OnTheFly, backgrounds_and_open_boxes_stay_sound) {
     test::expect_sound(run(volume, options).report.check);
 }
 
+TEST(OnTheFly, a_ball_of_few_faces_that_has_outgrown_its_first_box_stays_sound) {
+    ReconstructOptions options = with_budget(0, 422);
+    options.background = {0};
+    options.min_quality = 0;
+    test::expect_sound(run(test::ball_volume({14, 14, 14}, 4.5), options).report.check);
+}
+
 TEST(OnTheFly, every_sweep_and_batch_stays_sound) {
     for (const Sweep& sweep : {kSweepX, kSweepY, kSweepZ})
         for (std::uint32_t strips : {1u, 3u}) {

@@ -60,10 +60,10 @@ struct QualityReport {
 
 struct CheckOptions {
     bool boundary_is_open = false;       // the box was not capped: open edges on it are no violation
-    std::vector<Label> background;       // these labels have no faces with the exterior: not reported as regions
-    std::optional<LabelOracle> oracle;   // compare with the labels
+    std::vector<Label> background = {};  // these labels have no faces with the exterior: not reported as regions
+    std::optional<LabelOracle> oracle = {};  // compare with the labels
     bool crossing = true;                // look for crossing faces
-    std::function<std::string(Label)> label_text;  // for sentences; the dense number without it
+    std::function<std::string(Label)> label_text = {};  // for sentences; the dense number without it
     std::uint32_t listed = 1000;         // at most so many findings a kind are listed; all are counted
 };
 

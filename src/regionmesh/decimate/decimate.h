@@ -21,7 +21,7 @@ struct DecimateOptions {
     bool refresh = true;                  // begin again when candidates run out (P 3.7)
     Box limits{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};  // merged vertices stay strictly inside,
                                           // unless on a side of the box: beyond lies what was not read yet
-    std::function<void()> on_progress;    // called now and then
+    std::function<void()> on_progress = {};  // called now and then
 };
 
 enum class StopReason { kTarget, kMaxError, kTopology };

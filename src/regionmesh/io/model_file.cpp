@@ -126,14 +126,14 @@ std::uint8_t FileView::node_type(VertexId v) const {
 void write_model(const Model& model, const LabelTable& labels, const std::filesystem::path& path,
                  const WriteOptions& options) {
     const std::string extension = extension_of(path);
-    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kUsage, path);
+    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kOutput, path);
     const FileView view(model, labels, options.background);
     extension == ".vtp" ? write_vtp(view, path) : write_ply(view, path);
 }
 
 void require_writable_model(const std::filesystem::path& path) {
     const std::string extension = extension_of(path);
-    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kUsage, path);
+    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kOutput, path);
     require_writable(path);
 }
 

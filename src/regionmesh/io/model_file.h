@@ -11,7 +11,7 @@
 namespace regionmesh {
 
 struct WriteOptions {
-    std::vector<Label> background;  // written second in a pair, as the exterior is
+    std::vector<Label> background = {};  // written second in a pair, as the exterior is
 };
 
 /// Writes the living vertices and faces, numbered densely in order of id. First under a temporary name beside `path`,
@@ -26,7 +26,7 @@ struct WriteOptions {
 ///         label_second_low, label_second_high. A header line `comment exterior_label` names the exterior; background
 ///         is not named.
 /// The bytes depend on the model, the labels and the options only. Memory: a few megabytes, and 4 bytes a vertex where
-/// some were removed. Throws Error(kUsage) for another extension, before anything is written, and Error(kOutput) when
+/// some were removed. Throws Error(kOutput) for another extension, before anything is written, and Error(kOutput) when
 /// the file cannot be written or the disk is full.
 void write_model(const Model& model, const LabelTable& labels, const std::filesystem::path& path,
                  const WriteOptions& options = {});

@@ -17,9 +17,9 @@ enum class SweepChoice { kAuto, kX, kY, kZ };
 /// How to open a volume; all optional.
 struct ReadOptions {
     SweepChoice sweep = SweepChoice::kAuto;                  // kAuto: along the axis with the smallest section (P 3.1)
-    std::optional<Vec3> spacing;                             // instead of the file's own
-    std::optional<std::array<std::uint32_t, 3>> raw_size;    // raw files: samples along x, y, z
-    std::optional<SampleType> raw_type;                      // raw files: little-endian samples
+    std::optional<Vec3> spacing = {};                        // instead of the file's own
+    std::optional<std::array<std::uint32_t, 3>> raw_size = {};   // raw files: samples along x, y, z
+    std::optional<SampleType> raw_type = {};                    // raw files: little-endian samples
 };
 
 /// Opens one volume file, one directory of sections, or a list of section files in the order given.

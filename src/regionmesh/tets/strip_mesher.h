@@ -15,7 +15,7 @@ namespace regionmesh {
 
 struct StripOptions {
     bool cap = true;                // split the lattice triangles on the six sides of the box into faces (DESIGN 4)
-    std::vector<Label> background;  // dense labels whose faces with the exterior are not made
+    std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
 };
 
 /// Meshes strips. Vertices are welded by lattice key: a base node and one of 26 kinds, looked up in flat tables that
