@@ -14,7 +14,6 @@ struct Arguments {
     int smooth = 0, threads = 1;
     std::string smooth_filter = "none";
     bool no_decimate = false, no_intersect_check = false, quiet = false;
-    std::uint32_t strips = 1;
     InputOptions input;
 };
 
@@ -29,7 +28,6 @@ ReconstructOptions to_options(const Arguments& arguments) {
     options.memory = parse_bytes("--memory", arguments.memory);
     options.decimate = !arguments.no_decimate;
     options.intersect_check = !arguments.no_intersect_check;
-    options.strips_per_batch = arguments.strips;
     options.background = arguments.input.background_labels();
     options.cap = arguments.input.cap();
     return options;
@@ -88,7 +86,6 @@ void add_reconstruct(CLI::App& app, Action& action) {
     command->add_option("--smooth-filter", arguments->smooth_filter, "only none so far")->check(CLI::IsMember({"none"}));
     command->add_option("--memory", arguments->memory, "stay within this, such as 500MiB or 2GiB");
     command->add_option("--face-budget", arguments->face_budget, "most faces held at once, instead of one derived from --memory");
-    command->add_option("--strips", arguments->strips, "strips between two looks at the budget")->check(CLI::PositiveNumber);
     command->add_option("--threads", arguments->threads, "only 1 so far")->check(CLI::IsMember({1}));
     command->add_option("--perturbation", arguments->perturbation, "largest cost added to tell equal edges apart");
     command->add_flag("--no-decimate", arguments->no_decimate, "the plain reconstruction");

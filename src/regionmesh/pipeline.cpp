@@ -298,8 +298,10 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& opti
 
 std::uint64_t reading_bytes(const VolumeInfo& volume) {
     const std::uint64_t width = volume.lattice.size[volume.sweep.axes[0]], height = volume.lattice.size[volume.sweep.axes[1]];
-    // The section as read, two with dense labels, two planes of six vertex numbers, and what the reader holds.
-    return width * height * (8 + 2 * 4 + 2 * 24 + 8) + (std::uint64_t{16} << 20);
+    // The section as read, two with dense labels, two planes of six vertex numbers, and what the reader holds; and the
+    // faces and vertices of a run, at one face a sample.
+    const std::uint64_t run = plan_tiles(volume.lattice, volume.sweep).run_strips;
+    return width * height * (8 + 2 * 4 + 2 * 24 + 8 + run * (sizeof(BatchFace) + sizeof(BatchVertex) / 2)) + (std::uint64_t{16} << 20);
 }
 
 std::uint64_t face_budget_for(std::uint64_t memory, const VolumeInfo& volume) {

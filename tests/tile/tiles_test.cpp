@@ -114,7 +114,7 @@ TEST(Tiles, leave_carried_and_open_vertices_as_they_are) {
 
 TEST(TilePlan, comes_from_the_size_alone) {
     Lattice lattice;
-    lattice.size = {512, 512, 100};
+    lattice.size = {360, 360, 100};
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 16u);
     lattice.size = {64, 64, 64};
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 32u);

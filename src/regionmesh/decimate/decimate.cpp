@@ -34,7 +34,7 @@ public:
                 step();
                 if (model_.face_count() < model_.face_end() * kCompactBelow) {
                     model_.compact_faces();
-                    tree_ = FaceTree(model_);
+                    tree_.build(model_);
                 }
             }
             if (model_.face_count() <= options_.target_faces) break;

@@ -15,7 +15,8 @@ constexpr FaceTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, k
 
 }  // namespace
 
-FaceTree::FaceTree(const Model& model) {
+void FaceTree::build(const Model& model) {
+    std::vector<std::vector<Boxes>>().swap(levels_);
     Box bounds;
     for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
         if (model.is_alive(VertexId{v})) bounds.add(model.position(VertexId{v}));

@@ -34,7 +34,10 @@ public:
         unsigned meeting(const GridBox& box) const;
     };
 
-    explicit FaceTree(const Model& model);
+    explicit FaceTree(const Model& model) { build(model); }
+
+    /// Begins again with the faces that are alive now; the old boxes are let go first.
+    void build(const Model& model);
 
     /// The smallest box of the grid round `box`, and a little more.
     GridBox outward(const Box& box) const;

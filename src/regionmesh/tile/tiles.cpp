@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kTileCells = 32;
 constexpr std::uint32_t kShortestRun = 8;
-constexpr std::uint64_t kSamplesPerRun = 4u << 20;
+constexpr std::uint64_t kSamplesPerRun = 2u << 20;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 /// A run's batch while its tiles are taken out, decimated and put back.
