@@ -32,6 +32,19 @@ bool closes_loop_of_lines(const Model& model, const EdgeStar& star) {
     });
 }
 
+/// Would an edge come to lie on an edge of the box that lay beside it before? Where the box has faces this is a loop of
+/// lines; where it has none (not capped, or background) the rim of a sheet would close on itself unseen.
+bool lands_on_box_edge(const Model& model, const EdgeStar& star) {
+    const SideSet stays = model[star.stays].sides, both = stays & model[star.goes].sides;
+    const auto is_on_edge = [](unsigned sides) { return (sides & (sides - 1)) != 0; };
+    if (!is_on_edge(stays)) return false;
+    return std::any_of(star.link.begin(), star.link.end(), [&](VertexId v) {
+        const SideSet sides = model[v].sides;
+        if (!is_on_edge(stays & sides) || is_on_edge(both & sides) || contains(star.apexes, v)) return false;
+        return std::any_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) { return f.apex == star.goes && (f.a == v || f.b == v); });
+    });
+}
+
 /// Two faces that pass their common edge in opposite directions look the same way; their normals then are as the angle
 /// between their pages, from the other side.
 bool is_pinched(Vec3 n, double n_length, Vec3 m, double m_length, bool opposite, double max_cosine) {
@@ -101,6 +114,7 @@ Verdict topology_verdict(const Model& model, const EdgeStar& star) {
     if (edge_count != vertex_labels(model, star.goes).size()) return Verdict::kStrata;
     if (!is_link_condition_met(star)) return Verdict::kLink;
     if (edge_count > 2 && closes_loop_of_lines(model, star)) return Verdict::kLink;
+    if (lands_on_box_edge(model, star)) return Verdict::kLink;
     return Verdict::kAccepted;
 }
 

@@ -40,11 +40,12 @@ void FaceTree::build(const Model& model) {
 FaceTree::GridBox FaceTree::outward(const Box& box) const {
     GridBox result;
     for (int axis = 0; axis < 3; ++axis) {
-        // Beyond the grid everything counts as being at its rim, on both sides of a comparison.
+        // Beyond the grid everything counts as being at its rim, on both sides of a comparison; no box reaches as far as
+        // the empty one.
         const double low = (box.low[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
         const double high = (box.high[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
-        result.low[axis] = static_cast<std::int16_t>(std::clamp(low - 1, -32768.0, 32767.0));
-        result.high[axis] = static_cast<std::int16_t>(std::clamp(high + 1, -32768.0, 32767.0));
+        result.low[axis] = static_cast<std::int16_t>(std::clamp(low - 1, kLowest + 1.0, kHighest - 1.0));
+        result.high[axis] = static_cast<std::int16_t>(std::clamp(high + 1, kLowest + 1.0, kHighest - 1.0));
     }
     return result;
 }
