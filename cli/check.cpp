@@ -27,8 +27,11 @@ LabelOracle translate(const Census& census, LabelTable& labels) {
 }
 
 void print_findings(const std::string& name, const CheckReport& report) {
-    fmt::print("{}: {} regions, {} pairs with an interface, {} quadruple points inside, quality {:.3f} at worst, {:.3f} on average\n", name,
-               report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min, report.quality.mean);
+    fmt::print(
+        "{}: {} regions, {} pairs with an interface, {} quadruple points inside, quality {:.3f} at worst, {:.3f} on "
+        "average\n",
+        name, report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
+        report.quality.mean);
     for (int kind = 0; kind < kViolationKindCount; ++kind) {
         if (!report.counts[kind]) continue;
         fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.counts[kind]);
@@ -45,7 +48,9 @@ int check_command(const Arguments& arguments) {
     options.boundary_is_open = !arguments.input.cap();
     if (!arguments.sections.empty()) {
         const auto reader = arguments.input.open(arguments.sections);
-        options.oracle = translate(count_labels(*reader, {.cap = arguments.input.cap(), .background = arguments.input.background_labels()}), file.labels);
+        options.oracle = translate(
+            count_labels(*reader, {.cap = arguments.input.cap(), .background = arguments.input.background_labels()}),
+            file.labels);
     }
     for (InputLabel label : arguments.input.background_labels()) options.background.push_back(file.labels.dense(label));
     options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
@@ -59,9 +64,12 @@ int check_command(const Arguments& arguments) {
 
 void add_check(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("check", "looks for cracks, folds, crossings and changes of topology; exit 3 if there are any");
-    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")->required();
-    command->add_option("--sections", arguments->sections, "the volume that the model was made from: compare with its labels");
+    CLI::App* command = app.add_subcommand(
+        "check", "looks for cracks, folds, crossings and changes of topology; exit 3 if there are any");
+    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
+        ->required();
+    command->add_option("--sections", arguments->sections,
+                        "the volume that the model was made from: compare with its labels");
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
     command->add_option("--json", arguments->json, "findings to write as JSON");

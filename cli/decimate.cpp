@@ -17,8 +17,12 @@ struct Arguments {
 
 DecimateOptions to_options(const Arguments& arguments, const Model& model) {
     DecimateOptions options;
-    if (!arguments.target_faces.empty()) options.target_faces = static_cast<std::uint32_t>(std::min<std::uint64_t>(parse_count("--target-faces", arguments.target_faces), model.face_count()));
-    if (!arguments.reduce.empty()) options.target_faces = static_cast<std::uint32_t>(std::llround(model.face_count() * (1 - parse_share("--reduce", arguments.reduce))));
+    if (!arguments.target_faces.empty())
+        options.target_faces = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(parse_count("--target-faces", arguments.target_faces), model.face_count()));
+    if (!arguments.reduce.empty())
+        options.target_faces = static_cast<std::uint32_t>(
+            std::llround(model.face_count() * (1 - parse_share("--reduce", arguments.reduce))));
     if (!arguments.max_error.empty()) options.max_error = parse_number("--max-error", arguments.max_error);
     options.min_quality = parse_number("--min-quality", arguments.min_quality);
     options.perturbation = parse_number("--perturbation", arguments.perturbation);
@@ -40,11 +44,14 @@ int decimate_command(const Arguments& arguments) {
     ModelFile file = read_model(arguments.model);
     CheckOptions check_options;
     check_options.boundary_is_open = !arguments.input.cap();
-    for (InputLabel label : arguments.input.background_labels()) check_options.background.push_back(file.labels.dense(label));
+    for (InputLabel label : arguments.input.background_labels())
+        check_options.background.push_back(file.labels.dense(label));
     check_options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
     const CheckReport before = check(file.model, check_options);
     if (before.violation_count() > 0)
-        throw Error(ErrorCode::kInput, fmt::format("{}: {} violations; only a sound model can be decimated soundly: see regionmesh check", arguments.model, before.violation_count()));
+        throw Error(ErrorCode::kInput,
+                    fmt::format("{}: {} violations; only a sound model can be decimated soundly: see regionmesh check",
+                                arguments.model, before.violation_count()));
     const std::uint32_t initial = file.model.face_count();
     const DecimateOptions options = to_options(arguments, file.model);
     file.model.sort_spatially();
@@ -52,8 +59,10 @@ int decimate_command(const Arguments& arguments) {
     const CheckReport after = check(file.model, check_options);
     write_model(file.model, file.labels, arguments.output, {.background = check_options.background});
     if (!arguments.quiet) {
-        fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output, file.model.face_count(), initial, after.quality.min, after.violation_count());
-        if (done.stopped == StopReason::kTopology) fmt::print("stopped before the target: no further edge can be collapsed\n");
+        fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output,
+                   file.model.face_count(), initial, after.quality.min, after.violation_count());
+        if (done.stopped == StopReason::kTopology)
+            fmt::print("stopped before the target: no further edge can be collapsed\n");
     }
     return after.violation_count() == 0 ? 0 : 3;
 }
@@ -63,7 +72,8 @@ int decimate_command(const Arguments& arguments) {
 void add_decimate(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("decimate", "a sound labelled surface in, with fewer faces out");
-    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")->required();
+    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
+        ->required();
     command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
     arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "at most so many faces");

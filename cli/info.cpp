@@ -18,11 +18,13 @@ void print_labels(const Census& census) {
     std::vector<Label> order;
     for (Label label = 0; label < census.labels.size(); ++label)
         if (label < census.samples.size() && census.samples[label] > 0) order.push_back(label);
-    std::sort(order.begin(), order.end(), [&](Label a, Label b) { return census.labels.less(census.labels.input(a), census.labels.input(b)); });
+    std::sort(order.begin(), order.end(),
+              [&](Label a, Label b) { return census.labels.less(census.labels.input(a), census.labels.input(b)); });
     fmt::print("labels     {}\n", order.size());
     constexpr std::size_t kShown = 20;
     for (std::size_t n = 0; n < std::min(order.size(), kShown); ++n)
-        fmt::print("  {:>12}  {} samples\n", census.labels.text(census.labels.input(order[n])), census.samples[order[n]]);
+        fmt::print("  {:>12}  {} samples\n", census.labels.text(census.labels.input(order[n])),
+                   census.samples[order[n]]);
     if (order.size() > kShown) fmt::print("  and {} more\n", order.size() - kShown);
 }
 
@@ -33,20 +35,28 @@ int info_command(const Arguments& arguments) {
     const ReconstructOptions options{.cap = arguments.input.cap(), .background = arguments.input.background_labels()};
     const Census census = count_labels(*reader, options);
     fmt::print("file       {} ({})\n", info.source, info.format);
-    fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2], to_string(info.type));
+    fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2],
+               to_string(info.type));
     fmt::print("spacing    {} x {} x {}\n", lattice.spacing.x, lattice.spacing.y, lattice.spacing.z);
     fmt::print("origin     {}, {}, {}\n", lattice.origin.x, lattice.origin.y, lattice.origin.z);
     if (!lattice.is_axis_aligned()) {
         const auto& d = lattice.direction;
-        fmt::print("direction  [{:g} {:g} {:g}] [{:g} {:g} {:g}] [{:g} {:g} {:g}]\n", d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7], d[8]);
+        fmt::print("direction  [{:g} {:g} {:g}] [{:g} {:g} {:g}] [{:g} {:g} {:g}]\n", d[0], d[1], d[2], d[3], d[4],
+                   d[5], d[6], d[7], d[8]);
     }
-    fmt::print("sweep      along {}, {} sections of {} x {}\n", "xyz"[info.sweep.axes[2]], reader->section_count(), reader->section_width(), reader->section_height());
+    const char axis = std::string("xyz")[info.sweep.axes[2]];
+    fmt::print("sweep      along {}, {} sections of {} x {}\n", axis, reader->section_count(), reader->section_width(),
+               reader->section_height());
     print_labels(census);
     const auto megabytes = [&](double share) {
-        return (static_cast<double>(reading_bytes(info)) + share * static_cast<double>(census.face_count * kBytesPerFace)) / 1e6;
+        return (static_cast<double>(reading_bytes(info)) +
+                share * static_cast<double>(census.face_count * kBytesPerFace)) /
+               1e6;
     };
-    fmt::print("model      {} faces unsimplified; {} pairs of regions with an interface\n", census.face_count, census.oracle.region_pairs);
-    fmt::print("memory     {:.0f} MB to hold the whole model; {:.0f} MB with a budget of a fifth of it\n", megabytes(1), megabytes(0.2));
+    fmt::print("model      {} faces unsimplified; {} pairs of regions with an interface\n", census.face_count,
+               census.oracle.region_pairs);
+    fmt::print("memory     {:.0f} MB to hold the whole model; {:.0f} MB with a budget of a fifth of it\n", megabytes(1),
+               megabytes(0.2));
     return 0;
 }
 

@@ -15,8 +15,10 @@ namespace {
 std::vector<std::string> split(const std::string& text) {
     std::vector<std::string> parts(1);
     for (char c : text) {
-        if (c == ',') parts.emplace_back();
-        else parts.back() += c;
+        if (c == ',')
+            parts.emplace_back();
+        else
+            parts.back() += c;
     }
     return parts;
 }
@@ -40,7 +42,8 @@ std::uint64_t parse_count(const std::string& flag, const std::string& text) {
 double parse_number(const std::string& flag, const std::string& text) {
     double value = 0;
     std::string unit;
-    if (!parse_leading(text, value, unit) || !unit.empty() || value < 0) refuse(flag, text, "a number of at least 0, such as 0.5");
+    if (!parse_leading(text, value, unit) || !unit.empty() || value < 0)
+        refuse(flag, text, "a number of at least 0, such as 0.5");
     return value;
 }
 
@@ -49,7 +52,8 @@ double parse_share(const std::string& flag, const std::string& text) {
     std::string unit;
     const bool is_number = parse_leading(text, value, unit);
     if (unit == "%") value /= 100;
-    if (!is_number || (unit != "%" && !unit.empty()) || !(value >= 0 && value <= 1)) refuse(flag, text, "a share, such as 90% or 0.9");
+    if (!is_number || (unit != "%" && !unit.empty()) || !(value >= 0 && value <= 1))
+        refuse(flag, text, "a share, such as 90% or 0.9");
     return value;
 }
 
@@ -57,10 +61,11 @@ std::uint64_t parse_bytes(const std::string& flag, const std::string& text) {
     double value = 0;
     std::string unit;
     const bool is_number = parse_leading(text, value, unit);
-    constexpr std::pair<const char*, double> kUnits[] = {{"", 1},      {"B", 1},           {"kB", 1e3},         {"MB", 1e6},
-                                                         {"GB", 1e9},  {"KiB", 0x1p10},    {"MiB", 0x1p20},     {"GiB", 0x1p30}};
+    constexpr std::pair<const char*, double> kUnits[] = {
+        {"", 1}, {"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}};
     for (const auto& [name, factor] : kUnits)
-        if (is_number && unit == name && value > 0 && value * factor < 0x1p62) return static_cast<std::uint64_t>(value * factor);
+        if (is_number && unit == name && value > 0 && value * factor < 0x1p62)
+            return static_cast<std::uint64_t>(value * factor);
     refuse(flag, text, "a size, such as 500MiB or 2GiB");
 }
 
@@ -75,12 +80,16 @@ void InputOptions::add_volume_options(CLI::App& command) {
 void InputOptions::add_label_options(CLI::App& command) {
     command.add_option("--background", background, "label of empty space, 0 if not given; may be repeated");
     command.add_flag("--no-background", no_background, "every label is a region");
-    command.add_option("--boundary", boundary, "faces on the six sides of the box: cap or open")->check(CLI::IsMember({"cap", "open"}));
+    command.add_option("--boundary", boundary, "faces on the six sides of the box: cap or open")
+        ->check(CLI::IsMember({"cap", "open"}));
 }
 
 std::unique_ptr<SectionReader> InputOptions::open(const std::vector<std::string>& inputs) const {
     ReadOptions options;
-    options.sweep = sweep == "x" ? SweepChoice::kX : sweep == "y" ? SweepChoice::kY : sweep == "z" ? SweepChoice::kZ : SweepChoice::kAuto;
+    options.sweep = sweep == "x"   ? SweepChoice::kX
+                    : sweep == "y" ? SweepChoice::kY
+                    : sweep == "z" ? SweepChoice::kZ
+                                   : SweepChoice::kAuto;
     if (!spacing.empty()) {
         const auto parts = split(spacing);
         if (parts.size() != 3) refuse("--spacing", spacing, "three numbers X,Y,Z");

@@ -30,7 +30,7 @@ struct InputOptions {
 /// A count, share or size as typed; each throws Error(kInput) naming the flag.
 std::uint64_t parse_count(const std::string& flag, const std::string& text);
 double parse_number(const std::string& flag, const std::string& text);
-double parse_share(const std::string& flag, const std::string& text);          // "90%" or "0.9"
-std::uint64_t parse_bytes(const std::string& flag, const std::string& text);   // "2GiB", "500MB", "1000000"
+double parse_share(const std::string& flag, const std::string& text);         // "90%" or "0.9"
+std::uint64_t parse_bytes(const std::string& flag, const std::string& text);  // "2GiB", "500MB", "1000000"
 
 }  // namespace regionmesh::cli

@@ -10,7 +10,8 @@ namespace {
 struct Arguments {
     std::vector<std::string> inputs;
     std::string output, report;
-    std::string target_faces, reduce, max_error, min_quality = "0.1", memory = "2GiB", face_budget, perturbation = "1e-7";
+    std::string target_faces, reduce, max_error, min_quality = "0.1", memory = "2GiB", face_budget,
+                                                 perturbation = "1e-7";
     int smooth = 0, threads = 1;
     std::string smooth_filter = "none";
     bool no_decimate = false, no_intersect_check = false, quiet = false;
@@ -34,17 +35,24 @@ ReconstructOptions to_options(const Arguments& arguments) {
 }
 
 void print_summary(const Arguments& arguments, const Report& report) {
-    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", arguments.output, report.final_faces, report.final_vertices, report.initial_faces);
-    fmt::print("quality {:.3f} at worst, {:.3f} on average; {} regions, {} pairs with an interface, {} quadruple points inside\n",
-               report.check.quality.min, report.check.quality.mean, report.check.regions.size(), report.check.region_pairs,
-               report.check.quadruple_points_inside);
+    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", arguments.output, report.final_faces,
+               report.final_vertices, report.initial_faces);
+    fmt::print(
+        "quality {:.3f} at worst, {:.3f} on average; {} regions, {} pairs with an interface, {} quadruple points "
+        "inside\n",
+        report.check.quality.min, report.check.quality.mean, report.check.regions.size(), report.check.region_pairs,
+        report.check.quadruple_points_inside);
     if (report.stopped == "topology")
-        fmt::print("stopped before the target: no further edge can be collapsed without changing topology, folding, crossing or bad faces\n");
+        fmt::print(
+            "stopped before the target: no further edge can be collapsed without changing topology, folding, crossing "
+            "or bad faces\n");
     if (report.stopped == "max_error") fmt::print("stopped at the largest error allowed\n");
     fmt::print("{:.2f} s, {:.0f} k faces/s, {} MB at most\n", report.seconds.at("total"),
-               static_cast<double>(report.initial_faces) / 1e3 / std::max(report.seconds.at("total"), 1e-9), report.peak_bytes / 1000000);
+               static_cast<double>(report.initial_faces) / 1e3 / std::max(report.seconds.at("total"), 1e-9),
+               report.peak_bytes / 1000000);
     for (int kind = 0; kind < kViolationKindCount; ++kind)
-        if (report.check.counts[kind]) fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.check.counts[kind]);
+        if (report.check.counts[kind])
+            fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.check.counts[kind]);
 }
 
 int reconstruct_command(const Arguments& arguments) {
@@ -74,18 +82,25 @@ int reconstruct_command(const Arguments& arguments) {
 void add_reconstruct(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("reconstruct", "sections in, a conforming, simplified, checked model out");
-    command->add_option("input", arguments->inputs, "volume (.npy .nii .nii.gz .tif .raw), directory of sections, or list of sections")->required();
+    command
+        ->add_option("input", arguments->inputs,
+                     "volume (.npy .nii .nii.gz .tif .raw), directory of sections, or list of sections")
+        ->required();
     command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "decimate to at most so many faces");
     command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");
-    command->add_option("--max-error", arguments->max_error, "decimate as far as this rms distance allows, in the unit of the spacing");
-    command->add_option("--min-quality", arguments->min_quality, "least quality of a face that decimation makes; 0.26 is equilateral");
+    command->add_option("--max-error", arguments->max_error,
+                        "decimate as far as this rms distance allows, in the unit of the spacing");
+    command->add_option("--min-quality", arguments->min_quality,
+                        "least quality of a face that decimation makes; 0.26 is equilateral");
     command->add_option("--smooth", arguments->smooth, "passes of smoothing; only 0 so far")->check(CLI::IsMember({0}));
-    command->add_option("--smooth-filter", arguments->smooth_filter, "only none so far")->check(CLI::IsMember({"none"}));
+    command->add_option("--smooth-filter", arguments->smooth_filter, "only none so far")
+        ->check(CLI::IsMember({"none"}));
     command->add_option("--memory", arguments->memory, "stay within this, such as 500MiB or 2GiB");
-    command->add_option("--face-budget", arguments->face_budget, "most faces held at once, instead of one derived from --memory");
+    command->add_option("--face-budget", arguments->face_budget,
+                        "most faces held at once, instead of one derived from --memory");
     command->add_option("--threads", arguments->threads, "only 1 so far")->check(CLI::IsMember({1}));
     command->add_option("--perturbation", arguments->perturbation, "largest cost added to tell equal edges apart");
     command->add_flag("--no-decimate", arguments->no_decimate, "the plain reconstruction");

@@ -15,8 +15,8 @@
 namespace regionmesh {
 namespace {
 
-/// Collapses that cost less than this, in units of spacing^4, are made in tiles already: about a hundredth of the spacing
-/// for a face of two. But a tile keeps so many times the share of faces that the target leaves.
+/// Collapses that cost less than this, in units of spacing^4, are made in tiles already: about a hundredth of the
+/// spacing for a face of two. But a tile keeps so many times the share of faces that the target leaves.
 constexpr double kTileCostLevel = 1e-3;
 constexpr double kTileMargin = 1.25;
 
@@ -41,7 +41,8 @@ LabelTable table_for(const VolumeInfo& volume) { return LabelTable(volume.type =
 /// One run: its state, and the steps in the order of reconstruct() below.
 class Run {
 public:
-    Run(SectionReader& reader, const ReconstructOptions& options, const std::function<void(const Progress&)>& on_progress)
+    Run(SectionReader& reader, const ReconstructOptions& options,
+        const std::function<void(const Progress&)>& on_progress)
         : reader_(reader), options_(options), on_progress_(on_progress), lattice_(reader.info().lattice) {
         result_.labels = table_for(reader.info());
         result_.background = dense_background(options, result_.labels);
@@ -56,10 +57,13 @@ public:
     Reconstruction finish();
 
 private:
-    bool is_decimating() const { return options_.decimate && (options_.target_faces || options_.reduce || options_.max_error); }
+    bool is_decimating() const {
+        return options_.decimate && (options_.target_faces || options_.reduce || options_.max_error);
+    }
     bool read(SectionWindow& window);
     void note_strip(const SectionWindow& window, const FaceBatch& batch);
-    void decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip, const TilePlan& plan);
+    void decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip,
+                      const TilePlan& plan);
     DecimateOptions decimate_options() const;
     void add_verdicts(const VerdictCounts& counts);
     double target_share() const;
@@ -80,14 +84,16 @@ private:
     std::optional<std::uint64_t> total_faces_;  // of the unsimplified model, where a first pass counted them
     std::uint64_t budget_ = kNoLimit;
     LabelOracle oracle_;
-    std::size_t most_bytes_ = 0;                // of model and decimation together, so far
+    std::size_t most_bytes_ = 0;  // of model and decimation together, so far
     StopReason stopped_ = StopReason::kTarget;
 };
 
 /// A first pass over the sections, where the target needs the total; and the face budget.
 void Run::plan() {
-    if (options_.face_budget) budget_ = *options_.face_budget;
-    else budget_ = face_budget_for(options_.memory, reader_.info());
+    if (options_.face_budget)
+        budget_ = *options_.face_budget;
+    else
+        budget_ = face_budget_for(options_.memory, reader_.info());
     if (!is_decimating() || !(options_.reduce || options_.target_faces) || !reader_.info().can_rewind) return;
     tell("count");
     const Timer timer(seconds("count"));
@@ -143,11 +149,13 @@ void Run::note_strip(const SectionWindow& window, const FaceBatch& batch) {
 }
 
 /// First stage: in tiles, as far as is safe whatever the target, and never below what the target will leave.
-void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip, const TilePlan& plan) {
+void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip,
+                       const TilePlan& plan) {
     const double share = target_share();
     if (share * kTileMargin >= 1) return;
     const Timer timer(seconds("decimate tiles"));
-    TileOptions tile_options{.cost_level = kTileCostLevel, .keep_share = share * kTileMargin, .decimate = decimate_options()};
+    TileOptions tile_options{
+        .cost_level = kTileCostLevel, .keep_share = share * kTileMargin, .decimate = decimate_options()};
     tile_options.decimate.on_progress = [&] { tell("reconstruct"); };
     const TileResult done = decimate_tiles(run, carried, first_strip, plan, tile_options);
     add_verdicts(done.verdicts);
@@ -157,12 +165,15 @@ void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, 
 double Run::target_share() const {
     if (options_.reduce) return 1 - *options_.reduce;
     if (!options_.target_faces) return 0;
-    return total_faces_ ? static_cast<double>(*options_.target_faces) / static_cast<double>(std::max<std::uint64_t>(*total_faces_, 1)) : 1;
+    return total_faces_ ? static_cast<double>(*options_.target_faces) /
+                              static_cast<double>(std::max<std::uint64_t>(*total_faces_, 1))
+                        : 1;
 }
 
 std::uint64_t Run::target_for(std::uint64_t initial_faces) const {
     if (options_.target_faces) return *options_.target_faces;
-    if (options_.reduce) return static_cast<std::uint64_t>(std::llround(static_cast<double>(initial_faces) * (1 - *options_.reduce)));
+    if (options_.reduce)
+        return static_cast<std::uint64_t>(std::llround(static_cast<double>(initial_faces) * (1 - *options_.reduce)));
     return 0;
 }
 
@@ -205,7 +216,8 @@ void Run::decimate_to(std::uint64_t faces, bool is_last) {
     if (!is_last) {
         // What comes later lies at or beyond the last section read.
         const int axis = reader_.info().sweep.axes[2];
-        own.limits.high[axis] = meshing_lattice(lattice_).origin[axis] + (progress_.sections_read - 1) * lattice_.spacing[axis];
+        own.limits.high[axis] =
+            meshing_lattice(lattice_).origin[axis] + (progress_.sections_read - 1) * lattice_.spacing[axis];
     }
     const char* stage = is_last ? "decimate" : "reconstruct";
     own.on_progress = [&] { tell(stage); };
@@ -226,7 +238,9 @@ void Run::bring_to_target() {
     tell("decimate");
     result_.model.sort_spatially();
     decimate_to(target_for(result_.report.initial_faces), true);
-    result_.report.stopped = stopped_ == StopReason::kTarget ? "target" : stopped_ == StopReason::kMaxError ? "max_error" : "topology";
+    result_.report.stopped = stopped_ == StopReason::kTarget     ? "target"
+                             : stopped_ == StopReason::kMaxError ? "max_error"
+                                                                 : "topology";
 }
 
 /// Applies the direction of the lattice, so that what is checked is what is written.
@@ -237,9 +251,11 @@ void Run::place_in_space() {
     for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
         if (!model.is_alive(VertexId{n})) continue;
         Vec3& p = model[VertexId{n}].position;
-        p = lattice_.origin + Vec3{d[0] * p.x + d[1] * p.y + d[2] * p.z, d[3] * p.x + d[4] * p.y + d[5] * p.z, d[6] * p.x + d[7] * p.y + d[8] * p.z};
+        p = lattice_.origin + Vec3{d[0] * p.x + d[1] * p.y + d[2] * p.z, d[3] * p.x + d[4] * p.y + d[5] * p.z,
+                                   d[6] * p.x + d[7] * p.y + d[8] * p.z};
     }
-    const double determinant = d[0] * (d[4] * d[8] - d[5] * d[7]) - d[1] * (d[3] * d[8] - d[5] * d[6]) + d[2] * (d[3] * d[7] - d[4] * d[6]);
+    const double determinant =
+        d[0] * (d[4] * d[8] - d[5] * d[7]) - d[1] * (d[3] * d[8] - d[5] * d[6]) + d[2] * (d[3] * d[7] - d[4] * d[6]);
     if (determinant < 0) model.flip_faces();
 }
 
@@ -279,7 +295,8 @@ void Run::tell(const char* stage) {
 
 }  // namespace
 
-Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options, const std::function<void(const Progress&)>& on_progress) {
+Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options,
+                           const std::function<void(const Progress&)>& on_progress) {
     double total = 0;
     Reconstruction result;
     {
@@ -297,18 +314,21 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& opti
 }
 
 std::uint64_t reading_bytes(const VolumeInfo& volume) {
-    const std::uint64_t width = volume.lattice.size[volume.sweep.axes[0]], height = volume.lattice.size[volume.sweep.axes[1]];
+    const std::uint64_t width = volume.lattice.size[volume.sweep.axes[0]],
+                        height = volume.lattice.size[volume.sweep.axes[1]];
     // The section as read, two with dense labels, two planes of six vertex numbers, and what the reader holds; and the
     // faces and vertices of a run, at one face a sample.
     const std::uint64_t run = plan_tiles(volume.lattice, volume.sweep).run_strips;
-    return width * height * (8 + 2 * 4 + 2 * 24 + 8 + run * (sizeof(BatchFace) + sizeof(BatchVertex) / 2)) + (std::uint64_t{16} << 20);
+    return width * height * (8 + 2 * 4 + 2 * 24 + 8 + run * (sizeof(BatchFace) + sizeof(BatchVertex) / 2)) +
+           (std::uint64_t{16} << 20);
 }
 
 std::uint64_t face_budget_for(std::uint64_t memory, const VolumeInfo& volume) {
     const std::uint64_t reading = reading_bytes(volume);
     if (memory < reading + (std::uint64_t{1} << 20))
-        throw Error(ErrorCode::kInput, "--memory " + std::to_string(memory >> 20) + " MiB: sections of " + volume.source + " alone take " +
-                                           std::to_string((reading >> 20) + 1) + " MiB; give more, or another --sweep");
+        throw Error(ErrorCode::kInput, "--memory " + std::to_string(memory >> 20) + " MiB: sections of " +
+                                           volume.source + " alone take " + std::to_string((reading >> 20) + 1) +
+                                           " MiB; give more, or another --sweep");
     return std::min((memory - reading) / kBytesPerFace, kNoLimit);
 }
 

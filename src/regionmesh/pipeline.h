@@ -19,15 +19,15 @@ struct ReconstructOptions {
     std::optional<std::uint64_t> target_faces = {};  // decimate to at most so many faces
     std::optional<double> reduce = {};               // or remove this share of them, 0 to 1
     std::optional<double> max_error = {};            // or as far as the rms distance allows, in the unit of the spacing
-    double min_quality = 0.1;                    // of every face that decimation touches
-    double perturbation = 1e-7;                  // P 4.5
-    bool decimate = true;                        // false: the plain reconstruction, whatever the targets say
+    double min_quality = 0.1;                        // of every face that decimation touches
+    double perturbation = 1e-7;                      // P 4.5
+    bool decimate = true;                            // false: the plain reconstruction, whatever the targets say
     bool intersect_check = true;
-    bool cap = true;                             // --boundary cap; false: open
-    std::vector<InputLabel> background{0};       // empty space: its faces with the exterior are not made
+    bool cap = true;                                // --boundary cap; false: open
+    std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
     std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process should stay within
-    std::optional<std::uint64_t> face_budget = {};   // most faces held at once, instead of one derived from memory
-    std::uint32_t strips_per_batch = 1;          // strips meshed before they are welded; tiles set it where there are any
+    std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of one derived from memory
+    std::uint32_t strips_per_batch = 1;  // strips meshed before they are welded; tiles set it where there are any
 };
 
 /// Where a run is; for a progress line.

@@ -12,17 +12,17 @@
 namespace regionmesh {
 
 struct Report {
-    std::uint64_t initial_faces = 0;      // of the unsimplified model, whether or not it ever existed at once
+    std::uint64_t initial_faces = 0;  // of the unsimplified model, whether or not it ever existed at once
     std::uint64_t initial_vertices = 0;
     std::uint64_t final_faces = 0;
     std::uint64_t final_vertices = 0;
     std::map<std::string, double> seconds;  // by stage, and "total"
-    std::uint64_t peak_bytes = 0;         // largest resident size of the process
-    std::uint64_t peak_faces = 0;         // most faces held at once
-    double bytes_per_face = 0;            // model and decimation together, at the largest, over the faces then held
+    std::uint64_t peak_bytes = 0;           // largest resident size of the process
+    std::uint64_t peak_faces = 0;           // most faces held at once
+    double bytes_per_face = 0;              // model and decimation together, at the largest, over the faces then held
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
-    std::string stopped;                  // why decimation ended: "target", "max_error", "topology", "none asked"
+    std::string stopped;  // why decimation ended: "target", "max_error", "topology", "none asked"
     CheckReport check;
 };
 

@@ -11,8 +11,8 @@
 
 namespace regionmesh {
 
-/// Like std::vector for trivially copyable T, but grown by realloc: the C library moves large blocks by remapping pages,
-/// so that growing neither copies nor holds two blocks at once. Pages beyond `size()` are never touched.
+/// Like std::vector for trivially copyable T, but grown by realloc: the C library moves large blocks by remapping
+/// pages, so that growing neither copies nor holds two blocks at once. Pages beyond `size()` are never touched.
 template <class T>
 class FlatArray {
     static_assert(std::is_trivially_copyable_v<T>);

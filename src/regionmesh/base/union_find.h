@@ -18,8 +18,10 @@ public:
     /// The smaller root stays, so that the result does not depend on the order of unions.
     void join(std::uint32_t a, std::uint32_t b) {
         a = find(a), b = find(b);
-        if (a < b) parent_[b] = a;
-        else parent_[a] = b;
+        if (a < b)
+            parent_[b] = a;
+        else
+            parent_[a] = b;
     }
 
 private:

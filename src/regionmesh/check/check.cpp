@@ -9,14 +9,17 @@ namespace regionmesh {
 namespace {
 
 constexpr std::array<const char*, kViolationKindCount> kKindNames{
-    "open_edge",         "overfull_edge",   "orientation",    "pinched_vertex", "few_edges",        "duplicate_face", "degenerate_face",
-    "coincident_vertices", "unused_vertex", "crossing_faces", "euler",          "quadruple_points", "region_pairs",   "nesting"};
+    "open_edge",      "overfull_edge",    "orientation",         "pinched_vertex", "few_edges",
+    "duplicate_face", "degenerate_face",  "coincident_vertices", "unused_vertex",  "crossing_faces",
+    "euler",          "quadruple_points", "region_pairs",        "nesting"};
 
 }  // namespace
 
 const char* to_string(ViolationKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
-std::uint64_t CheckReport::violation_count() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
+std::uint64_t CheckReport::violation_count() const {
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
 
 CheckReport check(const Model& model, const CheckOptions& options) {
     CheckReport report;
@@ -35,7 +38,8 @@ void check_against_labels(const CheckOptions& options, CheckReport& report, Find
     for (const RegionReport& region : report.regions)
         if (region.label < euler.size()) euler[region.label] = region.euler;
     for (Label label = 0; label < euler.size(); ++label) {
-        if (std::find(options.background.begin(), options.background.end(), label) != options.background.end()) continue;
+        if (std::find(options.background.begin(), options.background.end(), label) != options.background.end())
+            continue;
         if (!options.boundary_is_open && euler[label] != oracle.euler[label])
             findings.add(ViolationKind::kEuler, {}, {},
                          region_name(options, label) + ": Euler characteristic " + std::to_string(euler[label]) +
@@ -43,10 +47,13 @@ void check_against_labels(const CheckOptions& options, CheckReport& report, Find
     }
     const auto compare = [&](ViolationKind kind, std::uint64_t found, std::uint64_t expected, const char* what) {
         if (found != expected)
-            findings.add(kind, {}, {}, std::to_string(found) + " " + what + ", the labels say " + std::to_string(expected));
+            findings.add(kind, {}, {},
+                         std::to_string(found) + " " + what + ", the labels say " + std::to_string(expected));
     };
-    compare(ViolationKind::kQuadruplePoints, report.quadruple_points_inside, oracle.quadruple_points_inside, "interior quadruple points");
-    compare(ViolationKind::kRegionPairs, report.region_pairs, oracle.region_pairs, "pairs of regions with an interface");
+    compare(ViolationKind::kQuadruplePoints, report.quadruple_points_inside, oracle.quadruple_points_inside,
+            "interior quadruple points");
+    compare(ViolationKind::kRegionPairs, report.region_pairs, oracle.region_pairs,
+            "pairs of regions with an interface");
 }
 
 }  // namespace regionmesh

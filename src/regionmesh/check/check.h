@@ -15,20 +15,20 @@ namespace regionmesh {
 
 /// What can be wrong. The names are those of the report.
 enum class ViolationKind {
-    kOpenEdge,          // a region has a single face at an edge (P 3.6 b)
-    kOverfullEdge,      // a region has more than two faces at an edge (P 3.6 b)
-    kOrientation,       // two faces of a region pass their edge in the same direction: inside and outside are mixed
-    kPinchedVertex,     // a region's faces at a vertex are more than one fan
-    kFewEdges,          // a vertex with fewer than three edges (P 3.6 a)
-    kDuplicateFace,     // two faces on the same three vertices
-    kDegenerateFace,    // a face that repeats a vertex, or without area, or with one label on both sides
-    kCoincidentVertices,// two vertices at one place (P 3.6 d)
-    kUnusedVertex,      // a vertex without a face
-    kCrossingFaces,     // two faces meet outside what they share (exact)
-    kEuler,             // the Euler characteristic of a region is not that of its labels
-    kQuadruplePoints,   // interior quadruple points are not those of the labels
-    kRegionPairs,       // pairs of regions with an interface are not those of the labels
-    kNesting,           // a separate part of the surface lies in the wrong region
+    kOpenEdge,            // a region has a single face at an edge (P 3.6 b)
+    kOverfullEdge,        // a region has more than two faces at an edge (P 3.6 b)
+    kOrientation,         // two faces of a region pass their edge in the same direction: inside and outside are mixed
+    kPinchedVertex,       // a region's faces at a vertex are more than one fan
+    kFewEdges,            // a vertex with fewer than three edges (P 3.6 a)
+    kDuplicateFace,       // two faces on the same three vertices
+    kDegenerateFace,      // a face that repeats a vertex, or without area, or with one label on both sides
+    kCoincidentVertices,  // two vertices at one place (P 3.6 d)
+    kUnusedVertex,        // a vertex without a face
+    kCrossingFaces,       // two faces meet outside what they share (exact)
+    kEuler,               // the Euler characteristic of a region is not that of its labels
+    kQuadruplePoints,     // interior quadruple points are not those of the labels
+    kRegionPairs,         // pairs of regions with an interface are not those of the labels
+    kNesting,             // a separate part of the surface lies in the wrong region
 };
 inline constexpr int kViolationKindCount = 14;
 const char* to_string(ViolationKind kind);
@@ -53,24 +53,24 @@ struct RegionReport {
 /// Quality Q of faces (see model/geometry.h): 0.26 at best. Angles in degrees.
 struct QualityReport {
     double min = 0, mean = 0;
-    std::array<std::uint64_t, 28> histogram{};        // bins of width 0.01 from 0
+    std::array<std::uint64_t, 28> histogram{};  // bins of width 0.01 from 0
     double min_angle = 0, max_angle = 0;
     std::array<std::uint64_t, 18> angle_histogram{};  // all angles of all faces, bins of 10 degrees from 0
 };
 
 struct CheckOptions {
-    bool boundary_is_open = false;       // the box was not capped: open edges on it are no violation
-    std::vector<Label> background = {};  // these labels have no faces with the exterior: not reported as regions
+    bool boundary_is_open = false;           // the box was not capped: open edges on it are no violation
+    std::vector<Label> background = {};      // these labels have no faces with the exterior: not reported as regions
     std::optional<LabelOracle> oracle = {};  // compare with the labels
-    bool crossing = true;                // look for crossing faces
+    bool crossing = true;                    // look for crossing faces
     std::function<std::string(Label)> label_text = {};  // for sentences; the dense number without it
-    std::uint32_t listed = 1000;         // at most so many findings a kind are listed; all are counted
+    std::uint32_t listed = 1000;                        // at most so many findings a kind are listed; all are counted
 };
 
 struct CheckReport {
     std::array<std::uint64_t, kViolationKindCount> counts{};
-    std::vector<Violation> violations;   // at most CheckOptions::listed a kind
-    std::vector<RegionReport> regions;   // by dense label; background left out
+    std::vector<Violation> violations;  // at most CheckOptions::listed a kind
+    std::vector<RegionReport> regions;  // by dense label; background left out
     QualityReport quality;
     std::uint64_t quadruple_points_inside = 0;
     std::uint64_t region_pairs = 0;

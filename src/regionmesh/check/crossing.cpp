@@ -10,8 +10,10 @@ namespace {
 
 bool boxes_overlap(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::min({p[0][axis], p[1][axis], p[2][axis]}) > std::max({q[0][axis], q[1][axis], q[2][axis]})) return false;
-        if (std::max({p[0][axis], p[1][axis], p[2][axis]}) < std::min({q[0][axis], q[1][axis], q[2][axis]})) return false;
+        if (std::min({p[0][axis], p[1][axis], p[2][axis]}) > std::max({q[0][axis], q[1][axis], q[2][axis]}))
+            return false;
+        if (std::max({p[0][axis], p[1][axis], p[2][axis]}) < std::min({q[0][axis], q[1][axis], q[2][axis]}))
+            return false;
     }
     return true;
 }
@@ -33,7 +35,8 @@ bool do_cross(const Model& model, FaceId f, FaceId g) {
     }
     if (shared == 0) return meet({p[0], p[1], p[2]}, {q[0], q[1], q[2]});
     if (shared == 1)
-        return meet_beyond_vertex(p[common], p[(common + 1) % 3], p[(common + 2) % 3], q[(at[common] + 1) % 3], q[(at[common] + 2) % 3]);
+        return meet_beyond_vertex(p[common], p[(common + 1) % 3], p[(common + 2) % 3], q[(at[common] + 1) % 3],
+                                  q[(at[common] + 2) % 3]);
     if (shared == 2) {
         const int a = (own + 1) % 3, b = (own + 2) % 3;
         return meet_beyond_edge(p[a], p[b], p[own], q[3 - at[a] - at[b]]);
@@ -57,7 +60,8 @@ void check_crossing(const Model& model, Findings& findings) {
             const auto q = model.corners(g);
             if (is_degenerate({q[0], q[1], q[2]})) return true;
             if (do_cross(model, f, g))
-                findings.add(ViolationKind::kCrossingFaces, {}, {index(f), index(g)}, "faces " + std::to_string(n) + " and " + std::to_string(index(g)) + " cross");
+                findings.add(ViolationKind::kCrossingFaces, {}, {index(f), index(g)},
+                             "faces " + std::to_string(n) + " and " + std::to_string(index(g)) + " cross");
             return true;
         });
     }

@@ -13,7 +13,8 @@ class Findings {
 public:
     Findings(CheckReport& report, std::uint32_t listed) : report_(report), listed_(listed) {}
 
-    void add(ViolationKind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces, std::string text) {
+    void add(ViolationKind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces,
+             std::string text) {
         if (report_.counts[static_cast<int>(kind)]++ < listed_)
             report_.violations.push_back({kind, std::move(vertices), std::move(faces), std::move(text)});
     }

@@ -12,14 +12,14 @@ namespace {
 
 /// A connected part of the surface. Seen from its outermost region the volume inside is negative, and only from that.
 struct Part {
-    VertexId farthest = kNoVertex;        // along the ray
+    VertexId farthest = kNoVertex;  // along the ray
     std::map<Label, double> volumes;
     bool touches_box = false;
 };
 
 struct Hit {
     double distance = HUGE_VAL;
-    Label label = 0;                      // of the region before the face
+    Label label = 0;  // of the region before the face
 };
 
 class NestingCheck {
@@ -53,7 +53,8 @@ private:
             if (!model_.is_alive(VertexId{v}) || model_[VertexId{v}].star == kNoCorner) continue;
             Part& part = parts_[joined_.find(v)];
             part.touches_box |= model_[VertexId{v}].sides != 0;
-            if (part.farthest == kNoVertex || dot(kRay, model_.position(VertexId{v})) > dot(kRay, model_.position(part.farthest)))
+            if (part.farthest == kNoVertex ||
+                dot(kRay, model_.position(VertexId{v})) > dot(kRay, model_.position(part.farthest)))
                 part.farthest = VertexId{v};
         }
         if (parts_.size() < 2) return;
@@ -72,7 +73,8 @@ private:
     }
 
     void look_at(const Part& part, const FaceTree& tree) {
-        const auto outer = std::min_element(part.volumes.begin(), part.volumes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+        const auto outer = std::min_element(part.volumes.begin(), part.volumes.end(),
+                                            [](const auto& a, const auto& b) { return a.second < b.second; });
         const Vec3 from = model_.position(part.farthest);
         Box box;
         box.add(from);
@@ -86,10 +88,13 @@ private:
             return true;
         });
         const bool leaves = nearest.distance == HUGE_VAL;
-        const bool may_leave = options_.boundary_is_open || std::find(options_.background.begin(), options_.background.end(), outer->first) != options_.background.end();
+        const bool may_leave = options_.boundary_is_open ||
+                               std::find(options_.background.begin(), options_.background.end(), outer->first) !=
+                                   options_.background.end();
         if (leaves ? may_leave || is_exterior(outer->first) : nearest.label == outer->first) return;
         findings_.add(ViolationKind::kNesting, {index(part.farthest)}, {},
-                      "the part with vertex " + std::to_string(index(part.farthest)) + " says it lies in " + region_name(options_, outer->first) + ", but " +
+                      "the part with vertex " + std::to_string(index(part.farthest)) + " says it lies in " +
+                          region_name(options_, outer->first) + ", but " +
                           (leaves ? "nothing is round it" : "it lies in " + region_name(options_, nearest.label)));
     }
 
@@ -119,6 +124,8 @@ private:
 
 }  // namespace
 
-void check_nesting(const Model& model, const CheckOptions& options, Findings& findings) { NestingCheck(model, options, findings).run(); }
+void check_nesting(const Model& model, const CheckOptions& options, Findings& findings) {
+    NestingCheck(model, options, findings).run();
+}
 
 }  // namespace regionmesh

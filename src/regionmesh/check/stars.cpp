@@ -110,7 +110,8 @@ private:
             const auto& corner = model_[f].vertices;
             pages_.push_back({f, corner[(place + 1) % 3], corner[(place + 2) % 3]});
         });
-        if (pages_.empty()) return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {}, name(v) + " has no face");
+        if (pages_.empty())
+            return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {}, name(v) + " has no face");
         LabelSet labels;
         neighbours_.clear();
         for (const Page& page : pages_) {
@@ -121,8 +122,12 @@ private:
         }
         std::sort(neighbours_.begin(), neighbours_.end());
         neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
-        const bool may_be_rim = model_[v].sides != 0 && (options_.boundary_is_open || std::any_of(labels.begin(), labels.end(), [&](Label label) { return is_background(label); }));
-        if (neighbours_.size() < 3 && !may_be_rim) findings_.add(ViolationKind::kFewEdges, {index(v)}, {}, name(v) + " has fewer than three edges");
+        const bool may_be_rim =
+            model_[v].sides != 0 &&
+            (options_.boundary_is_open ||
+             std::any_of(labels.begin(), labels.end(), [&](Label label) { return is_background(label); }));
+        if (neighbours_.size() < 3 && !may_be_rim)
+            findings_.add(ViolationKind::kFewEdges, {index(v)}, {}, name(v) + " has fewer than three edges");
         for (Label label : labels) {
             region(label).euler += 1;
             look_at_fan(v, label);
@@ -137,7 +142,8 @@ private:
     void look_at_fan(VertexId v, Label label) {
         fan_.clear();
         for (std::uint32_t n = 0; n < pages_.size(); ++n)
-            if (model_[pages_[n].face].labels[0] == label || model_[pages_[n].face].labels[1] == label) fan_.push_back(n);
+            if (model_[pages_[n].face].labels[0] == label || model_[pages_[n].face].labels[1] == label)
+                fan_.push_back(n);
         reached_.assign(fan_.size(), false);
         todo_.assign(1, 0);
         reached_[0] = true;
@@ -155,7 +161,8 @@ private:
             }
         }
         if (count < fan_.size())
-            findings_.add(ViolationKind::kPinchedVertex, {index(v)}, {}, name(v) + ": " + region_name(options_, label) + " has more than one fan");
+            findings_.add(ViolationKind::kPinchedVertex, {index(v)}, {},
+                          name(v) + ": " + region_name(options_, label) + " has more than one fan");
     }
 
     void look_at_edge(VertexId v, VertexId w) {
@@ -173,7 +180,8 @@ private:
                 if (is_exterior(labels[side])) continue;
                 const int turn = (page.a == w) == (side == 0) ? 1 : -1;
                 const std::uint32_t sheet = 2 * index(page.face) + side;
-                const auto at = std::find_if(uses.begin(), uses.begin() + use_count, [&](const Use& use) { return use.label == labels[side]; });
+                const auto at = std::find_if(uses.begin(), uses.begin() + use_count,
+                                             [&](const Use& use) { return use.label == labels[side]; });
                 if (at != uses.begin() + use_count) {
                     ++at->count;
                     at->turn += turn;
@@ -186,13 +194,17 @@ private:
         for (int n = 0; n < use_count; ++n) {
             const Use& use = uses[n];
             region(use.label).euler -= 1;
-            const bool may_be_open = (options_.boundary_is_open || is_background(use.label)) && (model_[v].sides & model_[w].sides) != 0;
+            const bool may_be_open =
+                (options_.boundary_is_open || is_background(use.label)) && (model_[v].sides & model_[w].sides) != 0;
             const std::string where = name(v, w) + ", " + region_name(options_, use.label);
-            if (use.count == 1 && !may_be_open) findings_.add(ViolationKind::kOpenEdge, {index(v), index(w)}, {}, where + ": one face");
+            if (use.count == 1 && !may_be_open)
+                findings_.add(ViolationKind::kOpenEdge, {index(v), index(w)}, {}, where + ": one face");
             if (use.count > 2)
-                findings_.add(ViolationKind::kOverfullEdge, {index(v), index(w)}, {}, where + ": " + std::to_string(use.count) + " faces");
+                findings_.add(ViolationKind::kOverfullEdge, {index(v), index(w)}, {},
+                              where + ": " + std::to_string(use.count) + " faces");
             if (use.count == 2 && use.turn != 0)
-                findings_.add(ViolationKind::kOrientation, {index(v), index(w)}, {}, where + ": its two faces look opposite ways");
+                findings_.add(ViolationKind::kOrientation, {index(v), index(w)}, {},
+                              where + ": its two faces look opposite ways");
         }
     }
 
@@ -203,7 +215,8 @@ private:
             for (std::size_t j = i + 1; j < pages_.size(); ++j) {
                 const Page& q = pages_[j];
                 if ((p.a == q.a && p.b == q.b) || (p.a == q.b && p.b == q.a))
-                    findings_.add(ViolationKind::kDuplicateFace, {}, {index(p.face), index(q.face)}, name(p.face) + " and " + name(q.face) + " have the same vertices");
+                    findings_.add(ViolationKind::kDuplicateFace, {}, {index(p.face), index(q.face)},
+                                  name(p.face) + " and " + name(q.face) + " have the same vertices");
             }
         }
     }
@@ -227,7 +240,8 @@ private:
         for (std::size_t n = 1; n < hashed.size(); ++n) {
             const VertexId a = hashed[n - 1].second, b = hashed[n].second;
             if (hashed[n - 1].first == hashed[n].first && model_.position(a) == model_.position(b))
-                findings_.add(ViolationKind::kCoincidentVertices, {index(a), index(b)}, {}, name(a) + " and " + name(b) + " are at one place");
+                findings_.add(ViolationKind::kCoincidentVertices, {index(a), index(b)}, {},
+                              name(a) + " and " + name(b) + " are at one place");
         }
     }
 

@@ -26,13 +26,12 @@ Candidates::Candidates(Model& model, const DecimateOptions& options)
     gather_quadrics();
 }
 
-std::size_t Candidates::bytes() const {
-    return quadrics_.bytes() + partner_.bytes() + floor_.bytes() + heap_.bytes();
-}
+std::size_t Candidates::bytes() const { return quadrics_.bytes() + partner_.bytes() + floor_.bytes() + heap_.bytes(); }
 
 void Candidates::count_labels() {
     for (std::uint32_t v = 0; v < model_.vertex_end(); ++v)
-        if (model_.is_alive(VertexId{v})) model_[VertexId{v}].label_count = static_cast<std::uint8_t>(vertex_labels(model_, VertexId{v}).size());
+        if (model_.is_alive(VertexId{v}))
+            model_[VertexId{v}].label_count = static_cast<std::uint8_t>(vertex_labels(model_, VertexId{v}).size());
 }
 
 void Candidates::add_to_quadric(VertexId v, const Quadric& q) {
@@ -69,7 +68,8 @@ std::uint64_t Candidates::refresh() {
     std::uint64_t forbidden = 0;
     for (std::uint32_t v = 0; v < model_.vertex_end(); ++v) {
         floor_[v] = kNoFloor;
-        if (model_.is_alive(VertexId{v})) rank(VertexId{v}, best(VertexId{v}, {kNoVertex, kNoFloor}, kNoVertex, &forbidden));
+        if (model_.is_alive(VertexId{v}))
+            rank(VertexId{v}, best(VertexId{v}, {kNoVertex, kNoFloor}, kNoVertex, &forbidden));
     }
     return forbidden;
 }
@@ -87,7 +87,8 @@ void Candidates::gather_neighbours(VertexId v) {
             return;
         }
         for (VertexId n : {after, face.vertices[(place + 2) % 3]}) {
-            auto at = std::find_if(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& other) { return other.vertex == n; });
+            auto at = std::find_if(neighbours_.begin(), neighbours_.end(),
+                                   [&](const Neighbour& other) { return other.vertex == n; });
             if (at == neighbours_.end()) at = neighbours_.insert(at, {n, {}, 0});
             for (Label label : face.labels) at->labels.add(label);
             at->uses += 2;
@@ -109,7 +110,8 @@ VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
 }
 
 EdgeEnds Candidates::ends(VertexId goes, VertexId stays) const {
-    return {model_.position(goes), model_.position(stays), quadrics_[index(goes)], quadrics_[index(stays)], model_[stays].sides};
+    return {model_.position(goes), model_.position(stays), quadrics_[index(goes)], quadrics_[index(stays)],
+            model_[stays].sides};
 }
 
 /// Rank of an edge; infinite beyond the cost level or the largest error.
@@ -146,8 +148,10 @@ Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, std::u
 
 void Candidates::rank(VertexId v, Best best) {
     partner_[index(v)] = best.stays;
-    if (best.stays == kNoVertex) heap_.remove(v);
-    else heap_.set(v, best.key);
+    if (best.stays == kNoVertex)
+        heap_.remove(v);
+    else
+        heap_.set(v, best.key);
 }
 
 void Candidates::refuse() {
@@ -174,7 +178,8 @@ void Candidates::update(VertexId goes, VertexId stays) {
             rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, nullptr));
         } else if (owner(stays, w, edge_label_count(stays, neighbour)) == w) {
             const Best fresh{stays, key(w, stays)};
-            if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, heap_.key(w)}))) rank(w, fresh);
+            if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, heap_.key(w)})))
+                rank(w, fresh);
         }
     }
     floor_[index(stays)] = kNoFloor;

@@ -58,9 +58,9 @@ private:
 
     Model& model_;
     const DecimateOptions& options_;
-    FlatArray<PackedQuadric> quadrics_;       // each relative to its vertex
-    FlatArray<VertexId> partner_;             // where the cheapest edge of a vertex in the heap leads
-    FlatArray<float> floor_;                  // edges up to this key were refused since the last change
+    FlatArray<PackedQuadric> quadrics_;  // each relative to its vertex
+    FlatArray<VertexId> partner_;        // where the cheapest edge of a vertex in the heap leads
+    FlatArray<float> floor_;             // edges up to this key were refused since the last change
     EdgeHeap heap_;
     std::vector<Neighbour> neighbours_, other_neighbours_;
 };

@@ -57,8 +57,10 @@ private:
         Vec3 position;
         const Verdict verdict = examine(position);
         ++result_.verdicts[static_cast<int>(verdict)];
-        if (verdict == Verdict::kAccepted) collapse(position);
-        else candidates_.refuse();
+        if (verdict == Verdict::kAccepted)
+            collapse(position);
+        else
+            candidates_.refuse();
         if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress();
     }
 
@@ -82,7 +84,9 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const double level = model_.position(star_.goes)[axis];
             const auto is_level = [&](const StarFace& f) { return f.at_a[axis] == level && f.at_b[axis] == level; };
-            if (model_.position(star_.stays)[axis] == level && std::all_of(star_.faces.begin(), star_.faces.end(), is_level)) position[axis] = level;
+            if (model_.position(star_.stays)[axis] == level &&
+                std::all_of(star_.faces.begin(), star_.faces.end(), is_level))
+                position[axis] = level;
         }
     }
 
@@ -91,14 +95,15 @@ private:
         return cost <= kFlat * weight * length2(edge.goes - edge.stays);
     }
 
-    /// On a flat star every place in the plane costs nothing: the average of the link is taken where it gives the better
-    /// worst quality (P quality test 2).
+    /// On a flat star every place in the plane costs nothing: the average of the link is taken where it gives the
+    /// better worst quality (P quality test 2).
     void prefer_average(const EdgeEnds& edge, Vec3& position, ShapeResult& shape) {
         Vec3 average = average_of_link(edge);
         keep_level(average);
         if (!is_flat(edge, cost_at(edge, average))) return;
         const ShapeResult other = shape_verdict(model_, star_, average, bounds_);
-        if (other.verdict == Verdict::kAccepted && (shape.verdict != Verdict::kAccepted || other.worst_quality > shape.worst_quality)) {
+        if (other.verdict == Verdict::kAccepted &&
+            (shape.verdict != Verdict::kAccepted || other.worst_quality > shape.worst_quality)) {
             position = average;
             shape = other;
         } else {

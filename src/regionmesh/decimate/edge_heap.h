@@ -8,9 +8,9 @@
 
 namespace regionmesh {
 
-/// An indexed four-fold heap. Every candidate edge is owned by the vertex that would go, and a vertex stands in the heap
-/// with the cheapest edge it owns: a third of the entries that one per edge would need. Ties go to the lower vertex id,
-/// so that the order depends on what is in the heap only, not on how it came there.
+/// An indexed four-fold heap. Every candidate edge is owned by the vertex that would go, and a vertex stands in the
+/// heap with the cheapest edge it owns: a third of the entries that one per edge would need. Ties go to the lower
+/// vertex id, so that the order depends on what is in the heap only, not on how it came there.
 class EdgeHeap {
 public:
     explicit EdgeHeap(std::uint32_t vertex_end) { place_.resize(vertex_end, kAbsent); }
@@ -43,8 +43,10 @@ public:
         const Entry last = entries_[entries_.size() - 1];
         entries_.resize(entries_.size() - 1);
         if (place == entries_.size()) return;
-        if (place > 0 && is_before(last, entries_[(place - 1) / kFan])) rise(place, last);
-        else sink(place, last);
+        if (place > 0 && is_before(last, entries_[(place - 1) / kFan]))
+            rise(place, last);
+        else
+            sink(place, last);
     }
     std::size_t bytes() const { return entries_.bytes() + place_.bytes(); }
 

@@ -39,7 +39,8 @@ void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
     });
     model.for_star(stays, [&](FaceId f, int place) {
         const Face& face = model[f];
-        if (face.vertices[(place + 1) % 3] != goes && face.vertices[(place + 2) % 3] != goes) add_surviving(model, f, place, star);
+        if (face.vertices[(place + 1) % 3] != goes && face.vertices[(place + 2) % 3] != goes)
+            add_surviving(model, f, place, star);
     });
     for (const StarFace& face : star.faces)
         for (VertexId v : {face.a, face.b})

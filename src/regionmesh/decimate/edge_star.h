@@ -8,15 +8,15 @@
 
 namespace regionmesh {
 
-/// A face of the star that survives the collapse: it keeps the corners a and b, and its third corner moves to the merged
-/// vertex. The order (merged vertex, a, b) is that of the face.
+/// A face of the star that survives the collapse: it keeps the corners a and b, and its third corner moves to the
+/// merged vertex. The order (merged vertex, a, b) is that of the face.
 struct StarFace {
     FaceId face;
     VertexId a, b;
-    VertexId apex;       // which end of the edge the third corner is now
+    VertexId apex;  // which end of the edge the third corner is now
     Vec3 at_a, at_b;
-    Vec3 old_normal;     // twice the area vector before
-    Vec3 new_normal;     // and after; set by shape_verdict
+    Vec3 old_normal;  // twice the area vector before
+    Vec3 new_normal;  // and after; set by shape_verdict
     double old_length, new_length;
 };
 
@@ -24,9 +24,9 @@ struct StarFace {
 struct EdgeStar {
     VertexId goes, stays;
     std::vector<StarFace> faces;
-    std::vector<FaceId> dead;         // faces at the edge, which vanish
-    std::vector<VertexId> apexes;     // their third corners
-    std::vector<VertexId> link;       // distinct vertices a, b of the surviving faces
+    std::vector<FaceId> dead;      // faces at the edge, which vanish
+    std::vector<VertexId> apexes;  // their third corners
+    std::vector<VertexId> link;    // distinct vertices a, b of the surviving faces
 };
 
 /// Collects the star. Requires that goes-stays is an edge.

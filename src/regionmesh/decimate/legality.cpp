@@ -9,7 +9,9 @@
 namespace regionmesh {
 namespace {
 
-bool contains(const std::vector<VertexId>& set, VertexId v) { return std::find(set.begin(), set.end(), v) != set.end(); }
+bool contains(const std::vector<VertexId>& set, VertexId v) {
+    return std::find(set.begin(), set.end(), v) != set.end();
+}
 
 /// Every common neighbour of the ends must be an apex of the edge, and they may have no link edge in common.
 bool is_link_condition_met(const EdgeStar& star) {
@@ -41,7 +43,8 @@ bool lands_on_box_edge(const Model& model, const EdgeStar& star) {
     return std::any_of(star.link.begin(), star.link.end(), [&](VertexId v) {
         const SideSet sides = model[v].sides;
         if (!is_on_edge(stays & sides) || is_on_edge(both & sides) || contains(star.apexes, v)) return false;
-        return std::any_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) { return f.apex == star.goes && (f.a == v || f.b == v); });
+        return std::any_of(star.faces.begin(), star.faces.end(),
+                           [&](const StarFace& f) { return f.apex == star.goes && (f.a == v || f.b == v); });
     });
 }
 
@@ -57,13 +60,15 @@ bool is_nearly_flat(const EdgeStar& star) {
     Vec3 sum;
     for (const StarFace& f : star.faces) sum += f.new_normal;
     const double bound = 0.5 * length(sum);
-    return std::all_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) { return dot(f.new_normal, sum) > bound * f.new_length; });
+    return std::all_of(star.faces.begin(), star.faces.end(),
+                       [&](const StarFace& f) { return dot(f.new_normal, sum) > bound * f.new_length; });
 }
 
 /// Pages at the edges from the merged vertex.
 bool pinches_at_spokes(const Model& model, const EdgeStar& star, double max_cosine) {
     const auto& labels = model[star.dead.front()].labels;
-    const bool is_disk = std::all_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) { return model[f.face].labels == labels; });
+    const bool is_disk = std::all_of(star.faces.begin(), star.faces.end(),
+                                     [&](const StarFace& f) { return model[f.face].labels == labels; });
     if (is_disk && is_nearly_flat(star)) return false;
     for (std::size_t i = 0; i < star.faces.size(); ++i) {
         const StarFace& f = star.faces[i];
@@ -78,7 +83,8 @@ bool pinches_at_spokes(const Model& model, const EdgeStar& star, double max_cosi
     return false;
 }
 
-/// Has the page between a, b and `now` swept over x, coming from `before`? Exact; requires a turn of less than half a circle.
+/// Has the page between a, b and `now` swept over x, coming from `before`? Exact; requires a turn of less than half a
+/// circle.
 bool sweeps_over(Vec3 a, Vec3 b, Vec3 before, Vec3 now, Vec3 x) {
     const int turn = orientation(a, b, before, now);
     return turn != 0 && orientation(a, b, before, x) == turn && orientation(a, b, x, now) == turn;
@@ -128,14 +134,16 @@ void set_normals(EdgeStar& star, Vec3 position) {
 ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
     set_normals(star, position);
     for (const StarFace& f : star.faces) {
-        if (!(dot(f.old_normal, f.new_normal) > bounds.min_turn_cosine * f.old_length * f.new_length)) return {Verdict::kFold, 0};
+        if (!(dot(f.old_normal, f.new_normal) > bounds.min_turn_cosine * f.old_length * f.new_length))
+            return {Verdict::kFold, 0};
     }
-    if (pinches_at_spokes(model, star, bounds.min_dihedral_cosine) || pinches_at_link(model, star, position, bounds.min_dihedral_cosine))
+    if (pinches_at_spokes(model, star, bounds.min_dihedral_cosine) ||
+        pinches_at_link(model, star, position, bounds.min_dihedral_cosine))
         return {Verdict::kPinch, 0};
     double worst = 1;
     for (const StarFace& f : star.faces) {
-        const QualityTerms terms =
-            quality_terms(0.5 * f.new_length, length2(f.at_a - position), length2(f.at_b - position), length2(f.at_b - f.at_a));
+        const QualityTerms terms = quality_terms(0.5 * f.new_length, length2(f.at_a - position),
+                                                 length2(f.at_b - position), length2(f.at_b - f.at_a));
         const double quality = terms.value();
         worst = std::min(worst, quality);
         if (quality >= bounds.min_quality) continue;

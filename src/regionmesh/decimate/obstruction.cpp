@@ -29,19 +29,20 @@ bool has_edge_between(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& p
 bool has_ray_between(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
     const Vec3 normal = cross(a - p, b - p);
     const Vec3 beyond_a = cross(a - p, normal), beyond_b = cross(normal, b - p);
-    return (is_ahead(beyond_a, x - p) && is_ahead(beyond_a, y - p)) || (is_ahead(beyond_b, x - p) && is_ahead(beyond_b, y - p));
+    return (is_ahead(beyond_a, x - p) && is_ahead(beyond_a, y - p)) ||
+           (is_ahead(beyond_b, x - p) && is_ahead(beyond_b, y - p));
 }
 
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
     const int side = orientation(a, b, c, d);
-    return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side && orientation(b, d, c, q) == side &&
-           orientation(c, d, a, q) == side;
+    return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side &&
+           orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
 
 std::uint64_t bit_of(VertexId v) { return std::uint64_t{1} << (index(v) & 63); }
 
-/// All faces of the star lie in one plane square to an axis, exactly, and stay there: an interface or a side of the box.
-/// Since none folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
+/// All faces of the star lie in one plane square to an axis, exactly, and stay there: an interface or a side of the
+/// box. Since none folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
 bool is_flat(const Model& model, const EdgeStar& star, Vec3 position) {
     const auto& labels = model[star.dead.front()].labels;
     for (int axis = 0; axis < 3; ++axis) {
@@ -125,7 +126,8 @@ void Obstruction::add_cell(const FaceTree& tree, const Box& box) {
 
 /// Does any cell of the star reach the box?
 bool Obstruction::is_near(const FaceTree::GridBox& box) const {
-    return std::any_of(cells_.begin(), cells_.end(), [&](const FaceTree::Boxes& cells) { return cells.meeting(box) != 0; });
+    return std::any_of(cells_.begin(), cells_.end(),
+                       [&](const FaceTree::Boxes& cells) { return cells.meeting(box) != 0; });
 }
 
 Obstruction::OldFace Obstruction::look_at(const Model& model, FaceId f) const {
@@ -155,7 +157,8 @@ bool Obstruction::is_clear(const OldFace& old) {
         const auto is_end = [&](VertexId v) { return v == face.a || v == face.b; };
         if (!is_end(old.shared_vertices[0]) || (old.shared == 2 && !is_end(old.shared_vertices[1]))) continue;
         bool before = true;
-        for (int n = 0; n < 3 - old.shared && before; ++n) before = is_ahead(face.walls[1].out, old.own[n] - old.shared_at);
+        for (int n = 0; n < 3 - old.shared && before; ++n)
+            before = is_ahead(face.walls[1].out, old.own[n] - old.shared_at);
         if (before && supports(face)) return true;
     }
     return false;
@@ -208,9 +211,12 @@ bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& bo
                 if (meets_at_corner(face, 2, p, at_b)) return true;
             } else {
                 const auto is_before = [&](const Wall& wall) {
-                    return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) && is_ahead(wall.out, p[2] - wall.at);
+                    return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) &&
+                           is_ahead(wall.out, p[2] - wall.at);
                 };
-                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2]) || has_edge_between(p, t)) continue;
+                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2]) ||
+                    has_edge_between(p, t))
+                    continue;
                 if (meet({t[0], t[1], t[2]}, {p[0], p[1], p[2]})) return true;
             }
         }
@@ -218,11 +224,14 @@ bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& bo
     return false;
 }
 
-/// Do the new face and the old one, which share corner `corner` of the first and `place` of the second, meet outside it?
+/// Do the new face and the old one, which share corner `corner` of the first and `place` of the second, meet outside
+/// it?
 bool Obstruction::meets_at_corner(const NewFace& face, int corner, const Corners& p, int place) {
     const Vec3 at = p[place], x = p[(place + 1) % 3], y = p[(place + 2) % 3];
     const Wall &before = face.walls[corner - 1], &after = face.walls[corner];
-    if ((is_ahead(after.out, x - at) && is_ahead(after.out, y - at)) || (is_ahead(before.out, x - at) && is_ahead(before.out, y - at))) return false;
+    if ((is_ahead(after.out, x - at) && is_ahead(after.out, y - at)) ||
+        (is_ahead(before.out, x - at) && is_ahead(before.out, y - at)))
+        return false;
     const Vec3 a = face.corners[(corner + 1) % 3], b = face.corners[(corner + 2) % 3];
     return !has_ray_between(at, x, y, a, b) && meet_beyond_vertex(at, a, b, x, y);
 }
@@ -236,7 +245,8 @@ bool Obstruction::is_swept(const Model& model, const EdgeStar& star, Vec3 q, con
             if (n < star.faces.size()) {
                 const StarFace& f = star.faces[n];
                 if (is_in_tetrahedron(position_, model.position(f.apex), f.at_a, f.at_b, q)) return true;
-            } else if (is_in_tetrahedron(position_, ends_[0], ends_[1], model.position(star.apexes[n - star.faces.size()]), q)) {
+            } else if (is_in_tetrahedron(position_, ends_[0], ends_[1],
+                                         model.position(star.apexes[n - star.faces.size()]), q)) {
                 return true;
             }
         }

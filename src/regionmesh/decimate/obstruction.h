@@ -12,8 +12,9 @@ namespace regionmesh {
 /// Holds the scratch space of the test. Exact: no epsilon decides, cheap tests only rule out.
 class Obstruction {
 public:
-    /// True when a new face would meet a face outside the star other than in shared vertices and edges, or when the star
-    /// would sweep over a separate part of the surface. Requires that fold and pinch have passed with this position.
+    /// True when a new face would meet a face outside the star other than in shared vertices and edges, or when the
+    /// star would sweep over a separate part of the surface. Requires that fold and pinch have passed with this
+    /// position.
     bool blocks(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
 
 private:
@@ -23,12 +24,12 @@ private:
     struct Wall {
         Vec3 at, out;
     };
-    /// A face of the new star, from the merged vertex to the link edge a-b, with a wall on each edge: the face lies behind
-    /// all three. The wall on the link edge may even have the whole star behind it.
+    /// A face of the new star, from the merged vertex to the link edge a-b, with a wall on each edge: the face lies
+    /// behind all three. The wall on the link edge may even have the whole star behind it.
     struct NewFace {
         VertexId a, b;
-        Corners corners;             // merged vertex, a, b
-        std::array<Wall, 3> walls;   // on the edges after the corners of the same places: [1] is the link edge's
+        Corners corners;            // merged vertex, a, b
+        std::array<Wall, 3> walls;  // on the edges after the corners of the same places: [1] is the link edge's
         enum { kUnknown, kSupports, kDoesNot } support;
     };
     /// A face outside the star, and what it shares with the link.
@@ -37,8 +38,8 @@ private:
         Corners corners;
         int shared = 0;
         std::array<VertexId, 3> shared_vertices;
-        Vec3 shared_at;              // one of them
-        std::array<Vec3, 3> own;     // the other corners
+        Vec3 shared_at;           // one of them
+        std::array<Vec3, 3> own;  // the other corners
     };
 
     void prepare(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
@@ -53,16 +54,17 @@ private:
     bool is_swept(const Model& model, const EdgeStar& star, Vec3 q, const FaceTree::GridBox& box) const;
 
     Vec3 position_;
-    std::array<Vec3, 2> ends_;       // where the edge is now
-    Vec3 normal_;                    // sum of the new faces' normals
-    double low_ = 0, high_ = 0;      // extent along it, from position_, of all that the star sweeps
-    Box box_;                        // of all that the star sweeps
+    std::array<Vec3, 2> ends_;   // where the edge is now
+    Vec3 normal_;                // sum of the new faces' normals
+    double low_ = 0, high_ = 0;  // extent along it, from position_, of all that the star sweeps
+    Box box_;                    // of all that the star sweeps
     std::vector<NewFace> faces_;
-    std::vector<FaceTree::Boxes> cells_;  // box of each new face with the tetrahedron it sweeps; then of the dead faces'
+    std::vector<FaceTree::Boxes>
+        cells_;  // box of each new face with the tetrahedron it sweeps; then of the dead faces'
     std::uint32_t cell_count_ = 0;
     std::vector<VertexId> link_;
     std::vector<Vec3> link_at_;
-    std::uint64_t link_bits_ = 0;    // a bit for each link vertex, by id modulo 64
+    std::uint64_t link_bits_ = 0;  // a bit for each link vertex, by id modulo 64
 };
 
 }  // namespace regionmesh

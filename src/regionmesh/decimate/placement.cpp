@@ -14,7 +14,9 @@ Vec3 solve(const Quadric& q, Vec3 r) {
     const double c11 = q.xx * q.zz - q.xz * q.xz, c12 = q.xy * q.xz - q.xx * q.yz, c22 = q.xx * q.yy - q.xy * q.xy;
     const double determinant = q.xx * c00 + q.xy * c01 + q.xz * c02;
     if (!(determinant > 0)) return {};
-    return Vec3{c00 * r.x + c01 * r.y + c02 * r.z, c01 * r.x + c11 * r.y + c12 * r.z, c02 * r.x + c12 * r.y + c22 * r.z} / determinant;
+    return Vec3{c00 * r.x + c01 * r.y + c02 * r.z, c01 * r.x + c11 * r.y + c12 * r.z,
+                c02 * r.x + c12 * r.y + c22 * r.z} /
+           determinant;
 }
 
 /// Takes a coordinate out of the system by setting it to `value`.

@@ -46,8 +46,16 @@ struct PackedQuadric {
 
     PackedQuadric() = default;
     explicit PackedQuadric(const Quadric& q)
-        : xx(float(q.xx)), xy(float(q.xy)), xz(float(q.xz)), yy(float(q.yy)), yz(float(q.yz)), zz(float(q.zz)),
-          bx(float(q.b.x)), by(float(q.b.y)), bz(float(q.b.z)), c(float(q.c)) {}
+        : xx(float(q.xx)),
+          xy(float(q.xy)),
+          xz(float(q.xz)),
+          yy(float(q.yy)),
+          yz(float(q.yz)),
+          zz(float(q.zz)),
+          bx(float(q.b.x)),
+          by(float(q.b.y)),
+          bz(float(q.b.z)),
+          c(float(q.c)) {}
     Quadric unpack() const { return {xx, xy, xz, yy, yz, zz, {bx, by, bz}, c}; }
 };
 

@@ -21,8 +21,8 @@ std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, con
 /// Bare little-endian samples, x fastest, as options.raw_size and options.raw_type say.
 std::unique_ptr<SectionReader> open_raw(const std::filesystem::path& path, const ReadOptions& options);
 
-/// A TIFF whose pages are sections, or an ImageJ stack with one page for all of them. Spacing is read where ImageJ wrote
-/// one, with a unit.
+/// A TIFF whose pages are sections, or an ImageJ stack with one page for all of them. Spacing is read where ImageJ
+/// wrote one, with a unit.
 std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, const ReadOptions& options);
 
 /// PNG and one-page TIFF files, a section each, in the order given.

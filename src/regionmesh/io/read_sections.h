@@ -16,9 +16,9 @@ enum class SweepChoice { kAuto, kX, kY, kZ };
 
 /// How to open a volume; all optional.
 struct ReadOptions {
-    SweepChoice sweep = SweepChoice::kAuto;                  // kAuto: along the axis with the smallest section (P 3.1)
-    std::optional<Vec3> spacing = {};                        // instead of the file's own
-    std::optional<std::array<std::uint32_t, 3>> raw_size = {};   // raw files: samples along x, y, z
+    SweepChoice sweep = SweepChoice::kAuto;  // kAuto: along the axis with the smallest section (P 3.1)
+    std::optional<Vec3> spacing = {};        // instead of the file's own
+    std::optional<std::array<std::uint32_t, 3>> raw_size = {};  // raw files: samples along x, y, z
     std::optional<SampleType> raw_type = {};                    // raw files: little-endian samples
 };
 
@@ -26,7 +26,8 @@ struct ReadOptions {
 /// `.npy .nii .nii.gz .tif .tiff .png .raw`; directories take their images in natural order (s2 before s10).
 /// Throws Error(kInput) for a missing or unreadable file, unknown format, float or complex samples, an empty volume,
 /// sections of different size, or a sweep that the format cannot do.
-std::unique_ptr<SectionReader> open_sections(const std::vector<std::filesystem::path>& inputs, const ReadOptions& options = {});
+std::unique_ptr<SectionReader> open_sections(const std::vector<std::filesystem::path>& inputs,
+                                             const ReadOptions& options = {});
 
 /// "uint16" and the like; the same words are accepted by --type.
 std::string to_string(SampleType type);

@@ -16,14 +16,18 @@ Kernel::Segment_3 segment(Vec3 a, Vec3 b) { return {point(a), point(b)}; }
 
 }  // namespace
 
-int exact_orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return CGAL::orientation(point(a), point(b), point(c), point(d)); }
+int exact_orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+    return CGAL::orientation(point(a), point(b), point(c), point(d));
+}
 
 bool is_degenerate(const Triangle& t) { return CGAL::collinear(point(t.a), point(t.b), point(t.c)); }
 
 bool meet(const Triangle& s, const Triangle& t) {
-    const int a = orientation(s.a, s.b, s.c, t.a), b = orientation(s.a, s.b, s.c, t.b), c = orientation(s.a, s.b, s.c, t.c);
+    const int a = orientation(s.a, s.b, s.c, t.a), b = orientation(s.a, s.b, s.c, t.b),
+              c = orientation(s.a, s.b, s.c, t.c);
     if (a != 0 && a == b && b == c) return false;
-    const int d = orientation(t.a, t.b, t.c, s.a), e = orientation(t.a, t.b, t.c, s.b), f = orientation(t.a, t.b, t.c, s.c);
+    const int d = orientation(t.a, t.b, t.c, s.a), e = orientation(t.a, t.b, t.c, s.b),
+              f = orientation(t.a, t.b, t.c, s.c);
     if (d != 0 && d == e && e == f) return false;
     return CGAL::do_intersect(triangle(s), triangle(t));
 }
@@ -34,7 +38,8 @@ bool meet_beyond_vertex(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
     const int sa = orientation(p, x, y, a), sb = orientation(p, x, y, b);
     if (sa != 0 && sa == sb) return false;
     // What the two share is convex and holds p: if it holds more, it reaches the side opposite p of one of them.
-    return CGAL::do_intersect(segment(a, b), triangle({p, x, y})) || CGAL::do_intersect(segment(x, y), triangle({p, a, b}));
+    return CGAL::do_intersect(segment(a, b), triangle({p, x, y})) ||
+           CGAL::do_intersect(segment(x, y), triangle({p, a, b}));
 }
 
 bool meet_beyond_edge(Vec3 p, Vec3 q, Vec3 a, Vec3 x) {

@@ -17,7 +17,8 @@ inline int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const Vec3 u = a - d, v = b - d, w = c - d;
     const double vw = v.x * w.y, wv = w.x * v.y, wu = w.x * u.y, uw = u.x * w.y, uv = u.x * v.y, vu = v.x * u.y;
     const double determinant = u.z * (vw - wv) + v.z * (wu - uw) + w.z * (uv - vu);
-    const double permanent = std::abs(u.z) * (std::abs(vw) + std::abs(wv)) + std::abs(v.z) * (std::abs(wu) + std::abs(uw)) +
+    const double permanent = std::abs(u.z) * (std::abs(vw) + std::abs(wv)) +
+                             std::abs(v.z) * (std::abs(wu) + std::abs(uw)) +
                              std::abs(w.z) * (std::abs(uv) + std::abs(vu));
     const double bound = 7.7715611723761027e-16 * permanent;
     // Seen from d, a b c is clockwise when d lies where its normal points: hence the change of sign.

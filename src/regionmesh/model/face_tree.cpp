@@ -40,8 +40,8 @@ void FaceTree::build(const Model& model) {
 FaceTree::GridBox FaceTree::outward(const Box& box) const {
     GridBox result;
     for (int axis = 0; axis < 3; ++axis) {
-        // Beyond the grid everything counts as being at its rim, on both sides of a comparison; no box reaches as far as
-        // the empty one.
+        // Beyond the grid everything counts as being at its rim, on both sides of a comparison; no box reaches as far
+        // as the empty one.
         const double low = (box.low[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
         const double high = (box.high[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
         result.low[axis] = static_cast<std::int16_t>(std::clamp(low - 1, kLowest + 1.0, kHighest - 1.0));
@@ -64,7 +64,8 @@ unsigned FaceTree::Boxes::meeting(const GridBox& box) const {
     unsigned mask = 0;
     for (std::uint32_t lane = 0; lane < kFan; ++lane) {
         bool in = true;
-        for (int axis = 0; axis < 3; ++axis) in &= low[axis][lane] <= box.high[axis] && high[axis][lane] >= box.low[axis];
+        for (int axis = 0; axis < 3; ++axis)
+            in &= low[axis][lane] <= box.high[axis] && high[axis][lane] >= box.low[axis];
         mask |= static_cast<unsigned>(in) << lane;
     }
     return mask;
@@ -108,9 +109,7 @@ void FaceTree::set(FaceId f, const Box& box) {
     }
 }
 
-void FaceTree::remove(FaceId f) {
-    levels_[0][index(f) / kFan].put(index(f) % kFan, kNothing);
-}
+void FaceTree::remove(FaceId f) { levels_[0][index(f) / kFan].put(index(f) % kFan, kNothing); }
 
 std::size_t FaceTree::bytes() const {
     std::size_t sum = 0;

@@ -10,8 +10,8 @@
 namespace regionmesh {
 
 /// An eight-fold tree of boxes over the faces in order of id, which should be a spatial order (Model::sort_spatially).
-/// Boxes are rounded outward to 1/65535 of the model's extent, two bytes a coordinate, so that eight of them are compared
-/// at once: 14 bytes a face all told.
+/// Boxes are rounded outward to 1/65535 of the model's extent, two bytes a coordinate, so that eight of them are
+/// compared at once: 14 bytes a face all told.
 class FaceTree {
 public:
     static constexpr std::uint32_t kFan = 8;
@@ -75,9 +75,12 @@ void FaceTree::search(const Box& box, Visit&& visit) const {
         const Entry entry = stack[--top];
         const Boxes& boxes = levels_[entry.level][entry.group];
         for (unsigned mask = boxes.meeting(wanted); mask; mask &= mask - 1) {
-            const std::uint32_t lane = static_cast<std::uint32_t>(__builtin_ctz(mask)), child = entry.group * kFan + lane;
-            if (entry.level > 0) stack[top++] = {entry.level - 1, child};
-            else if (!visit(FaceId{child}, boxes[lane])) return;
+            const std::uint32_t lane = static_cast<std::uint32_t>(__builtin_ctz(mask)),
+                                child = entry.group * kFan + lane;
+            if (entry.level > 0)
+                stack[top++] = {entry.level - 1, child};
+            else if (!visit(FaceId{child}, boxes[lane]))
+                return;
         }
     }
 }

@@ -54,7 +54,8 @@ void Model::unlink(VertexId v, Corner corner) {
 }
 
 void Model::remove_face(FaceId f) {
-    for (int place = 0; place < 3; ++place) unlink(faces_[index(f)].vertices[place], index(f) << 2 | static_cast<Corner>(place));
+    for (int place = 0; place < 3; ++place)
+        unlink(faces_[index(f)].vertices[place], index(f) << 2 | static_cast<Corner>(place));
     Face& face = faces_[index(f)];
     face.vertices[0] = kNoVertex;
     face.next[0] = free_face_;
@@ -151,7 +152,8 @@ std::vector<KeyedIndex> Model::faces_along_curve() const {
     std::vector<KeyedIndex> order;
     order.reserve(face_count_);
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
-        if (is_alive(FaceId{f})) order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
+        if (is_alive(FaceId{f}))
+            order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
     radix_sort(order);
     return order;
 }

@@ -19,20 +19,21 @@ inline constexpr Corner kNoCorner = 0xFFFFFFFFu;
 
 /// 32 bytes, half a cache line: going round a star touches one line a face.
 struct Face {
-    std::array<VertexId, 3> vertices;   // counter-clockwise seen from the second label: the normal points from first to second
-    std::array<Corner, 3> next;         // next corner in the star of the vertex at the same place
-    std::array<Label, 2> labels;        // the smaller dense label first
+    std::array<VertexId, 3>
+        vertices;                // counter-clockwise seen from the second label: the normal points from first to second
+    std::array<Corner, 3> next;  // next corner in the star of the vertex at the same place
+    std::array<Label, 2> labels;  // the smaller dense label first
 };
 static_assert(sizeof(Face) == 32);
 
 /// 32 bytes.
 struct Vertex {
     Vec3 position;
-    Corner star = kNoCorner;            // first corner of the star
-    SideSet sides = 0;                  // sides of the box it lies on; there it keeps its coordinate
-    bool is_fixed = false;              // some of its faces are not here (front, seam): it neither moves nor goes
+    Corner star = kNoCorner;  // first corner of the star
+    SideSet sides = 0;        // sides of the box it lies on; there it keeps its coordinate
+    bool is_fixed = false;    // some of its faces are not here (front, seam): it neither moves nor goes
     bool is_alive = true;
-    std::uint8_t label_count = 0;       // of its stratum; kept while decimating (decimate/candidates.h)
+    std::uint8_t label_count = 0;  // of its stratum; kept while decimating (decimate/candidates.h)
 };
 static_assert(sizeof(Vertex) == 32);
 
@@ -80,7 +81,8 @@ public:
     }
 
     /// Renumbers vertices and faces along a Morton curve, without free places: what is near in space is near in memory,
-    /// and in FaceTree. Returns the new id of each old vertex (kNoVertex for free places). Holds a second copy meanwhile.
+    /// and in FaceTree. Returns the new id of each old vertex (kNoVertex for free places). Holds a second copy
+    /// meanwhile.
     std::vector<VertexId> sort_spatially();
     /// Renumbers faces only, in their order, without free places.
     void compact_faces();
@@ -102,7 +104,7 @@ private:
     FlatArray<Face> faces_;
     std::uint32_t vertex_count_ = 0;
     std::uint32_t face_count_ = 0;
-    Corner free_vertex_ = kNoCorner;    // heads of the lists of free places, threaded through star and next[0]
+    Corner free_vertex_ = kNoCorner;  // heads of the lists of free places, threaded through star and next[0]
     Corner free_face_ = kNoCorner;
 };
 

@@ -8,13 +8,15 @@ SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader
     const VolumeInfo& info = reader.info();
     for (int axis = 0; axis < 3; ++axis)
         if (info.lattice.size[axis] < 2)
-            throw Error(ErrorCode::kInput, info.source + ": " + std::to_string(info.lattice.size[axis]) + " sample along " + "xyz"[axis] +
+            throw Error(ErrorCode::kInput, info.source + ": " + std::to_string(info.lattice.size[axis]) +
+                                               " sample along " + "xyz"[axis] +
                                                "; a cell needs two: give a volume with at least 2 x 2 x 2 samples");
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
     constexpr std::size_t kMostSamples = 700'000'000;  // six table places each, counted in 32 bits
     if (samples > kMostSamples)
-        throw Error(ErrorCode::kInput, info.source + ": a section of " + std::to_string(samples) + " samples is beyond " +
-                                           std::to_string(kMostSamples) + "; choose another --sweep");
+        throw Error(ErrorCode::kInput, info.source + ": a section of " + std::to_string(samples) +
+                                           " samples is beyond " + std::to_string(kMostSamples) +
+                                           "; choose another --sweep");
     input_.resize(samples);
     low_.resize(samples);
     high_.resize(samples);

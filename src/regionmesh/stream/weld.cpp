@@ -10,7 +10,8 @@ void Weld::add(const FaceBatch& batch) {
     for (VertexId v : front_) model_[v].is_fixed = false;
     for (const BatchVertex& vertex : batch.vertices) ids_.push_back(model_.add_vertex(vertex.position, vertex.sides));
     for (const BatchFace& face : batch.faces)
-        model_.add_face(ids_[face.vertices[0]], ids_[face.vertices[1]], ids_[face.vertices[2]], face.labels[0], face.labels[1]);
+        model_.add_face(ids_[face.vertices[0]], ids_[face.vertices[1]], ids_[face.vertices[2]], face.labels[0],
+                        face.labels[1]);
     front_.clear();
     for (std::uint32_t local : batch.open) front_.push_back(ids_[local]);
     for (VertexId v : front_) model_[v].is_fixed = true;

@@ -9,7 +9,9 @@ void FaceBatch::append(const FaceBatch& next) {
     }
     const std::uint32_t first_new = carried + static_cast<std::uint32_t>(vertices.size());
     const std::vector<std::uint32_t> joint = std::move(open);
-    const auto here = [&](std::uint32_t local) { return local < next.carried ? joint[local] : first_new + local - next.carried; };
+    const auto here = [&](std::uint32_t local) {
+        return local < next.carried ? joint[local] : first_new + local - next.carried;
+    };
     vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
     for (const BatchFace& face : next.faces)
         faces.push_back({{here(face.vertices[0]), here(face.vertices[1]), here(face.vertices[2])}, face.labels});

@@ -9,11 +9,16 @@ namespace {
 /// Faces inside a tetrahedron by the number of its labels; two labels may be one against three or two against two.
 std::uint64_t faces_of(unsigned pattern) {
     switch (std::popcount(pattern)) {
-        case 0: return 0;
-        case 3: return 1;
-        case 4: return 2;
-        case 5: return 5;
-        default: return 12;
+        case 0:
+            return 0;
+        case 3:
+            return 1;
+        case 4:
+            return 2;
+        case 5:
+            return 5;
+        default:
+            return 12;
     }
 }
 
@@ -29,7 +34,8 @@ void LabelCensus::add(std::span<const Label> low, std::span<const Label> high, b
             const std::size_t a = std::size_t{j} * width_ + i;
             // Beyond the box the node itself stands in; `available` says which steps there are.
             const std::size_t b = a + (has_i ? 1 : 0), row = has_j ? width_ : 0;
-            const Corners labels{low[a], low[b], low[a + row], low[b + row], high[a], high[b], high[a + row], high[b + row]};
+            const Corners labels{low[a],  low[b],  low[a + row],  low[b + row],
+                                 high[a], high[b], high[a + row], high[b + row]};
             const Label first = labels[0];
             Label difference = 0;
             for (Label label : labels) difference |= label ^ first;
@@ -38,14 +44,16 @@ void LabelCensus::add(std::span<const Label> low, std::span<const Label> high, b
                 const Step plane = (has_i ? 1 : 0) | (has_j ? 2 : 0);
                 count_node(labels, plane | 4);
                 if (is_last) {
-                    const Corners top{high[a], high[b], high[a + row], high[b + row], high[a], high[b], high[a + row], high[b + row]};
+                    const Corners top{high[a], high[b], high[a + row], high[b + row],
+                                      high[a], high[b], high[a + row], high[b + row]};
                     count_node(top, plane);
                 }
             }
             if (!has_i || !has_j) continue;
             if (difference) count_cell(labels);
             if (!options_.cap) continue;
-            unsigned sides = unsigned(i == 0) | unsigned(i + 2 == width_) << 1 | unsigned(j == 0) << 2 | unsigned(j + 2 == height_) << 3;
+            unsigned sides = unsigned(i == 0) | unsigned(i + 2 == width_) << 1 | unsigned(j == 0) << 2 |
+                             unsigned(j + 2 == height_) << 3;
             sides |= unsigned(is_first_) << 4 | unsigned(is_last) << 5;
             if (sides) count_caps(labels, sides);
         }
@@ -93,7 +101,8 @@ void LabelCensus::count_caps(const Corners& labels, unsigned sides) {
 /// A corner alone has one face of its label, two of a label that two corners have make two, three make one.
 void LabelCensus::count_triangle(Label a, Label b, Label c) {
     const auto count = [&](Label label, std::uint64_t faces) {
-        if (std::find(options_.background.begin(), options_.background.end(), label) == options_.background.end()) faces_ += faces;
+        if (std::find(options_.background.begin(), options_.background.end(), label) == options_.background.end())
+            faces_ += faces;
     };
     if (a == b && b == c) return count(a, 1);
     if (a != b && b != c && a != c) return count(a, 2), count(b, 2), count(c, 2);

@@ -105,7 +105,8 @@ TetrahedronCases make_tetrahedron_cases(const std::array<Step, 4>& steps) {
                 for (const Patch& patch : patches_of(label)) cut(patch, corners, faces);
                 for (CaseFace& face : faces) {
                     const auto at = [&](int i) { return centroid_of(face.vertices[i], kRegular); };
-                    const bool points_to_second = dot(area_vector(at(0), at(1), at(2)), kRegular[face.second] - kRegular[face.first]) > 0;
+                    const bool points_to_second =
+                        dot(area_vector(at(0), at(1), at(2)), kRegular[face.second] - kRegular[face.first]) > 0;
                     if (points_to_second == mirrors) std::swap(face.vertices[1], face.vertices[2]);
                 }
             }
@@ -124,7 +125,8 @@ TriangleCases make_triangle_cases(const std::array<Step, 3>& steps) {
                 cut(Patch{{bits(0), bits(1), bits(2)}, 0, 0}, corners, faces);
             } else if (l1 != 0 && l2 != 0 && l1 != l2) {
                 for (int a = 0; a < 3; ++a)
-                    cut(Patch{{bits(a), bits(a, (a + 1) % 3), bits(0, 1, 2), bits(a, (a + 2) % 3)}, a, 0}, corners, faces);
+                    cut(Patch{{bits(a), bits(a, (a + 1) % 3), bits(0, 1, 2), bits(a, (a + 2) % 3)}, a, 0}, corners,
+                        faces);
             } else {
                 const int tip = l1 == 0 ? 2 : l2 == 0 ? 1 : 0;
                 const int a = (tip + 1) % 3, b = (tip + 2) % 3;

@@ -22,11 +22,13 @@ struct CaseFace {
 
 /// Which corners share a label: bit e set when the two corners of pair e differ. Pairs 01 02 03 12 13 23.
 inline unsigned tetrahedron_pattern(Label a, Label b, Label c, Label d) {
-    return unsigned(a != b) | unsigned(a != c) << 1 | unsigned(a != d) << 2 | unsigned(b != c) << 3 | unsigned(b != d) << 4 |
-           unsigned(c != d) << 5;
+    return unsigned(a != b) | unsigned(a != c) << 1 | unsigned(a != d) << 2 | unsigned(b != c) << 3 |
+           unsigned(b != d) << 4 | unsigned(c != d) << 5;
 }
 /// Pairs 01 02 12.
-inline unsigned triangle_pattern(Label a, Label b, Label c) { return unsigned(a != b) | unsigned(a != c) << 1 | unsigned(b != c) << 2; }
+inline unsigned triangle_pattern(Label a, Label b, Label c) {
+    return unsigned(a != b) | unsigned(a != c) << 1 | unsigned(b != c) << 2;
+}
 
 /// All cases of the tetrahedron with corners at the given steps: 0, 2, 2 (one against three, two against two), 5 or 12
 /// faces for 1 to 4 labels: 1, 2, 5, 12. Quads are cut along the diagonal that gives the better worst quality at unit

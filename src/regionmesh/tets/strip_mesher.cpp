@@ -17,18 +17,24 @@ constexpr int slot_of(int kind) {
 }
 
 /// True for each cell of the row whose eight labels are not all the same. Plain or-ed loops, which compilers vectorise.
-void find_mixed(const Label* a, const Label* b, const Label* c, const Label* d, std::uint32_t cells, std::uint8_t* mixed) {
+void find_mixed(const Label* a, const Label* b, const Label* c, const Label* d, std::uint32_t cells,
+                std::uint8_t* mixed) {
     for (std::uint32_t i = 0; i < cells; ++i) {
         const Label x = a[i];
-        mixed[i] = ((x ^ a[i + 1]) | (x ^ b[i]) | (x ^ b[i + 1]) | (x ^ c[i]) | (x ^ c[i + 1]) | (x ^ d[i]) | (x ^ d[i + 1])) != 0;
+        mixed[i] = ((x ^ a[i + 1]) | (x ^ b[i]) | (x ^ b[i + 1]) | (x ^ c[i]) | (x ^ c[i + 1]) | (x ^ d[i]) |
+                    (x ^ d[i + 1])) != 0;
     }
 }
 
 }  // namespace
 
 StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions options)
-    : lattice_(lattice), sweep_(sweep), options_(std::move(options)),
-      width_(lattice.size[sweep.axes[0]]), height_(lattice.size[sweep.axes[1]]), count_(lattice.size[sweep.axes[2]]) {
+    : lattice_(lattice),
+      sweep_(sweep),
+      options_(std::move(options)),
+      width_(lattice.size[sweep.axes[0]]),
+      height_(lattice.size[sweep.axes[1]]),
+      count_(lattice.size[sweep.axes[2]]) {
     assert(width_ >= 2 && height_ >= 2 && count_ >= 2);
     const std::size_t samples = std::size_t{width_} * height_;
     for (auto& plane : planes_) plane.assign(samples * kPlaneSlots, 0);
@@ -39,7 +45,8 @@ StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions optio
 }
 
 std::size_t StripMesher::bytes() const {
-    return 4 * (planes_[0].size() + planes_[1].size() + rows_[0].size() + rows_[1].size() + touched_[0].capacity() + touched_[1].capacity());
+    return 4 * (planes_[0].size() + planes_[1].size() + rows_[0].size() + rows_[1].size() + touched_[0].capacity() +
+                touched_[1].capacity());
 }
 
 /// The simplex spanned by some corners (steps from the cell's first node, in increasing order).
@@ -49,8 +56,10 @@ StripMesher::SimplexPlace StripMesher::place_of(const Step* corners, unsigned se
     int length = 0;
     for (int c = 0; c < 4; ++c) {
         if (!(set >> c & 1)) continue;
-        if (base < 0) base = corners[c];
-        else chain[length++] = corners[c] - base;
+        if (base < 0)
+            base = corners[c];
+        else
+            chain[length++] = corners[c] - base;
     }
     const int kind = kind_of(chain[0], chain[1], chain[2]);
     const std::uint32_t dx = base & 1, dy = base >> 1 & 1;
@@ -169,7 +178,8 @@ void StripMesher::cap_side(std::uint32_t i, std::uint32_t j, int side) {
         const std::array<Label, 3> corner{labels[plan.corners[0]], labels[plan.corners[1]], labels[plan.corners[2]]};
         for (const CaseFace& face : plan.cases[triangle_pattern(corner[0], corner[1], corner[2])]) {
             const Label inside = corner[face.first];
-            if (std::find(options_.background.begin(), options_.background.end(), inside) != options_.background.end()) continue;
+            if (std::find(options_.background.begin(), options_.background.end(), inside) != options_.background.end())
+                continue;
             BatchFace made;
             for (int n = 0; n < 3; ++n) made.vertices[n] = vertex(plan.simplices[face.vertices[n]], i, j);
             made.labels = {inside, outside};
@@ -183,11 +193,20 @@ std::uint32_t StripMesher::vertex(const SimplexPlace& place, std::uint32_t i, st
     const std::size_t cell = (std::size_t{j} * width_ + i) * kPlaneSlots + place.offset;
     std::uint32_t* number = nullptr;
     switch (place.table) {
-        case Table::kLowPlane: number = &planes_[0][cell]; break;
-        case Table::kHighPlane: number = &planes_[1][cell]; break;
-        case Table::kRow: number = &rows_[0][i * kRowSlots + place.offset]; break;
-        case Table::kNextRow: number = &rows_[1][i * kRowSlots + place.offset]; break;
-        case Table::kNowhere: return make_vertex(place, i, j);
+        case Table::kLowPlane:
+            number = &planes_[0][cell];
+            break;
+        case Table::kHighPlane:
+            number = &planes_[1][cell];
+            break;
+        case Table::kRow:
+            number = &rows_[0][i * kRowSlots + place.offset];
+            break;
+        case Table::kNextRow:
+            number = &rows_[1][i * kRowSlots + place.offset];
+            break;
+        case Table::kNowhere:
+            return make_vertex(place, i, j);
     }
     if (*number == 0) {
         *number = make_vertex(place, i, j) + 1;

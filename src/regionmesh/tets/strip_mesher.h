@@ -14,7 +14,7 @@
 namespace regionmesh {
 
 struct StripOptions {
-    bool cap = true;                // split the lattice triangles on the six sides of the box into faces (DESIGN 4)
+    bool cap = true;  // split the lattice triangles on the six sides of the box into faces (DESIGN 4)
     std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
 };
 
@@ -32,15 +32,15 @@ public:
     std::size_t bytes() const;
 
 private:
-    static constexpr int kPlaneSlots = 6;   // node, 3 edges, 2 triangles in the plane of a section
-    static constexpr int kRowSlots = 14;    // 4 edges, 10 triangles out of it
+    static constexpr int kPlaneSlots = 6;  // node, 3 edges, 2 triangles in the plane of a section
+    static constexpr int kRowSlots = 14;   // 4 edges, 10 triangles out of it
 
     /// Where the number of a vertex is kept: one of four tables, and the place in it relative to the cell.
     enum class Table : std::uint8_t { kLowPlane, kHighPlane, kRow, kNextRow, kNowhere };
     struct SimplexPlace {
         Table table;
         std::uint8_t kind;
-        Step base;               // base node relative to the cell's first node
+        Step base;  // base node relative to the cell's first node
         std::uint32_t offset;
     };
     struct TetrahedronPlan {
@@ -50,7 +50,7 @@ private:
     };
     struct TrianglePlan {
         int side;
-        std::array<Step, 3> corners;             // within the cell, turned outward
+        std::array<Step, 3> corners;  // within the cell, turned outward
         std::array<SimplexPlace, 8> simplices;
         TriangleCases cases;
     };
@@ -70,17 +70,17 @@ private:
     Lattice lattice_;
     Sweep sweep_;
     StripOptions options_;
-    std::uint32_t width_, height_, count_;       // samples along the fast axis, the slow axis, the sweep
+    std::uint32_t width_, height_, count_;  // samples along the fast axis, the slow axis, the sweep
     std::array<TetrahedronPlan, 6> tetrahedra_;
     std::array<std::vector<TrianglePlan>, 6> triangles_;
 
     std::uint32_t strip_ = 0;
     std::span<const Label> low_, high_;
     FaceBatch* batch_ = nullptr;
-    std::vector<std::uint32_t> planes_[2];       // vertex number + 1, 0 for none yet
+    std::vector<std::uint32_t> planes_[2];  // vertex number + 1, 0 for none yet
     std::vector<std::uint32_t> rows_[2];
-    std::vector<std::uint32_t> touched_[2];      // places in planes_ that are not 0
-    std::vector<std::uint8_t> mixed_;            // of a row of cells
+    std::vector<std::uint32_t> touched_[2];  // places in planes_ that are not 0
+    std::vector<std::uint8_t> mixed_;        // of a row of cells
 };
 
 }  // namespace regionmesh

@@ -14,7 +14,8 @@ constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 /// A run's batch while its tiles are taken out, decimated and put back.
 class RunTiles {
 public:
-    RunTiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip, const TilePlan& plan, const TileOptions& options)
+    RunTiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip, const TilePlan& plan,
+             const TileOptions& options)
         : batch_(batch), carried_(carried), first_strip_(first_strip), plan_(plan), options_(options) {
         for (int a = 0; a < 2; ++a) tile_count_[a] = (cells(a) + plan.tile_cells - 1) / plan.tile_cells;
     }
@@ -41,7 +42,9 @@ private:
 
     /// The tile of the cell that a face lies in; on the far sides of the box, of the cell before.
     std::uint32_t tile_of(const BatchFace& face) const {
-        const Vec3 middle = (vertex(face.vertices[0]).position + vertex(face.vertices[1]).position + vertex(face.vertices[2]).position) / 3.0;
+        const Vec3 middle = (vertex(face.vertices[0]).position + vertex(face.vertices[1]).position +
+                             vertex(face.vertices[2]).position) /
+                            3.0;
         std::uint32_t tile = 0;
         for (int a = 1; a >= 0; --a) {
             const int axis = plan_.sweep.axes[a];
@@ -105,7 +108,8 @@ private:
             for (int c = 0; c < 3; ++c) {
                 const std::uint32_t local = face.vertices[c];
                 if (in_tile_[local] == kNone) {
-                    in_tile_[local] = index(model.add_vertex(vertex(local).position, vertex(local).sides, rim_[local] == kRim));
+                    in_tile_[local] =
+                        index(model.add_vertex(vertex(local).position, vertex(local).sides, rim_[local] == kRim));
                     locals.push_back(local);
                 }
                 corner[c] = VertexId{in_tile_[local]};
@@ -161,8 +165,8 @@ private:
     std::uint32_t tile_count_[2];
     std::vector<std::uint32_t> tile_start_, order_;  // faces by tile
     std::vector<std::uint8_t> rim_;
-    std::vector<std::uint32_t> in_tile_;             // batch number to tile vertex, for the tile in hand
-    std::vector<std::uint32_t> made_numbers_;        // batch number to made number, for carried and rim vertices
+    std::vector<std::uint32_t> in_tile_;       // batch number to tile vertex, for the tile in hand
+    std::vector<std::uint32_t> made_numbers_;  // batch number to made number, for carried and rim vertices
     FaceBatch made_;
     TileResult result_;
 };
@@ -171,12 +175,13 @@ private:
 
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep) {
     const std::uint64_t section = std::uint64_t{lattice.size[sweep.axes[0]]} * lattice.size[sweep.axes[1]];
-    const auto strips = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kSamplesPerRun / section, kShortestRun, kTileCells));
+    const auto strips =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kSamplesPerRun / section, kShortestRun, kTileCells));
     return {lattice, sweep, strips, kTileCells};
 }
 
-TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip, const TilePlan& plan,
-                          const TileOptions& options) {
+TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip,
+                          const TilePlan& plan, const TileOptions& options) {
     return RunTiles(batch, carried, first_strip, plan, options).run();
 }
 

@@ -12,28 +12,29 @@ namespace regionmesh {
 
 /// How a volume is cut: from its size only, so that nothing else changes the result.
 struct TilePlan {
-    Lattice lattice;              // whose origin and spacing made the positions
+    Lattice lattice;  // whose origin and spacing made the positions
     Sweep sweep;
-    std::uint32_t run_strips;     // strips of a run; the tiles of a run are so long along the sweep
-    std::uint32_t tile_cells;     // and so wide along the other two axes
+    std::uint32_t run_strips;  // strips of a run; the tiles of a run are so long along the sweep
+    std::uint32_t tile_cells;  // and so wide along the other two axes
 };
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
 
 struct TileOptions {
-    double cost_level;            // in units of scale^4: collapses up to this cost, which are safe whatever the target
-    double keep_share;            // no tile goes below this share of its faces
-    DecimateOptions decimate;     // quality, perturbation, scale, tests; target, cost and limits are the tile's own
+    double cost_level;         // in units of scale^4: collapses up to this cost, which are safe whatever the target
+    double keep_share;         // no tile goes below this share of its faces
+    DecimateOptions decimate;  // quality, perturbation, scale, tests; target, cost and limits are the tile's own
 };
 
 struct TileResult {
     VerdictCounts verdicts{};
-    std::size_t bytes = 0;        // of the largest tile while it was decimated
+    std::size_t bytes = 0;  // of the largest tile while it was decimated
 };
 
-/// Decimates the batch of a whole run in place, tile by tile. Vertices that two tiles share, or that are carried or open,
-/// are fixed; a tile's merged vertices stay strictly inside its box, so that tiles cannot meet. `first_strip` is the
-/// run's first; `carried` are the batch's carried vertices. The order of tiles, vertices and faces depends on the batch.
-TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip, const TilePlan& plan,
-                          const TileOptions& options);
+/// Decimates the batch of a whole run in place, tile by tile. Vertices that two tiles share, or that are carried or
+/// open, are fixed; a tile's merged vertices stay strictly inside its box, so that tiles cannot meet. `first_strip` is
+/// the run's first; `carried` are the batch's carried vertices. The order of tiles, vertices and faces depends on the
+/// batch.
+TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip,
+                          const TilePlan& plan, const TileOptions& options);
 
 }  // namespace regionmesh

@@ -16,12 +16,12 @@ enum class SampleType { kU1, kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64 };
 
 /// What a reader knows before the first section is read.
 struct VolumeInfo {
-    std::string source;           // path as given, for messages
-    std::string format;           // "npy", "nifti", "png", "tiff", "raw"
+    std::string source;  // path as given, for messages
+    std::string format;  // "npy", "nifti", "png", "tiff", "raw"
     SampleType type = SampleType::kU8;
-    Lattice lattice = {};            // in the file's own axes, whatever the sweep
-    Sweep sweep = {};               // the order in which sections come
-    bool can_rewind = true;       // sections can be read again from the start
+    Lattice lattice = {};                               // in the file's own axes, whatever the sweep
+    Sweep sweep = {};                                   // the order in which sections come
+    bool can_rewind = true;                             // sections can be read again from the start
     std::array<bool, 3> can_sweep{false, false, true};  // along which axes this file can be read section by section
 };
 
