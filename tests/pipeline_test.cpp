@@ -119,6 +119,12 @@ TEST(Reconstruct, an_open_boundary_is_sound) {
     }
 }
 
+TEST(Reconstruct, pockets_on_an_open_boundary_do_not_cross_when_decimated) {
+    test::TextVolume volume({{"01", "01", "01"}, {"10", "10", "01"}, {"01", "00", "10"}});
+    for (double quality : {0.0, 0.1})
+        test::expect_sound(run(volume, {.target_faces = 0, .min_quality = quality, .cap = false, .background = {}}).report.check);
+}
+
 TEST(Reconstruct, an_open_rim_may_have_a_vertex_with_two_edges) {
     const ReconstructOptions open{.decimate = false, .cap = false, .background = {}};
     test::expect_sound(run(test::TextVolume({{"00", "00"}, {"00", "01"}}), open).report.check);

@@ -192,6 +192,13 @@ TEST(Decimate, a_small_error_keeps_a_ball_round) {
     });
 }
 
+TEST(Decimate, a_ball_that_outgrows_its_first_box_meets_no_face_that_is_not_there) {
+    Model model = run(test::ball_volume({10, 10, 10}, 4.325), {.decimate = false}).model;
+    model.sort_spatially();
+    decimate(model, {.min_quality = 0, .perturbation = 0.9});
+    test::expect_sound(check(model));
+}
+
 TEST(Decimate, the_same_run_twice_gives_the_same_bytes) {
     for (double perturbation : {0.0, 1e-7, 1e-2}) {
         Model first = noise(), second = noise();

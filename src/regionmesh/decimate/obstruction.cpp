@@ -8,31 +8,6 @@
 namespace regionmesh {
 namespace {
 
-/// out . step is positive beyond doubt: by far more than its rounding error.
-bool is_ahead(Vec3 out, Vec3 step) {
-    const double x = out.x * step.x, y = out.y * step.y, z = out.z * step.z;
-    return x + y + z > 1e-10 * (std::abs(x) + std::abs(y) + std::abs(z));
-}
-
-/// A plane through an edge of t, square to t, has all of p beyond it: they lie beside each other.
-bool has_edge_between(const std::array<Vec3, 3>& t, const std::array<Vec3, 3>& p) {
-    const Vec3 normal = area_vector(t[0], t[1], t[2]);
-    for (int n = 0; n < 3; ++n) {
-        const Vec3 out = cross(t[(n + 1) % 3] - t[n], normal);
-        if (is_ahead(out, p[0] - t[n]) && is_ahead(out, p[1] - t[n]) && is_ahead(out, p[2] - t[n])) return true;
-    }
-    return false;
-}
-
-/// A plane through p and a or b, square to the triangle p a b, has x and y beyond it: the two triangles at p lie beside
-/// each other.
-bool has_ray_between(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
-    const Vec3 normal = cross(a - p, b - p);
-    const Vec3 beyond_a = cross(a - p, normal), beyond_b = cross(normal, b - p);
-    return (is_ahead(beyond_a, x - p) && is_ahead(beyond_a, y - p)) ||
-           (is_ahead(beyond_b, x - p) && is_ahead(beyond_b, y - p));
-}
-
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
     const int side = orientation(a, b, c, d);
     return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side &&
@@ -214,8 +189,7 @@ bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& bo
                     return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) &&
                            is_ahead(wall.out, p[2] - wall.at);
                 };
-                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2]) ||
-                    has_edge_between(p, t))
+                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2]))
                     continue;
                 if (meet({t[0], t[1], t[2]}, {p[0], p[1], p[2]})) return true;
             }
@@ -233,7 +207,7 @@ bool Obstruction::meets_at_corner(const NewFace& face, int corner, const Corners
         (is_ahead(before.out, x - at) && is_ahead(before.out, y - at)))
         return false;
     const Vec3 a = face.corners[(corner + 1) % 3], b = face.corners[(corner + 2) % 3];
-    return !has_ray_between(at, x, y, a, b) && meet_beyond_vertex(at, a, b, x, y);
+    return meet_beyond_vertex(at, a, b, x, y);
 }
 
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the

@@ -27,6 +27,13 @@ inline int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     return permanent == 0 ? 0 : exact_orientation(a, b, c, d);
 }
 
+/// out . step is positive beyond doubt: by far more than its rounding error. A plane through a point p, square to any
+/// `out` whatever, has p + step before it.
+inline bool is_ahead(Vec3 out, Vec3 step) {
+    const double x = out.x * step.x, y = out.y * step.y, z = out.z * step.z;
+    return x + y + z > 1e-10 * (std::abs(x) + std::abs(y) + std::abs(z));
+}
+
 /// A triangle's three corners.
 struct Triangle {
     Vec3 a, b, c;
