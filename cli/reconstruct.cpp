@@ -12,7 +12,8 @@ struct Arguments {
     std::string output, report;
     std::string target_faces, reduce, max_error, min_quality = "0.1", memory = "2GiB", face_budget,
                                                  perturbation = "1e-7";
-    int smooth = 0, threads = 1;
+    int smooth = 0;
+    std::uint32_t threads = 0;
     std::string smooth_filter = "none";
     bool no_decimate = false, no_intersect_check = false, quiet = false;
     InputOptions input;
@@ -27,6 +28,7 @@ ReconstructOptions to_options(const Arguments& arguments) {
     options.min_quality = parse_number("--min-quality", arguments.min_quality);
     options.perturbation = parse_number("--perturbation", arguments.perturbation);
     options.memory = parse_bytes("--memory", arguments.memory);
+    options.threads = arguments.threads;
     options.decimate = !arguments.no_decimate;
     options.intersect_check = !arguments.no_intersect_check;
     options.background = arguments.input.background_labels();
@@ -101,7 +103,8 @@ void add_reconstruct(CLI::App& app, Action& action) {
     command->add_option("--memory", arguments->memory, "stay within this, such as 500MiB or 2GiB");
     command->add_option("--face-budget", arguments->face_budget,
                         "most faces held at once, instead of one derived from --memory");
-    command->add_option("--threads", arguments->threads, "only 1 so far")->check(CLI::IsMember({1}));
+    command->add_option("--threads", arguments->threads,
+                        "threads at work; one per core if not given. The model is the same");
     command->add_option("--perturbation", arguments->perturbation, "largest cost added to tell equal edges apart");
     command->add_flag("--no-decimate", arguments->no_decimate, "the plain reconstruction");
     command->add_flag("--no-intersect-check", arguments->no_intersect_check, "let faces cross; faster");

@@ -154,9 +154,10 @@ void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, 
     const double share = target_share();
     if (share * kTileMargin >= 1) return;
     const Timer timer(seconds("decimate tiles"));
-    TileOptions tile_options{
-        .cost_level = kTileCostLevel, .keep_share = share * kTileMargin, .decimate = decimate_options()};
-    tile_options.decimate.on_progress = [&] { tell("reconstruct"); };
+    TileOptions tile_options{.cost_level = kTileCostLevel,
+                             .keep_share = share * kTileMargin,
+                             .threads = options_.threads,
+                             .decimate = decimate_options()};
     const TileResult done = decimate_tiles(run, carried, first_strip, plan, tile_options);
     add_verdicts(done.verdicts);
 }

@@ -27,6 +27,7 @@ struct ReconstructOptions {
     std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
     std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process should stay within
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of one derived from memory
+    std::uint32_t threads = 0;                      // at work at a time; 0: one per core. The result is the same
     std::uint32_t strips_per_batch = 1;  // strips meshed before they are welded; tiles set it where there are any
 };
 

@@ -52,7 +52,7 @@ TEST(Tiles, remove_faces_and_keep_what_the_labels_say) {
     test::ArrayVolume volume = test::grain_volume({33, 26, 9}, 9, 3);
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    const TileResult result = decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0, .decimate = {}});
+    const TileResult result = decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0, .threads = 1, .decimate = {}});
     EXPECT_LT(batch.whole.faces.size(), faces * 7 / 10);
     EXPECT_GT(result.verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
     CheckOptions options;
@@ -64,7 +64,7 @@ TEST(Tiles, stay_in_their_boxes) {
     test::ArrayVolume volume = test::ball_volume({21, 21, 21}, 7);
     Batch batch(volume);
     Model before = batch.model();
-    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 5), {.cost_level = 1, .keep_share = 0, .decimate = {}});
+    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 5), {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
     // A face that reaches across x = 5, 10, 15 would lie in two tiles.
     for (const BatchFace& face : batch.whole.faces)
         for (double wall : {5.0, 10.0, 15.0}) {
@@ -82,7 +82,7 @@ TEST(Tiles, keep_the_share_they_are_told_to) {
     test::ArrayVolume volume = test::solid_volume({17, 17, 5});
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0.5, .decimate = {}});
+    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0.5, .threads = 1, .decimate = {}});
     EXPECT_GE(batch.whole.faces.size(), faces / 2 - 16);
     EXPECT_LE(batch.whole.faces.size(), faces / 2 + 16);
 }
@@ -103,13 +103,24 @@ TEST(Tiles, leave_carried_and_open_vertices_as_they_are) {
         if (strip % 3 != 2) continue;
         std::vector<Vec3> open;
         for (std::uint32_t v : run.open) open.push_back(v < run.carried ? weld.front()[v].position : run.vertices[v - run.carried].position);
-        decimate_tiles(run, weld.front(), strip - 2, plan, {.cost_level = 1e-2, .keep_share = 0, .decimate = {}});
+        decimate_tiles(run, weld.front(), strip - 2, plan, {.cost_level = 1e-2, .keep_share = 0, .threads = 1, .decimate = {}});
         weld.add(run);
         ASSERT_EQ(weld.front().size(), open.size());
         for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(weld.front()[n].position, open[n]);
         run.clear();
     }
     test::expect_sound(check(model));
+}
+
+TEST(Determinism, any_number_of_threads_gives_the_same_bytes) {
+    test::ArrayVolume volume = test::grain_volume({70, 40, 36}, 30, 11);
+    ReconstructOptions options = test::reduced(0.9);
+    options.threads = 1;
+    const std::uint64_t one = test::digest(test::run(volume, options).model);
+    for (std::uint32_t threads : {2u, 3u, 8u, 0u}) {
+        options.threads = threads;
+        EXPECT_EQ(test::digest(test::run(volume, options).model), one);
+    }
 }
 
 TEST(TilePlan, comes_from_the_size_alone) {

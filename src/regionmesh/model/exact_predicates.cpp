@@ -14,8 +14,8 @@ Point point(Vec3 p) { return {p.x, p.y, p.z}; }
 Kernel::Triangle_3 triangle(const Triangle& t) { return {point(t.a), point(t.b), point(t.c)}; }
 Kernel::Segment_3 segment(Vec3 a, Vec3 b) { return {point(a), point(b)}; }
 
-/// A plane through an edge of t, square to t, has all of s before it: they lie beside each other. In one plane, where most
-/// neighbours lie, no orientation in space tells them apart.
+/// A plane through an edge of t, square to t, has all of s before it: they lie beside each other. In one plane, where
+/// most neighbours lie, no orientation in space tells them apart.
 bool is_beside(const Triangle& s, const Triangle& t) {
     const Vec3 normal = cross(t.b - t.a, t.c - t.a);
     const auto is_before = [&](Vec3 from, Vec3 to) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regionmesh/base/parallel_for.h"
+
 namespace regionmesh {
 namespace {
 
@@ -10,6 +12,15 @@ constexpr std::uint32_t kTileCells = 32;
 constexpr std::uint32_t kShortestRun = 8;
 constexpr std::uint64_t kSamplesPerRun = 2u << 20;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+constexpr std::uint32_t kWave = 16;  // tiles out of the batch at a time, whatever the number of threads
+
+/// A tile taken out of the batch.
+struct Tile {
+    Model model;
+    std::vector<std::uint32_t> locals;  // batch numbers of its vertices
+    std::vector<VertexId> sorted;       // where those went when the model was sorted
+    DecimateResult done;
+};
 
 /// A run's batch while its tiles are taken out, decimated and put back.
 class RunTiles {
@@ -24,8 +35,15 @@ public:
         sort_faces_by_tile();
         find_rim();
         made_.carried = batch_.carried;
-        for (std::uint32_t tile = 0; tile + 1 < tile_start_.size(); ++tile)
-            if (tile_start_[tile] < tile_start_[tile + 1]) decimate_tile(tile);
+        // Taken out and put back one after the other, since they share the rim; decimated at the same time.
+        std::vector<Tile> tiles(kWave);
+        for (std::uint32_t first = 0; first + 1 < tile_start_.size(); first += kWave) {
+            const auto count =
+                std::min<std::uint32_t>(kWave, static_cast<std::uint32_t>(tile_start_.size()) - 1 - first);
+            for (std::uint32_t n = 0; n < count; ++n) tiles[n] = take_out(first + n);
+            parallel_for(count, options_.threads, [&](std::uint32_t n) { decimate_tile(first + n, tiles[n]); });
+            for (std::uint32_t n = 0; n < count; ++n) put_back(tiles[n]);
+        }
         for (std::uint32_t local : batch_.open) made_.open.push_back(made_number(local));
         batch_ = std::move(made_);
         return result_;
@@ -99,42 +117,45 @@ private:
         return box;
     }
 
-    void decimate_tile(std::uint32_t tile) {
-        Model model;
-        std::vector<std::uint32_t> locals;  // batch numbers of the tile's vertices
+    Tile take_out(std::uint32_t tile) {
+        Tile taken;
         for (std::uint32_t n = tile_start_[tile]; n < tile_start_[tile + 1]; ++n) {
             const BatchFace& face = batch_.faces[order_[n]];
             std::array<VertexId, 3> corner;
             for (int c = 0; c < 3; ++c) {
                 const std::uint32_t local = face.vertices[c];
                 if (in_tile_[local] == kNone) {
+                    const bool is_rim = rim_[local] == kRim;
                     in_tile_[local] =
-                        index(model.add_vertex(vertex(local).position, vertex(local).sides, rim_[local] == kRim));
-                    locals.push_back(local);
+                        index(taken.model.add_vertex(vertex(local).position, vertex(local).sides, is_rim));
+                    taken.locals.push_back(local);
                 }
                 corner[c] = VertexId{in_tile_[local]};
             }
-            model.add_face(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]);
+            taken.model.add_face(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]);
         }
-        for (std::uint32_t local : locals) in_tile_[local] = kNone;
-        const std::vector<VertexId> sorted = model.sort_spatially();
+        for (std::uint32_t local : taken.locals) in_tile_[local] = kNone;
+        return taken;
+    }
+
+    void decimate_tile(std::uint32_t tile, Tile& taken) const {
+        Model& model = taken.model;
+        taken.sorted = model.sort_spatially();
         DecimateOptions own = options_.decimate;
         own.target_faces = static_cast<std::uint32_t>(std::ceil(options_.keep_share * model.face_count()));
         own.max_cost = options_.cost_level * std::pow(own.scale, 4);
         own.refresh = false;
         own.limits = limits_of(tile);
-        const std::size_t model_bytes = model.bytes();
-        const DecimateResult done = decimate(model, own);
-        result_.bytes = std::max(result_.bytes, model_bytes + done.bytes);
-        for (int n = 0; n < kVerdictCount; ++n) result_.verdicts[n] += done.verdicts[n];
-        put_back(model, locals, sorted);
+        taken.done = decimate(model, own);
     }
 
     /// Appends what is left of a tile. Its rim is shared: numbered once for all tiles.
-    void put_back(const Model& model, const std::vector<std::uint32_t>& locals, const std::vector<VertexId>& sorted) {
+    void put_back(const Tile& taken) {
+        const Model& model = taken.model;
+        for (int n = 0; n < kVerdictCount; ++n) result_.verdicts[n] += taken.done.verdicts[n];
         std::vector<std::uint32_t> number(model.vertex_end(), kNone);
-        for (std::uint32_t n = 0; n < locals.size(); ++n)
-            if (rim_[locals[n]] == kRim) number[index(sorted[n])] = made_number(locals[n]);
+        for (std::uint32_t n = 0; n < taken.locals.size(); ++n)
+            if (rim_[taken.locals[n]] == kRim) number[index(taken.sorted[n])] = made_number(taken.locals[n]);
         for (std::uint32_t f = 0; f < model.face_end(); ++f) {
             if (!model.is_alive(FaceId{f})) continue;
             BatchFace face{{}, model[FaceId{f}].labels};

@@ -20,14 +20,14 @@ struct TilePlan {
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
 
 struct TileOptions {
-    double cost_level;         // in units of scale^4: collapses up to this cost, which are safe whatever the target
-    double keep_share;         // no tile goes below this share of its faces
-    DecimateOptions decimate;  // quality, perturbation, scale, tests; target, cost and limits are the tile's own
+    double cost_level;          // in units of scale^4: collapses up to this cost, which are safe whatever the target
+    double keep_share;          // no tile goes below this share of its faces
+    std::uint32_t threads = 1;  // tiles at work at a time; 0: one per core. The result is the same
+    DecimateOptions decimate;   // quality, perturbation, scale, tests; target, cost and limits are the tile's own
 };
 
 struct TileResult {
     VerdictCounts verdicts{};
-    std::size_t bytes = 0;  // of the largest tile while it was decimated
 };
 
 /// Decimates the batch of a whole run in place, tile by tile. Vertices that two tiles share, or that are carried or
