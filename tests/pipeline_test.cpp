@@ -119,10 +119,17 @@ TEST(Reconstruct, an_open_boundary_is_sound) {
     }
 }
 
-TEST(Reconstruct, pockets_on_an_open_boundary_do_not_cross_when_decimated) {
-    test::TextVolume volume({{"01", "01", "01"}, {"10", "10", "01"}, {"01", "00", "10"}});
-    for (double quality : {0.0, 0.1})
-        test::expect_sound(run(volume, {.target_faces = 0, .min_quality = quality, .cap = false, .background = {}}).report.check);
+TEST(Reconstruct, sheets_on_an_open_boundary_do_not_cross_when_decimated) {
+    const std::vector<std::vector<test::TextVolume::Section>> volumes{
+        {{"01", "01", "01"}, {"10", "10", "01"}, {"01", "00", "10"}},  // a pocket on an edge of the box was closed
+        {{"110", "010"}, {"101", "110"}, {"110", "001"}},              // faces of the merged vertex crossed each other
+    };
+    for (const auto& sections : volumes)
+        for (double quality : {0.0, 0.1}) {
+            test::TextVolume volume(sections);
+            const ReconstructOptions options{.target_faces = 0, .min_quality = quality, .cap = false, .background = {}};
+            test::expect_sound(run(volume, options).report.check);
+        }
 }
 
 TEST(Reconstruct, an_open_rim_may_have_a_vertex_with_two_edges) {

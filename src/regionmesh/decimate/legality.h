@@ -16,7 +16,8 @@ struct ShapeBounds {
 /// Strata and link: whether the topology of the region complex stays as it is.
 ///   strata  the edge's label set equals that of the vertex that goes (P tests 3 and 4).
 ///   link    Lk(goes) and Lk(stays) meet in exactly Lk(edge), in the complex and in the network of lines (Dey et al.
-///           1999; Vivodtzev et al. 2005); implies that the Euler characteristics stay (P test 5).
+///           1999; Vivodtzev et al. 2005); implies that the Euler characteristics stay (P test 5). And no edge
+///           comes to lie on an edge of the box that was beside it.
 Verdict topology_verdict(const Model& model, const EdgeStar& star);
 
 struct ShapeResult {
