@@ -118,7 +118,7 @@ bool pinches_at_link(const Model& model, const EdgeStar& star, Vec3 position, do
 Verdict topology_verdict(const Model& model, const EdgeStar& star) {
     const int edge_count = edge_labels(model, star.goes, star.stays).size();
     if (edge_count != vertex_labels(model, star.goes).size()) return Verdict::kStrata;
-    if (!is_link_condition_met(star)) return Verdict::kLink;
+    if (star.faces.empty() || !is_link_condition_met(star)) return Verdict::kLink;
     if (edge_count > 2 && closes_loop_of_lines(model, star)) return Verdict::kLink;
     if (lands_on_box_edge(model, star)) return Verdict::kLink;
     return Verdict::kAccepted;

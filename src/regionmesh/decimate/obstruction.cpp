@@ -35,6 +35,7 @@ bool is_flat(const Model& model, const EdgeStar& star, Vec3 position) {
 bool Obstruction::blocks(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position) {
     if (is_flat(model, star, position)) return false;
     prepare(model, tree, star, position);
+    if (!is_simple_disk(model, star) && meets_itself()) return true;
     bool blocked = false;
     tree.search(box_, [&](FaceId f, const FaceTree::GridBox& box) {
         if (!is_near(box)) return true;
@@ -91,6 +92,38 @@ void Obstruction::prepare(const Model& model, const FaceTree& tree, const EdgeSt
         reach(link_at_.back());
         link_bits_ |= bit_of(v);
     }
+}
+
+/// The new star is a disk of one interface whose faces, seen along their mean normal, all look up and go round the
+/// merged vertex once: no two of them meet but in what they share. The ray that is counted lies in the first face.
+bool Obstruction::is_simple_disk(const Model& model, const EdgeStar& star) const {
+    const auto& labels = model[star.dead.front()].labels;
+    const Vec3 ray = 0.5 * (faces_[0].corners[1] + faces_[0].corners[2]) - position_;
+    const Vec3 right = cross(ray, normal_);
+    for (std::size_t n = 0; n < faces_.size(); ++n) {
+        if (model[star.faces[n].face].labels != labels || !is_ahead(normal_, star.faces[n].new_normal)) return false;
+        const Vec3 a = faces_[n].corners[1] - position_, b = faces_[n].corners[2] - position_;
+        if (n > 0 && !is_ahead(-right, a) && !is_ahead(right, b)) return false;
+    }
+    return true;
+}
+
+/// Do two new faces meet outside the merged vertex or the edge that they share?
+bool Obstruction::meets_itself() const {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        const NewFace& f = faces_[i];
+        for (std::size_t j = i + 1; j < faces_.size(); ++j) {
+            const NewFace& g = faces_[j];
+            const Corners &s = f.corners, &t = g.corners;
+            const bool f_a = f.a == g.a || f.a == g.b, f_b = f.b == g.a || f.b == g.b;
+            const Vec3 other = g.a == f.a || g.a == f.b ? t[2] : t[1];
+            if (f_a   ? meet_beyond_edge(position_, s[1], s[2], other)
+                : f_b ? meet_beyond_edge(position_, s[2], s[1], other)
+                      : meet_beyond_vertex(position_, s[1], s[2], t[1], t[2]))
+                return true;
+        }
+    }
+    return false;
 }
 
 void Obstruction::add_cell(const FaceTree& tree, const Box& box) {
@@ -189,8 +222,7 @@ bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& bo
                     return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) &&
                            is_ahead(wall.out, p[2] - wall.at);
                 };
-                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2]))
-                    continue;
+                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2])) continue;
                 if (meet({t[0], t[1], t[2]}, {p[0], p[1], p[2]})) return true;
             }
         }

@@ -43,6 +43,8 @@ private:
     };
 
     void prepare(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
+    bool is_simple_disk(const Model& model, const EdgeStar& star) const;
+    bool meets_itself() const;
     void add_cell(const FaceTree& tree, const Box& box);
     bool is_near(const FaceTree::GridBox& box) const;
     OldFace look_at(const Model& model, FaceId f) const;
