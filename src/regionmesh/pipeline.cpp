@@ -15,9 +15,9 @@
 namespace regionmesh {
 namespace {
 
-/// Collapses that cost less than this, in units of spacing^4, are made in tiles already: about a hundredth of the
-/// spacing for a face of two. But a tile keeps so many times the share of faces that the target leaves.
-constexpr double kTileCostLevel = 1e-3;
+/// Collapses that cost less than this, in units of spacing^4, are made in tiles already (docs/tiles.md says why this
+/// much). But a tile keeps so many times the share of faces that the target leaves.
+constexpr double kTileCostLevel = 3e-2;
 constexpr double kTileMargin = 1.25;
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint32_t>::max();

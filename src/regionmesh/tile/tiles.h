@@ -20,7 +20,7 @@ struct TilePlan {
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
 
 struct TileOptions {
-    double cost_level;          // in units of scale^4: collapses up to this cost, which are safe whatever the target
+    double cost_level;          // in units of scale^4: collapses up to this cost
     double keep_share;          // no tile goes below this share of its faces
     std::uint32_t threads = 1;  // tiles at work at a time; 0: one per core. The result is the same
     DecimateOptions decimate;   // quality, perturbation, scale, tests; target, cost and limits are the tile's own
