@@ -69,7 +69,7 @@ private:
     double target_share() const;
     std::uint64_t target_for(std::uint64_t initial_faces) const;
     std::uint64_t target_so_far() const;
-    void keep_within_budget(Weld& weld);
+    void keep_within_budget(Weld& weld, std::uint64_t run_faces);
     void decimate_to(std::uint64_t faces, bool is_last);
     void note_bytes(std::uint64_t faces, std::size_t bytes);
     void tell(const char* stage);
@@ -127,10 +127,11 @@ void Run::build() {
         {
             const Timer timer(seconds("reconstruct"));
             weld.add(run);
-            run.clear();
         }
+        const std::uint64_t run_faces = run.faces.size();
+        run.clear();
         note_bytes(result_.model.face_count(), result_.model.bytes());
-        if (!window.is_last()) keep_within_budget(weld);
+        if (!window.is_last()) keep_within_budget(weld, run_faces);
     }
     oracle_ = census.oracle();
 }
@@ -186,12 +187,17 @@ std::uint64_t Run::target_so_far() const {
     return target_for(*total_faces_) * read / std::max<std::uint64_t>(*total_faces_, 1);
 }
 
-void Run::keep_within_budget(Weld& weld) {
-    if (!is_decimating() || result_.model.face_count() <= budget_) return;
-    // Down by a good part, so that the heap need not be built anew after every strip.
-    weld.renumber(result_.model.sort_spatially());
-    decimate_to(std::max(target_so_far(), budget_ * 6 / 10), false);
-    // Where topology or the largest error forbids more, the model goes on growing.
+void Run::keep_within_budget(Weld& weld, std::uint64_t run_faces) {
+    // The next run comes on top of what is held.
+    const std::uint64_t room = budget_ - std::min(budget_, run_faces);
+    if (!is_decimating() || result_.model.face_count() <= room) return;
+    // Down by a good part, so that the heap need not be built anew after every run.
+    const std::uint64_t goal = std::max(target_so_far(), std::min(room, budget_ * 6 / 10));
+    if (result_.model.face_count() > goal) {
+        weld.renumber(result_.model.sort_spatially());
+        decimate_to(goal, false);
+    }
+    // Where topology, the largest error or the target forbid more, the model goes on growing.
     if (result_.model.face_count() > budget_) budget_ = std::uint64_t{result_.model.face_count()} * 3 / 2;
 }
 
