@@ -44,16 +44,13 @@ void print_findings(const std::string& name, const CheckReport& report) {
 
 int check_command(const Arguments& arguments) {
     ModelFile file = read_model(arguments.model);
-    CheckOptions options;
-    options.boundary_is_open = !arguments.input.cap();
+    CheckOptions options = arguments.input.check_options(file.labels);
     if (!arguments.sections.empty()) {
         const auto reader = arguments.input.open(arguments.sections);
         options.oracle = translate(
             count_labels(*reader, {.cap = arguments.input.cap(), .background = arguments.input.background_labels()}),
             file.labels);
     }
-    for (InputLabel label : arguments.input.background_labels()) options.background.push_back(file.labels.dense(label));
-    options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
     const CheckReport report = check(file.model, options);
     if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels));
     if (!arguments.quiet) print_findings(arguments.model, report);

@@ -42,11 +42,7 @@ int decimate_command(const Arguments& arguments) {
         throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
     require_writable_model(arguments.output);
     ModelFile file = read_model(arguments.model);
-    CheckOptions check_options;
-    check_options.boundary_is_open = !arguments.input.cap();
-    for (InputLabel label : arguments.input.background_labels())
-        check_options.background.push_back(file.labels.dense(label));
-    check_options.label_text = [&](Label label) { return file.labels.text(file.labels.input(label)); };
+    const CheckOptions check_options = arguments.input.check_options(file.labels);
     const CheckReport before = check(file.model, check_options);
     if (before.violation_count() > 0)
         throw Error(ErrorCode::kInput,

@@ -130,4 +130,12 @@ std::vector<InputLabel> InputOptions::background_labels() const {
     return labels;
 }
 
+CheckOptions InputOptions::check_options(LabelTable& labels) const {
+    CheckOptions options;
+    options.boundary_is_open = !cap();
+    for (InputLabel label : background_labels()) options.background.push_back(labels.dense(label));
+    options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
+    return options;
+}
+
 }  // namespace regionmesh::cli

@@ -24,6 +24,8 @@ struct InputOptions {
     /// Throws Error(kInput) for a word that is no number.
     std::unique_ptr<SectionReader> open(const std::vector<std::string>& inputs) const;
     std::vector<InputLabel> background_labels() const;
+    /// What check() should know of a model from a file; refers to `labels`, and adds the background to it.
+    CheckOptions check_options(LabelTable& labels) const;
     bool cap() const { return boundary == "cap"; }
 };
 

@@ -149,7 +149,7 @@ void Run::note_strip(const SectionWindow& window, const FaceBatch& batch) {
     tell("reconstruct");
 }
 
-/// First stage: in tiles, as far as is safe whatever the target, and never below what the target will leave.
+/// First stage: in tiles, up to the cost level, and never below what the target will leave.
 void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip,
                        const TilePlan& plan) {
     const double share = target_share();

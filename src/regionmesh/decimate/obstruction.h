@@ -12,9 +12,8 @@ namespace regionmesh {
 /// Holds the scratch space of the test. Exact: no epsilon decides, cheap tests only rule out.
 class Obstruction {
 public:
-    /// True when a new face would meet a face outside the star other than in shared vertices and edges, or when the
-    /// star would sweep over a separate part of the surface. Requires that fold and pinch have passed with this
-    /// position.
+    /// True when a new face would meet another, new or old, other than in shared vertices and edges, or when the star
+    /// would sweep over a separate part of the surface. Requires that fold and pinch have passed with this position.
     bool blocks(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
 
 private:
@@ -61,8 +60,8 @@ private:
     double low_ = 0, high_ = 0;  // extent along it, from position_, of all that the star sweeps
     Box box_;                    // of all that the star sweeps
     std::vector<NewFace> faces_;
-    std::vector<FaceTree::Boxes>
-        cells_;  // box of each new face with the tetrahedron it sweeps; then of the dead faces'
+    // The box of each new face with the tetrahedron it sweeps; then those of the dead faces.
+    std::vector<FaceTree::Boxes> cells_;
     std::uint32_t cell_count_ = 0;
     std::vector<VertexId> link_;
     std::vector<Vec3> link_at_;
