@@ -1,0 +1,33 @@
+// Do two faces of a surface meet outside the vertices that they share? (P test 6)
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "regionmesh/base/ids.h"
+#include "regionmesh/base/vec3.h"
+
+namespace regionmesh {
+
+/// A face with its places: what it shares with another, it shares by vertex.
+struct PlacedFace {
+    std::array<VertexId, 3> vertices;
+    std::array<Vec3, 3> at;
+};
+
+/// Do the boxes round two triangles overlap, touching included?
+inline bool boxes_overlap(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::min({p[0][axis], p[1][axis], p[2][axis]}) > std::max({q[0][axis], q[1][axis], q[2][axis]}))
+            return false;
+        if (std::max({p[0][axis], p[1][axis], p[2][axis]}) < std::min({q[0][axis], q[1][axis], q[2][axis]}))
+            return false;
+    }
+    return true;
+}
+
+/// True when the faces meet outside shared vertices and edges, or share all three vertices. Exact. Requires that
+/// neither is degenerate.
+bool meet_outside_shared(const PlacedFace& f, const PlacedFace& g);
+
+}  // namespace regionmesh
