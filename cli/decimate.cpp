@@ -27,13 +27,7 @@ DecimateOptions to_options(const Arguments& arguments, const Model& model) {
     options.min_quality = parse_number("--min-quality", arguments.min_quality);
     options.perturbation = parse_number("--perturbation", arguments.perturbation);
     options.intersect_check = !arguments.no_intersect_check;
-    // The mean edge, from the mean area of an equilateral face.
-    double area = 0;
-    for (std::uint32_t f = 0; f < model.face_end(); ++f) {
-        const auto [a, b, c] = model.corners(FaceId{f});
-        area += 0.5 * length(cross(b - a, c - a));
-    }
-    if (model.face_count() > 0) options.scale = std::sqrt(4 / std::sqrt(3.0) * area / model.face_count());
+    options.scale = typical_edge(model);
     return options;
 }
 

@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
     regionmesh::cli::Action action;
     regionmesh::cli::add_reconstruct(app, action);
     regionmesh::cli::add_decimate(app, action);
+    regionmesh::cli::add_smooth(app, action);
     regionmesh::cli::add_check(app, action);
     regionmesh::cli::add_info(app, action);
     try {

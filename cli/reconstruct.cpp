@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input_options.h"
 #include "progress_line.h"
+#include "smooth_arguments.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -12,10 +13,9 @@ struct Arguments {
     std::string output, report;
     std::string target_faces, reduce, max_error, min_quality = "0.1", memory = "2GiB", face_budget,
                                                  perturbation = "1e-7";
-    int smooth = 0;
     std::uint32_t threads = 0;
-    std::string smooth_filter = "none";
     bool no_decimate = false, no_intersect_check = false, quiet = false;
+    SmoothArguments smooth;
     InputOptions input;
 };
 
@@ -25,6 +25,7 @@ ReconstructOptions to_options(const Arguments& arguments) {
     if (!arguments.reduce.empty()) options.reduce = parse_share("--reduce", arguments.reduce);
     if (!arguments.max_error.empty()) options.max_error = parse_number("--max-error", arguments.max_error);
     if (!arguments.face_budget.empty()) options.face_budget = parse_count("--face-budget", arguments.face_budget);
+    options.smooth = arguments.smooth.options();
     options.min_quality = parse_number("--min-quality", arguments.min_quality);
     options.perturbation = parse_number("--perturbation", arguments.perturbation);
     options.memory = parse_bytes("--memory", arguments.memory);
@@ -96,10 +97,8 @@ void add_reconstruct(CLI::App& app, Action& action) {
     command->add_option("--max-error", arguments->max_error,
                         "decimate as far as this rms distance allows, in the unit of the spacing");
     command->add_option("--min-quality", arguments->min_quality,
-                        "least quality of a face that decimation makes; 0.26 is equilateral");
-    command->add_option("--smooth", arguments->smooth, "passes of smoothing; only 0 so far")->check(CLI::IsMember({0}));
-    command->add_option("--smooth-filter", arguments->smooth_filter, "only none so far")
-        ->check(CLI::IsMember({"none"}));
+                        "least quality of a face that smoothing or decimation makes; 0.26 is equilateral");
+    arguments->smooth.add_options(*command);
     command->add_option("--memory", arguments->memory, "stay within this, such as 500MiB or 2GiB");
     command->add_option("--face-budget", arguments->face_budget,
                         "most faces held at once, instead of one derived from --memory");

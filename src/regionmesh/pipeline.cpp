@@ -7,6 +7,7 @@
 #include "regionmesh/base/process.h"
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/stream/section_window.h"
+#include "regionmesh/stream/smoothing.h"
 #include "regionmesh/stream/weld.h"
 #include "regionmesh/tets/label_census.h"
 #include "regionmesh/tets/strip_mesher.h"
@@ -43,7 +44,11 @@ class Run {
 public:
     Run(SectionReader& reader, const ReconstructOptions& options,
         const std::function<void(const Progress&)>& on_progress)
-        : reader_(reader), options_(options), on_progress_(on_progress), lattice_(reader.info().lattice) {
+        : reader_(reader),
+          options_(options),
+          on_progress_(on_progress),
+          lattice_(reader.info().lattice),
+          plan_(plan_tiles(meshing_lattice(lattice_), reader.info().sweep)) {
         result_.labels = table_for(reader.info());
         result_.background = dense_background(options, result_.labels);
         progress_.section_count = reader.section_count();
@@ -62,14 +67,19 @@ private:
     }
     bool read(SectionWindow& window);
     void note_strip(const SectionWindow& window, const FaceBatch& batch);
-    void decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip,
-                      const TilePlan& plan);
+    void make_smoothing();
+    void smooth_strip(FaceBatch& batch, const SectionWindow& window);
+    void add_strip(const FaceBatch& batch);
+    void end_run();
+    void decimate_run();
+    double plane_of(std::uint32_t section) const;
+    double floor() const { return smoothing_ ? smoothing_->floor() : plane_of(strips_); }
     DecimateOptions decimate_options() const;
     void add_verdicts(const VerdictCounts& counts);
     double target_share() const;
     std::uint64_t target_for(std::uint64_t initial_faces) const;
     std::uint64_t target_so_far() const;
-    void keep_within_budget(Weld& weld, std::uint64_t run_faces);
+    void keep_within_budget(std::uint64_t run_faces);
     void decimate_to(std::uint64_t faces, bool is_last);
     void note_bytes(std::uint64_t faces, std::size_t bytes);
     void tell(const char* stage);
@@ -81,6 +91,12 @@ private:
     Lattice lattice_;
     Reconstruction result_;
     Progress progress_;
+    TilePlan plan_;
+    std::optional<Smoothing> smoothing_;
+    FaceBatch run_;  // strips since the last weld
+    Weld weld_{result_.model};
+    std::uint32_t strips_ = 0;                  // added to runs so far
+    double ceiling_ = -HUGE_VAL;                // as far as faces of earlier runs reach along the sweep
     std::optional<std::uint64_t> total_faces_;  // of the unsimplified model, where a first pass counted them
     std::uint64_t budget_ = kNoLimit;
     LabelOracle oracle_;
@@ -101,41 +117,32 @@ void Run::plan() {
     reader_.rewind();
 }
 
-/// Strips become faces; runs of strips are decimated tile by tile up to a low cost level and welded to the model, which
-/// is kept within its budget (P 3.1-3.5).
+/// Strips become faces, which are smoothed some strips behind; runs of strips are decimated tile by tile up to a low
+/// cost level and welded to the model, which is kept within its budget (P 3.1-3.5).
 void Run::build() {
     SectionWindow window(reader_, result_.labels);
     const StripOptions strip_options{.cap = options_.cap, .background = result_.background};
     StripMesher mesher(meshing_lattice(lattice_), reader_.info().sweep, strip_options);
     LabelCensus census(lattice_, reader_.info().sweep, strip_options);
-    const TilePlan plan = plan_tiles(meshing_lattice(lattice_), reader_.info().sweep);
-    const std::uint32_t run_strips = is_decimating() ? plan.run_strips : options_.strips_per_batch;
-    Weld weld(result_.model);
-    FaceBatch batch, run;
+    make_smoothing();
+    FaceBatch batch;
     while (read(window)) {
         {
             const Timer timer(seconds("reconstruct"));
             census.add(window.low(), window.high(), window.is_last());
             batch.clear();
             mesher.mesh(window.low(), window.high(), batch);
-            run.append(batch);
         }
         note_strip(window, batch);
-        const std::uint32_t strips = window.sections_read() - 1;
-        if (strips % run_strips != 0 && !window.is_last()) continue;
-        if (is_decimating()) decimate_run(run, weld.front(), (strips - 1) / run_strips * run_strips, plan);
-        {
-            const Timer timer(seconds("reconstruct"));
-            weld.add(run);
-        }
-        const std::uint64_t run_faces = run.faces.size();
-        run.clear();
-        note_bytes(result_.model.face_count(), result_.model.bytes());
-        if (!window.is_last()) keep_within_budget(weld, run_faces);
+        if (smoothing_)
+            smooth_strip(batch, window);
+        else
+            add_strip(batch);
     }
+    if (smoothing_) result_.report.smoothing = smoothing_->report();
+    smoothing_.reset();
     oracle_ = census.oracle();
 }
-
 bool Run::read(SectionWindow& window) {
     const Timer timer(seconds("read"));
     return window.advance();
@@ -149,9 +156,66 @@ void Run::note_strip(const SectionWindow& window, const FaceBatch& batch) {
     tell("reconstruct");
 }
 
+void Run::make_smoothing() {
+    if (options_.smooth.passes == 0) return;
+    const Vec3 spacing = lattice_.spacing;
+    const int axis = reader_.info().sweep.axes[2];
+    SmoothOptions own = options_.smooth;
+    own.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
+    own.min_quality = options_.min_quality;
+    own.intersect_check = options_.intersect_check;
+    own.threads = options_.threads;
+    smoothing_.emplace(own, LayerOrder{.axis = axis, .thickness = spacing[axis]});
+}
+
+void Run::smooth_strip(FaceBatch& batch, const SectionWindow& window) {
+    {
+        const Timer timer(seconds("smooth"));
+        smoothing_->add(batch, window.is_last(), plane_of(window.sections_read() - 1));
+    }
+    for (;;) {
+        {
+            const Timer timer(seconds("smooth"));
+            if (!smoothing_->next(batch)) return;
+        }
+        add_strip(batch);
+    }
+}
+
+/// Where a section lies along the sweep.
+double Run::plane_of(std::uint32_t section) const {
+    const int axis = reader_.info().sweep.axes[2];
+    return meshing_lattice(lattice_).origin[axis] + section * lattice_.spacing[axis];
+}
+
+void Run::add_strip(const FaceBatch& batch) {
+    {
+        const Timer timer(seconds("reconstruct"));
+        run_.append(batch);
+    }
+    ++strips_;
+    const std::uint32_t run_strips = is_decimating() ? plan_.run_strips : options_.strips_per_batch;
+    if (strips_ % run_strips == 0 || strips_ + 1 == reader_.section_count()) end_run();
+}
+
+void Run::end_run() {
+    const int axis = reader_.info().sweep.axes[2];
+    double ceiling = ceiling_;
+    for (const BatchVertex& vertex : run_.vertices) ceiling = std::max(ceiling, vertex.position[axis]);
+    if (is_decimating()) decimate_run();
+    {
+        const Timer timer(seconds("reconstruct"));
+        weld_.add(run_);
+    }
+    ceiling_ = ceiling;
+    const std::uint64_t run_faces = run_.faces.size();
+    run_.clear();
+    note_bytes(result_.model.face_count(), result_.model.bytes());
+    if (strips_ + 1 < reader_.section_count()) keep_within_budget(run_faces);
+}
+
 /// First stage: in tiles, up to the cost level, and never below what the target will leave.
-void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, std::uint32_t first_strip,
-                       const TilePlan& plan) {
+void Run::decimate_run() {
     const double share = target_share();
     if (share * kTileMargin >= 1) return;
     const Timer timer(seconds("decimate tiles"));
@@ -159,7 +223,10 @@ void Run::decimate_run(FaceBatch& run, const std::vector<BatchVertex>& carried, 
                              .keep_share = share * kTileMargin,
                              .threads = options_.threads,
                              .decimate = decimate_options()};
-    const TileResult done = decimate_tiles(run, carried, first_strip, plan, tile_options);
+    const std::uint32_t first = (strips_ - 1) / plan_.run_strips * plan_.run_strips;
+    // Faces of earlier runs may reach up to the ceiling, those of later ones down to the floor.
+    const RunExtent extent{std::max(plane_of(first), ceiling_), std::min(plane_of(strips_), floor())};
+    const TileResult done = decimate_tiles(run_, weld_.front(), extent, plan_, tile_options);
     add_verdicts(done.verdicts);
 }
 
@@ -187,14 +254,14 @@ std::uint64_t Run::target_so_far() const {
     return target_for(*total_faces_) * read / std::max<std::uint64_t>(*total_faces_, 1);
 }
 
-void Run::keep_within_budget(Weld& weld, std::uint64_t run_faces) {
+void Run::keep_within_budget(std::uint64_t run_faces) {
     // The next run comes on top of what is held.
     const std::uint64_t room = budget_ - std::min(budget_, run_faces);
     if (!is_decimating() || result_.model.face_count() <= room) return;
     // Down by a good part, so that the heap need not be built anew after every run.
     const std::uint64_t goal = std::max(target_so_far(), std::min(room, budget_ * 6 / 10));
     if (result_.model.face_count() > goal) {
-        weld.renumber(result_.model.sort_spatially());
+        weld_.renumber(result_.model.sort_spatially());
         decimate_to(goal, false);
     }
     // Where topology, the largest error or the target forbid more, the model goes on growing.
@@ -221,10 +288,8 @@ void Run::decimate_to(std::uint64_t faces, bool is_last) {
     own.target_faces = static_cast<std::uint32_t>(std::min(faces, kNoLimit));
     own.refresh = is_last;
     if (!is_last) {
-        // What comes later lies at or beyond the last section read.
-        const int axis = reader_.info().sweep.axes[2];
-        own.limits.high[axis] =
-            meshing_lattice(lattice_).origin[axis] + (progress_.sections_read - 1) * lattice_.spacing[axis];
+        // What comes later lies at or beyond the last section read, or as far back as smoothing took it.
+        own.limits.high[reader_.info().sweep.axes[2]] = floor();
     }
     const char* stage = is_last ? "decimate" : "reconstruct";
     own.on_progress = [&] { tell(stage); };

@@ -9,6 +9,7 @@
 
 #include "regionmesh/model/model.h"
 #include "regionmesh/report.h"
+#include "regionmesh/smooth/smooth_options.h"
 #include "regionmesh/volume/label_table.h"
 #include "regionmesh/volume/section_reader.h"
 
@@ -19,7 +20,8 @@ struct ReconstructOptions {
     std::optional<std::uint64_t> target_faces = {};  // decimate to at most so many faces
     std::optional<double> reduce = {};               // or remove this share of them, 0 to 1
     std::optional<double> max_error = {};            // or as far as the rms distance allows, in the unit of the spacing
-    double min_quality = 0.1;                        // of every face that decimation touches
+    SmoothOptions smooth = {};                       // scale, quality, tests and threads are those of the run
+    double min_quality = 0.1;                        // of every face that smoothing or decimation touches
     double perturbation = 1e-7;                      // P 4.5
     bool decimate = true;                            // false: the plain reconstruction, whatever the targets say
     bool intersect_check = true;

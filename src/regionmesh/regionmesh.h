@@ -9,5 +9,7 @@
 #include "regionmesh/io/read_sections.h"
 #include "regionmesh/io/write_report.h"
 #include "regionmesh/model/model.h"
+#include "regionmesh/model/typical_edge.h"
 #include "regionmesh/pipeline.h"
 #include "regionmesh/report.h"
+#include "regionmesh/smooth/smooth.h"

@@ -8,6 +8,7 @@
 
 #include "regionmesh/check/check.h"
 #include "regionmesh/decimate/verdict.h"
+#include "regionmesh/smooth/smooth_report.h"
 
 namespace regionmesh {
 
@@ -20,6 +21,7 @@ struct Report {
     std::uint64_t peak_bytes = 0;           // largest resident size of the process
     std::uint64_t peak_faces = 0;           // most faces held at once
     double bytes_per_face = 0;              // model and decimation together, at the largest, over the faces then held
+    SmoothReport smoothing;
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
     std::string stopped;  // why decimation ended: "target", "max_error", "topology", "none asked"

@@ -15,11 +15,11 @@ inline void expect_sound(const CheckReport& report) {
         ADD_FAILURE() << to_string(report.violations[n].kind) << ": " << report.violations[n].text;
 }
 
-/// All labels are regions, nothing is decimated.
-inline ReconstructOptions plain() { return {.decimate = false, .background = {}}; }
+/// All labels are regions, nothing is smoothed or decimated.
+inline ReconstructOptions plain() { return {.smooth = {.passes = 0}, .decimate = false, .background = {}}; }
 
-/// All labels are regions; this share of the faces goes.
-inline ReconstructOptions reduced(double share) { return {.reduce = share, .background = {}}; }
+/// All labels are regions, nothing is smoothed; this share of the faces goes.
+inline ReconstructOptions reduced(double share) { return {.reduce = share, .smooth = {.passes = 0}, .background = {}}; }
 
 /// From the first section, whatever was read before.
 inline Reconstruction run(ArrayVolume& volume, const ReconstructOptions& options = plain()) {

@@ -41,6 +41,9 @@ struct Batch {
 /// Tiles of so many cells, one run for all sections.
 TilePlan plan_of(const Batch& batch, std::uint32_t cells) { return {batch.lattice, kSweepZ, batch.lattice.size[2], cells}; }
 
+/// One run of all sections: nothing comes before or after.
+RunExtent extent_of(const Batch& batch) { return {0, (batch.lattice.size[2] - 1) * batch.lattice.spacing.z}; }
+
 TEST(FaceBatch, appended_strips_make_the_model_of_strips_welded_one_by_one) {
     test::ArrayVolume volume = test::noise_volume({6, 5, 7}, 4, 1);
     const Batch batch(volume);
@@ -52,7 +55,7 @@ TEST(Tiles, remove_faces_and_keep_what_the_labels_say) {
     test::ArrayVolume volume = test::grain_volume({33, 26, 9}, 9, 3);
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    const TileResult result = decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0, .threads = 1, .decimate = {}});
+    const TileResult result = decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0, .threads = 1, .decimate = {}});
     EXPECT_LT(batch.whole.faces.size(), faces * 7 / 10);
     EXPECT_GT(result.verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
     CheckOptions options;
@@ -64,7 +67,7 @@ TEST(Tiles, stay_in_their_boxes) {
     test::ArrayVolume volume = test::ball_volume({21, 21, 21}, 7);
     Batch batch(volume);
     Model before = batch.model();
-    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 5), {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
+    decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 5), {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
     // A face that reaches across x = 5, 10, 15 would lie in two tiles.
     for (const BatchFace& face : batch.whole.faces)
         for (double wall : {5.0, 10.0, 15.0}) {
@@ -82,7 +85,7 @@ TEST(Tiles, keep_the_share_they_are_told_to) {
     test::ArrayVolume volume = test::solid_volume({17, 17, 5});
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    decimate_tiles(batch.whole, {}, 0, plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0.5, .threads = 1, .decimate = {}});
+    decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0.5, .threads = 1, .decimate = {}});
     EXPECT_GE(batch.whole.faces.size(), faces / 2 - 16);
     EXPECT_LE(batch.whole.faces.size(), faces / 2 + 16);
 }
@@ -103,7 +106,7 @@ TEST(Tiles, leave_carried_and_open_vertices_as_they_are) {
         if (strip % 3 != 2) continue;
         std::vector<Vec3> open;
         for (std::uint32_t v : run.open) open.push_back(v < run.carried ? weld.front()[v].position : run.vertices[v - run.carried].position);
-        decimate_tiles(run, weld.front(), strip - 2, plan, {.cost_level = 1e-2, .keep_share = 0, .threads = 1, .decimate = {}});
+        decimate_tiles(run, weld.front(), {strip - 2.0, strip + 1.0}, plan, {.cost_level = 1e-2, .keep_share = 0, .threads = 1, .decimate = {}});
         weld.add(run);
         ASSERT_EQ(weld.front().size(), open.size());
         for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(weld.front()[n].position, open[n]);

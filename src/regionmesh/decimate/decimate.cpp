@@ -20,9 +20,18 @@ constexpr double kCompactBelow = 0.5;
 class Decimation {
 public:
     Decimation(Model& model, const DecimateOptions& options)
-        : model_(model), options_(options), tree_(model), candidates_(model, options) {
+        : model_(model),
+          options_(options),
+          tree_(model),
+          beyond_(fix_beyond(model, options.limits)),
+          candidates_(model, options) {
         bounds_.min_quality = options.min_quality;
     }
+    ~Decimation() {
+        for (VertexId v : beyond_) model_[v].is_fixed = false;
+    }
+    Decimation(const Decimation&) = delete;
+    Decimation& operator=(const Decimation&) = delete;
 
     DecimateResult run() {
         for (;;) {
@@ -48,6 +57,27 @@ public:
     }
 
 private:
+    /// Fixes the vertices of faces that reach beyond the limits, so that all faces that change lie within, before and
+    /// after: the limits are convex. Returns those that were not fixed before.
+    static std::vector<VertexId> fix_beyond(Model& model, const Box& limits) {
+        std::vector<VertexId> beyond;
+        const auto is_within = [&](VertexId v) {
+            const Vec3 p = model.position(v);
+            return max(p, limits.low) == p && min(p, limits.high) == p;
+        };
+        for (std::uint32_t f = 0; f < model.face_end(); ++f) {
+            if (!model.is_alive(FaceId{f})) continue;
+            const auto& corners = model[FaceId{f}].vertices;
+            if (std::all_of(corners.begin(), corners.end(), is_within)) continue;
+            for (VertexId v : corners) {
+                if (model[v].is_fixed) continue;
+                model[v].is_fixed = true;
+                beyond.push_back(v);
+            }
+        }
+        return beyond;
+    }
+
     std::uint64_t count(Verdict verdict) const { return result_.verdicts[static_cast<int>(verdict)]; }
 
     /// Examines the cheapest candidate: collapses it, or puts it aside.
@@ -151,6 +181,7 @@ private:
     const DecimateOptions& options_;
     ShapeBounds bounds_;
     FaceTree tree_;
+    std::vector<VertexId> beyond_;
     Candidates candidates_;
     Obstruction obstruction_;
     EdgeStar star_;

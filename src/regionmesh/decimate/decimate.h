@@ -20,8 +20,9 @@ struct DecimateOptions {
     bool intersect_check = true;
     bool refresh = true;  // begin again when candidates run out (P 3.7)
     Box limits{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
-               {HUGE_VAL, HUGE_VAL, HUGE_VAL}};  // merged vertices stay strictly inside,
-                                                 // unless on a side of the box: beyond lies what was not read yet
+               {HUGE_VAL, HUGE_VAL, HUGE_VAL}};  // merged vertices stay strictly inside, unless on a
+                                                 // side of the box, and faces that reach out stay as they
+                                                 // are: beyond lies what was not read yet
     std::function<void()> on_progress = {};      // called now and then
 };
 

@@ -41,6 +41,25 @@ Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels) {
     return json;
 }
 
+Json smoothing_json(const Report& report) {
+    const SmoothReport& done = report.smoothing;
+    const auto at = report.seconds.find("smooth");
+    const double seconds = at == report.seconds.end() ? 0 : at->second;
+    return {{"vertices", done.vertices},
+            {"vertex_passes", done.vertex_passes},
+            {"vertex_passes_per_second", seconds > 0 ? static_cast<double>(done.vertex_passes) / seconds : 0.0},
+            {"turned_faces", done.turned_faces},
+            {"low_quality_faces", done.low_quality_faces},
+            {"crossing_pairs", done.crossing_pairs},
+            {"islands", done.islands},
+            {"held_vertices", done.held_vertices},
+            {"stepped_back", done.stepped_back},
+            {"largest_displacement", done.largest_displacement},
+            {"rms_displacement", done.rms_displacement},
+            {"window_strips", done.window_layers},
+            {"window_bytes", done.window_bytes}};
+}
+
 Json violations_json(const std::vector<Violation>& violations) {
     Json json = Json::array();
     for (const Violation& violation : violations)
@@ -79,6 +98,7 @@ std::string report_json(const Report& report, const LabelTable& labels) {
     for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
     json["refreshes"] = report.refreshes;
     json["stopped"] = report.stopped;
+    json["smoothing"] = smoothing_json(report);
     put_check(json, report.check, labels);
     return text_of(json);
 }

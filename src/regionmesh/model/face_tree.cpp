@@ -15,25 +15,40 @@ constexpr FaceTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, k
 
 }  // namespace
 
+FaceTree::FaceTree(std::span<const Box> boxes) {
+    Box bounds;
+    for (const Box& box : boxes) {
+        bounds.add(box.low);
+        bounds.add(box.high);
+    }
+    begin(static_cast<std::uint32_t>(boxes.size()), bounds);
+    for (std::uint32_t f = 0; f < boxes.size(); ++f) set(FaceId{f}, boxes[f]);
+}
+
 void FaceTree::build(const Model& model) {
-    std::vector<std::vector<Boxes>>().swap(levels_);
     Box bounds;
     for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
         if (model.is_alive(VertexId{v})) bounds.add(model.position(VertexId{v}));
-    if (model.vertex_count() > 0) {
-        const Vec3 extent = bounds.high - bounds.low;
-        origin_ = bounds.low;
-        cells_per_length_ = 65500 / std::max({extent.x, extent.y, extent.z, 1e-300});
-    }
-    for (std::size_t groups = (model.face_end() + kFan - 1) / kFan;; groups = (groups + kFan - 1) / kFan) {
-        levels_.emplace_back(std::max<std::size_t>(groups, 1), Boxes::none());
-        if (groups <= 1) break;
-    }
+    begin(model.face_end(), bounds);
     for (std::uint32_t f = 0; f < model.face_end(); ++f) {
         if (!model.is_alive(FaceId{f})) continue;
         Box box;
         for (Vec3 p : model.corners(FaceId{f})) box.add(p);
         set(FaceId{f}, box);
+    }
+}
+
+/// Empty boxes for so many faces, in a grid over `bounds`.
+void FaceTree::begin(std::uint32_t face_end, const Box& bounds) {
+    std::vector<std::vector<Boxes>>().swap(levels_);
+    if (bounds.low.x <= bounds.high.x) {
+        const Vec3 extent = bounds.high - bounds.low;
+        origin_ = bounds.low;
+        cells_per_length_ = 65500 / std::max({extent.x, extent.y, extent.z, 1e-300});
+    }
+    for (std::size_t groups = (face_end + kFan - 1) / kFan;; groups = (groups + kFan - 1) / kFan) {
+        levels_.emplace_back(std::max<std::size_t>(groups, 1), Boxes::none());
+        if (groups <= 1) break;
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "regionmesh/base/vec3.h"
@@ -35,6 +36,8 @@ public:
     };
 
     explicit FaceTree(const Model& model) { build(model); }
+    /// Over the boxes given, for faces numbered as they are.
+    explicit FaceTree(std::span<const Box> boxes);
 
     /// Begins again with the faces that are alive now; the old boxes are let go first.
     void build(const Model& model);
@@ -55,6 +58,7 @@ public:
     std::size_t bytes() const;
 
 private:
+    void begin(std::uint32_t face_end, const Box& bounds);
     static bool extend(Boxes& boxes, std::uint32_t lane, const GridBox& box);
 
     Vec3 origin_;

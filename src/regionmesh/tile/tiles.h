@@ -19,6 +19,11 @@ struct TilePlan {
 };
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
 
+/// Along the sweep faces of earlier runs reach up to `low` at most, those of later ones down to `high`.
+struct RunExtent {
+    double low, high;
+};
+
 struct TileOptions {
     double cost_level;          // in units of scale^4: collapses up to this cost
     double keep_share;          // no tile goes below this share of its faces
@@ -31,10 +36,10 @@ struct TileResult {
 };
 
 /// Decimates the batch of a whole run in place, tile by tile. Vertices that two tiles share, or that are carried or
-/// open, are fixed; a tile's merged vertices stay strictly inside its box, so that tiles cannot meet. `first_strip` is
-/// the run's first; `carried` are the batch's carried vertices. The order of tiles, vertices and faces depends on the
-/// batch.
-TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, std::uint32_t first_strip,
+/// open, are fixed, and so are those of faces that reach out of their tile's box; a tile's merged vertices stay
+/// strictly inside its box, so that what two tiles change cannot meet. `carried` are the batch's carried vertices. The
+/// order of tiles, vertices and faces depends on the batch.
+TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, RunExtent extent,
                           const TilePlan& plan, const TileOptions& options);
 
 }  // namespace regionmesh

@@ -1,0 +1,78 @@
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "input_options.h"
+#include "regionmesh/base/process.h"
+#include "smooth_arguments.h"
+
+namespace regionmesh::cli {
+namespace {
+
+struct Arguments {
+    std::string model, output, report, min_quality = "0.1", scale;
+    std::uint32_t threads = 0;
+    bool no_intersect_check = false, quiet = false;
+    SmoothArguments smooth;
+    InputOptions input;
+};
+
+SmoothOptions to_options(const Arguments& arguments, const Model& model) {
+    SmoothOptions options = arguments.smooth.options();
+    options.min_quality = parse_number("--min-quality", arguments.min_quality);
+    options.intersect_check = !arguments.no_intersect_check;
+    options.threads = arguments.threads;
+    options.scale = arguments.scale.empty() ? typical_edge(model) : parse_number("--scale", arguments.scale);
+    return options;
+}
+
+int smooth_command(const Arguments& arguments) {
+    require_writable_model(arguments.output);
+    if (!arguments.report.empty()) require_writable(arguments.report);
+    ModelFile file = read_model(arguments.model);
+    const CheckOptions check_options = arguments.input.check_options(file.labels);
+    Report report;
+    report.initial_faces = file.model.face_count();
+    report.initial_vertices = file.model.vertex_count();
+    const CheckReport before = check(file.model, check_options);
+    {
+        const Timer timer(report.seconds["smooth"]);
+        report.smoothing = smooth(file.model, to_options(arguments, file.model));
+    }
+    report.check = check(file.model, check_options);
+    report.final_faces = report.initial_faces;
+    report.final_vertices = report.initial_vertices;
+    report.stopped = "none asked";
+    write_model(file.model, file.labels, arguments.output, {.background = check_options.background});
+    report.peak_bytes = peak_resident_bytes();
+    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels));
+    if (!arguments.quiet)
+        fmt::print(
+            "{}: {} vertices, {} stepped back, moved by {:.3g} at most; quality {:.3f} at worst, {} violations (before "
+            "{})\n",
+            arguments.output, report.smoothing.vertices, report.smoothing.stepped_back,
+            report.smoothing.largest_displacement, report.check.quality.min, report.check.violation_count(),
+            before.violation_count());
+    return report.check.violation_count() == 0 ? 0 : 3;
+}
+
+}  // namespace
+
+void add_smooth(CLI::App& app, Action& action) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("smooth", "a labelled surface in, the same without steps out");
+    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
+    arguments->smooth.add_options(*command);
+    arguments->input.add_label_options(*command);
+    command->add_option("--min-quality", arguments->min_quality, "no face falls below this quality, unless it was");
+    command->add_option("--scale", arguments->scale, "sample spacing, the unit of nifpms; the mean edge if not given");
+    command->add_option("--threads", arguments->threads,
+                        "threads at work; one per core if not given. The model is the same");
+    command->add_flag("--no-intersect-check", arguments->no_intersect_check, "let faces cross; faster");
+    command->add_option("--report", arguments->report, "JSON report to write");
+    command->add_flag("--quiet", arguments->quiet, "no summary");
+    command->callback([arguments, &action] { action = [arguments] { return smooth_command(*arguments); }; });
+}
+
+}  // namespace regionmesh::cli

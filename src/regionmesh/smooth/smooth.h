@@ -1,0 +1,14 @@
+// Smoothing of a model that is wholly in core.
+#pragma once
+
+#include "regionmesh/model/model.h"
+#include "regionmesh/smooth/smooth_options.h"
+#include "regionmesh/smooth/smooth_report.h"
+
+namespace regionmesh {
+
+/// Moves the vertices in place; ids stay. The same passes and the same guard as in the stream. A model that has faults
+/// keeps them where it cannot do better. Deterministic.
+SmoothReport smooth(Model& model, const SmoothOptions& options);
+
+}  // namespace regionmesh
