@@ -43,11 +43,12 @@ Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels) {
 
 Json smoothing_json(const Report& report) {
     const SmoothReport& done = report.smoothing;
-    const auto at = report.seconds.find("smooth");
-    const double seconds = at == report.seconds.end() ? 0 : at->second;
+    const double seconds = done.filter_seconds;
     return {{"vertices", done.vertices},
             {"vertex_passes", done.vertex_passes},
             {"vertex_passes_per_second", seconds > 0 ? static_cast<double>(done.vertex_passes) / seconds : 0.0},
+            {"filter_seconds", done.filter_seconds},
+            {"guard_seconds", done.guard_seconds},
             {"turned_faces", done.turned_faces},
             {"low_quality_faces", done.low_quality_faces},
             {"crossing_pairs", done.crossing_pairs},

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "regionmesh/base/hash.h"
+#include "regionmesh/base/ids.h"
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/triangle.h"
 #include "regionmesh/smooth/relax.h"
@@ -20,15 +22,61 @@ double gaussian(double square, double sigma) { return std::exp(-square / (2 * si
 /// A face, or an edge of a line, that speaks for the surface near a vertex.
 struct Witness {
     Vec3 middle;
-    double size;                      // area or length
-    std::array<std::uint32_t, 3> at;  // its vertices in the order of their places; of an edge, the first two
+    double size;            // area or length
+    FaceId face = kNoFace;  // or the ends of an edge
+    std::uint32_t from = 0, to = 0;
+};
+
+/// A small set of numbers that is emptied at once.
+class SmallSet {
+public:
+    void clear() {
+        if (++now_ == 0 || held_ > kSlots / 2) {
+            slots_.assign(slots_.size(), {});
+            now_ = 1;
+        }
+        held_ = 0;
+    }
+    /// False when the number was there.
+    bool add(std::uint32_t n) {
+        if (2 * held_ >= slots_.size()) grow();
+        Slot& slot = find(n);
+        if (slot.epoch == now_) return false;
+        slot = {n, now_};
+        ++held_;
+        return true;
+    }
+
+private:
+    struct Slot {
+        std::uint32_t number = 0, epoch = 0;
+    };
+    static constexpr std::size_t kSlots = 1024;
+
+    Slot& find(std::uint32_t n) {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t at = mix64(n) & mask;
+        while (slots_[at].epoch == now_ && slots_[at].number != n) at = (at + 1) & mask;
+        return slots_[at];
+    }
+    void grow() {
+        std::vector<Slot> old(2 * slots_.size());
+        old.swap(slots_);
+        for (const Slot& slot : old)
+            if (slot.epoch == now_) find(slot.number) = slot;
+    }
+
+    std::vector<Slot> slots_ = std::vector<Slot>(kSlots);
+    std::uint32_t now_ = 1;
+    std::size_t held_ = 0;
 };
 
 /// Collects the witnesses of one vertex after another.
 class Witnesses {
 public:
-    Witnesses(const SurfaceWindow& window, const Neighbours& neighbours, const SlidingLists& stars)
-        : window_(window), neighbours_(neighbours), stars_(stars) {}
+    Witnesses(const SurfaceWindow& window, const Neighbours& neighbours, const SlidingLists& stars,
+              const SlidingArray<Nifpms::FaceMeasure>& measures)
+        : window_(window), neighbours_(neighbours), stars_(stars), measures_(measures) {}
 
     /// Faces of the interface of v, or edges of its line, that a path within `reach` joins to it; in the order of their
     /// places. None for points, and for vertices without neighbours.
@@ -43,7 +91,6 @@ public:
                   [](const Witness& a, const Witness& b) { return is_before(a.middle, b.middle); });
         return found_;
     }
-    bool are_faces() const { return are_faces_; }
 
 private:
     bool is_inside_interface(std::uint32_t v) const {
@@ -57,38 +104,32 @@ private:
     }
 
     void grow_faces(std::uint32_t v, double reach) {
-        are_faces_ = true;
         const auto labels = window_.faces[stars_.of(v)[0] >> 2].labels;
         const Vec3 from = window_.origin[v];
-        seen_.clear();
+        seen_faces_.clear();
+        seen_vertices_.clear();
         queue_.assign(1, v);
-        seen_vertices_.assign(1, v);
+        seen_vertices_.add(v);
         for (std::size_t n = 0; n < queue_.size(); ++n) {
             for (std::uint32_t corner : stars_.of(queue_[n])) {
                 const std::uint32_t f = corner >> 2;
+                if (!seen_faces_.add(f)) continue;
                 const WindowFace& face = window_.faces[f];
-                if (!is_same_interface(face.labels, labels) || !add(seen_, f)) continue;
-                std::array<std::uint32_t, 3> at = face.vertices;
-                std::sort(at.begin(), at.end(), [&](std::uint32_t p, std::uint32_t q) {
-                    return is_before(window_.origin[p], window_.origin[q]);
-                });
-                const Vec3 a = window_.origin[at[0]], b = window_.origin[at[1]], c = window_.origin[at[2]];
-                const Vec3 middle = (a + b + c) / 3.0;
-                if (length2(middle - from) > reach * reach) continue;
-                found_.push_back({middle, 0.5 * length(area_vector(a, b, c)), at});
+                const auto& [middle, area] = measures_[f];
+                if (!is_same_interface(face.labels, labels) || length2(middle - from) > reach * reach) continue;
+                found_.push_back({middle, area, FaceId{f}});
                 for (std::uint32_t w : face.vertices)
-                    if (add(seen_vertices_, w)) queue_.push_back(w);
+                    if (seen_vertices_.add(w)) queue_.push_back(w);
             }
         }
     }
 
     void walk_line(std::uint32_t v, std::uint32_t next, double reach) {
-        are_faces_ = false;
         const Vec3 from = window_.origin[v];
         for (std::uint32_t at = v;;) {
             const Vec3 p = window_.origin[at], q = window_.origin[next], middle = 0.5 * (p + q);
             if (length2(middle - from) > reach * reach) return;
-            found_.push_back({middle, length(q - p), {at, next, next}});
+            found_.push_back({middle, length(q - p), kNoFace, at, next});
             const auto onward = neighbours_.of(next);
             if (onward.size() != 2 || next == v) return;
             const std::uint32_t after = onward[0] == at ? onward[1] : onward[0];
@@ -97,30 +138,19 @@ private:
         }
     }
 
-    /// Adds to a small sorted set; false when it was there.
-    static bool add(std::vector<std::uint32_t>& set, std::uint32_t n) {
-        const auto at = std::lower_bound(set.begin(), set.end(), n);
-        if (at != set.end() && *at == n) return false;
-        set.insert(at, n);
-        return true;
-    }
-
     const SurfaceWindow& window_;
     const Neighbours& neighbours_;
     const SlidingLists& stars_;
+    const SlidingArray<Nifpms::FaceMeasure>& measures_;
     std::vector<Witness> found_;
-    std::vector<std::uint32_t> queue_, seen_, seen_vertices_;
-    bool are_faces_ = true;
+    std::vector<std::uint32_t> queue_;
+    SmallSet seen_faces_, seen_vertices_;
 };
 
-/// Where p comes to lie on the plane of a face, or on an edge, with the direction of the mollified places.
-Vec3 projected(Vec3 p, const Witness& witness, bool is_face, const SlidingArray<Vec3>& mollified) {
-    const Vec3 a = mollified[witness.at[0]], b = mollified[witness.at[1]], c = mollified[witness.at[2]];
-    const Vec3 direction = is_face ? area_vector(a, b, c) : b - a;
+/// Where p comes to lie on an edge with the direction of the mollified places.
+Vec3 projected_on_line(Vec3 p, Vec3 middle, Vec3 direction) {
     const double square = length2(direction);
-    if (!(square > 0)) return p;
-    const Vec3 along = dot(p - witness.middle, direction) / square * direction;
-    return is_face ? p - along : witness.middle + along;
+    return square > 0 ? middle + dot(p - middle, direction) / square * direction : p;
 }
 
 }  // namespace
@@ -129,10 +159,21 @@ void Nifpms::add_layer(const LayerStars& stars) {
     for (std::uint32_t v = stars.vertices().first; v < stars.vertices().end; ++v) stars_.push_back(stars.of(v));
 }
 
+void Nifpms::note_layer(std::uint32_t layer) {
+    const NumberRange faces = window_.faces_of(layer);
+    for (std::uint32_t f = faces.first; f < faces.end; ++f) {
+        // In the order of their places, so that nothing depends on where a face begins.
+        std::array<Vec3, 3> p;
+        for (int n = 0; n < 3; ++n) p[n] = window_.origin[window_.faces[f].vertices[n]];
+        std::sort(p.begin(), p.end(), is_before);
+        measures_.push_back({(p[0] + p[1] + p[2]) / 3.0, 0.5 * length(area_vector(p[0], p[1], p[2]))});
+    }
+}
+
 void Nifpms::mollify(NumberRange vertices, SlidingArray<Vec3>& mollified) const {
     const double sigma = 0.5 * options_.nifpms_reach * options_.scale;
     parallel_for((vertices.size() + kChunk - 1) / kChunk, options_.threads, [&](std::uint32_t n) {
-        Witnesses witnesses(window_, neighbours_, stars_);
+        Witnesses witnesses(window_, neighbours_, stars_, measures_);
         const std::uint32_t first = vertices.first + n * kChunk;
         for (std::uint32_t v = first; v < std::min(vertices.end, first + kChunk); ++v) {
             const Vec3 p = window_.origin[v];
@@ -148,19 +189,36 @@ void Nifpms::mollify(NumberRange vertices, SlidingArray<Vec3>& mollified) const 
     });
 }
 
-void Nifpms::predict(NumberRange vertices, const SlidingArray<Vec3>& mollified, SlidingArray<Vec3>& to) const {
-    const double sigma = options_.nifpms_reach * options_.scale, bound = options_.nifpms_bound * options_.scale;
+void Nifpms::note_normals(std::uint32_t face_end, const SlidingArray<Vec3>& mollified) {
+    for (std::uint32_t f = normals_.end(); f < face_end; ++f) {
+        std::array<Vec3, 3> p;
+        for (int n = 0; n < 3; ++n) p[n] = mollified[window_.faces[f].vertices[n]];
+        std::sort(p.begin(), p.end(), is_before);
+        const Vec3 normal = area_vector(p[0], p[1], p[2]);
+        const double size = length(normal);
+        normals_.push_back(size > 0 ? normal / size : Vec3{});
+    }
+}
+
+void Nifpms::predict(NumberRange vertices, std::uint32_t face_end, const SlidingArray<Vec3>& mollified,
+                     SlidingArray<Vec3>& to) {
+    note_normals(face_end, mollified);
+    const double reach = options_.nifpms_reach * options_.scale, bound = options_.nifpms_bound * options_.scale;
+    const double by_distance = 1 / (2 * reach * reach), by_height = 1 / (2 * bound * bound);
     parallel_for((vertices.size() + kChunk - 1) / kChunk, options_.threads, [&](std::uint32_t n) {
-        Witnesses witnesses(window_, neighbours_, stars_);
+        Witnesses witnesses(window_, neighbours_, stars_, measures_);
         const std::uint32_t first = vertices.first + n * kChunk;
         for (std::uint32_t v = first; v < std::min(vertices.end, first + kChunk); ++v) {
             const Vec3 p = window_.origin[v];
             Vec3 sum;
             double weights = 0;
             for (const Witness& witness : witnesses.near(v, predicting_reach())) {
-                const Vec3 step = projected(p, witness, witnesses.are_faces(), mollified) - p;
+                const Vec3 step =
+                    witness.face == kNoFace
+                        ? projected_on_line(p, witness.middle, mollified[witness.to] - mollified[witness.from]) - p
+                        : dot(witness.middle - p, normals_[index(witness.face)]) * normals_[index(witness.face)];
                 const double weight =
-                    witness.size * gaussian(length2(witness.middle - p), sigma) * gaussian(length2(step), bound);
+                    witness.size * std::exp(-by_distance * length2(witness.middle - p) - by_height * length2(step));
                 sum += weight * step;
                 weights += weight;
             }

@@ -13,11 +13,18 @@ namespace regionmesh {
 /// the line take the part of faces. Points stay.
 class Nifpms {
 public:
+    struct FaceMeasure {
+        Vec3 middle;
+        double area;
+    };
+
     Nifpms(const SurfaceWindow& window, const Neighbours& neighbours, const SmoothOptions& options)
         : window_(window), neighbours_(neighbours), options_(options) {}
 
     /// Notes the stars of a layer, in order of layers.
     void add_layer(const LayerStars& stars);
+    /// Notes the faces of a layer that has just come in.
+    void note_layer(std::uint32_t layer);
 
     /// Distance within which faces count.
     double mollifying_reach() const { return options_.nifpms_reach * options_.scale; }
@@ -25,19 +32,28 @@ public:
 
     /// Averaged places, from which the normals are taken. Requires stars of all vertices within reach.
     void mollify(NumberRange vertices, SlidingArray<Vec3>& mollified) const;
-    /// Smoothed places. Requires mollified places of all vertices within reach.
-    void predict(NumberRange vertices, const SlidingArray<Vec3>& mollified, SlidingArray<Vec3>& to) const;
+    /// Smoothed places. Requires mollified places of all vertices within reach, which are those of faces before
+    /// `face_end`.
+    void predict(NumberRange vertices, std::uint32_t face_end, const SlidingArray<Vec3>& mollified,
+                 SlidingArray<Vec3>& to);
 
-    void drop_before(std::uint32_t v) {
-        if (stars_.end() > 0) stars_.drop_before(v);
+    void drop_before(std::uint32_t v, std::uint32_t f) {
+        if (stars_.end() == 0) return;
+        stars_.drop_before(v);
+        measures_.drop_before(f);
+        normals_.drop_before(f);
     }
-    std::size_t bytes() const { return stars_.bytes(); }
+    std::size_t bytes() const { return stars_.bytes() + measures_.bytes() + normals_.bytes(); }
 
 private:
+    void note_normals(std::uint32_t face_end, const SlidingArray<Vec3>& mollified);
+
     const SurfaceWindow& window_;
     const Neighbours& neighbours_;
     const SmoothOptions& options_;
     SlidingLists stars_;  // corners, as LayerStars has them
+    SlidingArray<FaceMeasure> measures_;
+    SlidingArray<Vec3> normals_;  // of the faces between mollified places
 };
 
 }  // namespace regionmesh

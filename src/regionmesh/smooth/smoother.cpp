@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "regionmesh/base/triangle.h"
+#include "regionmesh/base/process.h"
 #include "regionmesh/smooth/relax.h"
 
 namespace regionmesh {
@@ -71,6 +71,7 @@ void Smoother::end_layer(bool is_last, double plane) {
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v) low = std::min(low, window_.origin[v][order_.axis]);
     low_.push_back(low - most_);
     settling_.note_layer(layer);
+    if (options_.filter == SmoothFilter::kNifpms) nifpms_.note_layer(layer);
     // A stage may work on a layer when the stage before has done `reach` more, or all.
     std::uint32_t done_before = window_.layer_end();
     for (Stage& stage : stages_) {
@@ -85,6 +86,8 @@ void Smoother::end_layer(bool is_last, double plane) {
 }
 
 void Smoother::run(const Stage& stage, std::uint32_t layer) {
+    const bool is_guard = stage.kind == Stage::kRound || stage.kind == Stage::kSettle;
+    const Timer timer(is_guard ? report_.guard_seconds : report_.filter_seconds);
     const NumberRange vertices = window_.vertices_of(layer);
     switch (stage.kind) {
         case Stage::kNeighbours: {
@@ -101,7 +104,8 @@ void Smoother::run(const Stage& stage, std::uint32_t layer) {
             nifpms_.mollify(vertices, places_[1]);
             break;
         case Stage::kPredict:
-            nifpms_.predict(vertices, places_[1], places_[0]);
+            nifpms_.predict(vertices, window_.faces_of(std::min(layer + stage.reach, window_.layer_end()) - 1).end,
+                            places_[1], places_[0]);
             break;
         case Stage::kRound:
             if (stage.number == 0) begin_stepping_back(layer);
@@ -179,11 +183,11 @@ void Smoother::note_bytes() {
 void Smoother::release_before(std::uint32_t layer) {
     if (layer == released_) return;
     released_ = layer;
-    const std::uint32_t first = window_.vertices_of(layer - 1).first;
+    const std::uint32_t first = window_.vertices_of(layer - 1).first, face_end = window_.faces_of(layer - 1).end;
     window_.drop_before(layer);
     for (auto& places : places_) places.drop_before(first);
     neighbours_.drop_before(first);
-    nifpms_.drop_before(first);
+    nifpms_.drop_before(first, face_end);
     stand_.level.drop_before(first);
     stand_.wanted.drop_before(first);
     settling_.drop_before(first);
