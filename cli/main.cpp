@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
     regionmesh::cli::add_reconstruct(app, action);
     regionmesh::cli::add_decimate(app, action);
     regionmesh::cli::add_check(app, action);
+    regionmesh::cli::add_compare(app, action);
     regionmesh::cli::add_info(app, action);
     try {
         app.parse(argc, argv);
