@@ -7,10 +7,11 @@
 namespace regionmesh {
 namespace {
 
-/// A square of side 2 and one of side 1, with different labels, and a face without area.
+/// A square of side 2 and one of side 1, with different labels, and faces without area.
 Model two_squares() {
-    return test::shape({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}},
-                       {{{0, 1, 2}}, {{0, 2, 3}}, {{4, 5, 6}, 0, 2}, {{4, 6, 7}, 0, 2}, {{4, 4, 5}, 1, 2}});
+    return test::shape(
+        {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}},
+        {{{0, 1, 2}}, {{0, 2, 3}}, {{4, 5, 6}, 0, 2}, {{4, 6, 7}, 0, 2}, {{4, 4, 5}, 1, 2}, {{4, 5, 5}, 1, 2}});
 }
 
 SortedStrata strata_of(const Model& model) {

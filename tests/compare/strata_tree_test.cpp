@@ -99,16 +99,19 @@ TEST(SortedStrata, hold_every_face_once_under_its_labels) {
     const LabelTable table = labels_up_to(6);
     const CommonLabels labels(other, table);
     const SortedStrata sorted = interfaces_of({model, labels, 1, {}}, 2);
+    const auto leftmost = [](const std::array<Vec3, 3>& p) { return std::min({p[0].x, p[1].x, p[2].x}); };
     std::multiset<std::pair<std::vector<Label>, double>> found, expected;
     std::uint32_t end = 0;
     for (const Stratum& stratum : sorted.strata) {
         EXPECT_EQ(stratum.begin, end);
         end = stratum.end;
-        for (std::uint32_t n = stratum.begin; n < stratum.end; ++n)
-            found.insert({stratum.labels, sorted.points[sorted.simplices[n][0]].x});
+        for (std::uint32_t n = stratum.begin; n < stratum.end; ++n) {
+            const auto& [a, b, c] = sorted.simplices[n];
+            found.insert({stratum.labels, leftmost({sorted.points[a], sorted.points[b], sorted.points[c]})});
+        }
     }
     for (std::uint32_t f = 0; f < model.face_end(); ++f)
-        expected.insert({{model[FaceId{f}].labels[0], model[FaceId{f}].labels[1]}, model.corners(FaceId{f})[0].x});
+        expected.insert({{model[FaceId{f}].labels[0], model[FaceId{f}].labels[1]}, leftmost(model.corners(FaceId{f}))});
     EXPECT_EQ(found, expected);
 }
 

@@ -124,7 +124,9 @@ SortedStrata interfaces_of(const CommonView& view, std::uint32_t threads) {
         }
         if (last_set == kNoStratum) continue;
         const auto& [a, b, c] = face.vertices;
-        found.simplices.push_back({index(a), index(b), index(c)});
+        // A broken face that repeats a vertex must not pass for an edge.
+        found.simplices.push_back(b == c ? Simplex{index(b), index(c), index(a)}
+                                         : Simplex{index(a), index(b), index(c)});
         found.sets.push_back(last_set);
     }
     return sorted(model, found, threads);

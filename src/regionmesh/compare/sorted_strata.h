@@ -31,7 +31,7 @@ struct SortedStrata {
     std::vector<Vec3> points;
     std::vector<Simplex> simplices;
     std::vector<Stratum> strata;  // in order of labels
-    Box bounds;                   // of the points
+    Box bounds;                   // of all vertices of the model
 
     /// The stratum with these labels, or kNoStratum.
     std::uint32_t find(const std::vector<Label>& labels) const;
