@@ -77,9 +77,13 @@ void InputOptions::add_volume_options(CLI::App& command) {
     command.add_option("--type", type, "raw files: uint8, int16, ... uint64, little endian");
 }
 
-void InputOptions::add_label_options(CLI::App& command) {
+void InputOptions::add_background_options(CLI::App& command) {
     command.add_option("--background", background, "label of empty space, 0 if not given; may be repeated");
     command.add_flag("--no-background", no_background, "every label is a region");
+}
+
+void InputOptions::add_label_options(CLI::App& command) {
+    add_background_options(command);
     command.add_option("--boundary", boundary, "faces on the six sides of the box: cap or open")
         ->check(CLI::IsMember({"cap", "open"}));
 }

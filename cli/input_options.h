@@ -19,7 +19,9 @@ struct InputOptions {
 
     /// Adds --sweep, --spacing, --size and --type.
     void add_volume_options(CLI::App& command);
-    /// Adds --background, --no-background and --boundary.
+    /// Adds --background and --no-background.
+    void add_background_options(CLI::App& command);
+    /// Adds these and --boundary.
     void add_label_options(CLI::App& command);
     /// Throws Error(kInput) for a word that is no number.
     std::unique_ptr<SectionReader> open(const std::vector<std::string>& inputs) const;

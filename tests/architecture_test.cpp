@@ -27,9 +27,10 @@ const std::map<std::string, Names> kArrows{
     {"decimate", {"base", "model"}},
     {"smooth", {"base", "model"}},
     {"check", {"base", "model"}},
+    {"compare", {"base", "volume", "model", "check"}},
     {"stream", {"base", "volume", "tets", "model", "decimate", "smooth"}},
     {"tile", {"base", "volume", "tets", "model", "decimate", "smooth", "stream"}},
-    {"io", {"base", "volume", "tets", "model", "check", "report.h"}},
+    {"io", {"base", "volume", "tets", "model", "check", "compare", "report.h"}},
 };
 
 /// What a file includes of ours: paths below regionmesh/.

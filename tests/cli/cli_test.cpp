@@ -199,6 +199,47 @@ TEST_F(Cli, check_finds_that_a_model_is_of_another_volume) {
     EXPECT_THAT(ran.out, HasSubstr("euler"));
 }
 
+TEST_F(Cli, compare_prints_a_table_and_writes_all_figures) {
+    EXPECT_EQ(run("reconstruct " + volume() + "-o " + path("a.vtp").string()).code, 0);
+    EXPECT_EQ(run("reconstruct " + volume() + "-o " + path("b.ply").string() + " --reduce 50%").code, 0);
+    const std::string both = path("a.vtp").string() + " " + path("b.ply").string();
+    const Ran ran = run("compare " + both + " --samples 5000 --json " + out("c.json") + " --distance " + out("d.vtp"));
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_EQ(ran.error, "");
+    for (const char* said : {"A to B", "B to A", "regions", "interfaces", "lines", "quality", "angles", "0|1"})
+        EXPECT_THAT(ran.out, HasSubstr(said));
+    EXPECT_THAT(text_of(out("c.json")), HasSubstr("\"quantile_95\""));
+    EXPECT_THAT(text_of(out("d.vtp")), HasSubstr("Name=\"Distance\""));
+    EXPECT_EQ(read_model(out("d.vtp")).model.face_count(), read_model(path("a.vtp")).model.face_count());
+    EXPECT_EQ(files_left(), 2);
+    const Ran quiet = run("compare " + both + " --samples 5000 --quiet --threads 8 --json " + out("e.json"));
+    EXPECT_EQ(quiet.code, 0);
+    EXPECT_EQ(quiet.out + quiet.error, "");
+    EXPECT_EQ(text_of(out("e.json")), text_of(out("c.json")));
+}
+
+TEST_F(Cli, compare_refuses_what_it_cannot_use) {
+    LabelTable labels;
+    for (InputLabel label : {5, 7}) labels.dense(label);
+    write_model(test::octahedron(), labels, path("good.vtp"), {});
+    write_model(Model(), labels, path("empty.vtp"), {});
+    const std::string good = path("good.vtp").string();
+    EXPECT_EQ(run("compare " + good + " " + good).code, 0);
+    expect_refusal("compare " + good, 2, "regionmesh");
+    expect_refusal("compare " + good + " " + path("nothing.vtp").string(), 1, "nothing.vtp");
+    expect_refusal("compare " + good + " " + path("empty.vtp").string(), 1, "empty.vtp: has no faces");
+    Model cap;
+    test::add_shape(cap, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}, 0, exterior(0)}});
+    write_model(cap, labels, path("cap.vtp"), {});
+    EXPECT_EQ(run("compare " + good + " " + path("cap.vtp").string()).code, 0);
+    expect_refusal("compare " + good + " " + path("cap.vtp").string() + " --background 5", 1, "cap.vtp");
+    expect_refusal("compare " + good + " " + good + " --samples 0", 1, "--samples 0");
+    expect_refusal("compare " + good + " " + good + " --samples few", 1, "few");
+    expect_refusal("compare " + good + " " + good + " --distance " + out("d.ply"), 1, "d.ply");
+    expect_refusal("compare " + good + " " + good + " --json " + out("none/c.json"), 1, "c.json");
+    expect_refusal("compare " + good + " " + good + " --background x", 1, "background");
+}
+
 TEST_F(Cli, help_and_version_are_exit_0) {
     EXPECT_THAT(run("--help").out, HasSubstr("reconstruct"));
     EXPECT_EQ(run("--help").code, 0);

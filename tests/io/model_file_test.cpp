@@ -289,6 +289,22 @@ TEST_F(ModelFileTest, extension_is_matched_in_any_case_and_others_are_refused) {
     EXPECT_EQ(file_count(), 0);
 }
 
+TEST_F(ModelFileTest, point_arrays_stand_in_vtp_files_and_nowhere_else) {
+    Model model = two_boxes();
+    model.add_vertex({9, 9, 9});
+    model.remove_vertex(VertexId{12});
+    std::vector<double> values(13);
+    for (int n = 0; n < 13; ++n) values[n] = n / 3.0;
+    const WriteOptions options{.point_arrays = {{"Distance", values}}};
+    write_model(model, labels_of({1, 2}), path("m.vtp"), options);
+    EXPECT_THAT(text_of(path("m.vtp")), HasSubstr("Name=\"Distance\""));
+    const ModelFile file = read_model(path("m.vtp"));
+    EXPECT_EQ(faces_of(file.model, file.labels), faces_of(model, labels_of({1, 2})));
+    EXPECT_THROW(write_model(model, labels_of({1, 2}), path("m.ply"), options), Error);
+    EXPECT_THROW(require_writable_model(path("m.ply"), true), Error);
+    EXPECT_EQ(file_count(), 1);
+}
+
 TEST_F(ModelFileTest, missing_files_and_folders_are_input_errors) {
     for (const char* name : {"m.vtp", "m.ply"}) {
         EXPECT_THAT(failure_of(path(name)), HasSubstr("cannot be read"));

@@ -26,6 +26,16 @@ std::string extension_of(const std::filesystem::path& path) {
                                   path.extension().string()));
 }
 
+// The extension of a format that models are written in.
+std::string writable_extension(const std::filesystem::path& path, bool with_point_arrays) {
+    const std::string extension = extension_of(path);
+    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kOutput, path);
+    if (with_point_arrays && extension != ".vtp")
+        throw Error(ErrorCode::kOutput,
+                    fmt::format("{}: only .vtp files hold a number for each vertex", path.string()));
+    return extension;
+}
+
 Box bounding_box(const FileSurface& surface) {
     Box box;
     for (const auto& face : surface.faces)
@@ -125,15 +135,13 @@ std::uint8_t FileView::node_type(VertexId v) const {
 
 void write_model(const Model& model, const LabelTable& labels, const std::filesystem::path& path,
                  const WriteOptions& options) {
-    const std::string extension = extension_of(path);
-    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kOutput, path);
+    const std::string extension = writable_extension(path, !options.point_arrays.empty());
     const FileView view(model, labels, options.background);
-    extension == ".vtp" ? write_vtp(view, path) : write_ply(view, path);
+    extension == ".vtp" ? write_vtp(view, options.point_arrays, path) : write_ply(view, path);
 }
 
-void require_writable_model(const std::filesystem::path& path) {
-    const std::string extension = extension_of(path);
-    if (extension != ".vtp" && extension != ".ply") refuse_extension(ErrorCode::kOutput, path);
+void require_writable_model(const std::filesystem::path& path, bool with_point_arrays) {
+    writable_extension(path, with_point_arrays);
     require_writable(path);
 }
 

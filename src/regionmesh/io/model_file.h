@@ -3,6 +3,8 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "regionmesh/model/model.h"
@@ -10,8 +12,15 @@
 
 namespace regionmesh {
 
+/// A number for each vertex, to be written beside the model.
+struct PointArray {
+    std::string name;                // of letters, digits and '_'
+    std::span<const double> values;  // by vertex id
+};
+
 struct WriteOptions {
-    std::vector<Label> background = {};  // written second in a pair, as the exterior is
+    std::vector<Label> background = {};         // written second in a pair, as the exterior is
+    std::vector<PointArray> point_arrays = {};  // .vtp only: Float64
 };
 
 /// Writes the living vertices and faces, numbered densely in order of id. First under a temporary name beside `path`,
@@ -26,13 +35,13 @@ struct WriteOptions {
 ///         label_second_low, label_second_high. A header line `comment exterior_label` names the exterior; background
 ///         is not named.
 /// The bytes depend on the model, the labels and the options only. Memory: a few megabytes, and 4 bytes a vertex where
-/// some were removed. Throws Error(kOutput) for another extension, before anything is written, and Error(kOutput) when
-/// the file cannot be written or the disk is full.
+/// some were removed. Throws Error(kOutput) for another extension, and for point arrays in a .ply, before anything is
+/// written, and Error(kOutput) when the file cannot be written or the disk is full.
 void write_model(const Model& model, const LabelTable& labels, const std::filesystem::path& path,
                  const WriteOptions& options = {});
 
 /// Throws what write_model would for the extension and the folder of `path`: before the work, not after it.
-void require_writable_model(const std::filesystem::path& path);
+void require_writable_model(const std::filesystem::path& path, bool with_point_arrays = false);
 
 /// A model read from a file, with its labels, as signed numbers. The file's exterior label (-1 if it names none)
 /// becomes the sides of the box again where every face with it lies exactly in a plane of the bounding box of all

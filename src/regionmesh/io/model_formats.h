@@ -8,6 +8,7 @@
 
 #include "regionmesh/base/label.h"
 #include "regionmesh/base/vec3.h"
+#include "regionmesh/io/model_file.h"
 #include "regionmesh/model/model.h"
 #include "regionmesh/volume/label_table.h"
 
@@ -63,7 +64,7 @@ struct FileSurface {
 inline constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) - 1;
 inline constexpr std::uint64_t kMostVertices = (std::uint64_t{1} << 32) - 1;
 
-void write_vtp(const FileView& view, const std::filesystem::path& path);
+void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, const std::filesystem::path& path);
 void write_ply(const FileView& view, const std::filesystem::path& path);
 FileSurface read_vtp(const std::filesystem::path& path);
 FileSurface read_ply(const std::filesystem::path& path);

@@ -1,31 +1,13 @@
 #include "regionmesh/io/write_report.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "regionmesh/io/json_parts.h"
 #include "regionmesh/io/output_file.h"
 
 namespace regionmesh {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr double kQualityBin = 0.01;  // widths of the bins of QualityReport
-constexpr double kAngleBin = 10;
-
-Json quality_json(const QualityReport& quality) {
-    return {{"min", quality.min},
-            {"mean", quality.mean},
-            {"histogram", {{"bin_width", kQualityBin}, {"counts", quality.histogram}}},
-            {"min_angle", quality.min_angle},
-            {"max_angle", quality.max_angle},
-            {"angles", {{"bin_width", kAngleBin}, {"counts", quality.angle_histogram}}}};
-}
-
-Json label_json(InputLabel label, const LabelTable& labels) {
-    return labels.is_unsigned() ? Json(static_cast<std::uint64_t>(label)) : Json(label);
-}
 
 Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels) {
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
@@ -81,8 +63,6 @@ void put_check(Json& json, const CheckReport& report, const LabelTable& labels) 
     for (std::size_t kind = 0; kind < report.counts.size(); ++kind)
         counts[to_string(static_cast<ViolationKind>(kind))] = report.counts[kind];
 }
-
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
 
 }  // namespace
 

@@ -119,12 +119,17 @@ void write_head(const FileView& view, OutputFile& file) {
                     view.model().vertex_count(), view.model().face_count()));
 }
 
-void write_points(const FileView& view, OutputFile& file) {
+void write_points(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
     const std::uint64_t count = view.model().vertex_count();
     file.write("<PointData>\n");
     ArrayWriter<std::int8_t> types(file, "NodeType", 1, count);
     view.for_vertices([&](VertexId v) { types.put(static_cast<std::int8_t>(view.node_type(v))); });
     types.close();
+    for (const PointArray& array : arrays) {
+        ArrayWriter<double> values(file, array.name, 1, count);
+        view.for_vertices([&](VertexId v) { values.put(array.values[index(v)]); });
+        values.close();
+    }
     file.write("</PointData>\n<Points>\n");
     ArrayWriter<double> points(file, "Points", 3, 3 * count);
     view.for_vertices([&](VertexId v) {
@@ -163,10 +168,10 @@ void write_faces(const FileView& view, OutputFile& file) {
 
 }  // namespace
 
-void write_vtp(const FileView& view, const std::filesystem::path& path) {
+void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, const std::filesystem::path& path) {
     OutputFile file(path);
     write_head(view, file);
-    write_points(view, file);
+    write_points(view, arrays, file);
     write_labels(view, file);
     constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
     if (std::uint64_t{3} * view.model().face_count() <= kMost && view.model().vertex_count() <= kMost)

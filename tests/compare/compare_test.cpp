@@ -1,0 +1,268 @@
+#include "regionmesh/compare/compare.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "regionmesh/io/write_compare.h"
+#include "support/runs.h"
+#include "support/shapes.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::ElementsAre;
+
+LabelTable labels_of(std::initializer_list<InputLabel> values) {
+    LabelTable labels;
+    for (const InputLabel value : values) labels.dense(value);
+    return labels;
+}
+
+/// All labels are regions; few samples.
+const CompareOptions kFew{.samples = 20000, .background = {}, .threads = 1};
+
+Model square(double z) { return test::shape({{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}}, {{{0, 1, 2}}, {{0, 2, 3}}}); }
+
+/// The box 1 x 1 x 2: label 0 up to `middle`, 1 above, capped.
+Model stack(double middle, Label lower = 0, Label upper = 1) {
+    Model model;
+    for (int i = 0; i < 12; ++i) {
+        const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
+        const int sides = 1 << x | 1 << (2 + y) | (z == 0 ? 1 << 4 : z == 2 ? 1 << 5 : 0);
+        model.add_vertex({1.0 * x, 1.0 * y, z == 1 ? middle : 1.0 * z}, static_cast<SideSet>(sides));
+    }
+    const auto quad = [&](std::array<std::uint32_t, 4> v, Label first, Label second) {
+        model.add_face(VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}, first, second);
+        model.add_face(VertexId{v[0]}, VertexId{v[2]}, VertexId{v[3]}, first, second);
+    };
+    quad({0, 2, 3, 1}, lower, exterior(4));
+    if (lower != upper) quad({4, 5, 7, 6}, lower, upper);
+    quad({8, 9, 11, 10}, upper, exterior(5));
+    for (std::uint32_t low : {0, 4}) {
+        const Label label = low == 0 ? lower : upper;
+        quad({low, low + 1, low + 5, low + 4}, label, exterior(2));
+        quad({low + 1, low + 3, low + 7, low + 5}, label, exterior(1));
+        quad({low + 3, low + 2, low + 6, low + 7}, label, exterior(3));
+        quad({low + 2, low, low + 4, low + 6}, label, exterior(0));
+    }
+    return model;
+}
+
+/// A ball of radius 1 round `middle`: an octahedron, each face of which is cut into four `cuts` times.
+Model ball(Vec3 middle, int cuts) {
+    std::vector<std::array<Vec3, 3>> faces;
+    const Model octahedron = test::octahedron();
+    for (std::uint32_t f = 0; f < octahedron.face_end(); ++f) faces.push_back(octahedron.corners(FaceId{f}));
+    for (int n = 0; n < cuts; ++n) {
+        std::vector<std::array<Vec3, 3>> finer;
+        for (const auto& [a, b, c] : faces) {
+            const auto half = [](Vec3 p, Vec3 q) { return (p + q) / length(p + q); };
+            const Vec3 ab = half(a, b), bc = half(b, c), ca = half(c, a);
+            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        }
+        faces = std::move(finer);
+    }
+    Model model;
+    for (const auto& corners : faces) {
+        std::array<VertexId, 3> v;
+        for (int n = 0; n < 3; ++n) v[n] = model.add_vertex(middle + corners[n]);
+        model.add_face(v[0], v[1], v[2], 0, 1);
+    }
+    return model;
+}
+
+CompareReport compared(const Model& a, const Model& b, const CompareOptions& options = kFew) {
+    const LabelTable labels = labels_of({1, 2});
+    return compare({a, labels}, {b, labels}, options);
+}
+
+void expect_all(const TwoSidedDistance& found, double distance, double tolerance = 1e-12) {
+    for (const auto& statistics : {found.a_to_b, found.b_to_a, found.both}) {
+        ASSERT_TRUE(statistics);
+        EXPECT_NEAR(statistics->rms, distance, tolerance);
+        EXPECT_NEAR(statistics->mean, distance, tolerance);
+        EXPECT_NEAR(statistics->max, distance, tolerance);
+        EXPECT_NEAR(statistics->quantile_95, distance, tolerance);
+    }
+}
+
+TEST(Compare, parallel_squares_are_one_distance_apart) {
+    for (const double d : {1.0, 0.25, 1e-3}) expect_all(compared(square(0), square(d)).distance, d);
+}
+
+TEST(Compare, a_model_is_at_no_distance_from_itself) {
+    const Reconstruction made = test::run(test::grain_volume({9, 8, 7}, 6, 11));
+    const ComparedModel model{made.model, made.labels};
+    const CompareReport report = compare(model, model, kFew);
+    expect_all(report.distance, 0, 0);
+    EXPECT_EQ(report.regions.size(), 6u);
+    EXPECT_GT(report.interfaces.size(), 6u);
+    EXPECT_GT(report.lines.size(), 6u);
+    for (const auto& region : report.regions) expect_all(region.distance, 0, 0);
+    for (const auto& interface : report.interfaces) expect_all(interface.distance, 0, 0);
+    for (const auto& line : report.lines) expect_all(line.distance, 0, 0);
+    EXPECT_EQ(report.quality[0].histogram, report.quality[1].histogram);
+}
+
+TEST(Compare, shifted_balls) {
+    constexpr double kShift = 0.01;
+    const CompareReport report = compared(ball({}, 5), ball({kShift, 0, 0}, 5));
+    const DistanceStatistics& both = *report.distance.both;
+    EXPECT_NEAR(both.mean, kShift / 2, 0.02 * kShift) << "the mean of |cos| over a ball";
+    EXPECT_NEAR(both.rms, kShift / std::sqrt(3), 0.02 * kShift);
+    EXPECT_NEAR(both.quantile_95, 0.95 * kShift, 0.02 * kShift);
+    EXPECT_NEAR(both.max, kShift, 0.01 * kShift);
+    EXPECT_NEAR(report.regions[0].measures[0]->volume, 4.18, 0.02);
+    EXPECT_NEAR(report.distance.a_to_b->rms, report.distance.b_to_a->rms, 1e-3 * kShift);
+}
+
+TEST(Compare, shifted_boxes) {
+    constexpr double kShift = 0.125;
+    Model moved = stack(1);
+    for (std::uint32_t v = 0; v < moved.vertex_end(); ++v) moved[VertexId{v}].position.x += kShift;
+    const CompareReport report = compared(stack(1), moved);
+    EXPECT_NEAR(report.distance.both->max, kShift, 1e-12) << "on the sides that the shift is square to";
+    EXPECT_GT(report.distance.both->rms, 0.3 * kShift);
+    EXPECT_LT(report.distance.both->rms, kShift);
+    EXPECT_NEAR(report.distance.a_to_b->mean, report.distance.b_to_a->mean, 0.01 * kShift) << "mirror images";
+    for (const RegionComparison& region : report.regions) {
+        EXPECT_NEAR(region.measures[0]->volume, 1, 1e-12);
+        EXPECT_NEAR(region.measures[1]->volume, 1, 1e-12);
+    }
+}
+
+TEST(Compare, moved_interface_is_told_from_the_rest) {
+    const CompareReport report = compared(stack(1), stack(1.25));
+    ASSERT_EQ(report.regions.size(), 2u);
+    EXPECT_NEAR(report.regions[0].measures[1]->volume, 1.25, 1e-12);
+    EXPECT_NEAR(report.regions[1].measures[1]->volume, 0.75, 1e-12);
+    EXPECT_EQ(report.regions[0].measures[1]->euler, 2);
+    EXPECT_NEAR(report.regions[0].measures[1]->area, 7, 1e-12);
+    ASSERT_EQ(report.interfaces.size(), 3u);
+    EXPECT_THAT(report.interfaces[0].labels, ElementsAre(0, 1));
+    expect_all(report.interfaces[0].distance, 0.25);
+    EXPECT_THAT(report.interfaces[1].labels, ElementsAre(0, exterior(0)));
+    EXPECT_NEAR(*report.interfaces[1].measures[1], 6, 1e-12);
+    EXPECT_EQ(report.interfaces[1].distance.a_to_b->max, 0) << "a part of the other";
+    EXPECT_NEAR(report.interfaces[1].distance.b_to_a->max, 0.25, 0.01);
+}
+
+TEST(Compare, lines_are_named_by_all_their_labels) {
+    const CompareReport report = compared(stack(1), stack(1.25));
+    ASSERT_EQ(report.lines.size(), 3u) << "the rim of the interface, and edges of the box of either region";
+    EXPECT_THAT(report.lines[0].labels, ElementsAre(0, 1, exterior(0)));
+    EXPECT_NEAR(*report.lines[0].measures[0], 4, 1e-12);
+    expect_all(report.lines[0].distance, 0.25);
+    EXPECT_THAT(report.lines[1].labels, ElementsAre(0, exterior(0), exterior(0)));
+    EXPECT_NEAR(*report.lines[1].measures[0], 8, 1e-12);
+    EXPECT_NEAR(*report.lines[1].measures[1], 9, 1e-12);
+}
+
+TEST(Compare, edges_of_the_box_are_no_lines_where_one_model_does_not_know_its_sides) {
+    Model other = stack(1.25);
+    for (std::uint32_t v = 0; v < other.vertex_end(); ++v) other[VertexId{v}].sides = 0;
+    for (const CompareReport& report : {compared(stack(1), other), compared(other, stack(1))}) {
+        ASSERT_EQ(report.lines.size(), 1u);
+        EXPECT_THAT(report.lines[0].labels, ElementsAre(0, 1, exterior(0)));
+        expect_all(report.lines[0].distance, 0.25);
+    }
+}
+
+TEST(Compare, what_only_one_model_has_is_there_without_distance) {
+    const CompareReport report = compared(stack(1), stack(1, 0, 0));
+    expect_all(compared(stack(1, 0, 0), stack(1, 0, 0)).distance, 0, 0);
+    ASSERT_EQ(report.regions.size(), 2u);
+    EXPECT_TRUE(report.regions[0].measures[1] && report.regions[0].distance.both);
+    EXPECT_TRUE(report.regions[1].measures[0]);
+    EXPECT_FALSE(report.regions[1].measures[1]);
+    EXPECT_FALSE(report.regions[1].distance.a_to_b || report.regions[1].distance.b_to_a ||
+                 report.regions[1].distance.both);
+    ASSERT_EQ(report.interfaces.size(), 3u);
+    EXPECT_THAT(report.interfaces[0].labels, ElementsAre(0, 1));
+    EXPECT_FALSE(report.interfaces[0].measures[1] || report.interfaces[0].distance.both);
+    EXPECT_TRUE(report.interfaces[1].distance.both);
+    EXPECT_GT(report.distance.a_to_b->max, 0.4) << "the middle of the interface counts for the whole";
+    EXPECT_EQ(report.distance.b_to_a->max, 0);
+}
+
+TEST(Compare, labels_match_as_the_input_has_them) {
+    const Model straight = stack(1, 0, 1), crossed = stack(1.25, 1, 0);
+    const CompareReport report = compare({straight, labels_of({40, -3})}, {crossed, labels_of({-3, 40, 7})}, kFew);
+    EXPECT_EQ(report.labels.size(), 3u);
+    EXPECT_EQ(report.labels.input(0), -3) << "as numbers ascending";
+    ASSERT_EQ(report.regions.size(), 2u);
+    EXPECT_NEAR(report.regions[0].measures[0]->volume, 1, 1e-12);
+    EXPECT_NEAR(report.regions[0].measures[1]->volume, 0.75, 1e-12);
+    ASSERT_EQ(report.interfaces.size(), 3u);
+    expect_all(report.interfaces[0].distance, 0.25);
+}
+
+TEST(Compare, background_is_no_region_and_its_faces_with_the_exterior_count_nowhere) {
+    Model without = stack(1);
+    for (std::uint32_t f = 0; f < without.face_end(); ++f)
+        if (without[FaceId{f}].labels[0] == 1) without.remove_face(FaceId{f});
+    CompareOptions options = kFew;
+    options.background = {2};
+    const CompareReport report = compared(stack(1), without, options);
+    expect_all(report.distance, 0, 0);
+    ASSERT_EQ(report.regions.size(), 1u);
+    EXPECT_EQ(report.interfaces.size(), 2u);
+    for (const auto& interface : report.interfaces) EXPECT_TRUE(interface.distance.both);
+    for (const auto& line : report.lines) EXPECT_TRUE(line.distance.both) << testing::PrintToString(line.labels);
+}
+
+TEST(Compare, vertices_have_their_distances) {
+    CompareOptions options = kFew;
+    EXPECT_THAT(compared(square(0), square(1), options).vertex_distances, ElementsAre());
+    options.vertex_distances = true;
+    Model a = test::shape({{0, 0, 3}, {1, 0, 0}, {1, 1, 0}, {0, 5, 0}, {9, 9, 9}}, {{{0, 1, 2}}, {{0, 2, 3}}});
+    a.remove_vertex(VertexId{4});
+    EXPECT_THAT(compared(a, square(0), options).vertex_distances, ElementsAre(3, 0, 0, 4, 0));
+}
+
+TEST(Compare, models_without_faces_have_no_distance) {
+    const Model none;
+    for (const CompareReport& report : {compared(none, square(0)), compared(square(0), none), compared(none, none)}) {
+        EXPECT_FALSE(report.distance.both || report.distance.a_to_b || report.distance.b_to_a);
+        EXPECT_NE(compare_json(report), "");
+    }
+}
+
+TEST(Compare, result_does_not_depend_on_threads) {
+    test::ArrayVolume volume = test::grain_volume({14, 13, 12}, 12, 5);
+    const Reconstruction full = test::run(volume), reduced = test::run(volume, test::reduced(0.8));
+    std::vector<std::string> texts;
+    std::vector<std::vector<double>> distances;
+    for (const std::uint32_t threads : {1, 2, 3}) {
+        const CompareOptions options{.samples = 30000, .background = {}, .vertex_distances = true, .threads = threads};
+        const auto report = compare({full.model, full.labels}, {reduced.model, reduced.labels}, options);
+        texts.push_back(compare_json(report));
+        distances.push_back(report.vertex_distances);
+    }
+    EXPECT_EQ(texts[0], texts[1]);
+    EXPECT_EQ(texts[0], texts[2]);
+    EXPECT_EQ(distances[0], distances[1]);
+    EXPECT_EQ(distances[0], distances[2]);
+}
+
+TEST(Compare, narrower_sets_are_never_nearer) {
+    test::ArrayVolume volume = test::grain_volume({12, 12, 12}, 9, 3);
+    const Reconstruction full = test::run(volume), reduced = test::run(volume, test::reduced(0.8));
+    const auto report = compare({full.model, full.labels}, {reduced.model, reduced.labels}, kFew);
+    EXPECT_GT(report.distance.both->rms, 0.01);
+    EXPECT_LT(report.distance.both->rms, 0.3);
+    double largest = 0;
+    for (const auto& region : report.regions) largest = std::max(largest, region.distance.both->max);
+    EXPECT_GE(largest, report.distance.both->max);
+    double among_interfaces = 0;
+    for (const auto& interface : report.interfaces)
+        among_interfaces = std::max(among_interfaces, interface.distance.both->max);
+    EXPECT_GE(among_interfaces, largest);
+    for (const auto& region : report.regions) EXPECT_EQ(region.measures[0]->euler, region.measures[1]->euler);
+}
+
+}  // namespace
+}  // namespace regionmesh
