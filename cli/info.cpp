@@ -32,7 +32,7 @@ int info_command(const Arguments& arguments) {
     const auto reader = arguments.input.open(arguments.inputs);
     const VolumeInfo info = reader->info();
     const Lattice& lattice = info.lattice;
-    const ReconstructOptions options{.cap = arguments.input.cap(), .background = arguments.input.background_labels()};
+    const CensusOptions options{.cap = arguments.input.cap(), .background = arguments.input.background_labels()};
     const Census census = count_labels(*reader, options);
     fmt::print("file       {} ({})\n", info.source, info.format);
     fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2],

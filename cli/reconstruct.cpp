@@ -14,7 +14,7 @@ struct Arguments {
     std::string target_faces, reduce, max_error, min_quality = "0.1", memory = "2GiB", face_budget,
                                                  perturbation = "1e-7";
     std::uint32_t threads = 0;
-    bool no_decimate = false, no_intersect_check = false, quiet = false;
+    bool preserve_volume = false, no_decimate = false, no_intersect_check = false, quiet = false;
     SmoothArguments smooth;
     InputOptions input;
 };
@@ -30,11 +30,24 @@ ReconstructOptions to_options(const Arguments& arguments) {
     options.perturbation = parse_number("--perturbation", arguments.perturbation);
     options.memory = parse_bytes("--memory", arguments.memory);
     options.threads = arguments.threads;
+    options.preserve_volume = arguments.preserve_volume;
     options.decimate = !arguments.no_decimate;
     options.intersect_check = !arguments.no_intersect_check;
     options.background = arguments.input.background_labels();
     options.cap = arguments.input.cap();
+    if (options.preserve_volume && !options.cap)
+        throw Error(ErrorCode::kInput,
+                    "--preserve-volume: regions without caps have no volume; leave out --boundary open");
     return options;
+}
+
+void print_volumes(const Report& report) {
+    const PreserveReport& preserved = report.preserved;
+    if (preserved.rounds == 0) return;
+    fmt::print("volumes of regions off by {:.1e} at most, relative; {:.1e} before the correction\n", preserved.drift,
+               preserved.drift_before);
+    if (preserved.regions_off > 0)
+        fmt::print("{} regions could not be brought within {:.0e}\n", preserved.regions_off, kVolumeTolerance);
 }
 
 void print_summary(const Arguments& arguments, const Report& report) {
@@ -50,6 +63,7 @@ void print_summary(const Arguments& arguments, const Report& report) {
             "stopped before the target: no further edge can be collapsed without changing topology, folding, crossing "
             "or bad faces\n");
     if (report.stopped == "max_error") fmt::print("stopped at the largest error allowed\n");
+    print_volumes(report);
     fmt::print("{:.2f} s, {:.0f} k faces/s, {} MB at most\n", report.seconds.at("total"),
                static_cast<double>(report.initial_faces) / 1e3 / std::max(report.seconds.at("total"), 1e-9),
                report.peak_bytes / 1000000);
@@ -99,6 +113,8 @@ void add_reconstruct(CLI::App& app, Action& action) {
     command->add_option("--min-quality", arguments->min_quality,
                         "least quality of a face that smoothing or decimation makes; 0.26 is equilateral");
     arguments->smooth.add_options(*command);
+    command->add_flag("--preserve-volume", arguments->preserve_volume,
+                      "in the end, give every region the volume it had before smoothing and decimation");
     command->add_option("--memory", arguments->memory, "stay within this, such as 500MiB or 2GiB");
     command->add_option("--face-budget", arguments->face_budget,
                         "most faces held at once, instead of one derived from --memory");

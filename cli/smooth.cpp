@@ -11,7 +11,7 @@ namespace {
 struct Arguments {
     std::string model, output, report, min_quality = "0.1", scale;
     std::uint32_t threads = 0;
-    bool no_intersect_check = false, quiet = false;
+    bool preserve_volume = false, no_intersect_check = false, quiet = false;
     SmoothArguments smooth;
     InputOptions input;
 };
@@ -25,7 +25,18 @@ SmoothOptions to_options(const Arguments& arguments, const Model& model) {
     return options;
 }
 
+WantedVolumes wanted_volumes(const CheckReport& report) {
+    WantedVolumes wanted;
+    for (const RegionReport& region : report.regions) {
+        if (region.label >= wanted.size()) wanted.resize(region.label + 1);
+        wanted[region.label] = region.volume;
+    }
+    return wanted;
+}
+
 int smooth_command(const Arguments& arguments) {
+    if (arguments.preserve_volume && !arguments.input.cap())
+        throw Error(ErrorCode::kInput, "--preserve-volume: open regions have no volume; leave out --boundary open");
     require_writable_model(arguments.output);
     if (!arguments.report.empty()) require_writable(arguments.report);
     ModelFile file = read_model(arguments.model);
@@ -37,6 +48,11 @@ int smooth_command(const Arguments& arguments) {
     {
         const Timer timer(report.seconds["smooth"]);
         report.smoothing = smooth(file.model, to_options(arguments, file.model));
+    }
+    report.unsmoothed_volumes = report.smoothing.volume_before;
+    if (arguments.preserve_volume) {
+        const Timer timer(report.seconds["preserve volume"]);
+        report.preserved = preserve_volumes(file.model, wanted_volumes(before), to_options(arguments, file.model));
     }
     report.check = check(file.model, check_options);
     report.final_faces = report.initial_faces;
@@ -65,6 +81,8 @@ void add_smooth(CLI::App& app, Action& action) {
     command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
     arguments->smooth.add_options(*command);
     arguments->input.add_label_options(*command);
+    command->add_flag("--preserve-volume", arguments->preserve_volume,
+                      "in the end, give every region the volume that it had");
     command->add_option("--min-quality", arguments->min_quality, "no face falls below this quality, unless it was");
     command->add_option("--scale", arguments->scale, "sample spacing, the unit of nifpms; the mean edge if not given");
     command->add_option("--threads", arguments->threads,

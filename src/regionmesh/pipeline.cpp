@@ -5,7 +5,11 @@
 
 #include "regionmesh/base/error.h"
 #include "regionmesh/base/process.h"
+#include "regionmesh/census.h"
 #include "regionmesh/decimate/decimate.h"
+#include "regionmesh/memory_plan.h"
+#include "regionmesh/model/region_volumes.h"
+#include "regionmesh/smooth/preserve_volume.h"
 #include "regionmesh/stream/section_window.h"
 #include "regionmesh/stream/smoothing.h"
 #include "regionmesh/stream/weld.h"
@@ -21,7 +25,8 @@ namespace {
 constexpr double kTileCostLevel = 3e-2;
 constexpr double kTileMargin = 1.25;
 
-constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
+/// Faces are decimated to so much more than the least quality where their vertices are to move once more.
+constexpr double kRoomForVolume = 1.1;
 
 /// Positions are index times spacing; an origin is added at once where no direction matrix comes between.
 Lattice meshing_lattice(const Lattice& lattice) {
@@ -29,15 +34,6 @@ Lattice meshing_lattice(const Lattice& lattice) {
     if (!lattice.is_axis_aligned()) result.origin = {};
     return result;
 }
-
-/// Background labels known before reading get the first dense numbers.
-std::vector<Label> dense_background(const ReconstructOptions& options, LabelTable& labels) {
-    std::vector<Label> background;
-    for (InputLabel label : options.background) background.push_back(labels.dense(label));
-    return background;
-}
-
-LabelTable table_for(const VolumeInfo& volume) { return LabelTable(volume.type == SampleType::kU64); }
 
 /// One run: its state, and the steps in the order of reconstruct() below.
 class Run {
@@ -50,13 +46,14 @@ public:
           lattice_(reader.info().lattice),
           plan_(plan_tiles(meshing_lattice(lattice_), reader.info().sweep)) {
         result_.labels = table_for(reader.info());
-        result_.background = dense_background(options, result_.labels);
+        result_.background = dense_background(options.background, result_.labels);
         progress_.section_count = reader.section_count();
     }
 
     void plan();
     void build();
     void bring_to_target();
+    void preserve_volumes();
     void place_in_space();
     void prove();
     Reconstruction finish();
@@ -67,10 +64,13 @@ private:
     }
     bool read(SectionWindow& window);
     void note_strip(const SectionWindow& window, const FaceBatch& batch);
-    void make_smoothing();
+    SmoothOptions smooth_options() const;
+    std::uint64_t smoothing_bytes() const;
+    int sweep_axis() const { return reader_.info().sweep.axes[2]; }
     void smooth_strip(FaceBatch& batch, const SectionWindow& window);
     void add_strip(const FaceBatch& batch);
     void end_run();
+    void add_volumes();
     void decimate_run();
     double plane_of(std::uint32_t section) const;
     double floor() const { return smoothing_ ? smoothing_->floor() : plane_of(strips_); }
@@ -98,7 +98,7 @@ private:
     std::uint32_t strips_ = 0;                  // added to runs so far
     double ceiling_ = -HUGE_VAL;                // as far as faces of earlier runs reach along the sweep
     std::optional<std::uint64_t> total_faces_;  // of the unsimplified model, where a first pass counted them
-    std::uint64_t budget_ = kNoLimit;
+    std::uint64_t budget_ = kMostFaces;
     LabelOracle oracle_;
     std::size_t most_bytes_ = 0;  // of model and decimation together, so far
     StopReason stopped_ = StopReason::kTarget;
@@ -106,15 +106,26 @@ private:
 
 /// A first pass over the sections, where the target needs the total; and the face budget.
 void Run::plan() {
-    if (options_.face_budget)
-        budget_ = *options_.face_budget;
-    else
-        budget_ = face_budget_for(options_.memory, reader_.info());
-    if (!is_decimating() || !(options_.reduce || options_.target_faces) || !reader_.info().can_rewind) return;
-    tell("count");
-    const Timer timer(seconds("count"));
-    total_faces_ = count_labels(reader_, options_).face_count;
-    reader_.rewind();
+    if (options_.smooth.passes > 0)
+        smoothing_.emplace(smooth_options(),
+                           LayerOrder{.axis = sweep_axis(), .thickness = lattice_.spacing[sweep_axis()]});
+    if (is_decimating() && (options_.reduce || options_.target_faces) && reader_.info().can_rewind) {
+        tell("count");
+        const Timer timer(seconds("count"));
+        total_faces_ = count_labels(reader_, {.cap = options_.cap, .background = options_.background}).face_count;
+        reader_.rewind();
+    }
+    budget_ = options_.face_budget ? *options_.face_budget
+                                   : face_budget_for(options_.memory, reader_.info(), smoothing_bytes());
+}
+
+/// What smoothing will hold: so many strips of as many faces as one has on average, or one a sample where nobody knows.
+std::uint64_t Run::smoothing_bytes() const {
+    if (!smoothing_) return 0;
+    const std::uint64_t strips = reader_.section_count() - 1;
+    const std::uint64_t faces = total_faces_ ? *total_faces_ / std::max<std::uint64_t>(strips, 1)
+                                             : std::uint64_t{reader_.section_width()} * reader_.section_height();
+    return std::min<std::uint64_t>(smoothing_->most_strips(), strips) * faces * kSmoothingBytesPerFace;
 }
 
 /// Strips become faces, which are smoothed some strips behind; runs of strips are decimated tile by tile up to a low
@@ -124,7 +135,6 @@ void Run::build() {
     const StripOptions strip_options{.cap = options_.cap, .background = result_.background};
     StripMesher mesher(meshing_lattice(lattice_), reader_.info().sweep, strip_options);
     LabelCensus census(lattice_, reader_.info().sweep, strip_options);
-    make_smoothing();
     FaceBatch batch;
     while (read(window)) {
         {
@@ -139,7 +149,10 @@ void Run::build() {
         else
             add_strip(batch);
     }
-    if (smoothing_) result_.report.smoothing = smoothing_->report();
+    if (smoothing_) {
+        result_.report.smoothing = smoothing_->report();
+        result_.report.unsmoothed_volumes = smoothing_->report().volume_before;
+    }
     smoothing_.reset();
     oracle_ = census.oracle();
 }
@@ -156,16 +169,14 @@ void Run::note_strip(const SectionWindow& window, const FaceBatch& batch) {
     tell("reconstruct");
 }
 
-void Run::make_smoothing() {
-    if (options_.smooth.passes == 0) return;
+SmoothOptions Run::smooth_options() const {
     const Vec3 spacing = lattice_.spacing;
-    const int axis = reader_.info().sweep.axes[2];
     SmoothOptions own = options_.smooth;
     own.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
     own.min_quality = options_.min_quality;
     own.intersect_check = options_.intersect_check;
     own.threads = options_.threads;
-    smoothing_.emplace(own, LayerOrder{.axis = axis, .thickness = spacing[axis]});
+    return own;
 }
 
 void Run::smooth_strip(FaceBatch& batch, const SectionWindow& window) {
@@ -184,8 +195,7 @@ void Run::smooth_strip(FaceBatch& batch, const SectionWindow& window) {
 
 /// Where a section lies along the sweep.
 double Run::plane_of(std::uint32_t section) const {
-    const int axis = reader_.info().sweep.axes[2];
-    return meshing_lattice(lattice_).origin[axis] + section * lattice_.spacing[axis];
+    return meshing_lattice(lattice_).origin[sweep_axis()] + section * lattice_.spacing[sweep_axis()];
 }
 
 void Run::add_strip(const FaceBatch& batch) {
@@ -199,9 +209,9 @@ void Run::add_strip(const FaceBatch& batch) {
 }
 
 void Run::end_run() {
-    const int axis = reader_.info().sweep.axes[2];
     double ceiling = ceiling_;
-    for (const BatchVertex& vertex : run_.vertices) ceiling = std::max(ceiling, vertex.position[axis]);
+    for (const BatchVertex& vertex : run_.vertices) ceiling = std::max(ceiling, vertex.position[sweep_axis()]);
+    if (!smoothing_ && options_.preserve_volume) add_volumes();
     if (is_decimating()) decimate_run();
     {
         const Timer timer(seconds("reconstruct"));
@@ -212,6 +222,16 @@ void Run::end_run() {
     run_.clear();
     note_bytes(result_.model.face_count(), result_.model.bytes());
     if (strips_ + 1 < reader_.section_count()) keep_within_budget(run_faces);
+}
+
+/// Adds what the run at hand has to the volumes of the regions.
+void Run::add_volumes() {
+    const std::vector<BatchVertex> carried = weld_.front();
+    const auto place = [&](std::uint32_t local) {
+        return local < run_.carried ? carried[local].position : run_.vertices[local - run_.carried].position;
+    };
+    for (const auto& [v, labels] : run_.faces)
+        add_cone(result_.report.unsmoothed_volumes, labels, place(v[0]), place(v[1]), place(v[2]));
 }
 
 /// First stage: in tiles, up to the cost level, and never below what the target will leave.
@@ -271,7 +291,7 @@ void Run::keep_within_budget(std::uint64_t run_faces) {
 DecimateOptions Run::decimate_options() const {
     DecimateOptions own;
     if (options_.max_error) own.max_error = *options_.max_error;
-    own.min_quality = options_.min_quality;
+    own.min_quality = options_.min_quality * (options_.preserve_volume ? kRoomForVolume : 1);
     own.perturbation = options_.perturbation;
     own.scale = std::cbrt(lattice_.spacing.x * lattice_.spacing.y * lattice_.spacing.z);
     own.intersect_check = options_.intersect_check;
@@ -285,11 +305,11 @@ void Run::add_verdicts(const VerdictCounts& counts) {
 void Run::decimate_to(std::uint64_t faces, bool is_last) {
     const Timer timer(seconds("decimate"));
     DecimateOptions own = decimate_options();
-    own.target_faces = static_cast<std::uint32_t>(std::min(faces, kNoLimit));
+    own.target_faces = static_cast<std::uint32_t>(std::min(faces, kMostFaces));
     own.refresh = is_last;
     if (!is_last) {
         // What comes later lies at or beyond the last section read, or as far back as smoothing took it.
-        own.limits.high[reader_.info().sweep.axes[2]] = floor();
+        own.limits.high[sweep_axis()] = floor();
     }
     const char* stage = is_last ? "decimate" : "reconstruct";
     own.on_progress = [&] { tell(stage); };
@@ -313,6 +333,18 @@ void Run::bring_to_target() {
     result_.report.stopped = stopped_ == StopReason::kTarget     ? "target"
                              : stopped_ == StopReason::kMaxError ? "max_error"
                                                                  : "topology";
+}
+
+/// Gives the regions the volumes that they had before smoothing and decimation.
+void Run::preserve_volumes() {
+    if (!options_.preserve_volume) return;
+    const Timer timer(seconds("preserve volume"));
+    SmoothOptions own = smooth_options();
+    const std::vector<double>& before = result_.report.unsmoothed_volumes;
+    WantedVolumes wanted(before.begin(), before.end());
+    for (Label label : result_.background)
+        if (label < wanted.size()) wanted[label].reset();
+    result_.report.preserved = regionmesh::preserve_volumes(result_.model, wanted, own);
 }
 
 /// Applies the direction of the lattice, so that what is checked is what is written.
@@ -377,50 +409,13 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& opti
         run.plan();
         run.build();
         run.bring_to_target();
+        run.preserve_volumes();
         run.place_in_space();
         run.prove();
         result = run.finish();
     }
     result.report.seconds["total"] = total;
     return result;
-}
-
-std::uint64_t reading_bytes(const VolumeInfo& volume) {
-    const std::uint64_t width = volume.lattice.size[volume.sweep.axes[0]],
-                        height = volume.lattice.size[volume.sweep.axes[1]];
-    // The section as read, two with dense labels, two planes of six vertex numbers, and what the reader holds; and the
-    // faces and vertices of a run, at one face a sample.
-    const std::uint64_t run = plan_tiles(volume.lattice, volume.sweep).run_strips;
-    return width * height * (8 + 2 * 4 + 2 * 24 + 8 + run * (sizeof(BatchFace) + sizeof(BatchVertex) / 2)) +
-           (std::uint64_t{16} << 20);
-}
-
-std::uint64_t face_budget_for(std::uint64_t memory, const VolumeInfo& volume) {
-    const std::uint64_t reading = reading_bytes(volume);
-    if (memory < reading + (std::uint64_t{1} << 20))
-        throw Error(ErrorCode::kInput, "--memory " + std::to_string(memory >> 20) + " MiB: sections of " +
-                                           volume.source + " alone take " + std::to_string((reading >> 20) + 1) +
-                                           " MiB; give more, or another --sweep");
-    return std::min((memory - reading) / kBytesPerFace, kNoLimit);
-}
-
-Census count_labels(SectionReader& reader, const ReconstructOptions& options) {
-    Census census{.labels = table_for(reader.info()), .samples = {}, .oracle = {}};
-    const std::vector<Label> background = dense_background(options, census.labels);
-    SectionWindow window(reader, census.labels);
-    LabelCensus counter(reader.info().lattice, reader.info().sweep, {.cap = options.cap, .background = background});
-    const auto add_samples = [&](std::span<const Label> section) {
-        census.samples.resize(census.labels.size(), 0);
-        for (Label label : section) ++census.samples[label];
-    };
-    while (window.advance()) {
-        if (window.sections_read() == 2) add_samples(window.low());
-        add_samples(window.high());
-        counter.add(window.low(), window.high(), window.is_last());
-    }
-    census.face_count = counter.face_count();
-    census.oracle = counter.oracle();
-    return census;
 }
 
 }  // namespace regionmesh

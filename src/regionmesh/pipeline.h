@@ -23,7 +23,8 @@ struct ReconstructOptions {
     SmoothOptions smooth = {};                       // scale, quality, tests and threads are those of the run
     double min_quality = 0.1;                        // of every face that smoothing or decimation touches
     double perturbation = 1e-7;                      // P 4.5
-    bool decimate = true;                            // false: the plain reconstruction, whatever the targets say
+    bool preserve_volume = false;  // in the end, give every region the volume it had before smoothing and decimation
+    bool decimate = true;          // false: the plain reconstruction, whatever the targets say
     bool intersect_check = true;
     bool cap = true;                                // --boundary cap; false: open
     std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
@@ -52,23 +53,5 @@ struct Reconstruction {
 /// Error(kInput) for a target beyond what memory allows. Deterministic.
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},
                            const std::function<void(const Progress&)>& on_progress = {});
-
-/// Faces that a model may have within `memory` bytes, beside the sections and tables that reading needs.
-std::uint64_t face_budget_for(std::uint64_t memory, const VolumeInfo& volume);
-
-/// Bytes that reading and meshing take beside the model.
-std::uint64_t reading_bytes(const VolumeInfo& volume);
-
-/// Bytes a face of the model, with what decimation adds (docs/memory.md).
-inline constexpr std::uint64_t kBytesPerFace = 96;
-
-/// Reads all sections and counts, without making a face.
-struct Census {
-    LabelTable labels;
-    std::vector<std::uint64_t> samples;  // by dense label
-    std::uint64_t face_count = 0;        // of the unsimplified model
-    LabelOracle oracle;
-};
-Census count_labels(SectionReader& reader, const ReconstructOptions& options = {});
 
 }  // namespace regionmesh

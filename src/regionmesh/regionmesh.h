@@ -2,6 +2,7 @@
 #pragma once
 
 #include "regionmesh/base/error.h"
+#include "regionmesh/census.h"
 #include "regionmesh/check/check.h"
 #include "regionmesh/compare/compare.h"
 #include "regionmesh/decimate/decimate.h"
@@ -10,8 +11,10 @@
 #include "regionmesh/io/read_sections.h"
 #include "regionmesh/io/write_compare.h"
 #include "regionmesh/io/write_report.h"
+#include "regionmesh/memory_plan.h"
 #include "regionmesh/model/model.h"
 #include "regionmesh/model/typical_edge.h"
 #include "regionmesh/pipeline.h"
 #include "regionmesh/report.h"
+#include "regionmesh/smooth/preserve_volume.h"
 #include "regionmesh/smooth/smooth.h"

@@ -8,6 +8,7 @@
 
 #include "regionmesh/check/check.h"
 #include "regionmesh/decimate/verdict.h"
+#include "regionmesh/smooth/preserve_volume.h"
 #include "regionmesh/smooth/smooth_report.h"
 
 namespace regionmesh {
@@ -22,6 +23,8 @@ struct Report {
     std::uint64_t peak_faces = 0;           // most faces held at once
     double bytes_per_face = 0;              // model and decimation together, at the largest, over the faces then held
     SmoothReport smoothing;
+    std::vector<double> unsmoothed_volumes;  // by dense label, length^3; empty where nobody asked
+    PreserveReport preserved;
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
     std::string stopped;  // why decimation ended: "target", "max_error", "topology", "none asked"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "regionmesh/memory_plan.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/strata_list.h"

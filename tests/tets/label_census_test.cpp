@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "regionmesh/census.h"
 #include "support/runs.h"
 
 namespace regionmesh {
@@ -61,7 +62,7 @@ TEST(LabelCensus, oracle_is_the_definition_summed_over_the_lattice) {
     for (test::ArrayVolume& volume : volumes())
         for (const Sweep& sweep : {kSweepX, kSweepY, kSweepZ}) {
             volume.swept(sweep).rewind();
-            expect_plain_count(volume, count_labels(volume, test::plain()));
+            expect_plain_count(volume, count_labels(volume, {.background = {}}));
         }
 }
 
@@ -73,14 +74,14 @@ TEST(LabelCensus, counts_the_faces_that_are_made) {
     for (test::ArrayVolume& volume : volumes())
         for (const ReconstructOptions& option : options) {
             volume.rewind();
-            const Census census = count_labels(volume, option);
+            const Census census = count_labels(volume, {.cap = option.cap, .background = option.background});
             EXPECT_EQ(census.face_count, test::run(volume, option).model.face_count());
         }
 }
 
 TEST(LabelCensus, counts_the_samples_of_each_label) {
     test::TextVolume volume({{"112", "122"}, {"111", "113"}});
-    const Census census = count_labels(volume, test::plain());
+    const Census census = count_labels(volume, {.background = {}});
     ASSERT_EQ(census.labels.size(), 3u);
     EXPECT_EQ(census.samples, (std::vector<std::uint64_t>{8, 3, 1}));
 }

@@ -28,6 +28,7 @@ CheckReport check(const Model& model, const CheckOptions& options) {
     if (options.crossing) check_crossing(model, findings);
     check_nesting(model, options, findings);
     check_against_labels(options, report, findings);
+    report.lines = measure_lines(model);
     return report;
 }
 

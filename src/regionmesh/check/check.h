@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "regionmesh/base/label_oracle.h"
+#include "regionmesh/check/lines.h"
 #include "regionmesh/model/model.h"
 
 namespace regionmesh {
@@ -72,6 +73,7 @@ struct CheckReport {
     std::vector<Violation> violations;  // at most CheckOptions::listed a kind
     std::vector<RegionReport> regions;  // by dense label; background left out
     QualityReport quality;
+    LineReport lines;
     std::uint64_t quadruple_points_inside = 0;
     std::uint64_t region_pairs = 0;
     std::uint64_t violation_count() const;

@@ -9,17 +9,28 @@
 namespace regionmesh {
 namespace {
 
-Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels) {
+/// By dense label, as far as known.
+void put_volume(Json& json, const char* name, const std::vector<double>& volumes, Label label) {
+    if (label < volumes.size()) json[name] = volumes[label];
+}
+
+Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, const Report* run) {
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
         return labels.less(labels.input(a.label), labels.input(b.label));
     });
     Json json = Json::array();
-    for (const RegionReport& region : regions)
+    for (const RegionReport& region : regions) {
         json.push_back({{"label", label_json(labels.input(region.label), labels)},
                         {"euler", region.euler},
                         {"components", region.components},
                         {"volume", region.volume},
                         {"area", region.area}});
+        if (!run) continue;
+        put_volume(json.back(), "volume_unsmoothed", run->unsmoothed_volumes, region.label);
+        put_volume(json.back(), "volume_smoothed", run->smoothing.volume_after, region.label);
+        if (region.label < run->unsmoothed_volumes.size())
+            json.back()["volume_change"] = region.volume / run->unsmoothed_volumes[region.label] - 1;
+    }
     return json;
 }
 
@@ -53,9 +64,12 @@ Json violations_json(const std::vector<Violation>& violations) {
     return json;
 }
 
-void put_check(Json& json, const CheckReport& report, const LabelTable& labels) {
+void put_check(Json& json, const CheckReport& report, const LabelTable& labels, const Report* run = nullptr) {
     json["quality"] = quality_json(report.quality);
-    json["regions"] = regions_json(report.regions, labels);
+    json["regions"] = regions_json(report.regions, labels, run);
+    json["triple_lines"] = {{"edges", report.lines.edges},
+                            {"length", report.lines.length},
+                            {"mean_turning_angle", report.lines.mean_turning_angle}};
     json["region_pairs"] = report.region_pairs;
     json["quadruple_points_inside"] = report.quadruple_points_inside;
     json["violations"] = violations_json(report.violations);
@@ -80,7 +94,12 @@ std::string report_json(const Report& report, const LabelTable& labels) {
     json["refreshes"] = report.refreshes;
     json["stopped"] = report.stopped;
     json["smoothing"] = smoothing_json(report);
-    put_check(json, report.check, labels);
+    json["volumes_preserved"] = {{"rounds", report.preserved.rounds},
+                                 {"drift_before", report.preserved.drift_before},
+                                 {"drift", report.preserved.drift},
+                                 {"regions_off", report.preserved.regions_off},
+                                 {"held_vertices", report.preserved.held_vertices}};
+    put_check(json, report.check, labels, &report);
     return text_of(json);
 }
 

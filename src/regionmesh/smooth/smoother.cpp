@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "regionmesh/base/process.h"
+#include "regionmesh/model/region_volumes.h"
 #include "regionmesh/smooth/relax.h"
 
 namespace regionmesh {
@@ -57,6 +58,12 @@ void Smoother::plan_stages() {
     stages_.push_back({Stage::kSettle, 0, 1});
     stand_.smooth = &places_[smooth_at_];
     stand_.now = &places_[1 - smooth_at_];
+}
+
+std::uint32_t Smoother::most_layers() const {
+    std::uint32_t layers = held_ + 1;
+    for (const Stage& stage : stages_) layers += stage.reach;
+    return layers;
 }
 
 void Smoother::end_layer(bool is_last, double plane) {
@@ -158,17 +165,8 @@ void Smoother::note_ready() {
         if (report_.vertices > 0) report_.rms_displacement = std::sqrt(sum / static_cast<double>(report_.vertices));
         for (std::uint32_t f = faces.first; f < faces.end; ++f) {
             const auto& [v, labels] = window_.faces[f];
-            const double before = dot(window_.origin[v[0]], cross(window_.origin[v[1]], window_.origin[v[2]])) / 6;
-            const double after = dot(place(v[0]), cross(place(v[1]), place(v[2]))) / 6;
-            for (int side = 0; side < 2; ++side) {
-                if (is_exterior(labels[side])) continue;
-                if (labels[side] >= report_.volume_before.size()) {
-                    report_.volume_before.resize(labels[side] + 1);
-                    report_.volume_after.resize(labels[side] + 1);
-                }
-                report_.volume_before[labels[side]] += side == 0 ? before : -before;
-                report_.volume_after[labels[side]] += side == 0 ? after : -after;
-            }
+            add_cone(report_.volume_before, labels, window_.origin[v[0]], window_.origin[v[1]], window_.origin[v[2]]);
+            add_cone(report_.volume_after, labels, place(v[0]), place(v[1]), place(v[2]));
         }
     }
 }

@@ -32,6 +32,8 @@ public:
     /// Layers before this one are done: their places are final.
     std::uint32_t ready_end() const { return ready_; }
     Vec3 place(std::uint32_t v) const { return places_[1 - smooth_at_][v]; }
+    /// Layers held at most, where they are released as soon as they are done.
+    std::uint32_t most_layers() const;
     /// Lets go of layers that are done.
     void release_before(std::uint32_t layer);
 

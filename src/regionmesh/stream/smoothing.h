@@ -19,6 +19,8 @@ public:
     /// The next batch that is done, in the order in which they came; false when there is none yet.
     bool next(FaceBatch& batch);
 
+    /// Strips held at most.
+    std::uint32_t most_strips() const { return smoother_.most_layers(); }
     /// All that was not handed out lies here or beyond along the sweep.
     double floor() const { return smoother_.floor(); }
     const SmoothReport& report() const { return smoother_.report(); }

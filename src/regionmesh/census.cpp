@@ -1,0 +1,35 @@
+#include "regionmesh/census.h"
+
+#include "regionmesh/stream/section_window.h"
+#include "regionmesh/tets/label_census.h"
+
+namespace regionmesh {
+
+LabelTable table_for(const VolumeInfo& volume) { return LabelTable(volume.type == SampleType::kU64); }
+
+std::vector<Label> dense_background(const std::vector<InputLabel>& background, LabelTable& labels) {
+    std::vector<Label> dense;
+    for (InputLabel label : background) dense.push_back(labels.dense(label));
+    return dense;
+}
+
+Census count_labels(SectionReader& reader, const CensusOptions& options) {
+    Census census{.labels = table_for(reader.info()), .samples = {}, .oracle = {}};
+    const std::vector<Label> background = dense_background(options.background, census.labels);
+    SectionWindow window(reader, census.labels);
+    LabelCensus counter(reader.info().lattice, reader.info().sweep, {.cap = options.cap, .background = background});
+    const auto add_samples = [&](std::span<const Label> section) {
+        census.samples.resize(census.labels.size(), 0);
+        for (Label label : section) ++census.samples[label];
+    };
+    while (window.advance()) {
+        if (window.sections_read() == 2) add_samples(window.low());
+        add_samples(window.high());
+        counter.add(window.low(), window.high(), window.is_last());
+    }
+    census.face_count = counter.face_count();
+    census.oracle = counter.oracle();
+    return census;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,15 @@
+// A model as a single layer.
+#pragma once
+
+#include <vector>
+
+#include "regionmesh/model/model.h"
+#include "regionmesh/smooth/surface_window.h"
+
+namespace regionmesh {
+
+/// Adds the vertices and faces that are alive, in their order; the caller ends the layer. Returns the number in the
+/// window of each vertex.
+std::vector<std::uint32_t> add_model(const Model& model, SurfaceWindow& window);
+
+}  // namespace regionmesh
