@@ -10,9 +10,11 @@
 #include "regionmesh/memory_plan.h"
 #include "regionmesh/model/region_volumes.h"
 #include "regionmesh/smooth/preserve_volume.h"
+#include "regionmesh/stream/place_in_space.h"
 #include "regionmesh/stream/section_window.h"
 #include "regionmesh/stream/smoothing.h"
 #include "regionmesh/stream/weld.h"
+#include "regionmesh/target.h"
 #include "regionmesh/tets/label_census.h"
 #include "regionmesh/tets/strip_mesher.h"
 #include "regionmesh/tile/tiles.h"
@@ -44,6 +46,7 @@ public:
           options_(options),
           on_progress_(on_progress),
           lattice_(reader.info().lattice),
+          target_{options.target_faces, options.reduce, {}},
           plan_(plan_tiles(meshing_lattice(lattice_), reader.info().sweep)) {
         result_.labels = table_for(reader.info());
         result_.background = dense_background(options.background, result_.labels);
@@ -54,7 +57,6 @@ public:
     void build();
     void bring_to_target();
     void preserve_volumes();
-    void place_in_space();
     void prove();
     Reconstruction finish();
 
@@ -76,9 +78,6 @@ private:
     double floor() const { return smoothing_ ? smoothing_->floor() : plane_of(strips_); }
     DecimateOptions decimate_options() const;
     void add_verdicts(const VerdictCounts& counts);
-    double target_share() const;
-    std::uint64_t target_for(std::uint64_t initial_faces) const;
-    std::uint64_t target_so_far() const;
     void keep_within_budget(std::uint64_t run_faces);
     void decimate_to(std::uint64_t faces, bool is_last);
     void note_bytes(std::uint64_t faces, std::size_t bytes);
@@ -91,13 +90,13 @@ private:
     Lattice lattice_;
     Reconstruction result_;
     Progress progress_;
+    Target target_;
     TilePlan plan_;
     std::optional<Smoothing> smoothing_;
     FaceBatch run_;  // strips since the last weld
     Weld weld_{result_.model};
-    std::uint32_t strips_ = 0;                  // added to runs so far
-    double ceiling_ = -HUGE_VAL;                // as far as faces of earlier runs reach along the sweep
-    std::optional<std::uint64_t> total_faces_;  // of the unsimplified model, where a first pass counted them
+    std::uint32_t strips_ = 0;    // added to runs so far
+    double ceiling_ = -HUGE_VAL;  // as far as faces of earlier runs reach along the sweep
     std::uint64_t budget_ = kMostFaces;
     LabelOracle oracle_;
     std::size_t most_bytes_ = 0;  // of model and decimation together, so far
@@ -112,7 +111,7 @@ void Run::plan() {
     if (is_decimating() && (options_.reduce || options_.target_faces) && reader_.info().can_rewind) {
         tell("count");
         const Timer timer(seconds("count"));
-        total_faces_ = count_labels(reader_, {.cap = options_.cap, .background = options_.background}).face_count;
+        target_.total = count_labels(reader_, {.cap = options_.cap, .background = options_.background}).face_count;
         reader_.rewind();
     }
     budget_ = options_.face_budget ? *options_.face_budget
@@ -123,8 +122,8 @@ void Run::plan() {
 std::uint64_t Run::smoothing_bytes() const {
     if (!smoothing_) return 0;
     const std::uint64_t strips = reader_.section_count() - 1;
-    const std::uint64_t faces = total_faces_ ? *total_faces_ / std::max<std::uint64_t>(strips, 1)
-                                             : std::uint64_t{reader_.section_width()} * reader_.section_height();
+    const std::uint64_t faces = target_.total ? *target_.total / std::max<std::uint64_t>(strips, 1)
+                                              : std::uint64_t{reader_.section_width()} * reader_.section_height();
     return std::min<std::uint64_t>(smoothing_->most_strips(), strips) * faces * kSmoothingBytesPerFace;
 }
 
@@ -236,7 +235,7 @@ void Run::add_volumes() {
 
 /// First stage: in tiles, up to the cost level, and never below what the target will leave.
 void Run::decimate_run() {
-    const double share = target_share();
+    const double share = target_.share();
     if (share * kTileMargin >= 1) return;
     const Timer timer(seconds("decimate tiles"));
     TileOptions tile_options{.cost_level = kTileCostLevel,
@@ -250,36 +249,12 @@ void Run::decimate_run() {
     add_verdicts(done.verdicts);
 }
 
-/// Share of the faces that the target leaves; 1 while nobody knows the total, 0 where only the error bounds.
-double Run::target_share() const {
-    if (options_.reduce) return 1 - *options_.reduce;
-    if (!options_.target_faces) return 0;
-    return total_faces_ ? static_cast<double>(*options_.target_faces) /
-                              static_cast<double>(std::max<std::uint64_t>(*total_faces_, 1))
-                        : 1;
-}
-
-std::uint64_t Run::target_for(std::uint64_t initial_faces) const {
-    if (options_.target_faces) return *options_.target_faces;
-    if (options_.reduce)
-        return static_cast<std::uint64_t>(std::llround(static_cast<double>(initial_faces) * (1 - *options_.reduce)));
-    return 0;
-}
-
-/// The share of the target that belongs to what has been read: decimating the first sections further than the last ones
-/// would make the model uneven.
-std::uint64_t Run::target_so_far() const {
-    const std::uint64_t read = result_.report.initial_faces;
-    if (!total_faces_) return target_for(read);
-    return target_for(*total_faces_) * read / std::max<std::uint64_t>(*total_faces_, 1);
-}
-
 void Run::keep_within_budget(std::uint64_t run_faces) {
     // The next run comes on top of what is held.
     const std::uint64_t room = budget_ - std::min(budget_, run_faces);
     if (!is_decimating() || result_.model.face_count() <= room) return;
     // Down by a good part, so that the heap need not be built anew after every run.
-    const std::uint64_t goal = std::max(target_so_far(), std::min(room, budget_ * 6 / 10));
+    const std::uint64_t goal = std::max(target_.so_far(result_.report.initial_faces), std::min(room, budget_ * 6 / 10));
     if (result_.model.face_count() > goal) {
         weld_.renumber(result_.model.sort_spatially());
         decimate_to(goal, false);
@@ -329,7 +304,7 @@ void Run::bring_to_target() {
     }
     tell("decimate");
     result_.model.sort_spatially();
-    decimate_to(target_for(result_.report.initial_faces), true);
+    decimate_to(target_.of(result_.report.initial_faces), true);
     result_.report.stopped = stopped_ == StopReason::kTarget     ? "target"
                              : stopped_ == StopReason::kMaxError ? "max_error"
                                                                  : "topology";
@@ -347,23 +322,9 @@ void Run::preserve_volumes() {
     result_.report.preserved = regionmesh::preserve_volumes(result_.model, wanted, own);
 }
 
-/// Applies the direction of the lattice, so that what is checked is what is written.
-void Run::place_in_space() {
-    if (lattice_.is_axis_aligned()) return;
-    const auto& d = lattice_.direction;
-    Model& model = result_.model;
-    for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
-        if (!model.is_alive(VertexId{n})) continue;
-        Vec3& p = model[VertexId{n}].position;
-        p = lattice_.origin + Vec3{d[0] * p.x + d[1] * p.y + d[2] * p.z, d[3] * p.x + d[4] * p.y + d[5] * p.z,
-                                   d[6] * p.x + d[7] * p.y + d[8] * p.z};
-    }
-    const double determinant =
-        d[0] * (d[4] * d[8] - d[5] * d[7]) - d[1] * (d[3] * d[8] - d[5] * d[6]) + d[2] * (d[3] * d[7] - d[4] * d[6]);
-    if (determinant < 0) model.flip_faces();
-}
-
+/// Checks what will be written, where it will lie.
 void Run::prove() {
+    place_in_space(result_.model, lattice_);
     tell("check");
     const Timer timer(seconds("check"));
     CheckOptions check_options;
@@ -410,7 +371,6 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& opti
         run.build();
         run.bring_to_target();
         run.preserve_volumes();
-        run.place_in_space();
         run.prove();
         result = run.finish();
     }
