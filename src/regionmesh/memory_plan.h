@@ -15,7 +15,7 @@ inline constexpr std::uint64_t kMostFaces = std::numeric_limits<std::uint32_t>::
 inline constexpr std::uint64_t kBytesPerFace = 96;
 
 /// Bytes a face that smoothing holds, with half a vertex (docs/memory.md).
-inline constexpr std::uint64_t kSmoothingBytesPerFace = 84;
+inline constexpr std::uint64_t kSmoothingBytesPerFace = 100;
 
 /// Faces that a model may have within `memory` bytes, beside the sections and tables that reading needs and `smoothing`
 /// bytes. Throws Error(kInput) when those alone take more.

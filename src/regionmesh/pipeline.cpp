@@ -30,6 +30,9 @@ constexpr double kTileMargin = 1.25;
 /// Faces are decimated to so much more than the least quality where their vertices are to move once more.
 constexpr double kRoomForVolume = 1.1;
 
+/// Strips that smoothing holds beyond the usual, where the usual do not suffice.
+constexpr std::uint32_t kMoreHold = 8;
+
 /// Positions are index times spacing; an origin is added at once where no direction matrix comes between.
 Lattice meshing_lattice(const Lattice& lattice) {
     Lattice result = lattice;
@@ -360,19 +363,43 @@ void Run::tell(const char* stage) {
 
 }  // namespace
 
+namespace {
+
+Reconstruction run_once(SectionReader& reader, const ReconstructOptions& options,
+                        const std::function<void(const Progress&)>& on_progress) {
+    Run run(reader, options, on_progress);
+    run.plan();
+    run.build();
+    run.bring_to_target();
+    run.preserve_volumes();
+    run.prove();
+    return run.finish();
+}
+
+/// Where the guard finds that it let go of strips too early, which takes labels that no instrument gives, all begins
+/// again and holds more; in the end all is in core, where the guard cannot fail.
+Reconstruction run_until_held(SectionReader& reader, ReconstructOptions options,
+                              const std::function<void(const Progress&)>& on_progress) {
+    for (;;) {
+        try {
+            return run_once(reader, options, on_progress);
+        } catch (const HeldTooFew&) {
+            if (!reader.info().can_rewind) throw;
+            reader.rewind();
+            options.smooth.more_hold = 2 * options.smooth.more_hold + kMoreHold;
+        }
+    }
+}
+
+}  // namespace
+
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options,
                            const std::function<void(const Progress&)>& on_progress) {
     double total = 0;
     Reconstruction result;
     {
         const Timer timer(total);
-        Run run(reader, options, on_progress);
-        run.plan();
-        run.build();
-        run.bring_to_target();
-        run.preserve_volumes();
-        run.prove();
-        result = run.finish();
+        result = run_until_held(reader, options, on_progress);
     }
     result.report.seconds["total"] = total;
     return result;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "regionmesh/base/error.h"
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/model/exact_predicates.h"
 
@@ -38,10 +37,7 @@ void Settling::add_layer(std::uint32_t layer) {
             if (raise_islands()) is_sound = false;
         }
         if (is_sound) return;
-        if (raised_.empty())
-            throw Error(ErrorCode::kInput,
-                        "smoothing: strip " + std::to_string(layer) +
-                            " cannot be made sound without strips that were let go; smooth with fewer passes");
+        if (raised_.empty()) throw HeldTooFew(layer);
         faces = step_back_raised();
         whole = {};
     }

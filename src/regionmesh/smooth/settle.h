@@ -2,14 +2,25 @@
 #pragma once
 
 #include <deque>
+#include <string>
 #include <vector>
 
+#include "regionmesh/base/error.h"
 #include "regionmesh/model/face_meeting.h"
 #include "regionmesh/model/face_tree.h"
 #include "regionmesh/smooth/islands.h"
 #include "regionmesh/smooth/step_back.h"
 
 namespace regionmesh {
+
+/// Thrown where only vertices that were let go are left to step back: hold more layers, and begin again.
+class HeldTooFew : public Error {
+public:
+    explicit HeldTooFew(std::uint32_t layer)
+        : Error(ErrorCode::kInput,
+                "smoothing: strip " + std::to_string(layer) +
+                    " cannot be made sound without strips that were let go; smooth with fewer passes") {}
+};
 
 /// Takes in one layer after the other. After each, all faces so far are sound: none is turned over or bad, none crosses
 /// another, no separate part of the surface has changed sides of another. Where one would, its vertices step back, and
@@ -20,7 +31,7 @@ public:
         : window_(window), stand_(stand), options_(options) {}
 
     /// Requires that the layer has been through all rounds of stepping back, and the next one was noted, if there is
-    /// one. Throws Error(kInput) when only vertices that were let go are left to step back.
+    /// one. Throws HeldTooFew.
     void add_layer(std::uint32_t layer);
     /// Notes the faces of a layer that has just come in.
     void note_layer(std::uint32_t layer) {

@@ -38,7 +38,7 @@ Smoother::Smoother(const SmoothOptions& options, const LayerOrder& order)
       nifpms_(window_, neighbours_, options_),
       rounds_(window_, stand_, options_),
       settling_(window_, stand_, options_) {
-    if (std::isfinite(order.thickness)) held_ = 2 * layers_within(most_, order) + 2;
+    if (std::isfinite(order.thickness)) held_ = 2 * layers_within(most_, order) + 2 + options.more_hold;
     plan_stages();
 }
 
@@ -86,6 +86,9 @@ void Smoother::end_layer(bool is_last, double plane) {
         const std::uint32_t end = is_all ? done_before : done_before - std::min(done_before, stage.reach);
         for (; stage.done < end; ++stage.done) run(stage, stage.done);
         done_before = stage.done;
+        // After the last pass nobody asks for neighbours.
+        if (stage.kind == Stage::kRelax && stage.number + 1 == options_.passes && stage.done < window_.layer_end())
+            neighbours_.drop_before(window_.vertices_of(stage.done).first);
     }
     note_bytes();
     ready_ = is_last_ ? window_.layer_end() : done_before - std::min(done_before, held_);
@@ -184,7 +187,7 @@ void Smoother::release_before(std::uint32_t layer) {
     const std::uint32_t first = window_.vertices_of(layer - 1).first, face_end = window_.faces_of(layer - 1).end;
     window_.drop_before(layer);
     for (auto& places : places_) places.drop_before(first);
-    neighbours_.drop_before(first);
+    if (options_.filter == SmoothFilter::kNifpms) neighbours_.drop_before(first);
     nifpms_.drop_before(first, face_end);
     stand_.level.drop_before(first);
     stand_.wanted.drop_before(first);

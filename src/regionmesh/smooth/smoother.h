@@ -25,8 +25,8 @@ public:
     /// Where the caller adds the places, sides and faces of the next layer.
     SurfaceWindow& window() { return window_; }
     const SurfaceWindow& read_window() const { return window_; }
-    /// The layer is complete; vertices to come lie at `plane` or beyond along the axis of the layers. Throws what
-    /// Settling throws.
+    /// The layer is complete; vertices to come lie at `plane` or beyond along the axis of the layers. Throws
+    /// HeldTooFew.
     void end_layer(bool is_last, double plane = 0);
 
     /// Layers before this one are done: their places are final.

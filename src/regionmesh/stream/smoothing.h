@@ -14,7 +14,7 @@ class Smoothing {
 public:
     Smoothing(const SmoothOptions& options, const LayerOrder& order) : smoother_(options, order) {}
 
-    /// The batch of the next strip; vertices to come lie at `plane` or beyond along the sweep.
+    /// The batch of the next strip; throws HeldTooFew. Vertices to come lie at `plane` or beyond along the sweep.
     void add(const FaceBatch& batch, bool is_last, double plane);
     /// The next batch that is done, in the order in which they came; false when there is none yet.
     bool next(FaceBatch& batch);
