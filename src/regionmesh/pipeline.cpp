@@ -8,8 +8,8 @@
 #include "regionmesh/census.h"
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/memory_plan.h"
-#include "regionmesh/model/region_volumes.h"
 #include "regionmesh/smooth/preserve_volume.h"
+#include "regionmesh/stream/batch_volumes.h"
 #include "regionmesh/stream/place_in_space.h"
 #include "regionmesh/stream/section_window.h"
 #include "regionmesh/stream/smoothing.h"
@@ -75,7 +75,6 @@ private:
     void smooth_strip(FaceBatch& batch, const SectionWindow& window);
     void add_strip(const FaceBatch& batch);
     void end_run();
-    void add_volumes();
     void decimate_run();
     double plane_of(std::uint32_t section) const;
     double floor() const { return smoothing_ ? smoothing_->floor() : plane_of(strips_); }
@@ -213,7 +212,7 @@ void Run::add_strip(const FaceBatch& batch) {
 void Run::end_run() {
     double ceiling = ceiling_;
     for (const BatchVertex& vertex : run_.vertices) ceiling = std::max(ceiling, vertex.position[sweep_axis()]);
-    if (!smoothing_ && options_.preserve_volume) add_volumes();
+    if (!smoothing_ && options_.preserve_volume) add_volumes(run_, weld_.front(), result_.report.unsmoothed_volumes);
     if (is_decimating()) decimate_run();
     {
         const Timer timer(seconds("reconstruct"));
@@ -224,16 +223,6 @@ void Run::end_run() {
     run_.clear();
     note_bytes(result_.model.face_count(), result_.model.bytes());
     if (strips_ + 1 < reader_.section_count()) keep_within_budget(run_faces);
-}
-
-/// Adds what the run at hand has to the volumes of the regions.
-void Run::add_volumes() {
-    const std::vector<BatchVertex> carried = weld_.front();
-    const auto place = [&](std::uint32_t local) {
-        return local < run_.carried ? carried[local].position : run_.vertices[local - run_.carried].position;
-    };
-    for (const auto& [v, labels] : run_.faces)
-        add_cone(result_.report.unsmoothed_volumes, labels, place(v[0]), place(v[1]), place(v[2]));
 }
 
 /// First stage: in tiles, up to the cost level, and never below what the target will leave.
