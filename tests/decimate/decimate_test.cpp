@@ -134,6 +134,33 @@ TEST(Decimate, fixed_vertices_stay) {
     test::expect_sound(check(model));
 }
 
+TEST(Decimate, faces_that_reach_beyond_the_limits_stay) {
+    Model model = run(test::ball_volume({14, 14, 14}, 5)).model;
+    DecimateOptions options;
+    options.limits.high = {7.3, 9.1, HUGE_VAL};
+    const auto faces_beyond = [&] {
+        std::set<std::array<double, 9>> faces;
+        test::for_faces(model, [&](FaceId f) {
+            std::array<double, 9> place;
+            bool reaches_out = false;
+            for (int n = 0; n < 3; ++n) {
+                const Vec3 p = model.corners(f)[n];
+                reaches_out |= p.x > 7.3 || p.y > 9.1;
+                for (int axis = 0; axis < 3; ++axis) place[3 * n + axis] = p[axis];
+            }
+            if (reaches_out) faces.insert(place);
+        });
+        return faces;
+    };
+    const auto before = faces_beyond();
+    const std::uint32_t count_before = model.face_count();
+    decimate(model, options);
+    EXPECT_EQ(faces_beyond(), before);
+    EXPECT_LT(model.face_count(), count_before * 0.8);
+    test::for_vertices(model, [&](VertexId v) { EXPECT_FALSE(model[v].is_fixed); });
+    test::expect_sound(check(model));
+}
+
 TEST(Decimate, merged_vertices_stay_within_the_limits) {
     Model model = run(test::grain_volume({10, 10, 10}, 5, 3)).model;
     std::set<std::array<double, 3>> before;

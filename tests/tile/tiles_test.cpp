@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "regionmesh/stream/section_window.h"
+#include "regionmesh/stream/smoothing.h"
 #include "regionmesh/stream/weld.h"
 #include "regionmesh/tets/label_census.h"
 #include "regionmesh/tets/strip_mesher.h"
@@ -14,8 +15,11 @@ namespace {
 
 /// The whole volume as one batch, with what its labels say.
 struct Batch {
-    explicit Batch(test::ArrayVolume& volume) : lattice(volume.info().lattice) {
+    explicit Batch(test::ArrayVolume& volume, const SmoothOptions& smooth = {.passes = 0}) : lattice(volume.info().lattice) {
+        volume.rewind();
         LabelTable labels;
+        std::optional<Smoothing> smoothing;
+        if (smooth.passes > 0) smoothing.emplace(smooth, LayerOrder{.axis = 2, .thickness = lattice.spacing.z});
         SectionWindow window(volume, labels);
         StripMesher mesher(lattice, kSweepZ, {});
         LabelCensus census(lattice, kSweepZ, {});
@@ -23,7 +27,12 @@ struct Batch {
             FaceBatch strip;
             census.add(window.low(), window.high(), window.is_last());
             mesher.mesh(window.low(), window.high(), strip);
-            whole.append(strip);
+            if (!smoothing) {
+                whole.append(strip);
+                continue;
+            }
+            smoothing->add(strip, window.is_last(), window.sections_read() - 1);
+            while (smoothing->next(strip)) whole.append(strip);
         }
         oracle = census.oracle();
     }
@@ -79,6 +88,29 @@ TEST(Tiles, stay_in_their_boxes) {
             EXPECT_TRUE(below == 0 || above == 0);
         }
     EXPECT_LT(batch.whole.faces.size(), before.face_count());
+}
+
+TEST(Tiles, leave_faces_that_reach_out_of_them_and_do_not_run_into_them) {
+    test::ArrayVolume volume = test::grain_volume({31, 30, 12}, 40, 8);
+    for (SmoothFilter filter : {SmoothFilter::kTaubin, SmoothFilter::kLaplacian}) {
+        Batch batch(volume, {.filter = filter, .passes = 30});
+        std::size_t reaching = 0;
+        for (const BatchFace& face : batch.whole.faces) {
+            double low = HUGE_VAL, high = -HUGE_VAL;
+            for (std::uint32_t v : face.vertices) {
+                low = std::min(low, batch.whole.vertices[v].position.x);
+                high = std::max(high, batch.whole.vertices[v].position.x);
+            }
+            for (double wall : {6.0, 12.0, 18.0, 24.0}) reaching += low < wall && high > wall;
+        }
+        EXPECT_GT(reaching, 100u) << "this test needs faces across walls";
+        const std::size_t faces = batch.whole.faces.size();
+        decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 6), {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
+        EXPECT_LT(batch.whole.faces.size(), faces * 9 / 10);
+        CheckOptions options;
+        options.oracle = batch.oracle;
+        test::expect_sound(check(batch.model(), options));
+    }
 }
 
 TEST(Tiles, keep_the_share_they_are_told_to) {

@@ -6,7 +6,6 @@
 
 #include "regionmesh/base/triangle.h"
 #include "regionmesh/model/region_volumes.h"
-#include "regionmesh/model/strata.h"
 #include "regionmesh/model/typical_edge.h"
 #include "regionmesh/smooth/guarded_move.h"
 #include "regionmesh/smooth/region_matrix.h"
@@ -26,6 +25,7 @@ constexpr double kLeastGain = 0.3;
 constexpr int kPatience = 4;
 constexpr std::uint8_t kRest = 3, kForEver = 255;  // rounds for which a vertex that was held back is let be
 constexpr int kMostLabels = 4;
+constexpr double kRounding = 1e-10;  // of sums of volumes, relative
 
 /// How the volumes of the regions at a vertex change as it moves.
 struct Gradient {
@@ -40,8 +40,7 @@ public:
     Preserving(Model& model, const WantedVolumes& wanted, const SmoothOptions& options)
         : model_(model), wanted_(wanted), options_(options), rest_(model.vertex_end()) {
         for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
-            if (!model.is_alive(VertexId{v}) || (!options.move_points && vertex_labels(model, VertexId{v}).size() > 3))
-                rest_[v] = kForEver;
+            if (!model.is_alive(VertexId{v})) rest_[v] = kForEver;
     }
 
     PreserveReport run() {
@@ -83,15 +82,22 @@ private:
             missing_[label] = missing;
             asked_[label] = is_wanted(label) ? std::clamp(missing, -most[label], most[label]) : 0;
         }
-        // Where all space is regions, what they miss sums to nothing, and so must what they ask for.
+        balance();
+    }
+
+    /// Where all space is regions, what they miss sums to nothing but rounding, and so must what they ask for: the
+    /// largest one makes up for it.
+    void balance() {
         Label largest = 0;
-        double cut = 0;
+        double missing = 0, asked = 0, all = 0;
         for (Label label = 0; label < wanted_.size(); ++label) {
             if (!is_wanted(label)) continue;
             if (!is_wanted(largest) || *wanted_[label] > *wanted_[largest]) largest = label;
-            cut += missing_[label] - asked_[label];
+            missing += missing_[label];
+            asked += asked_[label];
+            all += *wanted_[label];
         }
-        if (is_wanted(largest)) asked_[largest] += cut;
+        if (is_wanted(largest)) asked_[largest] += (std::abs(missing) < kRounding * all ? 0 : missing) - asked;
     }
 
     bool is_done() const {

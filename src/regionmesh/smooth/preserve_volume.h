@@ -27,8 +27,8 @@ using WantedVolumes = std::vector<std::optional<double>>;
 /// Each round solves for one multiplier a region: vertex v goes by the sum over its regions of multiplier times
 /// gradient of the volume, over the area round v. That is the smallest motion, in the mean square over the surface,
 /// that changes all volumes by what is missing to first order. The matrix couples regions that share an interface.
-/// Quadruple points stay, and so do coordinates on the box. Uses min_quality, intersect_check and threads of the
-/// options. Deterministic.
+/// Quadruple points take part, too: on a coarse model a small region may have no other vertices. Coordinates on the box
+/// stay. Uses min_quality, intersect_check and threads of the options. Deterministic.
 PreserveReport preserve_volumes(Model& model, const WantedVolumes& wanted, const SmoothOptions& options);
 
 }  // namespace regionmesh

@@ -28,7 +28,9 @@ std::vector<double> RegionMatrix::product(const std::vector<double>& x) const {
 }
 
 std::vector<double> RegionMatrix::solve(const std::vector<double>& b) const {
-    constexpr double kTolerance = 1e-12;
+    constexpr double kTolerance = 1e-10;
+    // A direction that the matrix all but sends to nothing: what is left of b lies there.
+    constexpr double kNull = 1e-15;
     const std::size_t size = b.size();
     const auto dot = [](const std::vector<double>& a, const std::vector<double>& c) {
         return std::inner_product(a.begin(), a.end(), c.begin(), 0.0);
@@ -45,7 +47,9 @@ std::vector<double> RegionMatrix::solve(const std::vector<double>& b) const {
     for (std::size_t step = 0; step < 10 * size + 100 && rz > enough; ++step) {
         const std::vector<double> q = product(p);
         const double curvature = dot(p, q);
-        if (!(curvature > 0)) break;
+        double size_of_p = 0;
+        for (std::size_t n = 0; n < size; ++n) size_of_p += diagonal_[n] * p[n] * p[n];
+        if (!(curvature > kNull * size_of_p)) break;
         const double length = rz / curvature;
         for (std::size_t n = 0; n < size; ++n) {
             x[n] += length * p[n];
