@@ -6,6 +6,7 @@
 #include "regionmesh/base/triangle.h"
 #include "regionmesh/smooth/smooth.h"
 #include "regionmesh/smooth/step_back.h"
+#include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 #include "support/surface_windows.h"
@@ -49,10 +50,10 @@ void expect_quality(const Model& before, const Model& after, double min_quality)
 /// Sheets of label 1, one sample thick and with steps, two samples apart.
 test::ArrayVolume thin_sheets() {
     std::vector<InputLabel> labels;
-    for (int z = 0; z < 12; ++z)
-        for (int y = 0; y < 10; ++y)
-            for (int x = 0; x < 10; ++x) labels.push_back((z + (x / 3) % 2 + (y / 4) % 2) % 3 == 0);
-    return {{10, 10, 12}, std::move(labels)};
+    for (int z = 0; z < 8; ++z)
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 8; ++x) labels.push_back((z + (x / 3) % 2 + (y / 4) % 2) % 3 == 0);
+    return {{8, 8, 8}, std::move(labels)};
 }
 
 void expect_guarded(const Model& before, const SmoothOptions& options) {
@@ -136,7 +137,7 @@ Model spike_with_island(double height) {
 }
 
 TEST(Settle, an_island_that_the_surface_would_sweep_over_stays_inside) {
-    for (double height : {0.5, 1.5, 3.2}) {
+    for (double height : {1.8, 2.5, 3.2}) {
         SCOPED_TRACE("island at height " + std::to_string(height));
         SmoothOptions options{.filter = SmoothFilter::kLaplacian, .passes = 10, .min_quality = 0.01};
         Model model = spike_with_island(height), swept = spike_with_island(height);
@@ -147,6 +148,29 @@ TEST(Settle, an_island_that_the_surface_would_sweep_over_stays_inside) {
         const SmoothReport report = smooth(model, options);
         test::expect_sound(check(model, kAllRound));
         EXPECT_GT(report.islands, 0u);
+    }
+}
+
+TEST(Settle, whichever_vertex_stands_for_an_island_it_stays_inside) {
+    for (double height : {1.8, 2.5, 3.2})
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            SCOPED_TRACE("island at height " + std::to_string(height) + ", seed " + std::to_string(seed));
+            Model model = test::renumbered(spike_with_island(height), seed);
+            smooth(model, {.filter = SmoothFilter::kLaplacian, .passes = 10, .min_quality = 0.01});
+            test::expect_sound(check(model, kAllRound));
+        }
+}
+
+// The vertex with the last number stands for the whole part: with another one, other faces are found on its way, and
+// other vertices step back.
+TEST(Settle, DISABLED_which_vertex_stands_for_an_island_does_not_matter) {
+    for (std::uint64_t seed : {1, 2, 3}) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const SmoothOptions options{.filter = SmoothFilter::kLaplacian, .passes = 10, .min_quality = 0.01};
+        Model model = spike_with_island(2.5), other = test::renumbered(model, seed);
+        smooth(model, options);
+        smooth(other, options);
+        EXPECT_EQ(test::surface_digest(model), test::surface_digest(other));
     }
 }
 
