@@ -4,9 +4,11 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <set>
 
 #include "io/temporary_folder.h"
 #include "regionmesh/regionmesh.h"
+#include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -86,6 +88,90 @@ TEST_F(Cli, written_models_pass_check_against_their_volume) {
         EXPECT_EQ(ran.code, 0) << ran.out << ran.error;
         EXPECT_THAT(ran.out, HasSubstr("no violations"));
     }
+}
+
+TEST_F(Cli, reconstruct_smooths_unless_told_not_to) {
+    const std::string to = "reconstruct " + volume() + "--quiet -o ";
+    EXPECT_EQ(run(to + out("default.vtp")).code, 0);
+    EXPECT_EQ(run(to + out("twenty.vtp") + " --smooth 20 --smooth-filter taubin --smooth-lambda 0.6").code, 0);
+    EXPECT_EQ(run(to + out("zero.vtp") + " --smooth 0").code, 0);
+    EXPECT_EQ(run(to + out("none.vtp") + " --smooth-filter none").code, 0);
+    const std::string smoothed = text_of(out("default.vtp")), plain = text_of(out("zero.vtp"));
+    EXPECT_TRUE(text_of(out("twenty.vtp")) == smoothed);
+    EXPECT_TRUE(text_of(out("none.vtp")) == plain);
+    EXPECT_TRUE(smoothed != plain);
+}
+
+TEST_F(Cli, every_smoothing_option_leads_to_a_sound_model_of_its_own) {
+    std::set<std::string> models;
+    for (const std::string options : {"", "--smooth 3", "--smooth-filter laplacian", "--smooth-filter nifpms", "--smooth-lambda 0.3"}) {
+        SCOPED_TRACE(options);
+        EXPECT_EQ(run("reconstruct " + volume() + options + " -o " + out("m.vtp")).code, 0);
+        EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 0);
+        EXPECT_TRUE(models.insert(text_of(out("m.vtp"))).second) << "the same as without";
+    }
+}
+
+TEST_F(Cli, the_report_says_what_smoothing_did) {
+    EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("m.vtp") + " --report " + out("r.json")).code, 0);
+    for (const char* said : {"\"smoothing\"", "\"vertices\"", "\"turned_faces\"", "\"crossing_pairs\"", "\"stepped_back\"", "\"rms_displacement\"", "\"smooth\""})
+        EXPECT_THAT(text_of(out("r.json")), HasSubstr(said));
+}
+
+TEST_F(Cli, smooth_takes_a_model_and_writes_the_same_without_steps) {
+    EXPECT_EQ(run("reconstruct " + volume() + "--smooth 0 -o " + out("steps.vtp")).code, 0);
+    const Ran ran = run("smooth " + out("steps.vtp") + " -o " + out("m.vtp") + " --scale 1 --report " + out("r.json"));
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_EQ(ran.error, "");
+    EXPECT_THAT(ran.out, HasSubstr("stepped back"));
+    EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"smoothing\""));
+    EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 0);
+    EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("direct.vtp")).code, 0);
+    EXPECT_EQ(test::surface_digest(read_model(out("m.vtp")).model), test::surface_digest(read_model(out("direct.vtp")).model));
+}
+
+TEST_F(Cli, smooth_may_write_over_what_it_read) {
+    EXPECT_EQ(run("reconstruct " + volume() + "--no-background --smooth 0 -o " + out("m.ply")).code, 0);
+    const std::string before = text_of(out("m.ply"));
+    EXPECT_EQ(run("smooth " + out("m.ply") + " -o " + out("m.ply") + " --no-background --quiet").code, 0);
+    EXPECT_TRUE(text_of(out("m.ply")) != before);
+    EXPECT_EQ(run("check " + out("m.ply") + " --no-background --sections " + volume()).code, 0);
+    EXPECT_EQ(files_left(), 1);
+}
+
+TEST_F(Cli, smooth_of_a_broken_model_is_exit_3) {
+    Model model = test::octahedron();
+    model.remove_face(FaceId{0});
+    LabelTable labels;
+    for (InputLabel label : {5, 7}) labels.dense(label);
+    write_model(model, labels, path("broken.vtp"), {});
+    const Ran ran = run("smooth " + path("broken.vtp").string() + " -o " + out("m.vtp"));
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_EQ(ran.error, "");
+    EXPECT_THAT(ran.out, HasSubstr("6 violations (before 6)")) << "no better, no worse";
+}
+
+TEST_F(Cli, bad_smoothing_is_refused) {
+    const std::string to = "-o " + out("m.vtp");
+    for (const std::string lambda : {"2", "-0.5", "much", "nan"}) expect_refusal("reconstruct " + volume() + to + " --smooth-lambda " + lambda, 1, "--smooth-lambda");
+    for (const std::string passes : {"-1", "many", "2.5", "99999999999"}) {
+        SCOPED_TRACE(passes);
+        const Ran ran = run("reconstruct " + volume() + to + " --smooth " + passes);
+        EXPECT_TRUE(ran.code == 1 || ran.code == 2) << ran.code;
+        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
+        EXPECT_THAT(ran.error, HasSubstr("smooth"));
+    }
+    expect_refusal("reconstruct " + volume() + to + " --smooth-filter gaussian", 2, "--smooth-filter");
+    expect_refusal("smooth " + path("nothing.vtp").string() + " " + to, 1, "nothing.vtp");
+    expect_refusal("smooth " + path("volume.raw").string() + " " + to, 1, "volume.raw");
+    expect_refusal("smooth " + path("nothing.vtp").string(), 2, "--output");
+    LabelTable labels;
+    for (InputLabel label : {5, 7}) labels.dense(label);
+    write_model(test::octahedron(), labels, path("good.vtp"), {});
+    expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.obj"), 1, "m.obj");
+    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 1, "--smooth-lambda");
+    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 1, "--scale");
+    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 1, "--min-quality");
 }
 
 TEST_F(Cli, info_prints_what_a_volume_is) {

@@ -7,6 +7,7 @@
 namespace regionmesh {
 namespace {
 
+using test::halved_octahedron;
 using test::shape;
 using test::ShapeFace;
 
@@ -21,19 +22,6 @@ ShapeResult shape_of(const Model& model, Vec3 position, const ShapeBounds& bound
     EdgeStar star;
     gather(model, VertexId{0}, VertexId{1}, star);
     return shape_verdict(model, star, position, bounds);
-}
-
-/// An octahedron cut in two by a membrane round vertex 6, in the plane z = 0: region 0 below, 1 above, 2 outside.
-Model halved_octahedron() {
-    const std::vector<Vec3> p{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 0, 0}};
-    std::vector<ShapeFace> faces;
-    constexpr std::array<std::uint32_t, 5> ring{1, 3, 0, 2, 1};
-    for (int n = 0; n < 4; ++n) {
-        faces.push_back({{ring[n], ring[n + 1], 5}, 1, 2});
-        faces.push_back({{ring[n + 1], ring[n], 4}, 0, 2});
-        faces.push_back({{ring[n], ring[n + 1], 6}, 0, 1});
-    }
-    return shape(p, faces);
 }
 
 /// A triangle 0 1 2 between regions 0 and 1, and on each side a roof over three more vertices: no two corners have a

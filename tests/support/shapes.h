@@ -47,6 +47,19 @@ inline Model octahedron() {
     return model;
 }
 
+/// An octahedron cut in two by a membrane round vertex 6, in the plane z = 0: region 0 below, 1 above, 2 outside.
+inline Model halved_octahedron() {
+    const std::vector<Vec3> p{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 0, 0}};
+    std::vector<ShapeFace> faces;
+    constexpr std::array<std::uint32_t, 5> ring{1, 3, 0, 2, 1};
+    for (int n = 0; n < 4; ++n) {
+        faces.push_back({{ring[n], ring[n + 1], 5}, 1, 2});
+        faces.push_back({{ring[n + 1], ring[n], 4}, 0, 2});
+        faces.push_back({{ring[n], ring[n + 1], 6}, 0, 1});
+    }
+    return shape(p, faces);
+}
+
 /// Vertices at the origin and one step along each axis.
 inline const std::vector<Vec3> kTetrahedronCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 inline std::vector<ShapeFace> tetrahedron_faces(Label inside = 0, Label outside = 1) {

@@ -1,0 +1,239 @@
+#include "regionmesh/smooth/step_back.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "regionmesh/base/triangle.h"
+#include "support/shapes.h"
+#include "support/surface_windows.h"
+
+namespace regionmesh {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+/// Base from (0, 0, 0) to (1, 0, 0), apex at this height above its middle.
+Corners triangle(double height) { return {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, height, 0}}; }
+double quality(const Corners& t) { return face_quality(t[0], t[1], t[2]); }
+
+/// Of a triangle with this quality, flatter than an equilateral one.
+double height_of_quality(double wanted) {
+    double low = 0, high = 0.8;
+    for (int n = 0; n < 60; ++n) {
+        const double middle = 0.5 * (low + high);
+        (quality(triangle(middle)) < wanted ? low : high) = middle;
+    }
+    return high;
+}
+
+/// Vertices of a model, where smoothing took them, and rounds of stepping back.
+struct Rounds {
+    Rounds(const Model& model, const std::vector<Vec3>& places, const SmoothOptions& with = {.threads = 1})
+        : window(test::window_of(model)), options(with), rounds(window, stand, options) {
+        for (Vec3 p : places) {
+            smooth.push_back(p);
+            now.push_back(p);
+        }
+        stand.level.grow(smooth.end());
+        stand.wanted.grow(smooth.end());
+        stand.smooth = &smooth;
+        stand.now = &now;
+    }
+    ShapeFault fault_of(std::uint32_t f) const {
+        Corners before, after;
+        for (int n = 0; n < 3; ++n) {
+            before[n] = window.origin[window.faces[f].vertices[n]];
+            after[n] = now[window.faces[f].vertices[n]];
+        }
+        return shape_fault(before, after, options.min_quality);
+    }
+
+    SurfaceWindow window;
+    SmoothOptions options;
+    SlidingArray<Vec3> smooth, now;
+    Stand stand;
+    StepBackRounds rounds;
+};
+
+/// The sheet, with vertex 0 gone this far along x; at 1 it meets its neighbour, beyond it has turned two faces over.
+Rounds pushed(double x, const SmoothOptions& options = {.threads = 1}) {
+    const Model model = test::edge_in_sheet();
+    std::vector<Vec3> places;
+    for (std::uint32_t v = 0; v < 10; ++v) places.push_back(model.position(VertexId{v}));
+    places[0] = {x, 0, 0};
+    return Rounds(model, places, options);
+}
+
+TEST(ShapeFault, a_face_that_turns_by_90_degrees_or_more_is_turned) {
+    const Corners flat = triangle(0.8);
+    const auto tilted = [&](double degrees) {
+        const double angle = degrees * std::acos(-1.0) / 180;
+        return Corners{flat[0], flat[1], Vec3{0.5, 0.8 * std::cos(angle), 0.8 * std::sin(angle)}};
+    };
+    EXPECT_EQ(shape_fault(flat, flat, 0.1), ShapeFault::kNone);
+    EXPECT_EQ(shape_fault(flat, tilted(89), 0.1), ShapeFault::kNone);
+    EXPECT_EQ(shape_fault(flat, tilted(91), 0.1), ShapeFault::kTurned);
+    EXPECT_EQ(shape_fault(flat, tilted(180), 0.1), ShapeFault::kTurned);
+    EXPECT_EQ(shape_fault(flat, {flat[0], flat[1], Vec3{0.5, 0, 0.8}}, 0.1), ShapeFault::kTurned) << "90 degrees";
+    EXPECT_EQ(shape_fault(flat, {flat[0], flat[1], flat[0]}, 0.1), ShapeFault::kTurned) << "no normal at all";
+}
+
+TEST(ShapeFault, a_face_that_falls_below_the_bound_is_a_fault) {
+    const double at_bound = height_of_quality(0.1);
+    EXPECT_EQ(shape_fault(triangle(0.8), triangle(at_bound * 1.01), 0.1), ShapeFault::kNone);
+    EXPECT_EQ(shape_fault(triangle(0.8), triangle(at_bound * 0.99), 0.1), ShapeFault::kQuality);
+    EXPECT_EQ(shape_fault(triangle(at_bound * 1.01), triangle(at_bound * 0.99), 0.1), ShapeFault::kQuality);
+}
+
+TEST(ShapeFault, a_face_that_was_bad_may_lose_up_to_half) {
+    const Corners bad = triangle(height_of_quality(0.05));
+    EXPECT_EQ(shape_fault(bad, bad, 0.1), ShapeFault::kNone);
+    EXPECT_EQ(shape_fault(bad, triangle(height_of_quality(0.09)), 0.1), ShapeFault::kNone) << "better, if not good";
+    EXPECT_EQ(shape_fault(bad, triangle(height_of_quality(0.026)), 0.1), ShapeFault::kNone);
+    EXPECT_EQ(shape_fault(bad, triangle(height_of_quality(0.024)), 0.1), ShapeFault::kQuality);
+}
+
+TEST(ShapeFault, without_a_bound_only_needles_are_faults) {
+    EXPECT_EQ(shape_fault(triangle(0.8), triangle(height_of_quality(0.001)), 0), ShapeFault::kNone);
+    EXPECT_EQ(shape_fault(triangle(0.8), triangle(1e-9), 0), ShapeFault::kQuality);
+    EXPECT_EQ(shape_fault(triangle(0.8), triangle(-0.8), 0), ShapeFault::kTurned);
+}
+
+TEST(ShapeFault, does_not_depend_on_scale) {
+    const double at_bound = height_of_quality(0.1);
+    for (double scale : {1e-6, 1e6})
+        for (double height : {0.99 * at_bound, 1.01 * at_bound, -0.5}) {
+            const Corners before = triangle(0.8), after = triangle(height);
+            Corners scaled_before, scaled_after;
+            for (int n = 0; n < 3; ++n) {
+                scaled_before[n] = scale * before[n];
+                scaled_after[n] = scale * after[n];
+            }
+            EXPECT_EQ(shape_fault(scaled_before, scaled_after, 0.1), shape_fault(before, after, 0.1));
+        }
+}
+
+TEST(SteppedBack, levels_go_from_the_smoothed_place_to_where_it_came_from) {
+    const Vec3 origin{1.0 / 3, 0.1, -7}, smooth{0.7, 1e-3, 2};
+    EXPECT_EQ(stepped_back(origin, smooth, 0), smooth);
+    EXPECT_EQ(stepped_back(origin, smooth, kFullyBack), origin);
+    EXPECT_EQ(stepped_back(origin, smooth, 200), origin);
+    double last = 0;
+    for (std::uint8_t level = 1; level <= kFullyBack; ++level) {
+        const double gone = length(stepped_back(origin, smooth, level) - smooth);
+        EXPECT_NEAR(gone, level / 8.0 * length(origin - smooth), 1e-12);
+        EXPECT_GT(gone, last);
+        last = gone;
+    }
+}
+
+TEST(Stand, puts_a_vertex_at_its_level) {
+    Rounds sheet = pushed(0.8);
+    sheet.stand.set_level(sheet.window, 0, 4);
+    EXPECT_EQ(sheet.stand.level[0], 4);
+    EXPECT_EQ(sheet.now[0], (Vec3{0.4, 0, 0}));
+    sheet.stand.set_level(sheet.window, 0, 11);
+    EXPECT_EQ(sheet.stand.level[0], kFullyBack);
+    EXPECT_EQ(sheet.now[0], (Vec3{0, 0, 0}));
+    EXPECT_EQ(sheet.smooth[0], (Vec3{0.8, 0, 0})) << "where smoothing took it is not forgotten";
+}
+
+TEST(StepBack, nothing_moves_where_all_is_sound) {
+    Rounds sheet = pushed(0.3);
+    sheet.rounds.run(0, 0, true);
+    EXPECT_EQ(sheet.rounds.faults().turned + sheet.rounds.faults().low_quality, 0u);
+    for (std::uint32_t v = 0; v < 10; ++v) EXPECT_EQ(sheet.stand.level[v], 0);
+}
+
+TEST(StepBack, the_first_round_asks_for_the_first_sound_level) {
+    Rounds sheet = pushed(1.8);
+    EXPECT_EQ(sheet.fault_of(0), ShapeFault::kTurned);
+    sheet.rounds.run(0, 0, true);
+    EXPECT_EQ(sheet.rounds.faults().turned, 2u);
+    EXPECT_EQ(sheet.rounds.faults().low_quality, 0u);
+    const std::uint8_t level = sheet.stand.level[0];
+    for (std::uint32_t f : {0u, 1u}) EXPECT_EQ(sheet.fault_of(f), ShapeFault::kNone);
+    for (std::uint32_t v : {1u, 2u, 3u}) EXPECT_EQ(sheet.stand.level[v], level) << "all corners of the faulty faces step back";
+    EXPECT_EQ(sheet.stand.level[5], 0);
+    ASSERT_GT(level, 1);
+    sheet.stand.set_level(sheet.window, 0, level - 1);
+    EXPECT_NE(sheet.fault_of(0), ShapeFault::kNone) << "one level less would not do";
+}
+
+TEST(StepBack, low_quality_is_counted_apart) {
+    Rounds sheet = pushed(0.95);
+    ASSERT_EQ(sheet.fault_of(0), ShapeFault::kQuality);
+    sheet.rounds.run(0, 0, true);
+    EXPECT_EQ(sheet.rounds.faults().turned, 0u);
+    EXPECT_EQ(sheet.rounds.faults().low_quality, 2u);
+    EXPECT_EQ(sheet.fault_of(0), ShapeFault::kNone);
+}
+
+TEST(StepBack, later_rounds_ask_for_two_more_and_count_nothing) {
+    Rounds sheet = pushed(1.8);
+    for (std::uint32_t v : {1u, 2u, 3u}) sheet.stand.level[v] = 5;
+    sheet.rounds.run(1, 0, true);
+    EXPECT_EQ(sheet.stand.level[0], 2);
+    EXPECT_EQ(sheet.stand.level[1], 7);
+    EXPECT_EQ(sheet.stand.level[5], 0);
+    sheet.rounds.run(2, 0, true);
+    EXPECT_EQ(sheet.stand.level[0], 4);
+    EXPECT_EQ(sheet.stand.level[1], kFullyBack);
+    EXPECT_EQ(sheet.rounds.faults().turned, 0u);
+}
+
+TEST(StepBack, a_vertex_follows_the_face_that_asks_for_most) {
+    // Vertex 0 is shared by a face that needs many levels and one that needs few.
+    const Model model = test::shape({{0, 0, 0}, {1, 0.5, 0}, {1, -0.5, 0}, {-1, -0.5, 0}, {-1, 0.5, 0}}, {{{0, 2, 1}}, {{0, 4, 3}}});
+    Rounds both(model, {{0, 0, 0}, {-4, 0.5, 0}, {-4, -0.5, 0}, {0.2, -0.5, 0}, {0.2, 0.5, 0}});
+    ASSERT_EQ(both.fault_of(0), ShapeFault::kTurned);
+    ASSERT_EQ(both.fault_of(1), ShapeFault::kTurned);
+    both.rounds.run(0, 0, true);
+    EXPECT_GT(both.stand.level[1], both.stand.level[3]);
+    EXPECT_EQ(both.stand.level[0], both.stand.level[1]);
+}
+
+TEST(StepBack, in_layers_gives_what_one_layer_does) {
+    // Two faces side by side, the second in a layer of its own with one new vertex; both turn over.
+    const std::vector<Vec3> from{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, to{{0, 0, 0}, {1, 0, 0}, {0, -0.3, 0}, {1, -1.5, 0}};
+    const WindowFace faces[2]{{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}};
+    std::vector<std::uint8_t> levels[2];
+    for (bool is_cut : {false, true}) {
+        SurfaceWindow window;
+        SlidingArray<Vec3> smooth, now;
+        for (std::uint32_t v = 0; v < 4; ++v) {
+            if (v == 3) {
+                window.faces.push_back(faces[0]);
+                if (is_cut) window.end_layer();
+            }
+            window.origin.push_back(from[v]);
+            window.sides.push_back(0);
+            smooth.push_back(to[v]);
+            now.push_back(to[v]);
+        }
+        window.faces.push_back(faces[1]);
+        window.end_layer();
+        Stand stand;
+        stand.level.grow(4);
+        stand.wanted.grow(4);
+        stand.smooth = &smooth;
+        stand.now = &now;
+        const SmoothOptions options{.threads = 1};
+        StepBackRounds rounds(window, stand, options);
+        // A round on layer n follows the round before on layer n + 1.
+        if (is_cut)
+            for (const auto& [round, layer] : {std::pair{0u, 0u}, {0u, 1u}, {1u, 0u}, {1u, 1u}, {2u, 0u}, {2u, 1u}}) rounds.run(round, layer, layer == 1);
+        else
+            for (std::uint32_t round = 0; round < 3; ++round) rounds.run(round, 0, true);
+        EXPECT_EQ(rounds.faults().turned, 2u);
+        for (std::uint32_t v = 0; v < 4; ++v) levels[is_cut].push_back(stand.level[v]);
+    }
+    EXPECT_EQ(levels[0], levels[1]);
+    EXPECT_GT(levels[0][3], 0);
+    EXPECT_GE(levels[0][1], levels[0][0]);
+}
+
+}  // namespace
+}  // namespace regionmesh
