@@ -63,6 +63,7 @@ struct CheckOptions {
     std::vector<Label> background = {};      // these labels have no faces with the exterior: not reported as regions
     std::optional<LabelOracle> oracle = {};  // compare with the labels
     bool crossing = true;                    // look for crossing faces
+    std::uint32_t threads = 0;               // at work; 0: one per core. The report is the same for any number
     std::function<std::string(Label)> label_text = {};  // for sentences; the dense number without it
     std::uint32_t listed = 1000;                        // at most so many findings a kind are listed; all are counted
 };

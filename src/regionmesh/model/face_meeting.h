@@ -26,6 +26,18 @@ inline bool boxes_overlap(const std::array<Vec3, 3>& p, const std::array<Vec3, 3
     return true;
 }
 
+/// Have the faces a vertex in common?
+inline bool share_vertex(const std::array<VertexId, 3>& v, const std::array<VertexId, 3>& w) {
+    bool share = false;  // no jumps: there is no telling
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) share |= v[i] == w[j];
+    return share;
+}
+
+/// A cheap proof that two triangles do not meet: a plane between them, square to the line through their middles or to
+/// the diagonal of a side of a cube. It leaves about one pair in a hundred whose boxes overlap.
+bool are_apart(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q);
+
 /// True when the faces meet outside shared vertices and edges, or share all three vertices. Exact. Requires that
 /// neither is degenerate.
 bool meet_outside_shared(const PlacedFace& f, const PlacedFace& g);
