@@ -1,10 +1,12 @@
 // What can be seen round one vertex at a time: edges, fans, Euler characteristics, and how boundaries hang together.
 #include <algorithm>
+#include <span>
 
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/union_find.h"
 #include "regionmesh/check/findings.h"
 #include "regionmesh/check/region_sums.h"
+#include "regionmesh/model/fan.h"
 #include "regionmesh/model/label_set.h"
 
 namespace regionmesh {
@@ -36,12 +38,6 @@ private:
         VertexId a, b;
         std::array<Label, 2> labels;
     };
-    /// A page as one of its regions sees it.
-    struct FanPage {
-        VertexId first, second;
-        std::uint32_t sheet;
-    };
-
     static std::uint32_t sheet(FaceId f, int side) { return 2 * index(f) + static_cast<std::uint32_t>(side); }
     bool is_background(Label label) const {
         return std::find(options_.background.begin(), options_.background.end(), label) != options_.background.end();
@@ -87,10 +83,10 @@ private:
             ends_.push_back(fans_.size());
         }
         std::size_t start = 0;
-        int side = 0;
         for (int n = 0; n < labels_.size(); ++n) {
-            if (is_interface) start = 0, side = n;
-            regions_[labels_.begin()[n]].euler += 1 - join_fan(v, start, ends_[n], side);
+            if (is_interface) start = 0;
+            const auto fan = std::span(fans_).subspan(start, ends_[n] - start);
+            regions_[labels_.begin()[n]].euler += 1 - join_fan(v, fan, is_interface && n == 1);
             start = ends_[n];
         }
         return true;
@@ -105,28 +101,17 @@ private:
             else if (page.labels[1] == label)
                 fans_.push_back({page.b, page.a, sheet(page.face, 1)});
         }
-        const std::size_t end = fans_.size();
-        for (std::size_t n = start; n + 1 < end; ++n) {
-            std::size_t next = end;
-            for (std::size_t m = n + 1; m < end; ++m) {
-                if (fans_[m].first != fans_[n].second) continue;
-                if (next != end) return false;
-                next = m;
-            }
-            if (next == end || fans_[n].second == fans_[start].first) return false;
-            std::swap(fans_[n + 1], fans_[next]);
-        }
-        return end - start >= 3 && fans_[end - 1].second == fans_[start].first;
+        const std::span<FanPage> fan = std::span(fans_).subspan(start);
+        return fan.size() >= 3 && order_fan(fan) && is_closed(fan);
     }
 
     /// Joins the sheets of a closed fan across the edges from v to later vertices, and returns how many those are.
-    std::int64_t join_fan(VertexId v, std::size_t start, std::size_t end, int side) {
+    std::int64_t join_fan(VertexId v, std::span<const FanPage> fan, std::uint32_t other_side) {
         std::int64_t edges = 0;
-        for (std::size_t n = start; n < end; ++n) {
-            if (fans_[n].second < v) continue;
+        for (std::size_t n = 0; n < fan.size(); ++n) {
+            if (fan[n].second < v) continue;
             ++edges;
-            const FanPage& next = fans_[n + 1 < end ? n + 1 : start];
-            sheets_.join(fans_[n].sheet ^ static_cast<std::uint32_t>(side), next.sheet ^ static_cast<std::uint32_t>(side));
+            sheets_.join(fan[n].name ^ other_side, fan[n + 1 < fan.size() ? n + 1 : 0].name ^ other_side);
         }
         return edges;
     }

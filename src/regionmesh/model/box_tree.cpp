@@ -1,6 +1,7 @@
 #include "regionmesh/model/box_tree.h"
 
 #include <cmath>
+#include <memory>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -9,16 +10,16 @@
 namespace regionmesh {
 namespace {
 
-/// The bits set in each number below 256: which, and how many.
+/// The bits set in each number below 256: which, in the upper half of eight numbers, and how many.
 struct BitTable {
-    std::uint32_t bits[256][8];
+    std::uint64_t bits[256][8];
     std::uint8_t count[256];
 };
 constexpr BitTable make_bit_table() {
     BitTable table{};
     for (std::uint32_t mask = 0; mask < 256; ++mask)
-        for (std::uint32_t bit = 0; bit < 8; ++bit)
-            if (mask >> bit & 1) table.bits[mask][table.count[mask]++] = bit;
+        for (std::uint64_t bit = 0; bit < 8; ++bit)
+            if (mask >> bit & 1) table.bits[mask][table.count[mask]++] = bit << 32;
     return table;
 }
 constexpr BitTable kBits = make_bit_table();
@@ -129,21 +130,23 @@ public:
     /// Forgets all, and makes room for this many.
     void clear(std::size_t room) {
         size_ = 0;
-        if (pairs_.size() < room + kFan) pairs_.resize(room + kFan);
+        if (room + kFan <= room_) return;
+        room_ = 2 * (room + kFan);
+        pairs_ = std::make_unique_for_overwrite<Pair[]>(room_);
     }
     /// One pair for each bit of the mask.
     void add(std::uint32_t m, std::uint32_t first_n, unsigned mask) {
-        Pair* end = pairs_.data() + size_;
-        for (std::uint32_t k = 0; k < kFan; ++k) end[k] = {m, first_n + kBits.bits[mask][k]};
+        const Pair first(m, first_n);
+        for (std::uint32_t k = 0; k < kFan; ++k) pairs_[size_ + k] = Pair(first.both_ + kBits.bits[mask][k]);
         size_ += kBits.count[mask];
     }
     std::size_t size() const { return size_; }
-    const Pair* begin() const { return pairs_.data(); }
-    const Pair* end() const { return pairs_.data() + size_; }
+    const Pair* begin() const { return pairs_.get(); }
+    const Pair* end() const { return pairs_.get() + size_; }
 
 private:
-    std::vector<Pair> pairs_;
-    std::size_t size_ = 0;
+    std::unique_ptr<Pair[]> pairs_;
+    std::size_t room_ = 0, size_ = 0;
 };
 
 /// What one level of a search for pairs hands to the next.
@@ -212,13 +215,15 @@ void BoxTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& se
 void BoxTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     auto& [groups, lanes, pairs] = search;
     lanes.clear(groups.size() * kFan);
-    for (const auto [a, b] : groups) {
+    for (const Pair pair : groups) {
+        const std::uint32_t a = pair.m(), b = pair.n();
         const bool has_hull = level < root().level;
         const unsigned mask = has_hull ? levels_[level][a].meeting(levels_[level + 1][b / kFan][b % kFan]) : 0xFFu;
         lanes.add(b, a * kFan, mask);
     }
     pairs.clear(lanes.size() * kFan);
-    for (const auto [b, m] : lanes) {
+    for (const Pair pair : lanes) {
+        const std::uint32_t b = pair.m(), m = pair.n();
         const unsigned lane = m % kFan;
         // A pair once; a place makes no pair with itself, but a group does.
         const unsigned later = m / kFan == b ? (level == 0 ? 0xFEu : 0xFFu) << lane : 0xFFu;

@@ -56,9 +56,18 @@ public:
     template <class Visit>
     void search(const Box& box, Visit&& visit) const;
 
-    /// Two places m < n.
-    struct Pair {
-        std::uint32_t m, n;
+    /// Two places, m < n, in one number: several are written at once.
+    class Pair {
+    public:
+        Pair() = default;
+        Pair(std::uint32_t m, std::uint32_t n) : both_(std::uint64_t{n} << 32 | m) {}
+        std::uint32_t m() const { return static_cast<std::uint32_t>(both_); }
+        std::uint32_t n() const { return static_cast<std::uint32_t>(both_ >> 32); }
+
+    private:
+        friend class BoxTree;
+        explicit Pair(std::uint64_t both) : both_(both) {}
+        std::uint64_t both_;
     };
     /// All pairs of places whose rounded boxes meet come in so many parts, by m.
     std::uint32_t part_count() const { return static_cast<std::uint32_t>(levels_[part_level()].size()); }

@@ -37,8 +37,8 @@ Pairs cross_apart(const Model& model, const SortedFaceTree& tree, std::uint32_t 
     tree.boxes().visit_pairs(part, [&](std::span<const BoxTree::Pair> pairs) {
         strangers.resize(std::max(strangers.size(), pairs.size()));
         std::size_t count = 0;
-        for (const auto [m, n] : pairs) {
-            const FaceId f = tree.face(m), g = tree.face(n);
+        for (const BoxTree::Pair pair : pairs) {
+            const FaceId f = tree.face(pair.m()), g = tree.face(pair.n());
             strangers[count] = {f, g};
             count += !share_vertex(model[f].vertices, model[g].vertices);
         }

@@ -16,125 +16,170 @@ constexpr double kDoubt = 1e-12;
 /// Sizes between which no product of four overflows, or loses more than kDoubt where numbers get too small.
 constexpr double kSmallest = 1e-70, kLargest = 1e70;
 
-double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+bool is_usual(double size) { return size > kSmallest && size < kLargest; }
 
-bool is_usual(Vec3 a) { return size(a) > kSmallest && size(a) < kLargest; }
+double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 
 }  // namespace
 
 void StarCrossing::find(const Model& model, VertexId v, std::span<const Corner> corners, std::vector<FacePair>& found) {
-    if (corners.size() < 2) return;
-    if (gather(model, v, corners)) {
-        bool all_proved = true;
-        for (int n = 0; n < labels_.size(); ++n) {
-            const Label label = labels_.begin()[n];
-            gather_fan(label);
-            if (!is_fan_simple()) {
-                all_proved = false;
-                continue;
-            }
-            if (fan_.size() == pages_.size()) return;
-            for (Page& page : pages_)
-                if (page.labels[0] == label || page.labels[1] == label) page.proved |= 1u << n;
-        }
-        // With three labels any two faces have one in common.
-        if (all_proved && labels_.size() < 4) return;
+    gather(model, corners);
+    if (is_interface() && is_fan_simple(model, v, pages_[0].labels[0])) return;
+    bool all_proved = true;
+    for (int n = 0; n < labels_.size(); ++n) {
+        const Label label = labels_.begin()[n];
+        const bool proved = is_fan_simple(model, v, label);
+        all_proved &= proved;
+        if (!proved) continue;
+        for (Page& page : pages_)
+            if (page.labels[0] == label || page.labels[1] == label) page.proved |= 1u << n;
     }
-    test_pairs(model, v, found);
+    // Of three labels any two faces have one in common.
+    if (!all_proved || labels_.size() > 3) test_pairs(model, v, found);
 }
 
-/// False when nothing can be proved here.
-bool StarCrossing::gather(const Model& model, VertexId v, std::span<const Corner> corners) {
+void StarCrossing::gather(const Model& model, std::span<const Corner> corners) {
     pages_.clear();
     labels_ = LabelSet();
-    const Vec3 at = model.position(v);
-    bool usual = true;
     for (Corner corner : corners) {
-        const FaceId f{corner >> 2};
-        const Face& face = model[f];
-        const VertexId a = face.vertices[((corner & 3) + 1) % 3], b = face.vertices[((corner & 3) + 2) % 3];
-        pages_.push_back({f, a, b, model.position(a) - at, model.position(b) - at, face.labels, 0});
-        usual = usual && is_usual(pages_.back().to_a) && is_usual(pages_.back().to_b);
+        const Face& face = model[FaceId{corner >> 2}];
+        const std::uint32_t place = corner & 3;
+        pages_.push_back(
+            {FaceId{corner >> 2}, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels, 0});
         for (Label label : face.labels) labels_.add(label);
     }
-    return usual;
 }
 
-void StarCrossing::gather_fan(Label label) {
+bool StarCrossing::is_interface() const {
+    return std::all_of(pages_.begin(), pages_.end(), [&](const Page& page) { return page.labels == pages_[0].labels; });
+}
+
+/// Do the faces of the label go round v, or a part of the way, side by side?
+bool StarCrossing::is_fan_simple(const Model& model, VertexId v, Label label) {
     fan_.clear();
     for (const Page& page : pages_) {
         if (page.labels[0] == label)
-            fan_.push_back({page.a, page.b, page.to_a, page.to_b});
+            fan_.push_back({page.a, page.b, 0});
         else if (page.labels[1] == label)
-            fan_.push_back({page.b, page.a, page.to_b, page.to_a});
+            fan_.push_back({page.b, page.a, 0});
     }
+    return fan_.size() < 2 || (order_fan(fan_) && gather_spokes(model, v) && goes_round_once());
 }
 
-bool StarCrossing::is_fan_simple() { return fan_.size() < 2 || (order_fan() && goes_round_once()); }
-
-/// Brings the fan in order, each page beginning where the one before ends. False when that cannot be.
-bool StarCrossing::order_fan() {
-    const auto is_first = [&](const FanPage& page) {
-        return std::none_of(fan_.begin(), fan_.end(), [&](const FanPage& p) { return p.second == page.first; });
+/// False where sizes are so unusual that nothing can be proved.
+bool StarCrossing::gather_spokes(const Model& model, VertexId v) {
+    const Vec3 at = model.position(v);
+    bool usual = true;
+    spokes_.clear();
+    const auto add = [&](VertexId w) {
+        const Vec3 to = model.position(w) - at;
+        spokes_.push_back({to, size(to)});
+        usual = usual && is_usual(spokes_.back().size);
     };
-    for (bool again : {true, false}) {
-        std::size_t n = 1;
-        while (n < fan_.size()) {
-            const auto next = std::find_if(fan_.begin() + static_cast<std::ptrdiff_t>(n), fan_.end(),
-                                           [&](const FanPage& p) { return p.first == fan_[n - 1].second; });
-            if (next == fan_.end()) break;
-            std::swap(fan_[n++], *next);
-        }
-        if (n == fan_.size()) return true;
-        // An open fan has a first page.
-        const auto start = std::find_if(fan_.begin(), fan_.end(), is_first);
-        if (!again || start == fan_.end()) return false;
-        std::swap(fan_[0], *start);
-    }
-    return false;
+    for (const FanPage& page : fan_) add(page.first);
+    add(fan_.back().second);
+    return usual;
 }
 
-/// Seen along the mean normal, do all pages look up, and does none but the first (and the last, where the fan is closed)
-/// come to the ray with which the first begins? Then the pages lie side by side.
-bool StarCrossing::goes_round_once() const {
+/// Seen from above, do all pages look up, and does none but the first (and the last, where the fan is closed) come to
+/// the ray with which the first begins? Then they lie side by side.
+bool StarCrossing::goes_round_once() {
     const std::size_t count = fan_.size();
+    normals_.clear();
+    for (std::size_t n = 0; n < count; ++n) normals_.push_back(cross(spokes_[n].to, spokes_[n + 1].to));
     Vec3 up;
-    for (const FanPage& page : fan_) up += cross(page.to_first, page.to_second);
-    const double up_size = size(up);
-    for (const FanPage& page : fan_)
-        if (!(dot(up, cross(page.to_first, page.to_second)) >
-              kDoubt * up_size * size(page.to_first) * size(page.to_second)))
-            return false;
-    const Vec3 ray = fan_[0].to_first, left = cross(up, ray);
-    const double doubt = kDoubt * up_size * size(ray);
-    const bool is_closed = fan_[count - 1].second == fan_[0].first;
-    for (std::size_t n = 1; n < count - is_closed; ++n) {
-        const FanPage& page = fan_[n];
+    if (!find_up(up)) return false;
+    const Vec3 left = cross(up, spokes_[0].to);
+    const double doubt = kDoubt * size(up) * spokes_[0].size;
+    const std::size_t end = is_closed(fan_) ? count - 1 : count;
+    for (std::size_t n = 1; n < end; ++n) {
         // It begins left of the ray, or ends right of it: it turns by less than half a round.
-        if (!(dot(left, page.to_first) > doubt * size(page.to_first)) &&
-            !(dot(left, page.to_second) < -doubt * size(page.to_second)))
-            return false;
+        const Spoke &first = spokes_[n], &second = spokes_[n + 1];
+        if (!(dot(left, first.to) > doubt * first.size) && !(dot(left, second.to) < -doubt * second.size)) return false;
     }
     return true;
 }
 
-void StarCrossing::test_pairs(const Model& model, VertexId v, std::vector<FacePair>& found) const {
-    const auto placed = [&](const Page& page) { return PlacedFace{model[page.face].vertices, model.corners(page.face)}; };
-    const auto has_area = [&](const Page& page) {
-        const auto p = model.corners(page.face);
-        return !is_degenerate({p[0], p[1], p[2]});
+/// A direction to which all pages look: the mean of their normals, or one drawn again and again to the page that looks
+/// away most (Rosenblatt 1958). Any will do that passes the test.
+bool StarCrossing::find_up(Vec3& up) {
+    up = Vec3{};
+    for (Vec3 normal : normals_) up += normal;
+    if (all_look(up)) return true;
+    weights_.clear();
+    up = Vec3{};
+    for (Vec3 normal : normals_) {
+        weights_.push_back(1 / length(normal));
+        up += weights_.back() * normal;
+    }
+    constexpr int kAttempts = 4;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        double least = HUGE_VAL;
+        std::size_t worst = 0;
+        for (std::size_t n = 0; n < normals_.size(); ++n) {
+            const double look = weights_[n] * dot(up, normals_[n]);
+            worst = look < least ? n : worst;
+            least = std::min(look, least);
+        }
+        if (least > 0) return all_look(up);
+        up += (0.1 - 1.5 * least) * weights_[worst] * normals_[worst];
+    }
+    return false;
+}
+
+bool StarCrossing::all_look(Vec3 up) const {
+    const double doubt = kDoubt * size(up);
+    for (std::size_t n = 0; n < normals_.size(); ++n)
+        if (!(dot(up, normals_[n]) > doubt * spokes_[n].size * spokes_[n + 1].size)) return false;
+    return true;
+}
+
+int StarCrossing::Plane::side(const Spoke& spoke) const {
+    const double ahead = dot(normal, spoke.to);
+    return ahead > doubt * spoke.size ? 1 : ahead < -doubt * spoke.size ? -1 : 0;
+}
+
+/// Looks at the pairs that nothing has been proved of.
+void StarCrossing::test_pairs(const Model& model, VertexId v, std::vector<FacePair>& found) {
+    gather_planes(model, v);
+    const auto cross = [&](FaceId f, FaceId g) {
+        const auto p = model.corners(f), q = model.corners(g);
+        return !is_degenerate({p[0], p[1], p[2]}) && !is_degenerate({q[0], q[1], q[2]}) &&
+               meet_outside_shared({model[f].vertices, p}, {model[g].vertices, q});
     };
     for (std::size_t i = 0; i < pages_.size(); ++i) {
         const Page& f = pages_[i];
         for (std::size_t j = i + 1; j < pages_.size(); ++j) {
             const Page& g = pages_[j];
-            if ((f.proved & g.proved) != 0) continue;
+            if ((f.proved & g.proved) != 0 || are_pages_apart(i, j)) continue;
             const bool share_a = f.a == g.a || f.a == g.b, share_b = f.b == g.a || f.b == g.b;
-            if ((share_a && f.a < v) || (share_b && f.b < v)) continue;
-            if (has_area(f) && has_area(g) && meet_outside_shared(placed(f), placed(g)))
+            const bool is_earlier = (share_a && f.a < v) || (share_b && f.b < v);  // another vertex's pair
+            if (!is_earlier && cross(f.face, g.face))
                 found.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
         }
     }
+}
+
+void StarCrossing::gather_planes(const Model& model, VertexId v) {
+    const Vec3 at = model.position(v);
+    planes_.clear();
+    for (const Page& page : pages_) {
+        const Vec3 a = model.position(page.a) - at, b = model.position(page.b) - at;
+        const Spoke to_a{a, size(a)}, to_b{b, size(b)};
+        const bool usual = is_usual(to_a.size) && is_usual(to_b.size);
+        planes_.push_back({cross(a, b), to_a, to_b, usual ? kDoubt * to_a.size * to_b.size : HUGE_VAL});
+    }
+}
+
+/// One page lies on one side of the other's plane, but for the vertex or the edge that they share.
+bool StarCrossing::are_pages_apart(std::size_t i, std::size_t j) const {
+    const auto is_off = [&](std::size_t m, std::size_t n) {
+        const Page &f = pages_[m], &g = pages_[n];
+        const bool has_a = g.a == f.a || g.a == f.b, has_b = g.b == f.a || g.b == f.b;
+        const int a = has_a ? 0 : planes_[m].side(planes_[n].to_a), b = has_b ? 0 : planes_[m].side(planes_[n].to_b);
+        return has_a ? !has_b && b != 0 : has_b ? a != 0 : a != 0 && a == b;
+    };
+    return is_off(i, j) || is_off(j, i);
 }
 
 }  // namespace regionmesh

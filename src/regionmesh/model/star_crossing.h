@@ -1,10 +1,12 @@
 // Do faces round one vertex meet outside what they share?
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "regionmesh/base/ids.h"
+#include "regionmesh/model/fan.h"
 #include "regionmesh/model/label_set.h"
 #include "regionmesh/model/model.h"
 
@@ -30,26 +32,42 @@ private:
     struct Page {
         FaceId face;
         VertexId a, b;
-        Vec3 to_a, to_b;
         std::array<Label, 2> labels;
-        std::uint32_t proved;  // bit n: the fan of its label labels_[n] is free of crossings
+        std::uint32_t proved;  // bit n: it lies in the fan of label n of labels_, which is free of crossings
     };
-    /// A page as a label sees it: from `first` to `second`.
-    struct FanPage {
-        VertexId first, second;
-        Vec3 to_first, to_second;
+    /// The way from the vertex to a neighbour.
+    struct Spoke {
+        Vec3 to;
+        double size;
+    };
+    /// The plane of a page, and the page in it.
+    struct Plane {
+        Vec3 normal;
+        Spoke to_a, to_b;
+        double doubt;
+
+        /// The side on which a spoke lies; 0 where rounding may tell.
+        int side(const Spoke& spoke) const;
     };
 
-    bool gather(const Model& model, VertexId v, std::span<const Corner> corners);
-    void gather_fan(Label label);
-    bool is_fan_simple();
-    bool order_fan();
-    bool goes_round_once() const;
-    void test_pairs(const Model& model, VertexId v, std::vector<FacePair>& found) const;
+    void gather(const Model& model, std::span<const Corner> corners);
+    bool is_interface() const;
+    bool is_fan_simple(const Model& model, VertexId v, Label label);
+    bool gather_spokes(const Model& model, VertexId v);
+    bool goes_round_once();
+    bool find_up(Vec3& up);
+    bool all_look(Vec3 up) const;
+    void test_pairs(const Model& model, VertexId v, std::vector<FacePair>& found);
+    void gather_planes(const Model& model, VertexId v);
+    bool are_pages_apart(std::size_t i, std::size_t j) const;
 
     std::vector<Page> pages_;
-    std::vector<FanPage> fan_;
     LabelSet labels_;
+    std::vector<FanPage> fan_;
+    std::vector<Spoke> spokes_;  // where each page of the fan begins, and where the last one ends
+    std::vector<Vec3> normals_;
+    std::vector<double> weights_;
+    std::vector<Plane> planes_;
 };
 
 }  // namespace regionmesh
