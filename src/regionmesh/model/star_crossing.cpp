@@ -14,7 +14,7 @@ namespace {
 constexpr double kDoubt = 1e-12;
 
 /// Sizes between which no product of four overflows, or loses more than kDoubt where numbers get too small.
-constexpr double kSmallest = 1e-70, kLargest = 1e70;
+constexpr double kSmallest = 1e-60, kLargest = 1e60;
 
 bool is_usual(double size) { return size > kSmallest && size < kLargest; }
 
@@ -23,9 +23,10 @@ double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 }  // namespace
 
 void StarCrossing::find(const Model& model, VertexId v, std::span<const Corner> corners, std::vector<FacePair>& found) {
+    if (corners.size() < 2) return;
     gather(model, corners);
     if (is_interface() && is_fan_simple(model, v, pages_[0].labels[0])) return;
-    bool all_proved = true;
+    bool all_proved = !is_odd_;
     for (int n = 0; n < labels_.size(); ++n) {
         const Label label = labels_.begin()[n];
         const bool proved = is_fan_simple(model, v, label);
@@ -34,19 +35,21 @@ void StarCrossing::find(const Model& model, VertexId v, std::span<const Corner> 
         for (Page& page : pages_)
             if (page.labels[0] == label || page.labels[1] == label) page.proved |= 1u << n;
     }
-    // Of three labels any two faces have one in common.
+    // Of three labels any two faces have one in common, if each has two.
     if (!all_proved || labels_.size() > 3) test_pairs(model, v, found);
 }
 
 void StarCrossing::gather(const Model& model, std::span<const Corner> corners) {
     pages_.clear();
     labels_ = LabelSet();
+    is_odd_ = false;
     for (Corner corner : corners) {
         const Face& face = model[FaceId{corner >> 2}];
         const std::uint32_t place = corner & 3;
         pages_.push_back(
             {FaceId{corner >> 2}, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels, 0});
         for (Label label : face.labels) labels_.add(label);
+        is_odd_ |= face.labels[0] == face.labels[1];
     }
 }
 
@@ -165,9 +168,10 @@ void StarCrossing::gather_planes(const Model& model, VertexId v) {
     planes_.clear();
     for (const Page& page : pages_) {
         const Vec3 a = model.position(page.a) - at, b = model.position(page.b) - at;
-        const Spoke to_a{a, size(a)}, to_b{b, size(b)};
-        const bool usual = is_usual(to_a.size) && is_usual(to_b.size);
-        planes_.push_back({cross(a, b), to_a, to_b, usual ? kDoubt * to_a.size * to_b.size : HUGE_VAL});
+        // What is of unusual size is on no side of anything.
+        const bool usual = is_usual(size(a)) && is_usual(size(b));
+        const Spoke to_a{a, usual ? size(a) : HUGE_VAL}, to_b{b, usual ? size(b) : HUGE_VAL};
+        planes_.push_back({cross(a, b), to_a, to_b, kDoubt * to_a.size * to_b.size});
     }
 }
 

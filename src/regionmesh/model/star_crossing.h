@@ -63,6 +63,7 @@ private:
 
     std::vector<Page> pages_;
     LabelSet labels_;
+    bool is_odd_ = false;  // a page has one label on both sides
     std::vector<FanPage> fan_;
     std::vector<Spoke> spokes_;  // where each page of the fan begins, and where the last one ends
     std::vector<Vec3> normals_;
