@@ -39,7 +39,7 @@ struct Box {
         low = min(low, p);
         high = max(high, p);
     }
-    void add(const Box& other) {
+    void join(const Box& other) {
         low = min(low, other.low);
         high = max(high, other.high);
     }

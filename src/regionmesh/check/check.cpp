@@ -61,12 +61,10 @@ void check_against_labels(const CheckOptions& options, CheckReport& report, Find
     for (Label label = 0; label < euler.size(); ++label) {
         if (is_background(options, label)) continue;
         if (!options.boundary_is_open && euler[label] != oracle.euler[label])
-            findings.add(ViolationKind::kEuler, {}, {},
-                         [&] {
-                             return region_name(options, label) + ": Euler characteristic " +
-                                    std::to_string(euler[label]) + ", its labels say " +
-                                    std::to_string(oracle.euler[label]);
-                         });
+            findings.add(ViolationKind::kEuler, {}, {}, [&] {
+                return region_name(options, label) + ": Euler characteristic " + std::to_string(euler[label]) +
+                       ", its labels say " + std::to_string(oracle.euler[label]);
+            });
     }
     const auto compare = [&](ViolationKind kind, std::uint64_t found, std::uint64_t expected, const char* what) {
         if (found != expected)

@@ -9,6 +9,7 @@
 #include "regionmesh/check/quality_sum.h"
 #include "regionmesh/check/region_sums.h"
 #include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/model/extent.h"
 
 namespace regionmesh {
 namespace {
@@ -38,21 +39,7 @@ struct FaceChunk {
     std::vector<std::uint64_t> pairs;
 };
 
-/// Volumes are measured from the middle of the model, where rounding is least.
-Vec3 middle_of(const Model& model, std::uint32_t threads) {
-    Box all;
-    const auto find = [&](std::uint32_t first, std::uint32_t end) {
-        Box box;
-        for (std::uint32_t v = first; v < end; ++v)
-            if (model.is_alive(VertexId{v})) box.add(model.position(VertexId{v}));
-        return box;
-    };
-    for_chunks(model.vertex_end(), kCheckChunk, threads, find, [&](const Box& box) { all.add(box); });
-    return 0.5 * (all.low + all.high);
-}
-
-FaceChunk look_at_faces(const Model& model, Vec3 origin, std::uint32_t listed, std::uint32_t first,
-                        std::uint32_t end) {
+FaceChunk look_at_faces(const Model& model, Vec3 origin, std::uint32_t listed, std::uint32_t first, std::uint32_t end) {
     FaceChunk chunk{.findings = Findings(listed), .quality = {}, .regions = {}, .pairs = {}};
     RegionSums regions;
     PairList pairs;
@@ -86,7 +73,9 @@ FaceChunk look_at_faces(const Model& model, Vec3 origin, std::uint32_t listed, s
 
 void check_faces(const Model& model, const CheckOptions& options, std::vector<RegionReport>& regions,
                  CheckReport& report, Findings& findings) {
-    const Vec3 origin = middle_of(model, options.threads);
+    // Volumes are measured from the middle, where rounding is least.
+    const Box extent = extent_of(model, options.threads);
+    const Vec3 origin = 0.5 * (extent.low + extent.high);
     QualitySum quality;
     std::unordered_set<std::uint64_t> pairs;
     for_chunks(

@@ -75,7 +75,7 @@ private:
             }
             return own;
         };
-        for_face_chunks(find, [&](const Box& own) { box.add(own); });
+        for_face_chunks(find, [&](const Box& own) { box.join(own); });
         reach_ = 2 * length(box.high - box.low);
     }
 
@@ -83,8 +83,7 @@ private:
     void gather_parts() {
         const auto add = [&](Part& part, VertexId v, bool touches_box) {
             part.touches_box |= touches_box;
-            if (part.farthest == kNoVertex ||
-                dot(kRay, model_.position(v)) > dot(kRay, model_.position(part.farthest)))
+            if (part.farthest == kNoVertex || dot(kRay, model_.position(v)) > dot(kRay, model_.position(part.farthest)))
                 part.farthest = v;
         };
         const auto find = [&](std::uint32_t first, std::uint32_t end) {

@@ -71,8 +71,8 @@ private:
         }
     }
 
-    /// Nearly all vertices: the faces of each region go round v once, from one neighbour to the next. So all is well with
-    /// its edges, too. False where it is not so: then nothing has been done.
+    /// Nearly all vertices: the faces of each region go round v once, from one neighbour to the next. So all is well
+    /// with its edges, too. False where it is not so: then nothing has been done.
     bool look_at_closed_fans(VertexId v, bool has_exterior) {
         const bool is_interface = labels_.size() == 2 && !has_exterior;  // both regions have the same faces
         fans_.clear();
@@ -224,8 +224,8 @@ private:
     RegionSums regions_;
     std::uint64_t quadruple_points_inside_ = 0;
     std::vector<Page> pages_;
-    LabelSet labels_;             // of the regions among them
-    std::vector<FanPage> fans_;   // region after region
+    LabelSet labels_;            // of the regions among them
+    std::vector<FanPage> fans_;  // region after region
     std::vector<std::size_t> ends_;
     std::vector<VertexId> neighbours_;
     std::vector<std::uint32_t> fan_, todo_;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "regionmesh/base/ids.h"
+#include "regionmesh/base/label.h"
 #include "regionmesh/base/vec3.h"
 
 namespace regionmesh {
@@ -13,6 +14,12 @@ namespace regionmesh {
 struct PlacedFace {
     std::array<VertexId, 3> vertices;
     std::array<Vec3, 3> at;
+};
+
+/// One that has labels, too.
+struct LabelledFace {
+    PlacedFace placed;
+    std::array<Label, 2> labels;  // the normal points from the first to the second
 };
 
 /// Do the boxes round two triangles overlap, touching included?

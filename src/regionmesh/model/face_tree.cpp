@@ -1,15 +1,20 @@
 #include "regionmesh/model/face_tree.h"
 
+#include "regionmesh/model/extent.h"
+
 namespace regionmesh {
 
-void FaceTree::build(const Model& model) {
+FaceTree::FaceTree(std::span<const Box> boxes) {
     Box extent;
-    for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
-        if (model.is_alive(VertexId{v})) extent.add(model.position(VertexId{v}));
-    boxes_.build(model.face_end(), extent, 1, [&](std::uint32_t n) {
+    for (const Box& box : boxes) extent.join(box);
+    boxes_.build(static_cast<std::uint32_t>(boxes.size()), extent, 1, [&](std::uint32_t f) { return boxes[f]; });
+}
+
+void FaceTree::build(const Model& model) {
+    boxes_.build(model.face_end(), extent_of(model, 1), 1, [&](std::uint32_t f) {
         Box box;
-        if (!model.is_alive(FaceId{n})) return box;
-        for (Vec3 p : model.corners(FaceId{n})) box.add(p);
+        if (!model.is_alive(FaceId{f})) return box;
+        for (Vec3 p : model.corners(FaceId{f})) box.add(p);
         return box;
     });
 }

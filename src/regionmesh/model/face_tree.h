@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "regionmesh/base/vec3.h"
-#include "regionmesh/model/box_tree.h"
+#include "regionmesh/model/grid_tree.h"
 #include "regionmesh/model/model.h"
 
 namespace regionmesh {
@@ -12,11 +13,13 @@ namespace regionmesh {
 /// A tree of boxes over the faces in order of id, which should be a spatial order (Model::sort_spatially).
 class FaceTree {
 public:
-    static constexpr std::uint32_t kFan = BoxTree::kFan;
-    using GridBox = BoxTree::GridBox;
-    using Boxes = BoxTree::Boxes;
+    static constexpr std::uint32_t kFan = GridTree::kFan;
+    using GridBox = GridTree::GridBox;
+    using Boxes = GridTree::Boxes;
 
     explicit FaceTree(const Model& model) { build(model); }
+    /// Over the boxes given, for faces numbered as they are.
+    explicit FaceTree(std::span<const Box> boxes);
 
     /// Begins again with the faces that are alive now; the old boxes are let go first.
     void build(const Model& model);
@@ -39,7 +42,7 @@ public:
     std::size_t bytes() const { return boxes_.bytes(); }
 
 private:
-    BoxTree boxes_;
+    GridTree boxes_;
 };
 
 }  // namespace regionmesh

@@ -18,8 +18,8 @@ struct FanPage {
 
 inline bool is_closed(std::span<const FanPage> fan) { return fan.back().second == fan.front().first; }
 
-/// An open fan whose first n pages are in order, and do not go on, begins earlier: with a page that ends where it begins
-/// now.
+/// An open fan whose first n pages are in order, and do not go on, begins earlier: with a page that ends where it
+/// begins now.
 inline bool extend_back(std::span<FanPage> fan, std::size_t n) {
     for (std::size_t m = n; m < fan.size(); ++m) {
         if (fan[m].second != fan[0].first) continue;

@@ -9,8 +9,8 @@
 namespace regionmesh {
 namespace {
 
-/// A product of three vectors a . (b x c) whose value is more than this share of the product of their sizes has the sign
-/// computed: its rounding error is below 2e-15 of it.
+/// A product of three vectors a . (b x c) whose value is more than this share of the product of their sizes has the
+/// sign computed: its rounding error is below 2e-15 of it.
 constexpr double kDoubt = 1e-12;
 
 /// Sizes between which no product of four overflows, or loses more than kDoubt where numbers get too small.
@@ -22,65 +22,68 @@ double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 
 }  // namespace
 
-void StarCrossing::find(const Model& model, VertexId v, std::span<const Corner> corners, std::vector<FacePair>& found) {
-    if (corners.size() < 2) return;
-    gather(model, corners);
-    if (is_interface() && is_fan_simple(model, v, pages_[0].labels[0])) return;
-    bool all_proved = !is_odd_;
+void StarCrossing::find(VertexId v, Vec3 at, std::span<const StarPage> pages, std::vector<FacePair>& found) {
+    if (pages.size() < 2) return;
+    at_ = at;
+    pages_ = pages;
+    if (is_interface() && is_fan_simple(pages_[0].labels[0])) return;
+    gather_labels();
+    proved_.assign(pages_.size(), 0);
+    bool all_proved = true;
     for (int n = 0; n < labels_.size(); ++n) {
         const Label label = labels_.begin()[n];
-        const bool proved = is_fan_simple(model, v, label);
-        all_proved &= proved;
-        if (!proved) continue;
-        for (Page& page : pages_)
-            if (page.labels[0] == label || page.labels[1] == label) page.proved |= 1u << n;
+        if (is_fan_simple(label)) {
+            for (const FanPage& page : fan_) proved_[page.name >> 1] |= 1u << n;
+        } else {
+            all_proved = false;
+        }
     }
     // Of three labels any two faces have one in common, if each has two.
-    if (!all_proved || labels_.size() > 3) test_pairs(model, v, found);
-}
-
-void StarCrossing::gather(const Model& model, std::span<const Corner> corners) {
-    pages_.clear();
-    labels_ = LabelSet();
-    is_odd_ = false;
-    for (Corner corner : corners) {
-        const Face& face = model[FaceId{corner >> 2}];
-        const std::uint32_t place = corner & 3;
-        pages_.push_back(
-            {FaceId{corner >> 2}, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels, 0});
-        for (Label label : face.labels) labels_.add(label);
-        is_odd_ |= face.labels[0] == face.labels[1];
-    }
+    if (!all_proved || is_odd_ || labels_.size() > 3) test_pairs(v, found);
 }
 
 bool StarCrossing::is_interface() const {
-    return std::all_of(pages_.begin(), pages_.end(), [&](const Page& page) { return page.labels == pages_[0].labels; });
+    return std::all_of(pages_.begin(), pages_.end(),
+                       [&](const StarPage& page) { return page.labels == pages_[0].labels; });
 }
 
-/// Do the faces of the label go round v, or a part of the way, side by side?
-bool StarCrossing::is_fan_simple(const Model& model, VertexId v, Label label) {
-    fan_.clear();
-    for (const Page& page : pages_) {
-        if (page.labels[0] == label)
-            fan_.push_back({page.a, page.b, 0});
-        else if (page.labels[1] == label)
-            fan_.push_back({page.b, page.a, 0});
+void StarCrossing::gather_labels() {
+    labels_ = LabelSet();
+    is_odd_ = false;
+    for (const StarPage& page : pages_) {
+        for (Label label : page.labels) labels_.add(label);
+        is_odd_ |= page.labels[0] == page.labels[1];
     }
-    return fan_.size() < 2 || (order_fan(fan_) && gather_spokes(model, v) && goes_round_once());
+}
+
+/// Do the faces of the label go round the vertex, or a part of the way, side by side? A page is named by its place,
+/// doubled, and its side.
+bool StarCrossing::is_fan_simple(Label label) {
+    fan_.clear();
+    for (std::uint32_t n = 0; n < pages_.size(); ++n) {
+        if (pages_[n].labels[0] == label)
+            fan_.push_back({pages_[n].a, pages_[n].b, 2 * n});
+        else if (pages_[n].labels[1] == label)
+            fan_.push_back({pages_[n].b, pages_[n].a, 2 * n + 1});
+    }
+    return fan_.size() < 2 || (order_fan(fan_) && gather_spokes() && goes_round_once());
 }
 
 /// False where sizes are so unusual that nothing can be proved.
-bool StarCrossing::gather_spokes(const Model& model, VertexId v) {
-    const Vec3 at = model.position(v);
+bool StarCrossing::gather_spokes() {
     bool usual = true;
     spokes_.clear();
-    const auto add = [&](VertexId w) {
-        const Vec3 to = model.position(w) - at;
+    const auto add = [&](Vec3 end) {
+        const Vec3 to = end - at_;
         spokes_.push_back({to, size(to)});
         usual = usual && is_usual(spokes_.back().size);
     };
-    for (const FanPage& page : fan_) add(page.first);
-    add(fan_.back().second);
+    for (const FanPage& page : fan_) {
+        const StarPage& star_page = pages_[page.name >> 1];
+        add(page.name & 1 ? star_page.at_b : star_page.at_a);
+    }
+    const FanPage& last = fan_.back();
+    add(last.name & 1 ? pages_[last.name >> 1].at_a : pages_[last.name >> 1].at_b);
     return usual;
 }
 
@@ -137,53 +140,49 @@ bool StarCrossing::all_look(Vec3 up) const {
     return true;
 }
 
-int StarCrossing::Plane::side(const Spoke& spoke) const {
-    const double ahead = dot(normal, spoke.to);
-    return ahead > doubt * spoke.size ? 1 : ahead < -doubt * spoke.size ? -1 : 0;
-}
-
 /// Looks at the pairs that nothing has been proved of.
-void StarCrossing::test_pairs(const Model& model, VertexId v, std::vector<FacePair>& found) {
-    gather_planes(model, v);
-    const auto cross = [&](FaceId f, FaceId g) {
-        const auto p = model.corners(f), q = model.corners(g);
-        return !is_degenerate({p[0], p[1], p[2]}) && !is_degenerate({q[0], q[1], q[2]}) &&
-               meet_outside_shared({model[f].vertices, p}, {model[g].vertices, q});
-    };
+void StarCrossing::test_pairs(VertexId v, std::vector<FacePair>& found) {
+    gather_planes();
     for (std::size_t i = 0; i < pages_.size(); ++i) {
-        const Page& f = pages_[i];
         for (std::size_t j = i + 1; j < pages_.size(); ++j) {
-            const Page& g = pages_[j];
-            if ((f.proved & g.proved) != 0 || are_pages_apart(i, j)) continue;
+            if ((proved_[i] & proved_[j]) != 0 || are_apart(i, j)) continue;
+            const StarPage &f = pages_[i], &g = pages_[j];
             const bool share_a = f.a == g.a || f.a == g.b, share_b = f.b == g.a || f.b == g.b;
             const bool is_earlier = (share_a && f.a < v) || (share_b && f.b < v);  // another vertex's pair
-            if (!is_earlier && cross(f.face, g.face))
+            if (!is_earlier && cross_exactly(v, f, g))
                 found.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
         }
     }
 }
 
-void StarCrossing::gather_planes(const Model& model, VertexId v) {
-    const Vec3 at = model.position(v);
+void StarCrossing::gather_planes() {
     planes_.clear();
-    for (const Page& page : pages_) {
-        const Vec3 a = model.position(page.a) - at, b = model.position(page.b) - at;
+    for (const StarPage& page : pages_) {
+        const Vec3 a = page.at_a - at_, b = page.at_b - at_;
         // What is of unusual size is on no side of anything.
         const bool usual = is_usual(size(a)) && is_usual(size(b));
-        const Spoke to_a{a, usual ? size(a) : HUGE_VAL}, to_b{b, usual ? size(b) : HUGE_VAL};
-        planes_.push_back({cross(a, b), to_a, to_b, kDoubt * to_a.size * to_b.size});
+        planes_.push_back({cross(a, b), {a, usual ? size(a) : HUGE_VAL}, {b, usual ? size(b) : HUGE_VAL}});
     }
 }
 
+int StarCrossing::Plane::side(const Spoke& spoke) const {
+    const double ahead = dot(normal, spoke.to), doubt = kDoubt * to_a.size * to_b.size * spoke.size;
+    return ahead > doubt ? 1 : ahead < -doubt ? -1 : 0;
+}
+
 /// One page lies on one side of the other's plane, but for the vertex or the edge that they share.
-bool StarCrossing::are_pages_apart(std::size_t i, std::size_t j) const {
-    const auto is_off = [&](std::size_t m, std::size_t n) {
-        const Page &f = pages_[m], &g = pages_[n];
-        const bool has_a = g.a == f.a || g.a == f.b, has_b = g.b == f.a || g.b == f.b;
-        const int a = has_a ? 0 : planes_[m].side(planes_[n].to_a), b = has_b ? 0 : planes_[m].side(planes_[n].to_b);
-        return has_a ? !has_b && b != 0 : has_b ? a != 0 : a != 0 && a == b;
-    };
-    return is_off(i, j) || is_off(j, i);
+bool StarCrossing::are_apart(std::size_t i, std::size_t j) const { return is_off(i, j) || is_off(j, i); }
+
+bool StarCrossing::is_off(std::size_t i, std::size_t j) const {
+    const StarPage &f = pages_[i], &g = pages_[j];
+    const bool has_a = g.a == f.a || g.a == f.b, has_b = g.b == f.a || g.b == f.b;
+    const int a = has_a ? 0 : planes_[i].side(planes_[j].to_a), b = has_b ? 0 : planes_[i].side(planes_[j].to_b);
+    return has_a ? !has_b && b != 0 : has_b ? a != 0 : a != 0 && a == b;
+}
+
+bool StarCrossing::cross_exactly(VertexId v, const StarPage& f, const StarPage& g) const {
+    return !is_degenerate({at_, f.at_a, f.at_b}) && !is_degenerate({at_, g.at_a, g.at_b}) &&
+           meet_outside_shared({{v, f.a, f.b}, {at_, f.at_a, f.at_b}}, {{v, g.a, g.b}, {at_, g.at_a, g.at_b}});
 }
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-#include "regionmesh/model/box_tree.h"
+#include "regionmesh/model/grid_tree.h"
 
 #include <cmath>
 #include <memory>
@@ -25,11 +25,11 @@ constexpr BitTable make_bit_table() {
 constexpr BitTable kBits = make_bit_table();
 
 constexpr std::int16_t kLowest = -32768, kHighest = 32767;
-constexpr BoxTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}};
+constexpr GridTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}};
 
 }  // namespace
 
-void BoxTree::start(std::uint32_t count, const Box& extent) {
+void GridTree::start(std::uint32_t count, const Box& extent) {
     std::vector<std::vector<Boxes>>().swap(levels_);
     if (extent.low.x <= extent.high.x) {
         const Vec3 size = extent.high - extent.low;
@@ -42,7 +42,7 @@ void BoxTree::start(std::uint32_t count, const Box& extent) {
     }
 }
 
-void BoxTree::build_upper(std::uint32_t threads) {
+void GridTree::build_upper(std::uint32_t threads) {
     constexpr std::uint32_t kGroups = 2048;  // a task
     for (std::size_t level = 1; level < levels_.size(); ++level) {
         const std::vector<Boxes>& below = levels_[level - 1];
@@ -54,7 +54,7 @@ void BoxTree::build_upper(std::uint32_t threads) {
     }
 }
 
-BoxTree::GridBox BoxTree::outward(const Box& box) const {
+GridTree::GridBox GridTree::outward(const Box& box) const {
     GridBox result;
     for (int axis = 0; axis < 3; ++axis) {
         // Beyond the grid everything counts as being at its rim, on both sides of a comparison; no box reaches as far
@@ -67,7 +67,7 @@ BoxTree::GridBox BoxTree::outward(const Box& box) const {
     return result;
 }
 
-unsigned BoxTree::Boxes::meeting(const GridBox& box) const {
+unsigned GridTree::Boxes::meeting(const GridBox& box) const {
 #if defined(__SSE2__)
     __m128i out = _mm_setzero_si128();
     for (int axis = 0; axis < 3; ++axis) {
@@ -89,7 +89,7 @@ unsigned BoxTree::Boxes::meeting(const GridBox& box) const {
 #endif
 }
 
-bool BoxTree::extend(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
+bool GridTree::extend(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
     bool grew = false;
     for (int axis = 0; axis < 3; ++axis) {
         grew |= box.low[axis] < boxes.low[axis][lane] || box.high[axis] > boxes.high[axis][lane];
@@ -99,24 +99,24 @@ bool BoxTree::extend(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
     return grew;
 }
 
-BoxTree::Boxes BoxTree::Boxes::none() {
+GridTree::Boxes GridTree::Boxes::none() {
     Boxes boxes;
     for (std::uint32_t lane = 0; lane < kFan; ++lane) boxes.put(lane, kNothing);
     return boxes;
 }
 
-BoxTree::GridBox BoxTree::Boxes::operator[](std::uint32_t lane) const {
+GridTree::GridBox GridTree::Boxes::operator[](std::uint32_t lane) const {
     return {{low[0][lane], low[1][lane], low[2][lane]}, {high[0][lane], high[1][lane], high[2][lane]}};
 }
 
-void BoxTree::Boxes::put(std::uint32_t lane, const GridBox& box) {
+void GridTree::Boxes::put(std::uint32_t lane, const GridBox& box) {
     for (int axis = 0; axis < 3; ++axis) {
         low[axis][lane] = box.low[axis];
         high[axis][lane] = box.high[axis];
     }
 }
 
-BoxTree::GridBox BoxTree::Boxes::hull() const {
+GridTree::GridBox GridTree::Boxes::hull() const {
     GridBox result;
     for (int axis = 0; axis < 3; ++axis) {
         result.low[axis] = *std::min_element(low[axis], low[axis] + kFan);
@@ -125,7 +125,7 @@ BoxTree::GridBox BoxTree::Boxes::hull() const {
     return result;
 }
 
-class BoxTree::PairList {
+class GridTree::PairList {
 public:
     /// Forgets all, and makes room for this many.
     void clear(std::size_t room) {
@@ -150,13 +150,13 @@ private:
 };
 
 /// What one level of a search for pairs hands to the next.
-struct BoxTree::PairSearch {
+struct GridTree::PairSearch {
     PairList groups;  // pairs of groups a, b
     PairList lanes;   // b, and a box of a that meets the hull of b
     PairList pairs;   // a box of a, and one of b that meets it
 };
 
-void BoxTree::visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const {
+void GridTree::visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const {
     PairSearch search;
     for (std::uint32_t other : parts_near(part)) {
         find_pairs(part, other, search);
@@ -164,8 +164,8 @@ void BoxTree::visit_pairs(std::uint32_t part, const std::function<void(std::span
     }
 }
 
-bool BoxTree::is_spatial() const {
-    constexpr std::uint32_t kParts = 32, kPlaces = 512, kTests = 48;  // a sample, places in a part, tests a place
+bool GridTree::is_spatial() const {
+    constexpr std::uint32_t kParts = 32, kPlaces = 512, kTests = 24;  // a sample, places in a part, tests a place
     const std::uint32_t step = std::max(part_count() / kParts, 1u);
     std::uint64_t left = std::uint64_t{kTests} * kPlaces * std::min(part_count(), kParts);
     PairSearch search;
@@ -180,7 +180,7 @@ bool BoxTree::is_spatial() const {
 }
 
 /// The parts from this one on whose boxes meet its own.
-std::vector<std::uint32_t> BoxTree::parts_near(std::uint32_t part) const {
+std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
     const GridBox own = levels_[part_level()][part].hull();
     std::vector<std::uint32_t> parts;
     std::vector<Entry> stack{root()};
@@ -201,7 +201,7 @@ std::vector<std::uint32_t> BoxTree::parts_near(std::uint32_t part) const {
 }
 
 /// All pairs of a place in the one part and one in the other.
-void BoxTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const {
+void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const {
     search.pairs.clear(1);
     search.pairs.add(part, other, 1);
     for (std::uint32_t level = part_level() + 1; level-- > 0;) {
@@ -210,9 +210,9 @@ void BoxTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& se
     }
 }
 
-/// From pairs of groups of a level to pairs of what is in them. No jump depends on what is found: most would be foreseen
-/// wrongly.
-void BoxTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
+/// From pairs of groups of a level to pairs of what is in them. No jump depends on what is found: most would be
+/// foreseen wrongly.
+void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     auto& [groups, lanes, pairs] = search;
     lanes.clear(groups.size() * kFan);
     for (const Pair pair : groups) {
@@ -231,7 +231,7 @@ void BoxTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     }
 }
 
-void BoxTree::set(std::uint32_t place, const Box& box) {
+void GridTree::set(std::uint32_t place, const Box& box) {
     const GridBox grid = outward(box);
     levels_[0][place / kFan].put(place % kFan, grid);
     for (std::size_t level = 1; level < levels_.size(); ++level) {
@@ -240,9 +240,9 @@ void BoxTree::set(std::uint32_t place, const Box& box) {
     }
 }
 
-void BoxTree::remove(std::uint32_t place) { levels_[0][place / kFan].put(place % kFan, kNothing); }
+void GridTree::remove(std::uint32_t place) { levels_[0][place / kFan].put(place % kFan, kNothing); }
 
-std::size_t BoxTree::bytes() const {
+std::size_t GridTree::bytes() const {
     std::size_t sum = 0;
     for (const auto& level : levels_) sum += level.size() * sizeof(Boxes);
     return sum;

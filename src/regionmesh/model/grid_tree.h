@@ -14,7 +14,7 @@ namespace regionmesh {
 
 /// An eight-fold tree over the places 0 .. count - 1 of a list of boxes, whose order should be a spatial one. Boxes are
 /// rounded outward to 1/65535 of the whole extent, two bytes a coordinate: 14 bytes a place all told.
-class BoxTree {
+class GridTree {
 public:
     static constexpr std::uint32_t kFan = 8;
 
@@ -65,7 +65,7 @@ public:
         std::uint32_t n() const { return static_cast<std::uint32_t>(both_ >> 32); }
 
     private:
-        friend class BoxTree;
+        friend class GridTree;
         explicit Pair(std::uint64_t both) : both_(both) {}
         std::uint64_t both_;
     };
@@ -104,7 +104,7 @@ private:
 };
 
 template <class BoxOf>
-void BoxTree::build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of) {
+void GridTree::build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of) {
     start(count, extent);
     constexpr std::uint32_t kGroups = 2048;  // a task
     const auto groups = static_cast<std::uint32_t>(levels_[0].size());
@@ -120,7 +120,7 @@ void BoxTree::build(std::uint32_t count, const Box& extent, std::uint32_t thread
 }
 
 template <class Visit>
-void BoxTree::search(const Box& box, Visit&& visit) const {
+void GridTree::search(const Box& box, Visit&& visit) const {
     const GridBox wanted = outward(box);
     Entry stack[128];
     int top = 0;
