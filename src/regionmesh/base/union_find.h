@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <new>
 #include <utility>
-#include <vector>
 
 namespace regionmesh {
 
@@ -13,8 +15,9 @@ namespace regionmesh {
 /// joins.
 class UnionFind {
 public:
-    explicit UnionFind(std::uint32_t size) : parent_(size) {
-        for (std::uint32_t x = 0; x < size; ++x) parent_[x].store(x, std::memory_order_relaxed);
+    explicit UnionFind(std::uint32_t size)
+        : steps_(static_cast<std::uint32_t*>(std::calloc(std::size_t{size} + 1, sizeof(std::uint32_t)))) {
+        if (!steps_) throw std::bad_alloc();
     }
 
     std::uint32_t find(std::uint32_t x) {
@@ -23,7 +26,7 @@ public:
             if (up == x) return x;
             const std::uint32_t top = parent(up);
             if (top == up) return up;
-            parent_[x].store(top, std::memory_order_relaxed);  // whatever others write, it is above x
+            step(x).store(x - top, std::memory_order_relaxed);  // whatever others write, it is above x
             x = top;
         }
     }
@@ -34,15 +37,21 @@ public:
             a = find(a), b = find(b);
             if (a == b) return;
             if (a > b) std::swap(a, b);
-            std::uint32_t root = b;
-            if (parent_[b].compare_exchange_strong(root, a, std::memory_order_relaxed)) return;
+            std::uint32_t root = 0;
+            if (step(b).compare_exchange_strong(root, b - a, std::memory_order_relaxed)) return;
         }
     }
 
 private:
-    std::uint32_t parent(std::uint32_t x) const { return parent_[x].load(std::memory_order_relaxed); }
+    struct Free {
+        void operator()(std::uint32_t* memory) const { std::free(memory); }
+    };
 
-    std::vector<std::atomic<std::uint32_t>> parent_;
+    std::atomic_ref<std::uint32_t> step(std::uint32_t x) const { return std::atomic_ref(steps_[x]); }
+    std::uint32_t parent(std::uint32_t x) const { return x - step(x).load(std::memory_order_relaxed); }
+
+    // How far down it is to the parent: 0 at a root, as in fresh memory, which is not touched before it is needed.
+    std::unique_ptr<std::uint32_t[], Free> steps_;
 };
 
 }  // namespace regionmesh

@@ -19,7 +19,7 @@ bool is_background(const CheckOptions& options, Label label) {
 
 void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report) {
     for (Label label = 0; label < regions.size(); ++label) {
-        if (regions[label].area == 0 || is_background(options, label)) continue;
+        if (!(regions[label].area > 0) || is_background(options, label)) continue;
         report.regions.push_back(regions[label]);
         report.regions.back().label = label;
     }

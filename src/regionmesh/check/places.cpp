@@ -35,7 +35,7 @@ std::vector<KeyedIndex> sort_by_hash(const Model& model, std::uint32_t threads) 
     for_chunks(model.vertex_end(), kCheckChunk, threads, find, [&](const std::vector<KeyedIndex>& hashed) {
         sorted.insert(sorted.end(), hashed.begin(), hashed.end());
     });
-    radix_sort(sorted);
+    radix_sort(sorted, threads);
     return sorted;
 }
 

@@ -41,12 +41,12 @@ private:
 
 class ListedFaces {
 public:
-    explicit ListedFaces(std::span<const LabelledFace> faces) : faces_(faces) {
+    ListedFaces(std::span<const LabelledFace> faces, std::uint32_t threads) : faces_(faces) {
         corners_.reserve(3 * faces.size());
         for (std::uint32_t f = 0; f < faces.size(); ++f)
             for (std::uint32_t place = 0; place < 3; ++place)
                 corners_.push_back({index(faces[f].placed.vertices[place]), f << 2 | place});
-        radix_sort(corners_);
+        radix_sort(corners_, threads);
         for (std::uint32_t n = 0; n < corners_.size(); ++n)
             if (n == 0 || corners_[n].key != corners_[n - 1].key) starts_.push_back(n);
         starts_.push_back(static_cast<std::uint32_t>(corners_.size()));
@@ -132,7 +132,7 @@ std::vector<FacePair> find_crossings(const Model& model, const SortedFaceTree& t
 }
 
 std::vector<FacePair> find_crossings(std::span<const LabelledFace> faces, std::uint32_t threads) {
-    const ListedFaces listed(faces);
+    const ListedFaces listed(faces, threads);
     const auto box_of = [&](FaceId f) {
         Box box;
         for (Vec3 p : listed.corners(f)) box.add(p);

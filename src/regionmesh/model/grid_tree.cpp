@@ -30,26 +30,29 @@ constexpr GridTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, k
 }  // namespace
 
 void GridTree::start(std::uint32_t count, const Box& extent) {
-    std::vector<std::vector<Boxes>>().swap(levels_);
-    if (extent.low.x <= extent.high.x) {
+    levels_.clear();
+    if (!extent.is_empty()) {
         const Vec3 size = extent.high - extent.low;
         origin_ = extent.low;
         cells_per_length_ = 65500 / std::max({size.x, size.y, size.z, 1e-300});
     }
-    for (std::size_t groups = (std::size_t{count} + kFan - 1) / kFan;; groups = (groups + kFan - 1) / kFan) {
-        levels_.emplace_back(std::max<std::size_t>(groups, 1), Boxes::none());
-        if (groups <= 1) break;
+    for (std::uint32_t size = count;;) {
+        size = std::max(size / kFan + (size % kFan != 0), 1u);
+        levels_.push_back({size, std::make_unique_for_overwrite<Boxes[]>(size)});
+        if (size == 1) break;
     }
 }
 
 void GridTree::build_upper(std::uint32_t threads) {
-    constexpr std::uint32_t kGroups = 2048;  // a task
     for (std::size_t level = 1; level < levels_.size(); ++level) {
-        const std::vector<Boxes>& below = levels_[level - 1];
-        const auto groups = static_cast<std::uint32_t>(below.size());
-        parallel_for((groups + kGroups - 1) / kGroups, threads, [&](std::uint32_t task) {
-            for (std::uint32_t g = task * kGroups; g < std::min(groups, (task + 1) * kGroups); ++g)
-                levels_[level][g / kFan].put(g % kFan, below[g].hull());
+        const Level &below = levels_[level - 1], &own = levels_[level];
+        parallel_for(own.size / kBuildGroups + 1, threads, [&](std::uint32_t task) {
+            for (std::uint32_t g = task * kBuildGroups; g < std::min(own.size, (task + 1) * kBuildGroups); ++g) {
+                Boxes boxes = Boxes::none();
+                for (std::uint32_t child = g * kFan; child < std::min(below.size, (g + 1) * kFan); ++child)
+                    boxes.put(child % kFan, below[child].hull());
+                own[g] = boxes;
+            }
         });
     }
 }
@@ -244,7 +247,7 @@ void GridTree::remove(std::uint32_t place) { levels_[0][place / kFan].put(place 
 
 std::size_t GridTree::bytes() const {
     std::size_t sum = 0;
-    for (const auto& level : levels_) sum += level.size() * sizeof(Boxes);
+    for (const Level& level : levels_) sum += level.size * sizeof(Boxes);
     return sum;
 }
 

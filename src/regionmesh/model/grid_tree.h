@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -70,7 +71,7 @@ public:
         std::uint64_t both_;
     };
     /// All pairs of places whose rounded boxes meet come in so many parts, by m.
-    std::uint32_t part_count() const { return static_cast<std::uint32_t>(levels_[part_level()].size()); }
+    std::uint32_t part_count() const { return levels_[part_level()].size; }
     /// Calls visit(span<const Pair>) until all pairs of the part have been visited, with at most 2^18 at once.
     void visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const;
     /// Is the order of the places so spatial that pairs are found quickly? Judged from a sample.
@@ -88,6 +89,14 @@ private:
     class PairList;
     struct PairSearch;
 
+    /// Made without touching the memory.
+    struct Level {
+        std::uint32_t size;
+        std::unique_ptr<Boxes[]> groups;
+        Boxes& operator[](std::uint32_t group) const { return groups[group]; }
+    };
+    static constexpr std::uint32_t kBuildGroups = 2048;  // built by a task
+
     Entry root() const { return {static_cast<std::uint32_t>(levels_.size()) - 1, 0}; }
     void start(std::uint32_t count, const Box& extent);
     void build_upper(std::uint32_t threads);
@@ -100,20 +109,21 @@ private:
 
     Vec3 origin_;
     double cells_per_length_ = 1;
-    std::vector<std::vector<Boxes>> levels_;
+    std::vector<Level> levels_;
 };
 
 template <class BoxOf>
 void GridTree::build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of) {
     start(count, extent);
-    constexpr std::uint32_t kGroups = 2048;  // a task
-    const auto groups = static_cast<std::uint32_t>(levels_[0].size());
-    parallel_for((groups + kGroups - 1) / kGroups, threads, [&](std::uint32_t task) {
-        for (std::uint32_t g = task * kGroups; g < std::min(groups, (task + 1) * kGroups); ++g) {
+    const std::uint32_t groups = levels_[0].size;
+    parallel_for(groups / kBuildGroups + 1, threads, [&](std::uint32_t task) {
+        for (std::uint32_t g = task * kBuildGroups; g < std::min(groups, (task + 1) * kBuildGroups); ++g) {
+            Boxes boxes = Boxes::none();
             for (std::uint32_t place = g * kFan; place < std::min(count, (g + 1) * kFan); ++place) {
                 const Box box = box_of(place);
-                if (!box.is_empty()) levels_[0][g].put(place % kFan, outward(box));
+                if (!box.is_empty()) boxes.put(place % kFan, outward(box));
             }
+            levels_[0][g] = boxes;
         }
     });
     build_upper(threads);

@@ -14,14 +14,15 @@ Box box_round(const Model& model, FaceId f) {
     return box;
 }
 
-std::vector<FaceId> along_curve(std::uint32_t face_end, const std::function<Box(FaceId)>& box_of, const Box& extent) {
+std::vector<FaceId> along_curve(std::uint32_t face_end, const std::function<Box(FaceId)>& box_of, const Box& extent,
+                                std::uint32_t threads) {
     const MortonCurve curve(extent);
     std::vector<KeyedIndex> order;
     for (std::uint32_t f = 0; f < face_end; ++f) {
         const Box box = box_of(FaceId{f});
         if (!box.is_empty()) order.push_back({curve(0.5 * (box.low + box.high)), f});
     }
-    radix_sort(order);
+    radix_sort(order, threads);
     std::vector<FaceId> faces;
     faces.reserve(order.size());
     for (const KeyedIndex& item : order) faces.push_back(FaceId{item.index});
@@ -40,7 +41,7 @@ SortedFaceTree::SortedFaceTree(std::uint32_t face_end, const Box& extent, const 
     boxes_.build(face_end, extent, threads, box_at);
     if (boxes_.is_spatial()) return;
     boxes_ = GridTree();
-    faces_ = along_curve(face_end, box_of, extent);
+    faces_ = along_curve(face_end, box_of, extent, threads);
     boxes_.build(static_cast<std::uint32_t>(faces_.size()), extent, threads, box_at);
 }
 
