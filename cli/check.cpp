@@ -9,6 +9,7 @@ namespace {
 struct Arguments {
     std::string model, json;
     std::vector<std::string> sections;
+    std::uint32_t threads = 0;
     bool quiet = false;
     InputOptions input;
 };
@@ -45,6 +46,7 @@ void print_findings(const std::string& name, const CheckReport& report) {
 int check_command(const Arguments& arguments) {
     ModelFile file = read_model(arguments.model);
     CheckOptions options = arguments.input.check_options(file.labels);
+    options.threads = arguments.threads;
     if (!arguments.sections.empty()) {
         const auto reader = arguments.input.open(arguments.sections);
         options.oracle = translate(
@@ -70,6 +72,8 @@ void add_check(CLI::App& app, Action& action) {
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
     command->add_option("--json", arguments->json, "findings to write as JSON");
+    command->add_option("--threads", arguments->threads,
+                        "threads at work; one per core if not given. The findings are the same");
     command->add_flag("--quiet", arguments->quiet, "exit code only");
     command->callback([arguments, &action] { action = [arguments] { return check_command(*arguments); }; });
 }

@@ -324,6 +324,7 @@ void Run::prove() {
     check_options.background = result_.background;
     check_options.oracle = std::move(oracle_);
     check_options.crossing = options_.intersect_check;
+    check_options.threads = options_.threads;
     check_options.label_text = [this](Label label) { return result_.labels.text(result_.labels.input(label)); };
     result_.report.check = check(result_.model, check_options);
 }

@@ -1,31 +1,57 @@
 // Disjoint sets over 0 .. n-1.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
-#include <numeric>
-#include <vector>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <utility>
 
 namespace regionmesh {
 
+/// Several threads may find and join at once (Anderson and Woll 1991): a number is only ever hung below a smaller one
+/// of its set. The smallest of each set is its root in the end, so that the result does not depend on the order of
+/// joins.
 class UnionFind {
 public:
-    explicit UnionFind(std::uint32_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    explicit UnionFind(std::uint32_t size)
+        : steps_(static_cast<std::uint32_t*>(std::calloc(std::size_t{size} + 1, sizeof(std::uint32_t)))) {
+        if (!steps_) throw std::bad_alloc();
+    }
 
     std::uint32_t find(std::uint32_t x) {
-        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-        return x;
+        for (;;) {
+            const std::uint32_t up = parent(x);
+            if (up == x) return x;
+            const std::uint32_t top = parent(up);
+            if (top == up) return up;
+            step(x).store(x - top, std::memory_order_relaxed);  // whatever others write, it is above x
+            x = top;
+        }
     }
-    /// The smaller root stays, so that the result does not depend on the order of unions.
+    bool is_root(std::uint32_t x) const { return parent(x) == x; }
+
     void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        if (a < b)
-            parent_[b] = a;
-        else
-            parent_[a] = b;
+        for (;;) {
+            a = find(a), b = find(b);
+            if (a == b) return;
+            if (a > b) std::swap(a, b);
+            std::uint32_t root = 0;
+            if (step(b).compare_exchange_strong(root, b - a, std::memory_order_relaxed)) return;
+        }
     }
 
 private:
-    std::vector<std::uint32_t> parent_;
+    struct Free {
+        void operator()(std::uint32_t* memory) const { std::free(memory); }
+    };
+
+    std::atomic_ref<std::uint32_t> step(std::uint32_t x) const { return std::atomic_ref(steps_[x]); }
+    std::uint32_t parent(std::uint32_t x) const { return x - step(x).load(std::memory_order_relaxed); }
+
+    // How far down it is to the parent: 0 at a root, as in fresh memory, which is not touched before it is needed.
+    std::unique_ptr<std::uint32_t[], Free> steps_;
 };
 
 }  // namespace regionmesh

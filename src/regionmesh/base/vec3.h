@@ -39,6 +39,11 @@ struct Box {
         low = min(low, p);
         high = max(high, p);
     }
+    void join(const Box& other) {
+        low = min(low, other.low);
+        high = max(high, other.high);
+    }
+    bool is_empty() const { return low.x > high.x; }
 };
 
 }  // namespace regionmesh

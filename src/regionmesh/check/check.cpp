@@ -13,6 +13,18 @@ constexpr std::array<const char*, kViolationKindCount> kKindNames{
     "duplicate_face", "degenerate_face",  "coincident_vertices", "unused_vertex",  "crossing_faces",
     "euler",          "quadruple_points", "region_pairs",        "nesting"};
 
+bool is_background(const CheckOptions& options, Label label) {
+    return std::find(options.background.begin(), options.background.end(), label) != options.background.end();
+}
+
+void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report) {
+    for (Label label = 0; label < regions.size(); ++label) {
+        if (!(regions[label].area > 0) || is_background(options, label)) continue;
+        report.regions.push_back(regions[label]);
+        report.regions.back().label = label;
+    }
+}
+
 }  // namespace
 
 const char* to_string(ViolationKind kind) { return kKindNames[static_cast<int>(kind)]; }
@@ -23,12 +35,21 @@ std::uint64_t CheckReport::violation_count() const {
 
 CheckReport check(const Model& model, const CheckOptions& options) {
     CheckReport report;
-    Findings findings(report, options.listed);
-    check_stars(model, options, report, findings);
-    if (options.crossing) check_crossing(model, findings);
-    check_nesting(model, options, findings);
+    Findings findings(options.listed);
+    std::vector<RegionReport> regions;
+    check_faces(model, options, regions, report, findings);
+    check_stars(model, options, regions, report, findings);
+    list_regions(options, regions, report);
+    check_places(model, options, findings);
+    std::optional<SortedFaceTree> tree;
+    if (options.crossing) {
+        tree.emplace(model, options.threads);
+        check_crossing(model, options, *tree, findings);
+    }
+    check_nesting(model, options, tree ? &*tree : nullptr, findings);
     check_against_labels(options, report, findings);
     report.lines = measure_lines(model);
+    findings.move_to(report);
     return report;
 }
 
@@ -39,17 +60,18 @@ void check_against_labels(const CheckOptions& options, CheckReport& report, Find
     for (const RegionReport& region : report.regions)
         if (region.label < euler.size()) euler[region.label] = region.euler;
     for (Label label = 0; label < euler.size(); ++label) {
-        if (std::find(options.background.begin(), options.background.end(), label) != options.background.end())
-            continue;
+        if (is_background(options, label)) continue;
         if (!options.boundary_is_open && euler[label] != oracle.euler[label])
-            findings.add(ViolationKind::kEuler, {}, {},
-                         region_name(options, label) + ": Euler characteristic " + std::to_string(euler[label]) +
-                             ", its labels say " + std::to_string(oracle.euler[label]));
+            findings.add(ViolationKind::kEuler, {}, {}, [&] {
+                return region_name(options, label) + ": Euler characteristic " + std::to_string(euler[label]) +
+                       ", its labels say " + std::to_string(oracle.euler[label]);
+            });
     }
     const auto compare = [&](ViolationKind kind, std::uint64_t found, std::uint64_t expected, const char* what) {
         if (found != expected)
-            findings.add(kind, {}, {},
-                         std::to_string(found) + " " + what + ", the labels say " + std::to_string(expected));
+            findings.add(kind, {}, {}, [&] {
+                return std::to_string(found) + " " + what + ", the labels say " + std::to_string(expected);
+            });
     };
     compare(ViolationKind::kQuadruplePoints, report.quadruple_points_inside, oracle.quadruple_points_inside,
             "interior quadruple points");

@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
+#include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/union_find.h"
 #include "regionmesh/check/findings.h"
-#include "regionmesh/model/face_tree.h"
 
 namespace regionmesh {
 namespace {
+
+/// No simple ratio, so that the ray from a lattice point hits no edge.
+constexpr Vec3 kRay{1, 0.013748231, 0.007193377};
 
 /// A connected part of the surface. Seen from its outermost region the volume inside is negative, and only from that.
 struct Part {
@@ -17,6 +21,9 @@ struct Part {
     bool touches_box = false;
 };
 
+/// By the smallest vertex of each.
+using Parts = std::map<std::uint32_t, Part>;
+
 struct Hit {
     double distance = HUGE_VAL;
     Label label = 0;  // of the region before the face
@@ -24,64 +31,122 @@ struct Hit {
 
 class NestingCheck {
 public:
-    NestingCheck(const Model& model, const CheckOptions& options, Findings& findings)
-        : model_(model), options_(options), findings_(findings), joined_(model.vertex_end()) {}
+    NestingCheck(const Model& model, const CheckOptions& options, const SortedFaceTree* tree, Findings& findings)
+        : model_(model), options_(options), tree_(tree), findings_(findings), joined_(model.vertex_end()) {}
 
     void run() {
+        join_faces();
         gather_parts();
         if (parts_.size() < 2) return;
-        const FaceTree tree(model_);
+        measure_parts();
+        std::vector<const Part*> inner;
         for (const auto& [root, part] : parts_)
-            if (!part.touches_box) look_at(part, tree);
+            if (!part.touches_box) inner.push_back(&part);
+        if (inner.empty()) return;
+        std::optional<SortedFaceTree> own;
+        if (!tree_) tree_ = &own.emplace(model_, options_.threads);
+        for_chunks(
+            static_cast<std::uint32_t>(inner.size()), 16, options_.threads,
+            [&](std::uint32_t first, std::uint32_t end) {
+                Findings found(options_.listed);
+                for (std::uint32_t n = first; n < end; ++n) look_at(*inner[n], found);
+                return found;
+            },
+            [&](Findings&& found) { findings_.append(std::move(found)); });
     }
 
 private:
-    /// No simple ratio, so that the ray from a lattice point hits no edge.
-    static constexpr Vec3 kRay{1, 0.013748231, 0.007193377};
-
-    void gather_parts() {
-        Box box;
-        for (std::uint32_t f = 0; f < model_.face_end(); ++f) {
-            if (!model_.is_alive(FaceId{f})) continue;
-            const auto& v = model_[FaceId{f}].vertices;
-            joined_.join(index(v[0]), index(v[1]));
-            joined_.join(index(v[0]), index(v[2]));
-            for (Vec3 p : model_.corners(FaceId{f})) box.add(p);
-        }
-        reach_ = 2 * length(box.high - box.low);
-        for (std::uint32_t v = 0; v < model_.vertex_end(); ++v) {
-            if (!model_.is_alive(VertexId{v}) || model_[VertexId{v}].star == kNoCorner) continue;
-            Part& part = parts_[joined_.find(v)];
-            part.touches_box |= model_[VertexId{v}].sides != 0;
-            if (part.farthest == kNoVertex ||
-                dot(kRay, model_.position(VertexId{v})) > dot(kRay, model_.position(part.farthest)))
-                part.farthest = VertexId{v};
-        }
-        if (parts_.size() < 2) return;
-        for (std::uint32_t f = 0; f < model_.face_end(); ++f) {
-            if (!model_.is_alive(FaceId{f})) continue;
-            Part& part = parts_[joined_.find(index(model_[FaceId{f}].vertices[0]))];
-            const auto& labels = model_[FaceId{f}].labels;
-            part.touches_box |= is_exterior(labels[1]);
-            if (part.touches_box) continue;
-            const Vec3 o = model_.position(part.farthest);
-            const auto p = model_.corners(FaceId{f});
-            const double sixfold = dot(p[0] - o, cross(p[1] - o, p[2] - o));
-            part.volumes[labels[0]] += sixfold;
-            part.volumes[labels[1]] -= sixfold;
-        }
+    template <class Find, class Append>
+    void for_face_chunks(Find&& find, Append&& append) {
+        for_chunks(model_.face_end(), kCheckChunk, options_.threads, find, append);
     }
 
-    void look_at(const Part& part, const FaceTree& tree) {
+    /// The first pass: joins the vertices of each face, and measures how far a ray may go.
+    void join_faces() {
+        Box box;
+        const auto find = [&](std::uint32_t first, std::uint32_t end) {
+            Box own;
+            for (std::uint32_t f = first; f < end; ++f) {
+                if (!model_.is_alive(FaceId{f})) continue;
+                const auto& v = model_[FaceId{f}].vertices;
+                joined_.join(index(v[0]), index(v[1]));
+                joined_.join(index(v[0]), index(v[2]));
+                for (Vec3 p : model_.corners(FaceId{f})) own.add(p);
+            }
+            return own;
+        };
+        for_face_chunks(find, [&](const Box& own) { box.join(own); });
+        reach_ = 2 * length(box.high - box.low);
+    }
+
+    /// The second: each part, and its farthest vertex along the ray.
+    void gather_parts() {
+        const auto add = [&](Part& part, VertexId v, bool touches_box) {
+            part.touches_box |= touches_box;
+            if (part.farthest == kNoVertex || dot(kRay, model_.position(v)) > dot(kRay, model_.position(part.farthest)))
+                part.farthest = v;
+        };
+        const auto find = [&](std::uint32_t first, std::uint32_t end) {
+            Parts parts;
+            Parts::value_type* last = nullptr;  // the next vertex is mostly of the same part
+            for (std::uint32_t v = first; v < end; ++v) {
+                const Vertex& vertex = model_[VertexId{v}];
+                if (!vertex.is_alive || vertex.star == kNoCorner) continue;
+                const std::uint32_t root = joined_.find(v);
+                if (!last || last->first != root) last = &*parts.try_emplace(root).first;
+                add(last->second, VertexId{v}, vertex.sides != 0);
+            }
+            return parts;
+        };
+        for_chunks(model_.vertex_end(), kCheckChunk, options_.threads, find, [&](const Parts& parts) {
+            for (const auto& [root, part] : parts) add(parts_[root], part.farthest, part.touches_box);
+        });
+    }
+
+    /// The third: the volume that each region has inside each part that does not touch the box.
+    void measure_parts() {
+        const auto find = [&](std::uint32_t first, std::uint32_t end) {
+            Parts parts;
+            Parts::value_type* last = nullptr;
+            for (std::uint32_t n = first; n < end; ++n) {
+                const FaceId f{n};
+                if (!model_.is_alive(f)) continue;
+                const std::uint32_t root = joined_.find(index(model_[f].vertices[0]));
+                if (!last || last->first != root) last = &*parts.try_emplace(root, parts_.at(root)).first;
+                add_volume(f, last->second);
+            }
+            return parts;
+        };
+        for_face_chunks(find, [&](const Parts& parts) {
+            for (const auto& [root, part] : parts) {
+                parts_[root].touches_box |= part.touches_box;
+                for (const auto& [label, volume] : part.volumes) parts_[root].volumes[label] += volume;
+            }
+        });
+    }
+
+    void add_volume(FaceId f, Part& part) const {
+        const auto& labels = model_[f].labels;
+        part.touches_box |= is_exterior(labels[1]);
+        if (part.touches_box) return;
+        const Vec3 o = model_.position(part.farthest);
+        const auto p = model_.corners(f);
+        const double sixfold = dot(p[0] - o, cross(p[1] - o, p[2] - o));
+        part.volumes[labels[0]] += sixfold;
+        part.volumes[labels[1]] -= sixfold;
+    }
+
+    void look_at(const Part& part, Findings& findings) {
         const auto outer = std::min_element(part.volumes.begin(), part.volumes.end(),
                                             [](const auto& a, const auto& b) { return a.second < b.second; });
         const Vec3 from = model_.position(part.farthest);
+        const std::uint32_t own = joined_.find(index(part.farthest));
         Box box;
         box.add(from);
         box.add(from + reach_ * kRay);
         Hit nearest;
-        tree.search(box, [&](FaceId f, const FaceTree::GridBox&) {
-            if (joined_.find(index(model_[f].vertices[0])) != joined_.find(index(part.farthest))) {
+        tree_->search(box, [&](FaceId f) {
+            if (joined_.find(index(model_[f].vertices[0])) != own) {
                 const Hit hit = hit_at(f, from);
                 if (hit.distance < nearest.distance) nearest = hit;
             }
@@ -92,10 +157,11 @@ private:
                                std::find(options_.background.begin(), options_.background.end(), outer->first) !=
                                    options_.background.end();
         if (leaves ? may_leave || is_exterior(outer->first) : nearest.label == outer->first) return;
-        findings_.add(ViolationKind::kNesting, {index(part.farthest)}, {},
-                      "the part with vertex " + std::to_string(index(part.farthest)) + " says it lies in " +
-                          region_name(options_, outer->first) + ", but " +
-                          (leaves ? "nothing is round it" : "it lies in " + region_name(options_, nearest.label)));
+        findings.add(ViolationKind::kNesting, {index(part.farthest)}, {}, [&] {
+            return "the part with vertex " + std::to_string(index(part.farthest)) + " says it lies in " +
+                   region_name(options_, outer->first) + ", but " +
+                   (leaves ? "nothing is round it" : "it lies in " + region_name(options_, nearest.label));
+        });
     }
 
     /// Where the ray meets a face (Moeller and Trumbore 1997).
@@ -116,16 +182,17 @@ private:
 
     const Model& model_;
     const CheckOptions& options_;
+    const SortedFaceTree* tree_;
     Findings& findings_;
     UnionFind joined_;
-    std::map<std::uint32_t, Part> parts_;
+    Parts parts_;
     double reach_ = 0;
 };
 
 }  // namespace
 
-void check_nesting(const Model& model, const CheckOptions& options, Findings& findings) {
-    NestingCheck(model, options, findings).run();
+void check_nesting(const Model& model, const CheckOptions& options, const SortedFaceTree* tree, Findings& findings) {
+    NestingCheck(model, options, tree, findings).run();
 }
 
 }  // namespace regionmesh

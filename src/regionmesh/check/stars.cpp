@@ -1,37 +1,34 @@
-// What can be seen round one vertex at a time: edges, fans, Euler characteristics; and the measures of faces.
+// What can be seen round one vertex at a time: edges, fans, Euler characteristics, and how boundaries hang together.
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <map>
-#include <numbers>
-#include <unordered_set>
+#include <span>
 
-#include "regionmesh/base/hash.h"
-#include "regionmesh/base/triangle.h"
+#include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/union_find.h"
 #include "regionmesh/check/findings.h"
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/check/region_sums.h"
+#include "regionmesh/model/fan.h"
 #include "regionmesh/model/label_set.h"
 
 namespace regionmesh {
 namespace {
 
-std::string name(VertexId v) { return "vertex " + std::to_string(index(v)); }
-std::string name(FaceId f) { return "face " + std::to_string(index(f)); }
-std::string name(VertexId u, VertexId v) { return "edge " + std::to_string(index(u)) + "-" + std::to_string(index(v)); }
+/// What was found round some vertices.
+struct StarChunk {
+    Findings findings;
+    std::vector<RegionReport> regions;
+    std::uint64_t quadruple_points_inside = 0;
+};
 
+/// The two sides of each face are its sheets, joined where a region's boundary goes on across an edge.
 class StarCheck {
 public:
-    StarCheck(const Model& model, const CheckOptions& options, CheckReport& report, Findings& findings)
-        : model_(model), options_(options), report_(report), findings_(findings), sheets_(2 * model.face_end()) {}
+    StarCheck(const Model& model, const CheckOptions& options, UnionFind& sheets)
+        : model_(model), options_(options), sheets_(sheets), findings_(options.listed) {}
 
-    void run() {
-        for (std::uint32_t f = 0; f < model_.face_end(); ++f)
-            if (model_.is_alive(FaceId{f})) look_at_face(FaceId{f});
-        for (std::uint32_t v = 0; v < model_.vertex_end(); ++v)
+    StarChunk run(std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t v = first; v < end; ++v)
             if (model_.is_alive(VertexId{v})) look_at_vertex(VertexId{v});
-        find_coincident();
-        finish();
+        return {std::move(findings_), regions_.take(), quadruple_points_inside_};
     }
 
 private:
@@ -39,84 +36,89 @@ private:
     struct Page {
         FaceId face;
         VertexId a, b;
+        std::array<Label, 2> labels;
     };
-
-    RegionReport& region(Label label) {
-        if (label >= regions_.size()) regions_.resize(label + 1);
-        return regions_[label];
-    }
+    static std::uint32_t sheet(FaceId f, int side) { return 2 * index(f) + static_cast<std::uint32_t>(side); }
     bool is_background(Label label) const {
         return std::find(options_.background.begin(), options_.background.end(), label) != options_.background.end();
     }
 
-    void look_at_face(FaceId f) {
-        const auto p = model_.corners(f);
-        const auto& labels = model_[f].labels;
-        const auto& v = model_[f].vertices;
-        const double area = 0.5 * length(area_vector(p[0], p[1], p[2]));
-        const bool repeats = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
-        if (repeats || labels[0] == labels[1] || is_degenerate({p[0], p[1], p[2]}))
-            findings_.add(ViolationKind::kDegenerateFace, {}, {index(f)},
-                          name(f) + (labels[0] == labels[1] ? " has one label on both sides" : " has no area"));
-        const double sixfold = dot(p[0] - origin(), cross(p[1] - origin(), p[2] - origin()));
-        for (int side = 0; side < 2; ++side) {
-            if (is_exterior(labels[side])) continue;
-            RegionReport& r = region(labels[side]);
-            r.euler += 1;
-            r.area += area;
-            r.volume += (side == 0 ? sixfold : -sixfold) / 6;
-        }
-        if (!is_exterior(labels[0]) && !is_exterior(labels[1])) add_pair(labels[0], labels[1]);
-        measure(p);
-    }
-
-    Vec3 origin() {
-        if (!has_origin_) {
-            Box box;
-            for (std::uint32_t v = 0; v < model_.vertex_end(); ++v)
-                if (model_.is_alive(VertexId{v})) box.add(model_.position(VertexId{v}));
-            origin_ = 0.5 * (box.low + box.high);
-            has_origin_ = true;
-        }
-        return origin_;
-    }
-
-    void add_pair(Label a, Label b) {
-        const std::uint64_t pair = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-        if (pair == last_pair_) return;
-        last_pair_ = pair;
-        pairs_.insert(pair);
-    }
-
-    void measure(const std::array<Vec3, 3>& p) {
-        const double q = face_quality(p[0], p[1], p[2]);
-        QualityReport& quality = report_.quality;
-        quality.min = faces_ == 0 ? q : std::min(quality.min, q);
-        quality_sum_ += q;
-        ++faces_;
-        ++quality.histogram[std::clamp(int(q * 100), 0, int(quality.histogram.size()) - 1)];
-        for (int n = 0; n < 3; ++n) {
-            const Vec3 s = p[(n + 1) % 3] - p[n], t = p[(n + 2) % 3] - p[n];
-            const double angle = std::atan2(length(cross(s, t)), dot(s, t)) * 180 / std::numbers::pi;
-            quality.min_angle = faces_ == 1 && n == 0 ? angle : std::min(quality.min_angle, angle);
-            quality.max_angle = std::max(quality.max_angle, angle);
-            ++quality.angle_histogram[std::clamp(int(angle / 10), 0, 17)];
-        }
-    }
-
     void look_at_vertex(VertexId v) {
         pages_.clear();
+        labels_ = LabelSet();
+        bool has_exterior = false, is_odd = false;
         model_.for_star(v, [&](FaceId f, int place) {
-            const auto& corner = model_[f].vertices;
-            pages_.push_back({f, corner[(place + 1) % 3], corner[(place + 2) % 3]});
+            const Face& face = model_[f];
+            pages_.push_back({f, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels});
+            is_odd |= face.labels[0] == face.labels[1];
+            for (Label label : face.labels) {
+                if (is_exterior(label))
+                    has_exterior = true;
+                else
+                    labels_.add(label);
+            }
         });
         if (pages_.empty())
-            return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {}, name(v) + " has no face");
-        LabelSet labels;
+            return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {},
+                                 [&] { return name(v) + " has no face"; });
+        if (model_[v].sides == 0 && labels_.size() == 4) ++quadruple_points_inside_;
+        if (!is_odd && labels_.size() < LabelSet::kCapacity && look_at_closed_fans(v, has_exterior)) {
+            // Faces on the same vertices are in no closed fan, unless they have no label in common.
+            if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
+        } else {
+            look_at_any_fans(v);
+            look_for_duplicates(v);
+        }
+    }
+
+    /// Nearly all vertices: the faces of each region go round v once, from one neighbour to the next. So all is well
+    /// with its edges, too. False where it is not so: then nothing has been done.
+    bool look_at_closed_fans(VertexId v, bool has_exterior) {
+        const bool is_interface = labels_.size() == 2 && !has_exterior;  // both regions have the same faces
+        fans_.clear();
+        ends_.clear();
+        for (Label label : labels_) {
+            if (!is_interface || ends_.empty())
+                if (!add_closed_fan(label)) return false;
+            ends_.push_back(fans_.size());
+        }
+        std::size_t start = 0;
+        for (int n = 0; n < labels_.size(); ++n) {
+            if (is_interface) start = 0;
+            const auto fan = std::span(fans_).subspan(start, ends_[n] - start);
+            regions_[labels_.begin()[n]].euler += 1 - join_fan(v, fan, is_interface && n == 1);
+            start = ends_[n];
+        }
+        return true;
+    }
+
+    /// Adds the faces of a region in the order in which they go round.
+    bool add_closed_fan(Label label) {
+        const std::size_t start = fans_.size();
+        for (const Page& page : pages_) {
+            if (page.labels[0] == label)
+                fans_.push_back({page.a, page.b, sheet(page.face, 0)});
+            else if (page.labels[1] == label)
+                fans_.push_back({page.b, page.a, sheet(page.face, 1)});
+        }
+        const std::span<FanPage> fan = std::span(fans_).subspan(start);
+        return fan.size() >= 3 && order_fan(fan) && is_closed(fan);
+    }
+
+    /// Joins the sheets of a closed fan across the edges from v to later vertices, and returns how many those are.
+    std::int64_t join_fan(VertexId v, std::span<const FanPage> fan, std::uint32_t other_side) {
+        std::int64_t edges = 0;
+        for (std::size_t n = 0; n < fan.size(); ++n) {
+            if (fan[n].second < v) continue;
+            ++edges;
+            sheets_.join(fan[n].name ^ other_side, fan[n + 1 < fan.size() ? n + 1 : 0].name ^ other_side);
+        }
+        return edges;
+    }
+
+    void look_at_any_fans(VertexId v) {
         neighbours_.clear();
         for (const Page& page : pages_) {
-            for (Label label : model_[page.face].labels)
-                if (!is_exterior(label)) labels.add(label);
             neighbours_.push_back(page.a);
             neighbours_.push_back(page.b);
         }
@@ -125,25 +127,23 @@ private:
         const bool may_be_rim =
             model_[v].sides != 0 &&
             (options_.boundary_is_open ||
-             std::any_of(labels.begin(), labels.end(), [&](Label label) { return is_background(label); }));
+             std::any_of(labels_.begin(), labels_.end(), [&](Label label) { return is_background(label); }));
         if (neighbours_.size() < 3 && !may_be_rim)
-            findings_.add(ViolationKind::kFewEdges, {index(v)}, {}, name(v) + " has fewer than three edges");
-        for (Label label : labels) {
-            region(label).euler += 1;
+            findings_.add(ViolationKind::kFewEdges, {index(v)}, {},
+                          [&] { return name(v) + " has fewer than three edges"; });
+        for (Label label : labels_) {
+            regions_[label].euler += 1;
             look_at_fan(v, label);
         }
-        if (model_[v].sides == 0 && labels.size() == 4) ++report_.quadruple_points_inside;
         for (VertexId w : neighbours_)
             if (v < w) look_at_edge(v, w);
-        look_for_duplicates(v);
     }
 
     /// The faces of a region at a vertex must be one fan: joined by the edges between them.
     void look_at_fan(VertexId v, Label label) {
         fan_.clear();
         for (std::uint32_t n = 0; n < pages_.size(); ++n)
-            if (model_[pages_[n].face].labels[0] == label || model_[pages_[n].face].labels[1] == label)
-                fan_.push_back(n);
+            if (pages_[n].labels[0] == label || pages_[n].labels[1] == label) fan_.push_back(n);
         reached_.assign(fan_.size(), false);
         todo_.assign(1, 0);
         reached_[0] = true;
@@ -162,7 +162,7 @@ private:
         }
         if (count < fan_.size())
             findings_.add(ViolationKind::kPinchedVertex, {index(v)}, {},
-                          name(v) + ": " + region_name(options_, label) + " has more than one fan");
+                          [&] { return name(v) + ": " + region_name(options_, label) + " has more than one fan"; });
     }
 
     void look_at_edge(VertexId v, VertexId w) {
@@ -175,36 +175,32 @@ private:
         int use_count = 0;
         for (const Page& page : pages_) {
             if (page.a != w && page.b != w) continue;
-            const auto& labels = model_[page.face].labels;
             for (int side = 0; side < 2; ++side) {
-                if (is_exterior(labels[side])) continue;
+                if (is_exterior(page.labels[side])) continue;
                 const int turn = (page.a == w) == (side == 0) ? 1 : -1;
-                const std::uint32_t sheet = 2 * index(page.face) + side;
                 const auto at = std::find_if(uses.begin(), uses.begin() + use_count,
-                                             [&](const Use& use) { return use.label == labels[side]; });
+                                             [&](const Use& use) { return use.label == page.labels[side]; });
                 if (at != uses.begin() + use_count) {
                     ++at->count;
                     at->turn += turn;
-                    sheets_.join(at->sheet, sheet);
+                    sheets_.join(at->sheet, sheet(page.face, side));
                 } else if (use_count < LabelSet::kCapacity) {
-                    uses[use_count++] = {labels[side], 1, turn, sheet};
+                    uses[use_count++] = {page.labels[side], 1, turn, sheet(page.face, side)};
                 }
             }
         }
         for (int n = 0; n < use_count; ++n) {
             const Use& use = uses[n];
-            region(use.label).euler -= 1;
+            regions_[use.label].euler -= 1;
             const bool may_be_open =
                 (options_.boundary_is_open || is_background(use.label)) && (model_[v].sides & model_[w].sides) != 0;
-            const std::string where = name(v, w) + ", " + region_name(options_, use.label);
-            if (use.count == 1 && !may_be_open)
-                findings_.add(ViolationKind::kOpenEdge, {index(v), index(w)}, {}, where + ": one face");
-            if (use.count > 2)
-                findings_.add(ViolationKind::kOverfullEdge, {index(v), index(w)}, {},
-                              where + ": " + std::to_string(use.count) + " faces");
-            if (use.count == 2 && use.turn != 0)
-                findings_.add(ViolationKind::kOrientation, {index(v), index(w)}, {},
-                              where + ": its two faces look opposite ways");
+            const auto say = [&](ViolationKind kind, const std::string& what) {
+                findings_.add(kind, {index(v), index(w)}, {},
+                              [&] { return name(v, w) + ", " + region_name(options_, use.label) + ": " + what; });
+            };
+            if (use.count == 1 && !may_be_open) say(ViolationKind::kOpenEdge, "one face");
+            if (use.count > 2) say(ViolationKind::kOverfullEdge, std::to_string(use.count) + " faces");
+            if (use.count == 2 && use.turn != 0) say(ViolationKind::kOrientation, "its two faces look opposite ways");
         }
     }
 
@@ -216,73 +212,57 @@ private:
                 const Page& q = pages_[j];
                 if ((p.a == q.a && p.b == q.b) || (p.a == q.b && p.b == q.a))
                     findings_.add(ViolationKind::kDuplicateFace, {}, {index(p.face), index(q.face)},
-                                  name(p.face) + " and " + name(q.face) + " have the same vertices");
+                                  [&] { return name(p.face) + " and " + name(q.face) + " have the same vertices"; });
             }
         }
-    }
-
-    void find_coincident() {
-        std::vector<std::pair<std::uint64_t, VertexId>> hashed;
-        hashed.reserve(model_.vertex_count());
-        for (std::uint32_t n = 0; n < model_.vertex_end(); ++n) {
-            if (!model_.is_alive(VertexId{n})) continue;
-            const Vec3 p = model_.position(VertexId{n});
-            std::uint64_t hash = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                std::uint64_t bits;
-                const double value = p[axis] + 0.0;  // -0 and 0 are one place
-                std::memcpy(&bits, &value, 8);
-                hash = mix64(hash ^ bits);
-            }
-            hashed.push_back({hash, VertexId{n}});
-        }
-        std::sort(hashed.begin(), hashed.end());
-        for (std::size_t n = 1; n < hashed.size(); ++n) {
-            const VertexId a = hashed[n - 1].second, b = hashed[n].second;
-            if (hashed[n - 1].first == hashed[n].first && model_.position(a) == model_.position(b))
-                findings_.add(ViolationKind::kCoincidentVertices, {index(a), index(b)}, {},
-                              name(a) + " and " + name(b) + " are at one place");
-        }
-    }
-
-    void finish() {
-        for (std::uint32_t f = 0; f < model_.face_end(); ++f) {
-            if (!model_.is_alive(FaceId{f})) continue;
-            for (std::uint32_t side = 0; side < 2; ++side) {
-                const Label label = model_[FaceId{f}].labels[side];
-                if (!is_exterior(label) && sheets_.find(2 * f + side) == 2 * f + side) ++region(label).components;
-            }
-        }
-        for (Label label = 0; label < regions_.size(); ++label) {
-            regions_[label].label = label;
-            if (regions_[label].area > 0 && !is_background(label)) report_.regions.push_back(regions_[label]);
-        }
-        report_.region_pairs = pairs_.size();
-        report_.quality.mean = faces_ ? quality_sum_ / static_cast<double>(faces_) : 0;
     }
 
     const Model& model_;
     const CheckOptions& options_;
-    CheckReport& report_;
-    Findings& findings_;
-    UnionFind sheets_;  // the two sides of each face, joined where a region's boundary goes on across an edge
-    std::vector<RegionReport> regions_;
-    std::unordered_set<std::uint64_t> pairs_;
-    std::uint64_t last_pair_ = ~std::uint64_t{0};
-    Vec3 origin_;
-    bool has_origin_ = false;
-    double quality_sum_ = 0;
-    std::uint64_t faces_ = 0;
+    UnionFind& sheets_;
+    Findings findings_;
+    RegionSums regions_;
+    std::uint64_t quadruple_points_inside_ = 0;
     std::vector<Page> pages_;
+    LabelSet labels_;            // of the regions among them
+    std::vector<FanPage> fans_;  // region after region
+    std::vector<std::size_t> ends_;
     std::vector<VertexId> neighbours_;
     std::vector<std::uint32_t> fan_, todo_;
     std::vector<bool> reached_;
 };
 
+/// Each part of a region's boundary has one root among its sheets.
+std::vector<RegionReport> count_components(const Model& model, const UnionFind& sheets, std::uint32_t first,
+                                           std::uint32_t end) {
+    RegionSums regions;
+    for (std::uint32_t f = first; f < end; ++f) {
+        if (!model.is_alive(FaceId{f})) continue;
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            const Label label = model[FaceId{f}].labels[side];
+            if (sheets.is_root(2 * f + side) && !is_exterior(label)) ++regions[label].components;
+        }
+    }
+    return regions.take();
+}
+
 }  // namespace
 
-void check_stars(const Model& model, const CheckOptions& options, CheckReport& report, Findings& findings) {
-    StarCheck(model, options, report, findings).run();
+void check_stars(const Model& model, const CheckOptions& options, std::vector<RegionReport>& regions,
+                 CheckReport& report, Findings& findings) {
+    UnionFind sheets(2 * model.face_end());
+    for_chunks(
+        model.vertex_end(), kCheckChunk, options.threads,
+        [&](std::uint32_t first, std::uint32_t end) { return StarCheck(model, options, sheets).run(first, end); },
+        [&](StarChunk&& chunk) {
+            findings.append(std::move(chunk.findings));
+            add_to(regions, chunk.regions);
+            report.quadruple_points_inside += chunk.quadruple_points_inside;
+        });
+    for_chunks(
+        model.face_end(), kCheckChunk, options.threads,
+        [&](std::uint32_t first, std::uint32_t end) { return count_components(model, sheets, first, end); },
+        [&](const std::vector<RegionReport>& chunk) { add_to(regions, chunk); });
 }
 
 }  // namespace regionmesh

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "regionmesh/base/ids.h"
+#include "regionmesh/base/label.h"
 #include "regionmesh/base/vec3.h"
 
 namespace regionmesh {
@@ -13,6 +14,12 @@ namespace regionmesh {
 struct PlacedFace {
     std::array<VertexId, 3> vertices;
     std::array<Vec3, 3> at;
+};
+
+/// One that has labels, too.
+struct LabelledFace {
+    PlacedFace placed;
+    std::array<Label, 2> labels;  // the normal points from the first to the second
 };
 
 /// Do the boxes round two triangles overlap, touching included?
@@ -25,6 +32,18 @@ inline bool boxes_overlap(const std::array<Vec3, 3>& p, const std::array<Vec3, 3
     }
     return true;
 }
+
+/// Have the faces a vertex in common?
+inline bool share_vertex(const std::array<VertexId, 3>& v, const std::array<VertexId, 3>& w) {
+    bool share = false;  // no jumps: there is no telling
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) share |= v[i] == w[j];
+    return share;
+}
+
+/// A cheap proof that two triangles do not meet: a plane between them, square to the line through their middles or to
+/// the diagonal of a side of a cube. It leaves about one pair in a hundred whose boxes overlap.
+bool are_apart(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q);
 
 /// True when the faces meet outside shared vertices and edges, or share all three vertices. Exact. Requires that
 /// neither is degenerate.

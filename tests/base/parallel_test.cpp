@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "regionmesh/base/parallel_for.h"
+#include "regionmesh/base/union_find.h"
+#include "support/random.h"
+
+namespace regionmesh {
+namespace {
+
+TEST(ForChunks, covers_all_once_and_appends_in_order) {
+    for (std::uint32_t size : {0u, 1u, 9u, 10u, 11u, 5000u}) {
+        for (std::uint32_t threads : {1u, 2u, 5u}) {
+            std::vector<std::uint32_t> all;
+            for_chunks(
+                size, 10, threads,
+                [](std::uint32_t first, std::uint32_t end) {
+                    std::vector<std::uint32_t> numbers;
+                    for (std::uint32_t n = first; n < end; ++n) numbers.push_back(n);
+                    EXPECT_LE(numbers.size(), 10u);
+                    return numbers;
+                },
+                [&](const std::vector<std::uint32_t>& numbers) { all.insert(all.end(), numbers.begin(), numbers.end()); });
+            ASSERT_EQ(all.size(), size);
+            for (std::uint32_t n = 0; n < size; ++n) ASSERT_EQ(all[n], n);
+        }
+    }
+}
+
+TEST(ForChunks, rounds_sums_alike_on_any_number_of_threads) {
+    const auto sum_on = [](std::uint32_t threads) {
+        double sum = 0;
+        for_chunks(
+            100000, 64, threads,
+            [](std::uint32_t first, std::uint32_t end) {
+                double part = 0;
+                for (std::uint32_t n = first; n < end; ++n) part += 1 / (n + 0.1);
+                return part;
+            },
+            [&](double part) { sum += part; });
+        return sum;
+    };
+    for (std::uint32_t threads : {2u, 3u, 8u}) EXPECT_EQ(sum_on(threads), sum_on(1));
+}
+
+TEST(UnionFind, joined_by_several_threads_is_as_joined_by_one) {
+    constexpr std::uint32_t kSize = 100000, kChunk = 1000;
+    UnionFind one(kSize), many(kSize);
+    const auto join = [](UnionFind& sets, std::uint32_t chunk) {
+        test::Random random(chunk);
+        for (std::uint32_t n = 0; n < kChunk; ++n) {
+            const std::uint32_t a = random.below(kSize);
+            sets.join(a, random.below(2) ? random.below(kSize) : a / 2);
+        }
+    };
+    for (std::uint32_t chunk = 0; chunk < 60; ++chunk) join(one, chunk);
+    parallel_for(60, 8, [&](std::uint32_t chunk) { join(many, chunk); });
+    for (std::uint32_t n = 0; n < kSize; ++n) {
+        ASSERT_EQ(one.find(n), many.find(n));
+        ASSERT_LE(one.find(n), n) << "the smallest is the root";
+        ASSERT_EQ(one.is_root(n), one.find(n) == n);
+    }
+}
+
+}  // namespace
+}  // namespace regionmesh

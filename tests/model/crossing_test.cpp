@@ -1,0 +1,96 @@
+#include "regionmesh/model/crossing.h"
+
+#include <gtest/gtest.h>
+
+#include "support/crossings.h"
+#include "support/random.h"
+#include "support/runs.h"
+#include "support/shapes.h"
+
+namespace regionmesh {
+namespace {
+
+/// Faces on any three of some vertices, near each other or not; some repeat a vertex or another face.
+Model random_soup(test::Random& random, std::uint32_t vertices, std::uint32_t faces, int lattice) {
+    Model model;
+    for (std::uint32_t n = 0; n < vertices; ++n) model.add_vertex(lattice ? random.lattice_point(lattice) : random.point(1));
+    for (std::uint32_t n = 0; n < faces; ++n) {
+        const std::uint32_t from = random.below(vertices), reach = random.below(4) ? vertices : 4;
+        const auto some = [&] { return VertexId{(from + random.below(reach)) % vertices}; };
+        model.add_face(some(), some(), some(), random.below(3), random.below(3));
+    }
+    return model;
+}
+
+TEST(FindCrossings, says_what_all_pairs_say_of_a_soup) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        test::Random random(seed);
+        test::expect_all_crossings_found(random_soup(random, 3 + random.below(40), random.below(80), static_cast<int>(random.below(4))));
+    }
+}
+
+TEST(FindCrossings, says_what_all_pairs_say_of_many_small_faces) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        test::Random random(seed);
+        Model model;
+        for (std::uint32_t n = 0; n < 1500; ++n) {
+            const Vec3 p = seed % 2 ? random.lattice_point(8) : random.point(1);
+            const auto near = [&] { return model.add_vertex(p + (seed % 2 ? random.lattice_point(1) : 0.1 * random.point(1))); };
+            const VertexId a = n % 3 ? VertexId{random.below(model.vertex_end())} : near(), b = near(), c = near();
+            model.add_face(a, b, c, 0, 1);
+        }
+        EXPECT_GT(test::expect_all_crossings_found(model), 0u);
+    }
+}
+
+/// A volume of noise, its vertices moved about.
+Model shaken(std::uint32_t size, double reach, std::uint64_t seed) {
+    Model model = test::run(test::noise_volume({size, size, size}, 4, seed)).model;
+    test::Random random(seed);
+    test::for_vertices(model, [&](VertexId v) { model[v].position += random.point(reach); });
+    return model;
+}
+
+TEST(FindCrossings, says_what_all_pairs_say_of_a_shaken_surface) {
+    for (double reach : {0.0, 0.02, 0.2, 1.0}) {
+        const std::size_t found = test::expect_all_crossings_found(shaken(4, reach, 1));
+        EXPECT_EQ(found > 0, reach > 0.1) << reach;
+    }
+}
+
+TEST(FindCrossings, leaves_out_what_is_not_alive) {
+    Model model = shaken(4, 0.3, 2);
+    for (std::uint32_t f = 0; f < model.face_end(); f += 3) model.remove_face(FaceId{f});
+    EXPECT_EQ(test::crossings_in(model), test::crossings_by_brute_force(model));
+}
+
+TEST(FindCrossings, is_the_same_on_any_number_of_threads) {
+    const Model model = shaken(10, 0.3, 3);
+    const std::vector<FacePair> expected = test::crossings_in(model, 1);
+    EXPECT_GT(expected.size(), 100u);
+    for (std::uint32_t threads : {2u, 3u, 8u, 0u}) {
+        EXPECT_EQ(test::crossings_in(model, threads), expected);
+        EXPECT_EQ(find_crossings(test::listed_faces(model), threads), expected);
+    }
+}
+
+TEST(FindCrossings, does_not_depend_on_the_order_of_faces) {
+    Model model = shaken(10, 0.3, 3);
+    const std::size_t expected = test::crossings_in(model).size();
+    model.sort_spatially();
+    EXPECT_EQ(test::crossings_in(model).size(), expected);
+    std::vector<LabelledFace> faces = test::listed_faces(model);
+    test::Random random(4);
+    for (std::uint32_t n = 1; n < faces.size(); ++n) std::swap(faces[n], faces[random.below(n + 1)]);
+    EXPECT_EQ(find_crossings(faces, 1).size(), expected);
+}
+
+TEST(FindCrossings, of_nothing_are_none) {
+    EXPECT_TRUE(test::crossings_in(Model()).empty());
+    EXPECT_TRUE(find_crossings(std::span<const LabelledFace>(), 1).empty());
+}
+
+}  // namespace
+}  // namespace regionmesh
