@@ -116,14 +116,15 @@ TEST(Neighbours, leave_out_a_chord_between_two_vertices_of_one_line) {
 TEST(Neighbours, quadruple_points_have_none_unless_they_may_move) {
     const Model model = four_regions();
     test::expect_sound(check(model));
+    const Surface staying(model), moving(model, true);
     for (std::uint32_t point = 0; point < 5; ++point) {
-        EXPECT_THAT(Surface(model).neighbours.of(point), IsEmpty());
+        EXPECT_THAT(staying.neighbours.of(point), IsEmpty());
         std::set<std::uint32_t> ends{0, 1, 2, 3, 4};
         ends.erase(point);
-        const auto list = Surface(model, true).neighbours.of(point);
+        const auto list = moving.neighbours.of(point);
         EXPECT_EQ(std::set(list.begin(), list.end()), ends) << "the ends of its four lines, not the vertices of its faces";
     }
-    EXPECT_THAT(Surface(model).neighbours.of(5), UnorderedElementsAre(0, 1, 4));
+    EXPECT_THAT(staying.neighbours.of(5), UnorderedElementsAre(0, 1, 4));
 }
 
 TEST(Neighbours, on_a_box_follow_its_sides_and_edges_and_stop_at_its_corners) {

@@ -189,13 +189,13 @@ TEST(Smooth, the_numbers_of_vertices_and_faces_do_not_matter) {
         expect_same("noise", noise(), options);
         expect_same("noise of two labels", noise(2), options);
     }
-    expect_same("few grains", run(test::grain_volume({9, 9, 9}, 5, 2)).model, {.filter = SmoothFilter::kNifpms});
-    expect_same("little noise", run(test::noise_volume({6, 6, 6}, 3, 2)).model, {.filter = SmoothFilter::kNifpms});
+    expect_same("few grains", run(test::grain_volume({8, 8, 8}, 4, 2)).model, {.filter = SmoothFilter::kNifpms});
+    expect_same("little noise", run(test::noise_volume({5, 5, 5}, 3, 2)).model, {.filter = SmoothFilter::kNifpms});
 }
 
 TEST(Smooth, threads_do_not_matter) {
     for (SmoothFilter filter : kFilters) {
-        const std::uint32_t side = filter == SmoothFilter::kNifpms ? 7 : 12;
+        const std::uint32_t side = filter == SmoothFilter::kNifpms ? 6 : 12;
         Model one = run(test::noise_volume({side, side, side}, 3, 1)).model, many = test::copy_of(one);
         const SmoothReport by_one = smooth(one, {.filter = filter, .threads = 1}), by_many = smooth(many, {.filter = filter, .threads = 3});
         EXPECT_EQ(test::digest(one), test::digest(many));
