@@ -208,4 +208,5 @@ def main():
     write_png(window, sys.argv[2])
 
 
-main()
+if __name__ == "__main__":
+    main()
