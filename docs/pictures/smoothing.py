@@ -81,26 +81,68 @@ def change(region):
     return 100 * (region["volume_smoothed"] / region["volume_unsmoothed"] - 1)
 
 
-def volumes_of_two(report, _):
-    changes = [change(region) for region in report["regions"]]
-    same = max(changes) - min(changes) < 0.005
-    return [f"{changes[0]:+.2f}" if same else " ".join(f"{c:+.2f}" for c in changes)]
+def octant(points, centre_of):
+    """Distances from the middle along the axes, and half the size."""
+    low, high = centre_of.min(axis=0), centre_of.max(axis=0)
+    return abs(points - (low + high) / 2), (high - low) / 2
 
 
-def volumes_of_many(report, shown):
-    regions = report["regions"]
-    moved = sum(abs(r["volume_smoothed"] - r["volume_unsmoothed"]) for r in regions)
-    of_shown = next(change(r) for r in regions if r["label"] == shown)
-    return [f"{of_shown:+.2f}", f"{100 * moved / sum(r['volume_unsmoothed'] for r in regions):.2f}",
-            f"{report['triple_lines']['mean_turning_angle']:.1f}"]
+def spread_left(before, after, zones):
+    """What is left of steps on 45-degree slopes: spread of |u| + |v| over the vertices of each zone (u, v, mask)."""
+    left = [(after[mask][:, u] + after[mask][:, v]).std() / (before[mask][:, u] + before[mask][:, v]).std()
+            for u, v, mask in zones]
+    return f"{100 * sum(left) / len(left):.0f} %"
 
 
-def print_table(title, heads, rows):
+def measures_of_slab(runs):
+    """By run: change of volume, what is left of the steps, and what the edges beside the chamfers have lost."""
+    plain = points_of(runs[0][1])
+    a, half = octant(plain, plain)
+    chamfer = 8
+    zones, edges = [], []
+    for u, v in ((0, 1), (0, 2), (1, 2)):
+        inner = a[:, 3 - u - v] < half[3 - u - v] - chamfer - 2
+        near = [(half[w] - a[:, w] > 1.5) & (half[w] - a[:, w] < chamfer - 1.5) for w in (u, v)]
+        zones.append((u, v, inner & near[0] & near[1]))
+        for side, along in ((u, v), (v, u)):
+            edges.append((side, inner & (a[:, side] > half[side] - 0.3) &
+                          (abs(a[:, along] - (half[along] - chamfer + 0.25)) < 0.6)))
+    for _, model, report in runs[1:]:
+        b, _ = octant(points_of(model), plain)
+        lost = [abs(half[side] - b[mask][:, side]).mean() for side, mask in edges]
+        yield [f"{change(report['regions'][0]):+.2f}", spread_left(a, b, zones), f"{sum(lost) / len(lost):.2f}"]
+
+
+def measures_of_pyramid(runs):
+    """By run: change of volume, the same for both halves, and what is left of the steps."""
+    plain = points_of(runs[0][1])
+    a, half = octant(plain, plain)
+    zones = [(u, 2, (a[:, u] - a[:, 1 - u] > 4) & (a[:, u] > 6) & (a[:, 2] > 3) & (a[:, 2] < half[2] - 6))
+             for u in (0, 1)]
+    for _, model, report in runs[1:]:
+        changes = [f"{change(region):+.2f}" for region in report["regions"]]
+        yield [" ".join(dict.fromkeys(changes)), spread_left(a, octant(points_of(model), plain)[0], zones)]
+
+
+def measures_of_grain(shown):
+    """By run: change of volume of the grain and of all, and the turning angle of lines."""
+    def measures(runs):
+        for _, _, report in runs[1:]:
+            regions = report["regions"]
+            moved = sum(abs(r["volume_smoothed"] - r["volume_unsmoothed"]) for r in regions)
+            of_shown = next(change(r) for r in regions if r["label"] == shown)
+            yield [f"{of_shown:+.2f}", f"{100 * moved / sum(r['volume_unsmoothed'] for r in regions):.2f}",
+                   f"{report['triple_lines']['mean_turning_angle']:.1f}"]
+    return measures
+
+
+def print_table(title, scene, runs):
+    """The first run is the plain one, with which the others are compared."""
     print(f"\n{title}\n")
-    print("| filter | " + " | ".join(heads) +
+    print("| filter | " + " | ".join(scene["heads"]) +
           " | largest, rms displacement | turned, low, crossing | held | stepped back | least quality | violations |")
-    print("|---" * (len(heads) + 7) + "|")
-    for name, report, own in rows:
+    print("|---" * (len(scene["heads"]) + 7) + "|")
+    for (name, _, report), own in zip(runs[1:], scene["measures"](runs)):
         did = report["smoothing"]
         print(f"| {name} | " + " | ".join(own) + f" | {did['largest_displacement']:.2f}, {did['rms_displacement']:.2f}"
               f" | {did['turned_faces']}, {did['low_quality_faces']}, {did['crossing_pairs']} | {did['held_vertices']}"
@@ -244,49 +286,45 @@ def largest_inside(volume):
 
 
 def run_scene(program, volume, out, name, scene, folder):
-    """Draws the six variants of a scene. Returns views and models of its extremes."""
-    shown = next(iter(scene["regions"]))
-    runs = [(caption(*variant), *reconstruct(program, volume, scene["options"], *variant, folder))
-            for variant in VARIANTS]
-    _, model, report, plain = runs[0]
+    """Draws the six variants of a scene. Returns tiles of its extremes."""
+    files, runs = zip(*((file, (caption(*variant), model, report)) for variant in VARIANTS
+                        for model, report, file in [reconstruct(program, volume, scene["options"], *variant, folder)]))
+    _, plain, report = runs[0]
     print_table(f"{name}, {report['final_faces']} faces; volumes in percent; least quality before "
                 f"{report['quality']['min']:.3f}, turning of lines before "
-                f"{report['triple_lines']['mean_turning_angle']:.1f} degrees", scene["heads"],
-                [(text, report, scene["volumes"](report, shown)) for text, _, report, _ in runs[1:]])
-    view = view_of(model, scene)
-    draw([(text, tile(model, scene, view)) for text, model, _, _ in runs], out / f"smoothing-{name}.png")
+                f"{report['triple_lines']['mean_turning_angle']:.1f} degrees", scene, runs)
+    view = view_of(plain, scene)
+    draw([(text, tile(model, scene, view)) for text, model, _ in runs], out / f"smoothing-{name}.png")
     if not scene.get("extremes"):
         return []
-    runs = [(caption(*variant), *smooth_in_core(program, plain, *variant, folder)) for variant in EXTREMES]
-    print_table(f"{name}, in calls of {CHAIN} passes, no bound on quality", scene["heads"],
-                [(text, report, scene["volumes"](report, shown)) for text, _, report in runs])
-    return [(text, tile(model, scene, view)) for text, model, _ in runs]
+    far = [(caption(*variant), *smooth_in_core(program, files[0], *variant, folder)) for variant in EXTREMES]
+    print_table(f"{name}, in calls of {CHAIN} passes, no bound on quality", scene, [runs[0], *far])
+    return [(text, tile(model, scene, view)) for text, model, _ in far]
 
 
-def scenes():
-    steel, clay, sand = (0.66, 0.78, 0.93), (0.95, 0.68, 0.52), (0.96, 0.85, 0.58)
-    of_one = {"options": [], "volumes": volumes_of_two, "heads": ["volume"]}
-    yield "slab", "chamfer_slab.npy", {**of_one, "regions": {1: steel}, "lines": False, "eye": (0.5, -0.72, 0.48),
-                                       "height": 78, "extremes": True}
-    pyramid = {**of_one, "regions": {1: clay, 2: sand}, "lines": True, "eye": (0.42, -0.8, 0.36), "height": 56}
-    yield "pyramid", "dpyramid_2reg_s4.npy", {**pyramid, "extremes": True}
-    yield "pyramid-fine", "dpyramid_2reg_s1.npy", pyramid
-    yield "grain", "in100_60x80x100.npy", {"options": ["--no-background"], "volumes": volumes_of_many,
-                                           "heads": ["grain's volume", "volumes of all", "turning"],
-                                           "regions": {None: (0.70, 0.86, 0.70)}, "lines": True,
-                                           "eye": (0.62, -0.62, 0.5), "height": 45}
+def scenes(volumes):
+    blue, clay, sand, green = (0.66, 0.78, 0.93), (0.95, 0.68, 0.52), (0.96, 0.85, 0.58), (0.70, 0.86, 0.70)
+    yield "slab", find_volume(volumes, "chamfer_slab.npy"), {
+        "options": [], "regions": {1: blue}, "lines": False, "eye": (0.5, -0.72, 0.48), "height": 78, "extremes": True,
+        "heads": ["volume", "steps left", "edges lost"], "measures": measures_of_slab}
+    pyramid = {"options": [], "regions": {1: clay, 2: sand}, "lines": True, "eye": (0.42, -0.8, 0.36), "height": 56,
+               "heads": ["volume", "steps left"], "measures": measures_of_pyramid}
+    yield "pyramid", find_volume(volumes, "dpyramid_2reg_s4.npy"), pyramid | {"extremes": True}
+    yield "pyramid-fine", find_volume(volumes, "dpyramid_2reg_s1.npy"), pyramid
+    polycrystal = find_volume(volumes, "in100_60x80x100.npy")
+    shown = largest_inside(polycrystal)
+    yield "grain", polycrystal, {
+        "options": ["--no-background"], "regions": {shown: green}, "lines": True, "eye": (0.62, -0.62, 0.5),
+        "height": 45, "heads": ["grain's volume", "volumes of all", "turning"], "measures": measures_of_grain(shown)}
 
 
 def main():
     program, volumes = sys.argv[1], sys.argv[2]
     out = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else pathlib.Path(__file__).parent)
     extremes = []
-    for name, file, scene in scenes():
+    for name, volume, scene in scenes(volumes):
         if sys.argv[4:] and name not in sys.argv[4:]:
             continue
-        volume = find_volume(volumes, file)
-        scene["regions"] = {largest_inside(volume) if label is None else label: colour
-                            for label, colour in scene["regions"].items()}
         with tempfile.TemporaryDirectory() as folder:
             extremes += run_scene(program, volume, out, name, scene, pathlib.Path(folder))
     if extremes:
