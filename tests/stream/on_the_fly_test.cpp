@@ -13,17 +13,6 @@ namespace {
 
 using test::run;
 
-/// One block of grains after the other along z, every second one mirrored.
-test::ArrayVolume blocks(std::uint32_t side, std::uint32_t count) {
-    const test::ArrayVolume block = test::grain_volume({side, side, side}, side / 2, 6);
-    std::vector<InputLabel> labels;
-    for (std::uint32_t n = 0; n < count; ++n)
-        for (std::uint32_t z = 0; z < side; ++z)
-            for (std::uint32_t y = 0; y < side; ++y)
-                for (std::uint32_t x = 0; x < side; ++x) labels.push_back(block.at(x, y, n % 2 ? side - 1 - z : z));
-    return {{side, side, side * count}, std::move(labels)};
-}
-
 ReconstructOptions with_budget(std::uint64_t target, std::uint64_t budget) {
     ReconstructOptions options{.target_faces = target, .background = {}};
     options.face_budget = budget;
@@ -63,7 +52,7 @@ TEST(Determinism, what_ran_before_does_not_matter) {
 }
 
 TEST(OnTheFly, a_budget_that_binds_leaves_a_sound_model) {
-    test::ArrayVolume volume = blocks(20, 2);
+    test::ArrayVolume volume = test::grain_blocks(20, 2);
     const Reconstruction whole = run(volume);
     for (std::uint64_t budget : {4000u, 6000u, 10000u}) {
         SCOPED_TRACE("budget " + std::to_string(budget));
@@ -87,7 +76,7 @@ TEST(OnTheFly, noise_beyond_the_budget_stays_sound) {
 }
 
 TEST(OnTheFly, backgrounds_and_open_boxes_stay_sound) {
-    test::ArrayVolume volume = blocks(16, 2);
+    test::ArrayVolume volume = test::grain_blocks(16, 2);
     ReconstructOptions options = with_budget(1500, 4000);
     options.background = {0, 1};
     test::expect_sound(run(volume, options).report.check);
@@ -117,7 +106,7 @@ TEST(OnTheFly, every_sweep_and_batch_stays_sound) {
 constexpr std::uint64_t kFacesOfRun = 10000;
 
 TEST(Memory, peak_is_near_the_budget) {
-    test::ArrayVolume volume = blocks(16, 10);
+    test::ArrayVolume volume = test::grain_blocks(16, 10);
     for (std::uint64_t budget : {10000u, 20000u}) {
         const Reconstruction made = run(volume, with_budget(5000, budget));
         EXPECT_GT(made.report.initial_faces, 2 * budget);
@@ -126,8 +115,8 @@ TEST(Memory, peak_is_near_the_budget) {
 }
 
 TEST(Memory, peak_does_not_grow_with_the_number_of_sections) {
-    const Reconstruction half = run(blocks(16, 8), with_budget(4000, 12000));
-    const Reconstruction whole = run(blocks(16, 16), with_budget(8000, 12000));
+    const Reconstruction half = run(test::grain_blocks(16, 8), with_budget(4000, 12000));
+    const Reconstruction whole = run(test::grain_blocks(16, 16), with_budget(8000, 12000));
     EXPECT_GT(whole.report.initial_faces, half.report.initial_faces * 19 / 10);
     EXPECT_LE(whole.report.peak_faces, half.report.peak_faces * 11 / 10);
 }

@@ -52,17 +52,6 @@ void expect_smoothed_as_in_core(test::ArrayVolume& volume, const ReconstructOpti
     EXPECT_EQ(test::surface_digest(streamed.model), test::surface_digest(smoothed_in_core(volume, options)));
 }
 
-/// One block of grains after the other along z, every second one mirrored.
-test::ArrayVolume blocks(std::uint32_t side, std::uint32_t count) {
-    const test::ArrayVolume block = test::grain_volume({side, side, side}, side / 2, 6);
-    std::vector<InputLabel> labels;
-    for (std::uint32_t n = 0; n < count; ++n)
-        for (std::uint32_t z = 0; z < side; ++z)
-            for (std::uint32_t y = 0; y < side; ++y)
-                for (std::uint32_t x = 0; x < side; ++x) labels.push_back(block.at(x, y, n % 2 ? side - 1 - z : z));
-    return {{side, side, side * count}, std::move(labels)};
-}
-
 /// Balls of 1 in 0, one after the other along z, with sections of 0 alone between them and at both ends.
 test::ArrayVolume beads(std::uint32_t count) {
     std::vector<InputLabel> labels;
@@ -357,7 +346,7 @@ TEST(OnTheFly, smoothing_within_a_budget_that_binds_stays_sound) {
         for (const Sweep& sweep : {kSweepX, kSweepZ}) {
             if (filter == SmoothFilter::kNifpms && sweep.axes == kSweepX.axes) continue;  // slow
             SCOPED_TRACE(name_of({.filter = filter}));
-            test::ArrayVolume volume = blocks(12, 4);
+            test::ArrayVolume volume = test::grain_blocks(12, 4);
             ReconstructOptions options{.target_faces = 1500, .smooth = {.filter = filter}, .background = {}};
             options.face_budget = 3000;
             const Reconstruction made = run(volume.swept(sweep), options);

@@ -97,6 +97,14 @@ ArrayVolume grain_volume(Size size, std::uint32_t label_count, std::uint64_t see
     });
 }
 
+ArrayVolume grain_blocks(std::uint32_t side, std::uint32_t count) {
+    const ArrayVolume block = grain_volume({side, side, side}, side / 2, 6);
+    return volume_of({side, side, side * count}, [&](auto x, auto y, auto z) {
+        const std::uint32_t at = z % side;
+        return block.at(x, y, z / side % 2 ? side - 1 - at : at);
+    });
+}
+
 ArrayVolume ball_volume(Size size, double radius) {
     const Vec3 middle = 0.5 * Vec3{size[0] - 1.0, size[1] - 1.0, size[2] - 1.0};
     return volume_of(size, [&](auto x, auto y, auto z) {

@@ -54,6 +54,9 @@ ArrayVolume noise_volume(Size size, std::uint32_t label_count, std::uint64_t see
 /// Each sample has the label of the nearest of `label_count` random points: grains.
 ArrayVolume grain_volume(Size size, std::uint32_t label_count, std::uint64_t seed, InputLabel first = 0);
 
+/// So many blocks of grains along z, cubes of `side` samples, every second one mirrored.
+ArrayVolume grain_blocks(std::uint32_t side, std::uint32_t count);
+
 /// A ball of label 1 in label 0, in the middle; its radius is in samples.
 ArrayVolume ball_volume(Size size, double radius);
 
