@@ -22,6 +22,7 @@ SmoothOptions to_options(const Arguments& arguments, const Model& model) {
     options.intersect_check = !arguments.no_intersect_check;
     options.threads = arguments.threads;
     options.scale = arguments.scale.empty() ? typical_edge(model) : parse_number("--scale", arguments.scale);
+    if (options.scale <= 0) throw Error(ErrorCode::kInput, "--scale " + arguments.scale + ": not a length above 0");
     return options;
 }
 

@@ -5,7 +5,8 @@
 namespace regionmesh::cli {
 
 void SmoothArguments::add_options(CLI::App& command) {
-    command.add_option("--smooth", passes, "passes of smoothing; 20 if not given, 0 for none");
+    command.add_option("--smooth", passes, "passes of smoothing; 20 if not given, 0 for none")
+        ->check(CLI::Range(0, 100000));
     command
         .add_option("--smooth-filter", filter, "taubin keeps volumes, laplacian shrinks, nifpms keeps edges (one pass)")
         ->check(CLI::IsMember({"taubin", "laplacian", "nifpms", "none"}));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "regionmesh/base/hash.h"
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/model/label_set.h"
 
@@ -43,7 +44,7 @@ private:
         if (star.empty()) return true;
         const auto& labels = window_.faces[star[0] >> 2].labels;
         const Label low = std::min(labels[0], labels[1]), high = std::max(labels[0], labels[1]);
-        std::uint32_t sum = 0;
+        std::uint64_t sum = 0;  // of what comes after v in its faces less what comes before: 0 where the star is closed
         for (std::uint32_t corner : star) {
             const WindowFace& face = window_.faces[corner >> 2];
             if (std::min(face.labels[0], face.labels[1]) != low || std::max(face.labels[0], face.labels[1]) != high)
@@ -52,7 +53,7 @@ private:
             const std::uint32_t place = corner & 3, step = face.labels[0] == low ? 1 : 2;
             const std::uint32_t after = face.vertices[(place + step) % 3];
             found_.push_back(after);
-            sum += after - face.vertices[(place + 3 - step) % 3];
+            sum += mix64(after) - mix64(face.vertices[(place + 3 - step) % 3]);
         }
         const SideSet sides = window_.sides[v];
         const bool is_on_line =

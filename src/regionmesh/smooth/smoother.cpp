@@ -123,7 +123,7 @@ void Smoother::run(const Stage& stage, std::uint32_t layer) {
             return;
         case Stage::kSettle:
             settling_.add_layer(layer);
-            if (layer + 1 > held_) settling_.let_go_before(layer + 1 - held_);
+            if (held_ > 0 && layer + 1 > held_) settling_.let_go_before(layer + 1 - held_);
             return;
     }
     report_.vertex_passes += vertices.size();
