@@ -1,6 +1,7 @@
 #include "regionmesh/smooth/islands.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "regionmesh/model/exact_predicates.h"
 
@@ -43,11 +44,22 @@ void Parts::add_layer(const SurfaceWindow& window, std::uint32_t layer) {
 }
 
 std::vector<std::uint32_t> Parts::that_end_in(const SurfaceWindow& window, std::uint32_t layer) {
-    std::vector<std::uint32_t> roots;
     const NumberRange vertices = window.vertices_of(layer);
+    const auto is_before = [&](std::uint32_t v, std::uint32_t w) {
+        const Vec3 p = window.origin[v], q = window.origin[w];
+        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+    };
+    std::unordered_map<std::uint32_t, std::uint32_t> firsts;  // of each root in the layer
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v)
-        if (parent_[v] == v) roots.push_back(v);
-    return roots;
+        if (parent_[v] == v) firsts[v] = v;
+    for (std::uint32_t v = vertices.first; v < vertices.end && !firsts.empty(); ++v) {
+        const auto at = firsts.find(root(v));
+        if (at != firsts.end() && is_before(v, at->second)) at->second = v;
+    }
+    std::vector<std::uint32_t> found;
+    for (const auto& [root, first] : firsts) found.push_back(first);
+    std::sort(found.begin(), found.end());
+    return found;
 }
 
 bool may_change_sides(Vec3 before, Vec3 after, const MovedFace& face) {

@@ -15,7 +15,8 @@ public:
     /// The faces of a layer, in order of layers.
     void add_layer(const SurfaceWindow& window, std::uint32_t layer);
 
-    /// Roots of the parts that end in this layer; requires that the next one was added, if there is one.
+    /// Of each part that ends in this layer, its first vertex there by place, whatever the numbers. Requires that the
+    /// next layer was added, if there is one.
     std::vector<std::uint32_t> that_end_in(const SurfaceWindow& window, std::uint32_t layer);
 
     std::uint32_t root(std::uint32_t v);

@@ -27,7 +27,7 @@ void Settling::add_layer(std::uint32_t layer) {
     if (options_.intersect_check) {
         build_tree(layer);
         const auto ended = parts_.that_end_in(window_, layer);
-        roots_.insert(roots_.end(), ended.begin(), ended.end());
+        speakers_.insert(speakers_.end(), ended.begin(), ended.end());
     }
     NumberRange whole = own;
     for (;;) {
@@ -162,21 +162,22 @@ bool Settling::raise_crossing(const std::vector<std::uint32_t>& faces, NumberRan
 
 bool Settling::raise_islands() {
     bool any = false;
-    for (std::uint32_t root : roots_) {
-        const Vec3 before = window_.origin[root], after = (*stand_.now)[root];
+    for (std::uint32_t v : speakers_) {
+        const std::uint32_t part = parts_.root(v);
+        const Vec3 before = window_.origin[v], after = (*stand_.now)[v];
         Box way;
         way.add(before);
         way.add(after);
         bool changes = false;
         for_near(way, [&](std::uint32_t f) {
             const WindowFace& face = window_.faces[f];
-            if (parts_.root(face.vertices[0]) == root) return;
+            if (parts_.root(face.vertices[0]) == part) return;
             MovedFace moved{face.vertices, {}, placed(f).at};
             for (int n = 0; n < 3; ++n) moved.before[n] = window_.origin[face.vertices[n]];
             if (!may_change_sides(before, after, moved)) return;
-            if (stand_.level[root] == kFullyBack && is_as_it_came(f)) return;
+            if (stand_.level[v] == kFullyBack && is_as_it_came(f)) return;
             raise_corners(f);
-            raise(root);
+            raise(v);
             changes = true;
         });
         if (!changes) continue;
@@ -190,7 +191,7 @@ void Settling::let_go_before(std::uint32_t layer) {
     first_free_ = layer;
     while (!trees_.empty() && trees_.front().layer < layer) trees_.pop_front();
     const std::uint32_t first = window_.vertices_of(layer).first;
-    std::erase_if(roots_, [&](std::uint32_t root) { return root < first; });
+    std::erase_if(speakers_, [&](std::uint32_t v) { return v < first; });
 }
 
 std::size_t Settling::bytes() const {

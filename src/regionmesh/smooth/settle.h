@@ -74,7 +74,7 @@ private:
     Stand& stand_;
     const SmoothOptions& options_;
     Parts parts_;
-    std::vector<std::uint32_t> roots_;  // of complete parts, in layers not let go
+    std::vector<std::uint32_t> speakers_;  // one vertex of each complete part, in layers not let go
     std::deque<LayerTree> trees_;
     std::uint32_t first_free_ = 0;  // first layer whose vertices may step back
     std::uint32_t settled_end_ = 0;
