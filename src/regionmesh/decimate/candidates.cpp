@@ -14,6 +14,14 @@ namespace {
 constexpr double kLineWeight = 1;
 constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 
+/// Of an edge whose merged vertex has to stay on a side of the box.
+EdgeCost constrained_cost(const EdgeEnds& edge) {
+    const double cost = place(edge).cost;
+    const double weight = edge.goes_quadric.unpack().weight() + edge.stays_quadric.unpack().weight();
+    const double draw = kLengthShare * weight * length2(edge.goes - edge.stays);
+    return {static_cast<float>(cost), static_cast<float>(weight), static_cast<float>(cost + draw)};
+}
+
 }  // namespace
 
 Candidates::Candidates(Model& model, const DecimateOptions& options)
@@ -74,32 +82,42 @@ std::uint64_t Candidates::refresh() {
     return forbidden;
 }
 
-/// Neighbours of v with the labels of the edges to them. Round a vertex of two labels all edges have both, and each
-/// neighbour follows v in exactly one face.
-void Candidates::gather_neighbours(VertexId v) {
-    neighbours_.clear();
-    const bool is_simple = label_count(v) == 2;
-    model_.for_star(v, [&](FaceId f, int place) {
-        const Face& face = model_[f];
-        const VertexId after = face.vertices[(place + 1) % 3];
-        if (is_simple) {
-            neighbours_.push_back({after, {}, 2});
-            return;
-        }
-        for (VertexId n : {after, face.vertices[(place + 2) % 3]}) {
-            auto at = std::find_if(neighbours_.begin(), neighbours_.end(),
-                                   [&](const Neighbour& other) { return other.vertex == n; });
-            if (at == neighbours_.end()) at = neighbours_.insert(at, {n, {}, 0});
-            for (Label label : face.labels) at->labels.add(label);
-            at->uses += 2;
-        }
-    });
+/// The edges of v with their numbers of labels and their costs. Round a vertex of two labels all edges have both, and
+/// each neighbour follows v in exactly one face.
+void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
+    found.vertices.clear();
+    if (label_count(v) == 2) {
+        model_.for_star(v, [&](FaceId f, int place) {
+            found.vertices.push_back(model_[f].vertices[place == 2 ? 0 : place + 1]);
+        });
+        found.label_counts.assign(found.vertices.size(), 2);
+    } else {
+        count_edge_labels(v, found);
+    }
+    find_edge_costs(model_, quadrics_, v, found.vertices, found.costs);
 }
 
-int Candidates::edge_label_count(VertexId v, const Neighbour& neighbour) const {
-    if (label_count(v) == 2) return 2;
-    if (neighbour.uses >= 2 * neighbour.labels.size()) return neighbour.labels.size();
-    return edge_labels(model_, v, neighbour.vertex).size();  // the surface ends here: sides count
+void Candidates::count_edge_labels(VertexId v, Neighbours& found) {
+    edge_labels_.clear();
+    model_.for_star(v, [&](FaceId f, int place) {
+        const Face& face = model_[f];
+        for (VertexId n : {face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3]}) {
+            const auto at = std::find(found.vertices.begin(), found.vertices.end(), n) - found.vertices.begin();
+            if (at == static_cast<std::ptrdiff_t>(found.vertices.size())) {
+                found.vertices.push_back(n);
+                edge_labels_.emplace_back();
+            }
+            for (Label label : face.labels) edge_labels_[at].labels.add(label);
+            edge_labels_[at].uses += 2;
+        }
+    });
+    found.label_counts.clear();
+    for (std::size_t n = 0; n < found.vertices.size(); ++n) {
+        // Where the surface ends sides count, too.
+        const auto& [labels, uses] = edge_labels_[n];
+        const int count = uses >= 2 * labels.size() ? labels.size() : edge_labels(model_, v, found.vertices[n]).size();
+        found.label_counts.push_back(static_cast<std::uint8_t>(count));
+    }
 }
 
 /// The end that would go, or none.
@@ -115,31 +133,28 @@ EdgeEnds Candidates::ends(VertexId goes, VertexId stays) const {
 }
 
 /// Rank of an edge; infinite beyond the cost level or the largest error.
-float Candidates::key(VertexId goes, VertexId stays) const {
-    const EdgeEnds edge = ends(goes, stays);
-    const double cost = place(edge).cost;
+float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
     constexpr float kNever = std::numeric_limits<float>::infinity();
-    if (!(cost <= options_.max_cost)) return kNever;
-    if (std::isfinite(options_.max_error)) {
-        const double weight = edge.goes_quadric.unpack().weight() + edge.stays_quadric.unpack().weight();
-        if (cost > options_.max_error * options_.max_error * weight) return kNever;
-    }
+    if (model_[stays].sides != 0) edge = constrained_cost(ends(goes, stays));
+    if (!(edge.cost <= options_.max_cost)) return kNever;
+    if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight)
+        return kNever;
     const double scale2 = options_.scale * options_.scale;
-    return static_cast<float>(cost + options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays)));
+    return static_cast<float>(edge.rank + options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays)));
 }
 
 /// The cheapest edge owned by v that comes after `after`, or leads to `fresh`.
 Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden) {
     Best best{kNoVertex, std::numeric_limits<float>::infinity()};
     if (model_[v].is_fixed) return best;
-    gather_neighbours(v);
-    for (const Neighbour& neighbour : neighbours_) {
-        const VertexId w = neighbour.vertex;
+    gather_neighbours(v, neighbours_);
+    for (std::size_t n = 0; n < neighbours_.vertices.size(); ++n) {
+        const VertexId w = neighbours_.vertices[n];
         if (model_[w].is_fixed) continue;
-        const VertexId goes = owner(v, w, edge_label_count(v, neighbour));
+        const VertexId goes = owner(v, w, neighbours_.label_counts[n]);
         if (forbidden && goes == kNoVertex && v < w) ++*forbidden;
         if (goes != v) continue;
-        const Best candidate{w, key(v, w)};
+        const Best candidate{w, key(v, w, neighbours_.costs[n])};
         if (candidate.is_before(best) && (w == fresh || after.is_before(candidate))) best = candidate;
     }
     if (std::isinf(best.key)) best.stays = kNoVertex;
@@ -168,22 +183,28 @@ void Candidates::merge(VertexId goes, VertexId stays, Vec3 position) {
 }
 
 void Candidates::update(VertexId goes, VertexId stays) {
-    gather_neighbours(stays);
-    other_neighbours_.swap(neighbours_);
-    for (const Neighbour& neighbour : other_neighbours_) {
-        const VertexId w = neighbour.vertex;
+    gather_neighbours(stays, round_merged_);
+    Best own{kNoVertex, std::numeric_limits<float>::infinity()};
+    for (std::size_t n = 0; n < round_merged_.vertices.size(); ++n) {
+        const VertexId w = round_merged_.vertices[n];
         if (model_[w].is_fixed) continue;
+        const VertexId owner_of_edge = owner(stays, w, round_merged_.label_counts[n]);
+        if (owner_of_edge == stays) {
+            const Best candidate{w, key(stays, w, round_merged_.costs[n])};
+            if (candidate.is_before(own)) own = candidate;
+        }
         const VertexId held = partner_[index(w)];
         if (held == goes || held == stays) {
             rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, nullptr));
-        } else if (owner(stays, w, edge_label_count(stays, neighbour)) == w) {
-            const Best fresh{stays, key(w, stays)};
+        } else if (owner_of_edge == w) {
+            const Best fresh{stays, key(w, stays, round_merged_.costs[n])};
             if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, heap_.key(w)})))
                 rank(w, fresh);
         }
     }
     floor_[index(stays)] = kNoFloor;
-    rank(stays, best(stays, {kNoVertex, kNoFloor}, kNoVertex, nullptr));
+    if (std::isinf(own.key)) own.stays = kNoVertex;
+    rank(stays, own);
 }
 
 }  // namespace regionmesh

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "regionmesh/decimate/decimate.h"
+#include "regionmesh/decimate/edge_costs.h"
 #include "regionmesh/decimate/edge_heap.h"
 #include "regionmesh/decimate/placement.h"
 #include "regionmesh/model/label_set.h"
@@ -34,10 +35,16 @@ public:
     std::size_t bytes() const;
 
 private:
-    struct Neighbour {
-        VertexId vertex;
+    /// The edges of a vertex, place by place.
+    struct Neighbours {
+        std::vector<VertexId> vertices;
+        std::vector<std::uint8_t> label_counts;  // of the edges
+        std::vector<EdgeCost> costs;
+    };
+    /// The labels of an edge while they are gathered, and two for each of its faces.
+    struct EdgeLabels {
         LabelSet labels;
-        int uses;
+        int uses = 0;
     };
     struct Best {
         VertexId stays = kNoVertex;
@@ -48,11 +55,11 @@ private:
     void count_labels();
     void gather_quadrics();
     void add_to_quadric(VertexId v, const Quadric& q);
-    void gather_neighbours(VertexId v);
+    void gather_neighbours(VertexId v, Neighbours& found);
+    void count_edge_labels(VertexId v, Neighbours& found);
     int label_count(VertexId v) const { return model_[v].label_count; }
-    int edge_label_count(VertexId v, const Neighbour& neighbour) const;
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
-    float key(VertexId goes, VertexId stays) const;
+    float key(VertexId goes, VertexId stays, EdgeCost cost) const;
     Best best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden);
     void rank(VertexId v, Best best);
 
@@ -62,7 +69,8 @@ private:
     FlatArray<VertexId> partner_;        // where the cheapest edge of a vertex in the heap leads
     FlatArray<float> floor_;             // edges up to this key were refused since the last change
     EdgeHeap heap_;
-    std::vector<Neighbour> neighbours_, other_neighbours_;
+    Neighbours neighbours_, round_merged_;
+    std::vector<EdgeLabels> edge_labels_;
 };
 
 }  // namespace regionmesh

@@ -101,21 +101,20 @@ private:
         const Placement cheapest = place(edge);
         position = cheapest.position;
         keep_level(position);
-        ShapeResult shape = shape_verdict(model_, star_, position, bounds_);
+        ShapeResult shape = shape_verdict(star_, position, bounds_);
         if (is_flat(edge, cheapest.cost)) prefer_average(edge, position, shape);
         if (shape.verdict != Verdict::kAccepted) return shape.verdict;
         if (!is_within_limits(position)) return Verdict::kIntersect;
-        if (options_.intersect_check && obstruction_.blocks(model_, tree_, star_, position)) return Verdict::kIntersect;
-        return Verdict::kAccepted;
+        if (options_.intersect_check) return obstruction_.verdict(model_, tree_, star_, position, bounds_);
+        return pinches_at_link(model_, star_, position, bounds_) ? Verdict::kPinch : Verdict::kAccepted;
     }
 
     /// Where the whole star lies in a plane square to an axis, the merged vertex does, to the last bit.
     void keep_level(Vec3& position) const {
         for (int axis = 0; axis < 3; ++axis) {
-            const double level = model_.position(star_.goes)[axis];
-            const auto is_level = [&](const StarFace& f) { return f.at_a[axis] == level && f.at_b[axis] == level; };
-            if (model_.position(star_.stays)[axis] == level &&
-                std::all_of(star_.faces.begin(), star_.faces.end(), is_level))
+            const double level = star_.at_goes[axis];
+            if (star_.at_stays[axis] == level && star_.link_box.low[axis] == level &&
+                star_.link_box.high[axis] == level)
                 position[axis] = level;
         }
     }
@@ -131,9 +130,9 @@ private:
         Vec3 average = average_of_link(edge);
         keep_level(average);
         if (!is_flat(edge, cost_at(edge, average))) return;
-        const ShapeResult other = shape_verdict(model_, star_, average, bounds_);
+        const ShapeResult other = shape_verdict(star_, average, bounds_);
         if (other.verdict == Verdict::kAccepted &&
-            (shape.verdict != Verdict::kAccepted || other.worst_quality > shape.worst_quality)) {
+            (shape.verdict != Verdict::kAccepted || other.worst_quality3 > shape.worst_quality3)) {
             position = average;
             shape = other;
         } else {
@@ -167,12 +166,10 @@ private:
         }
         model_.move_star(star_.goes, star_.stays);
         model_[star_.stays].position = position;
-        for (const StarFace& f : star_.faces) {
+        for (int n = 0; n < star_.face_count(); ++n) {
             Box box;
-            box.add(position);
-            box.add(f.at_a);
-            box.add(f.at_b);
-            tree_.set(f.face, box);
+            for (Vec3 p : {position, star_.at_a(n), star_.at_b(n)}) box.add(p);
+            tree_.set(star_.faces[n].face, box);
         }
         candidates_.update(star_.goes, star_.stays);
     }

@@ -22,15 +22,22 @@ Verdict topology_verdict(const Model& model, const EdgeStar& star);
 
 struct ShapeResult {
     Verdict verdict;
-    double worst_quality;  // over the modified faces; of use when accepted
+    double worst_quality3;  // third power of the least quality of a modified face; of use when accepted
 };
 
-/// Fills in the normals that the surviving faces would have with the merged vertex at `position`.
-void set_normals(EdgeStar& star, Vec3 position);
+/// Fold, quality and pinch within the star, with the merged vertex at `position` (P tests 1, 2; quality test 1). Sets
+/// the normals, too.
+///   fold     no face turns by more than the bound.
+///   quality  no face gets below the bound.
+///   pinch    no two faces at an edge from the merged vertex come closer than 5 degrees.
+ShapeResult shape_verdict(EdgeStar& star, Vec3 position, const ShapeBounds& bounds);
 
-/// Fold, pinch and quality with the merged vertex at `position` (P tests 1, 2; quality test 1). Sets the normals, too.
-///   fold    no face turns by more than the bound.
-///   pinch   no two faces at an edge come closer than 5 degrees, nor does one pass through another's place.
-ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, const ShapeBounds& bounds);
+/// Pinch at an edge of the link (P test 2): does new face n of the star come closer than 5 degrees to a face beyond the
+/// edge that it keeps, or pass through its place? `third` is the corner of the face beyond; `runs_back` tells whether
+/// that face passes the edge from b to a. Requires the normals of shape_verdict.
+bool pinches_beyond(const EdgeStar& star, int n, Vec3 position, Vec3 third, bool runs_back, const ShapeBounds& bounds);
+
+/// The same for all edges of the link, looked up in the model.
+bool pinches_at_link(const Model& model, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds);
 
 }  // namespace regionmesh

@@ -1,0 +1,24 @@
+// What the edges of a vertex cost, four at a time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "regionmesh/base/flat_array.h"
+#include "regionmesh/decimate/quadric.h"
+#include "regionmesh/model/model.h"
+
+namespace regionmesh {
+
+/// The cost of an edge, the sum of the weights of its ends' quadrics, and what the edge is ranked by: its cost and
+/// kLengthShare of what its whole length would cost.
+struct EdgeCost {
+    float cost, weight, rank;
+};
+
+/// Costs of the edges from v to each of `to`, as place() gives them, but in floats: to rank by. Requires that no end
+/// that would stay lies on a side of the box. `costs` has room for a multiple of four.
+void find_edge_costs(const Model& model, const FlatArray<PackedQuadric>& quadrics, VertexId v,
+                     std::span<const VertexId> to, std::vector<EdgeCost>& costs);
+
+}  // namespace regionmesh
