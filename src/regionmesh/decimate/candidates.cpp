@@ -14,14 +14,6 @@ namespace {
 constexpr double kLineWeight = 1;
 constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 
-/// Of an edge whose merged vertex has to stay on a side of the box.
-EdgeCost constrained_cost(const EdgeEnds& edge) {
-    const double cost = place(edge).cost;
-    const double weight = edge.goes_quadric.unpack().weight() + edge.stays_quadric.unpack().weight();
-    const double draw = kLengthShare * weight * length2(edge.goes - edge.stays);
-    return {static_cast<float>(cost), static_cast<float>(weight), static_cast<float>(cost + draw)};
-}
-
 }  // namespace
 
 Candidates::Candidates(Model& model, const DecimateOptions& options)
@@ -135,7 +127,6 @@ EdgeEnds Candidates::ends(VertexId goes, VertexId stays) const {
 /// Rank of an edge; infinite beyond the cost level or the largest error.
 float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
     constexpr float kNever = std::numeric_limits<float>::infinity();
-    if (model_[stays].sides != 0) edge = constrained_cost(ends(goes, stays));
     if (!(edge.cost <= options_.max_cost)) return kNever;
     if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight)
         return kNever;

@@ -16,8 +16,8 @@ struct EdgeCost {
     float cost, weight, rank;
 };
 
-/// Costs of the edges from v to each of `to`, as place() gives them, but in floats: to rank by. Requires that no end
-/// that would stay lies on a side of the box. `costs` has room for a multiple of four.
+/// Costs of the edges from v to each of `to`, as place() gives them, but in floats: to rank by. Each end that would stay
+/// has every side of the box that the other has. `costs` gets a multiple of four.
 void find_edge_costs(const Model& model, const FlatArray<PackedQuadric>& quadrics, VertexId v,
                      std::span<const VertexId> to, std::vector<EdgeCost>& costs);
 

@@ -35,12 +35,13 @@ Verdict Obstruction::verdict(const Model& model, const FaceTree& tree, const Edg
                              const ShapeBounds& bounds) {
     if (is_flat(star, position)) return Verdict::kAccepted;
     position_ = position;
-    if (!is_simple_disk(star) && meets_itself(star)) return Verdict::kIntersect;
+    const bool is_simple = is_simple_disk(star);
     box_ = star.link_box;
     for (Vec3 p : {position, star.at_goes, star.at_stays}) box_.add(p);
     Verdict verdict = Verdict::kAccepted;
     for (int first = 0; first < star.face_count() && verdict == Verdict::kAccepted; first += StarPlanes::kMost) {
         prepare(model, star, first);
+        if (!is_simple && meets_itself(model, star)) return Verdict::kIntersect;
         tree.search(box_, [&](FaceId f, const FaceTree::GridBox&) {
             verdict = look_at(model, star, bounds, f);
             return verdict == Verdict::kAccepted;
@@ -65,23 +66,27 @@ bool Obstruction::is_simple_disk(const EdgeStar& star) const {
     return true;
 }
 
-/// Do two new faces meet outside the merged vertex or the edge that they share?
-bool Obstruction::meets_itself(const EdgeStar& star) const {
-    for (int i = 0; i < star.face_count(); ++i) {
-        const StarFace& f = star.faces[i];
-        const Vec3 s_a = star.at_a(i), s_b = star.at_b(i);
-        for (int j = i + 1; j < star.face_count(); ++j) {
-            const StarFace& g = star.faces[j];
-            const Vec3 t_a = star.at_a(j), t_b = star.at_b(j);
-            const bool f_a = f.a == g.a || f.a == g.b, f_b = f.b == g.a || f.b == g.b;
-            const Vec3 other = g.a == f.a || g.a == f.b ? t_b : t_a;
-            if (f_a   ? meet_beyond_edge(position_, s_a, s_b, other)
-                : f_b ? meet_beyond_edge(position_, s_b, s_a, other)
-                      : meet_beyond_vertex(position_, s_a, s_b, t_a, t_b))
-                return true;
-        }
+/// Does a new face in hand meet one that comes after it, outside the merged vertex or the edge that they share? Planes
+/// through the merged vertex tell most apart.
+bool Obstruction::meets_itself(const Model& model, const EdgeStar& star) {
+    for (int j = first_ + 1; j < star.face_count(); ++j) {
+        const StarFace& g = star.faces[j];
+        const Sides sides = place_of(model, g.a, 0).sides & place_of(model, g.b, 1).sides;
+        const std::uint32_t clear = sides.beyond_a | sides.beyond_b | sides.above | sides.below;
+        const std::uint32_t before = j - first_ < StarPlanes::kMost ? (1u << (j - first_)) - 1 : ~0u;
+        for (std::uint32_t rest = planes_.all() & before & ~clear; rest != 0; rest &= rest - 1)
+            if (meet_in_star(star, first_ + __builtin_ctz(rest), j)) return true;
     }
     return false;
+}
+
+bool Obstruction::meet_in_star(const EdgeStar& star, int i, int j) const {
+    const StarFace &f = star.faces[i], &g = star.faces[j];
+    const Vec3 f_a = star.at_a(i), f_b = star.at_b(i), g_a = star.at_a(j), g_b = star.at_b(j);
+    const Vec3 other = g.a == f.a || g.a == f.b ? g_b : g_a;
+    if (f.a == g.a || f.a == g.b) return meet_beyond_edge(position_, f_a, f_b, other);
+    if (f.b == g.a || f.b == g.b) return meet_beyond_edge(position_, f_b, f_a, other);
+    return meet_beyond_vertex(position_, f_a, f_b, g_a, g_b);
 }
 
 /// Takes new faces from `first` on in hand. What they know of their own corners: the planes through them.
@@ -163,8 +168,11 @@ bool Obstruction::meets(const Model& model, const EdgeStar& star, int n, const O
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
 /// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
 bool Obstruction::is_swept(const Model& model, const EdgeStar& star, const OldFace& old) const {
+    for (VertexId v : old.vertices) {
+        const Vec3 p = model.position(v);
+        if (max(p, box_.low) != p || min(p, box_.high) != p) return false;
+    }
     const Vec3 q = model.position(old.vertices[0]);
-    if (max(q, box_.low) != q || min(q, box_.high) != q) return false;
     const Sides& sides = old.places[0]->sides;
     const std::uint32_t apart = (sides.above & apex_below_) | (sides.below & apex_above_);
     for (std::uint32_t rest = planes_.all() & ~apart; rest != 0; rest &= rest - 1) {

@@ -38,7 +38,8 @@ private:
     static constexpr std::uint32_t kPlaces = 256;  // a power of two; used to three quarters
 
     bool is_simple_disk(const EdgeStar& star) const;
-    bool meets_itself(const EdgeStar& star) const;
+    bool meets_itself(const Model& model, const EdgeStar& star);
+    bool meet_in_star(const EdgeStar& star, int i, int j) const;
     void prepare(const Model& model, const EdgeStar& star, int first);
     Place& place_of(const Model& model, VertexId v, int corner);
     Verdict look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f);

@@ -5,8 +5,8 @@
 namespace regionmesh {
 namespace {
 
-/// Floats keep products of two vectors to less than this share of the product of their sizes; the rounding of the
-/// vectors themselves is in it. The absolute part covers numbers too small for floats.
+/// The product of a vector of size 1 with another, in floats, is right to less than this share of the other's size; the
+/// rounding of the vectors themselves is in it. The absolute part covers numbers too small for floats.
 constexpr float kDoubt = 4e-6f;
 constexpr float kLeast = 1e-30f;
 
@@ -40,7 +40,7 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
     const Double2 scale = both(scale_), scale2 = both(scale_ * scale_), thin = both(kThin * kThin);
     for (std::size_t g = 0; g < planes_.size(); ++g) {
         Planes& four = planes_[g];
-        Lanes3<Float4> at_a;
+        Lanes3<Float4> at_a{};
         for (int half = 0; half < 2; ++half) {
             const std::size_t n = std::min(first / 2 + 2 * g + half, star.pairs.size() - 1);
             const StarPair& pair = star.pairs[n];
@@ -48,34 +48,35 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
             // Where a face is so thin that its normal is not sure, no plane is told of.
             const Double2 is_sure = pair.new_length2 * scale2 * scale2 > thin * dot(a, a) * dot(b, b) ? both(1) : both(0);
             const Lanes3<Double2> normal = scaled(pair.new_normal, scale2 * is_sure);
-            put_pair(four.link.out, half, cross(b - a, normal));
-            put_pair(four.a.out, half, cross(a, normal));
-            put_pair(four.b.out, half, cross(normal, b));
-            put_pair(four.own.out, half, normal);
+            put_pair(four.link, half, cross(b - a, normal));
+            put_pair(four.a, half, cross(a, normal));
+            put_pair(four.b, half, cross(normal, b));
+            put_pair(four.own, half, normal);
             put_pair(at_a, half, a);
         }
-        for (Plane* plane : {&four.link, &four.a, &four.b, &four.own})
-            plane->doubt = all_four(kDoubt) * size(plane->out);
-        four.link_offset = dot(four.link.out, at_a) + four.link.doubt * size(at_a);
+        for (Lanes3<Float4>* out : {&four.link, &four.a, &four.b, &four.own}) {
+            const Float4 inverse = all_four(1) / (size(*out) + all_four(kLeast));
+            *out = {out->x * inverse, out->y * inverse, out->z * inverse};
+        }
+        four.link_offset = dot(four.link, at_a) + all_four(kDoubt) * size(at_a);
     }
 }
 
 Sides StarPlanes::sides_of(Vec3 p) const {
     const Vec3 step = scale_ * (p - position_);
-    const Lanes3<Float4> at{all_four(static_cast<float>(step.x)), all_four(static_cast<float>(step.y)),
-                            all_four(static_cast<float>(step.z))};
-    const Float4 far = size(at), least_value = all_four(kLeast);
+    const float x = static_cast<float>(step.x), y = static_cast<float>(step.y), z = static_cast<float>(step.z);
+    const Lanes3<Float4> at{all_four(x), all_four(y), all_four(z)};
+    const Float4 doubt = all_four(kDoubt * (std::abs(x) + std::abs(y) + std::abs(z)) + kLeast), minus_doubt = -doubt;
     Sides sides;
-    for (std::size_t g = 0; g < planes_.size(); ++g) {
-        const Planes& four = planes_[g];
-        const int shift = 4 * static_cast<int>(g);
-        const Float4 own = dot(four.own.out, at), own_doubt = four.own.doubt * far + least_value;
-        sides.beyond_link |= bits_of(dot(four.link.out, at) > four.link_offset + four.link.doubt * far + least_value)
-                             << shift;
-        sides.beyond_a |= bits_of(dot(four.a.out, at) > four.a.doubt * far + least_value) << shift;
-        sides.beyond_b |= bits_of(dot(four.b.out, at) > four.b.doubt * far + least_value) << shift;
-        sides.above |= bits_of(own > own_doubt) << shift;
-        sides.below |= bits_of(own < Float4{} - own_doubt) << shift;
+    int shift = 0;
+    for (const Planes& four : planes_) {
+        const Float4 own = dot(four.own, at);
+        sides.beyond_link |= bits_of(dot(four.link, at) > four.link_offset + doubt) << shift;
+        sides.beyond_a |= bits_of(dot(four.a, at) > doubt) << shift;
+        sides.beyond_b |= bits_of(dot(four.b, at) > doubt) << shift;
+        sides.above |= bits_of(own > doubt) << shift;
+        sides.below |= bits_of(own < minus_doubt) << shift;
+        shift += 4;
     }
     return sides;
 }

@@ -38,16 +38,11 @@ public:
     std::uint32_t all() const { return all_; }
 
 private:
-    /// Planes of four faces: out . p > offset + doubt |p| is beyond.
-    struct Plane {
-        Lanes3<Float4> out;
-        Float4 doubt;
-    };
+    /// Planes of four faces. Each `out` is of size 1, so that one doubt serves for all.
     struct Planes {
-        Plane link, a, b, own;
+        Lanes3<Float4> link, a, b, own;
         Float4 link_offset;
     };
-    struct PairPlanes;
 
     Vec3 position_;
     double scale_ = 1;  // of the star's size: its inverse
