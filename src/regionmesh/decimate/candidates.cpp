@@ -4,65 +4,22 @@
 #include <cmath>
 
 #include "regionmesh/base/hash.h"
-#include "regionmesh/base/triangle.h"
 #include "regionmesh/model/strata.h"
 
 namespace regionmesh {
 namespace {
 
-/// Weight of the planes along lines, against that of faces with an edge of the same length.
-constexpr double kLineWeight = 1;
 constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-Candidates::Candidates(Model& model, const DecimateOptions& options)
-    : model_(model), options_(options), heap_(model.vertex_end()) {
-    const std::uint32_t end = model.vertex_end();
-    quadrics_.resize(end);
-    partner_.resize(end, kNoVertex);
-    floor_.resize(end, kNoFloor);
-    count_labels();
-    gather_quadrics();
+Candidates::Candidates(const Model& model, const VertexQuadrics& quadrics, const DecimateOptions& options)
+    : model_(model), quadrics_(quadrics), options_(options), heap_(model.vertex_end()) {
+    partner_.resize(model.vertex_end(), kNoVertex);
+    floor_.resize(model.vertex_end(), kNoFloor);
 }
 
-std::size_t Candidates::bytes() const { return quadrics_.bytes() + partner_.bytes() + floor_.bytes() + heap_.bytes(); }
-
-void Candidates::count_labels() {
-    for (std::uint32_t v = 0; v < model_.vertex_end(); ++v)
-        if (model_.is_alive(VertexId{v}))
-            model_[VertexId{v}].label_count = static_cast<std::uint8_t>(vertex_labels(model_, VertexId{v}).size());
-}
-
-void Candidates::add_to_quadric(VertexId v, const Quadric& q) {
-    Quadric sum = quadrics_[index(v)].unpack();
-    sum += q;
-    quadrics_[index(v)] = PackedQuadric(sum);
-}
-
-void Candidates::gather_quadrics() {
-    for (std::uint32_t f = 0; f < model_.face_end(); ++f) {
-        if (!model_.is_alive(FaceId{f})) continue;
-        const Face& face = model_[FaceId{f}];
-        const auto p = model_.corners(FaceId{f});
-        const Vec3 area = area_vector(p[0], p[1], p[2]);
-        const double twice = length(area);
-        if (!(twice > 0)) continue;
-        const Vec3 normal = area / twice;
-        Quadric plane;  // through each corner: no offset, relative to it
-        plane.add_plane(normal, 0, twice / 6);
-        for (VertexId v : face.vertices) add_to_quadric(v, plane);
-        for (int n = 0; n < 3; ++n) {
-            const VertexId a = face.vertices[n], b = face.vertices[(n + 1) % 3];
-            if (label_count(a) < 3 || label_count(b) < 3 || edge_labels(model_, a, b).size() < 3) continue;
-            const Vec3 along = p[(n + 1) % 3] - p[n];
-            Quadric upright;
-            upright.add_plane(cross(along, normal) / length(along), 0, kLineWeight * length2(along) / 2);
-            add_to_quadric(a, upright);
-            add_to_quadric(b, upright);
-        }
-    }
-}
+std::size_t Candidates::bytes() const { return partner_.bytes() + floor_.bytes() + heap_.bytes(); }
 
 std::uint64_t Candidates::refresh() {
     std::uint64_t forbidden = 0;
@@ -119,11 +76,6 @@ VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
     return a_may ? a : b_may ? b : kNoVertex;
 }
 
-EdgeEnds Candidates::ends(VertexId goes, VertexId stays) const {
-    return {model_.position(goes), model_.position(stays), quadrics_[index(goes)], quadrics_[index(stays)],
-            model_[stays].sides};
-}
-
 /// Rank of an edge; infinite beyond the cost level or the largest error.
 float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
     constexpr float kNever = std::numeric_limits<float>::infinity();
@@ -167,13 +119,9 @@ void Candidates::refuse() {
     rank(v, best(v, refused, kNoVertex, nullptr));
 }
 
-void Candidates::merge(VertexId goes, VertexId stays, Vec3 position) {
-    quadrics_[index(stays)] = PackedQuadric(merged_quadric(ends(goes, stays), position));
+void Candidates::update(VertexId goes, VertexId stays) {
     heap_.remove(goes);
     partner_[index(goes)] = kNoVertex;
-}
-
-void Candidates::update(VertexId goes, VertexId stays) {
     gather_neighbours(stays, round_merged_);
     Best own{kNoVertex, std::numeric_limits<float>::infinity()};
     for (std::size_t n = 0; n < round_merged_.vertices.size(); ++n) {

@@ -1,7 +1,6 @@
 #include "regionmesh/decimate/edge_costs.h"
 
 #include "regionmesh/base/lanes.h"
-#include "regionmesh/decimate/placement.h"
 
 namespace regionmesh {
 namespace {
@@ -105,10 +104,10 @@ Float4 least_costs(const Quadrics& own, const Quadrics& other, const Lanes3<Floa
 
 }  // namespace
 
-void find_edge_costs(const Model& model, const FlatArray<PackedQuadric>& quadrics, VertexId v,
+void find_edge_costs(const Model& model, const VertexQuadrics& quadrics, VertexId v,
                      std::span<const VertexId> to, std::vector<EdgeCost>& costs) {
     const Vec3 at = model.position(v);
-    const PackedQuadric& q = quadrics[index(v)];
+    const PackedQuadric& q = quadrics[v];
     const Quadrics own = side_by_side(q, q, q, q);
     const SideSet own_sides = model[v].sides;
     costs.resize((to.size() + 3) / 4 * 4);
@@ -118,7 +117,7 @@ void find_edge_costs(const Model& model, const FlatArray<PackedQuadric>& quadric
         Locks locks;
         for (int lane = 0; lane < 4; ++lane) {
             const VertexId w = to[std::min(first + lane, to.size() - 1)];
-            others[lane] = &quadrics[index(w)];
+            others[lane] = &quadrics[w];
             const Vec3 step = model.position(w) - at;
             way.x[lane] = static_cast<float>(step.x);
             way.y[lane] = static_cast<float>(step.y);

@@ -4,9 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "regionmesh/base/flat_array.h"
-#include "regionmesh/decimate/quadric.h"
-#include "regionmesh/model/model.h"
+#include "regionmesh/decimate/vertex_quadrics.h"
 
 namespace regionmesh {
 
@@ -18,7 +16,7 @@ struct EdgeCost {
 
 /// Costs of the edges from v to each of `to`, as place() gives them, but in floats: to rank by. Each end that would stay
 /// has every side of the box that the other has. `costs` gets a multiple of four.
-void find_edge_costs(const Model& model, const FlatArray<PackedQuadric>& quadrics, VertexId v,
+void find_edge_costs(const Model& model, const VertexQuadrics& quadrics, VertexId v,
                      std::span<const VertexId> to, std::vector<EdgeCost>& costs);
 
 }  // namespace regionmesh

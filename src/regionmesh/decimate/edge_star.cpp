@@ -53,25 +53,34 @@ void gather_link(const Model& model, EdgeStar& star) {
             if (std::find(star.link.begin(), star.link.end(), v) == star.link.end()) star.link.push_back(v);
 }
 
-}  // namespace
-
-void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
+void start(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
     star.goes = goes;
     star.stays = stays;
     star.at_goes = model.position(goes);
-    star.at_stays = model.position(stays);
+    star.at_stays = model.position(stays == kNoVertex ? goes : stays);
     star.faces.clear();
     star.pairs.clear();
     star.dead.clear();
     star.apexes.clear();
     star.link.clear();
-    model.for_star(goes, [&](FaceId f, int place) {
+}
+
+void add_faces_of_goes(const Model& model, EdgeStar& star) {
+    model.for_star(star.goes, [&](FaceId f, int place) {
         const Face& face = model[f];
         const VertexId a = face.vertices[place == 2 ? 0 : place + 1], b = face.vertices[place == 0 ? 2 : place - 1];
-        if (a != stays && b != stays) return add_surviving(model, f, place, star);
+        if (a != star.stays && b != star.stays) return add_surviving(model, f, place, star);
         star.dead.push_back(f);
-        star.apexes.push_back(a == stays ? b : a);
+        star.apexes.push_back(a == star.stays ? b : a);
     });
+}
+
+}  // namespace
+
+void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
+    start(model, goes, stays, star);
+    star.keeps_stays = false;
+    add_faces_of_goes(model, star);
     model.for_star(stays, [&](FaceId f, int place) {
         const Face& face = model[f];
         if (face.vertices[place == 2 ? 0 : place + 1] != goes && face.vertices[place == 0 ? 2 : place - 1] != goes)
@@ -82,6 +91,24 @@ void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
                                     [&](const StarFace& f) { return model[f.face].labels == labels; });
     measure(star);
     gather_link(model, star);
+}
+
+void gather_vertex(const Model& model, VertexId goes, EdgeStar& star) {
+    start(model, goes, kNoVertex, star);
+    star.keeps_stays = star.is_interface = true;
+    add_faces_of_goes(model, star);
+    measure(star);
+}
+
+void gather_half(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
+    start(model, goes, stays, star);
+    star.keeps_stays = true;
+    star.is_interface = true;
+    add_faces_of_goes(model, star);
+    measure(star);
+    for (const StarFace& face : star.faces) star.link.push_back(face.a);
+    for (VertexId apex : star.apexes)
+        if (std::find(star.link.begin(), star.link.end(), apex) == star.link.end()) star.link.push_back(apex);
 }
 
 void set_normals(EdgeStar& star, Vec3 position) {

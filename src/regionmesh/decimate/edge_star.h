@@ -37,6 +37,7 @@ struct EdgeStar {
     std::vector<VertexId> link;    // distinct vertices a, b of the surviving faces
     Box link_box;                  // round them
     bool is_interface;             // all faces have the same two labels
+    bool keeps_stays;              // only the faces of `goes` are here: `stays` does not move, nor do its faces change
 
     int face_count() const { return static_cast<int>(faces.size()); }
     Vec3 at_a(int n) const { return pairs[n / 2].a[n % 2]; }
@@ -46,8 +47,20 @@ struct EdgeStar {
     double new_length2(int n) const { return pairs[n / 2].new_length2[n % 2]; }
 };
 
+/// May the edge from `stays` to a vertex of the link be one of a line?
+inline bool is_on_line(const Model& model, const EdgeStar& star, VertexId end) {
+    return model[star.stays].label_count > 2 && model[end].label_count > 2;
+}
+
 /// Collects the star. Requires that goes-stays is an edge.
 void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star);
+
+/// Collects all faces of a vertex as if it would go, nowhere yet. Requires that it lies within an interface: every
+/// neighbour is the first corner of one face.
+void gather_vertex(const Model& model, VertexId goes, EdgeStar& star);
+
+/// Collects the faces of `goes` only. Requires that goes-stays is an edge within an interface.
+void gather_half(const Model& model, VertexId goes, VertexId stays, EdgeStar& star);
 
 /// Fills in the normals that the surviving faces would have with the merged vertex at `position`.
 void set_normals(EdgeStar& star, Vec3 position);

@@ -114,11 +114,16 @@ bool folds(const EdgeStar& star, const ShapeBounds& bounds) {
     return within != 3;
 }
 
-/// Third power of the quality of each of two new faces (QualityTerms::cube, side by side).
-Double2 quality3(const StarPair& pair, Vec3 position) {
-    const Lanes3<Double2> merged = both(position), to_a = pair.a - merged, to_b = pair.b - merged;
+double cube_of_bound(const ShapeBounds& bounds) {
+    // A little more than asked, so that rounding does not take a face below when it is measured from another corner.
+    return bounds.min_quality * bounds.min_quality * bounds.min_quality * (1 + 1e-12);
+}
+
+/// Third power of the quality of each of two faces from a vertex to the link, given twice the areas squared
+/// (QualityTerms::cube, side by side).
+Double2 quality3(const StarPair& pair, const Lanes3<Double2>& to_a, const Lanes3<Double2>& to_b, Double2 length2) {
     const Double2 a = square_root(dot(to_a, to_a)), b = square_root(dot(to_b, to_b)),
-                  c = square_root(pair.link_length2), area = both(0.5) * square_root(pair.new_length2);
+                  c = square_root(pair.link_length2), area = both(0.5) * square_root(length2);
     const Double2 shortest = least(a, least(b, c));
     const Double2 others = greatest(a, greatest(b, c)) * greatest(least(a, b), least(greatest(a, b), c));
     const Double2 product = others * (shortest + both(8) * area / (a + b + c));
@@ -138,14 +143,29 @@ Verdict topology_verdict(const Model& model, const EdgeStar& star) {
     return Verdict::kAccepted;
 }
 
+Verdict half_topology_verdict(const Model& model, const EdgeStar& star) {
+    if (star.faces.empty() || star.apexes.size() != 2) return Verdict::kLink;
+    bool met = true;
+    model.for_star(star.stays, [&](FaceId f, int place) {
+        const auto& v = model[f].vertices;
+        const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
+        if (after == star.goes || before == star.goes) return;
+        const bool has_after = contains(star.link, after), has_before = contains(star.link, before);
+        if ((has_after && !contains(star.apexes, after)) || (has_before && !contains(star.apexes, before))) met = false;
+        if (has_after && has_before && star.faces.size() == 1) met = false;
+    });
+    return met && !lands_on_box_edge(model, star) ? Verdict::kAccepted : Verdict::kLink;
+}
+
 ShapeResult shape_verdict(EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
     set_normals(star, position);
     if (folds(star, bounds)) return {Verdict::kFold, 0};
-    // A little more than asked, so that rounding does not take a face below when it is measured from another corner.
-    const double bound3 = bounds.min_quality * bounds.min_quality * bounds.min_quality * (1 + 1e-12);
+    const double bound3 = cube_of_bound(bounds);
+    const Lanes3<Double2> merged = both(position);
     double worst3 = 1;
     for (std::size_t n = 0; n < star.pairs.size(); ++n) {
-        const Double2 own3 = quality3(star.pairs[n], position);
+        const StarPair& pair = star.pairs[n];
+        const Double2 own3 = quality3(pair, pair.a - merged, pair.b - merged, pair.new_length2);
         for (int lane = 0; lane < 2; ++lane) {
             if (own3[lane] < worst3) worst3 = own3[lane];
             const int face = std::min(2 * static_cast<int>(n) + lane, star.face_count() - 1);
@@ -158,6 +178,26 @@ ShapeResult shape_verdict(EdgeStar& star, Vec3 position, const ShapeBounds& boun
     return {Verdict::kAccepted, worst3};
 }
 
+double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, const ShapeBounds& bounds) {
+    const Lanes3<Double2> merged = both(at_target);
+    const Double2 turn = both(bounds.min_turn_cosine * bounds.min_turn_cosine), bound3 = both(cube_of_bound(bounds));
+    double worst3 = 1;
+    for (int first = 0; first < around.face_count(); first += 2) {
+        const StarPair& pair = around.pairs[first / 2];
+        const Lanes3<Double2> to_a = pair.a - merged, to_b = pair.b - merged, normal = cross(to_a, to_b);
+        const Double2 normal2 = dot(normal, normal), along = dot(pair.old_normal, normal);
+        const Double2 own3 = quality3(pair, to_a, to_b, normal2);
+        const unsigned good = bits_of((along > both(0)) & (along * along > turn * pair.old_length2 * normal2) & (own3 >= bound3));
+        for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
+            const StarFace& face = around.faces[first + lane];
+            if (face.a == target || face.b == target) continue;  // vanishes
+            if ((good >> lane & 1) == 0) return 0;
+            worst3 = std::min<double>(worst3, own3[lane]);
+        }
+    }
+    return worst3;
+}
+
 bool pinches_beyond(const EdgeStar& star, int n, Vec3 position, Vec3 third, bool runs_back, const ShapeBounds& bounds) {
     const Vec3 a = star.at_a(n), b = star.at_b(n), normal = star.new_normal(n);
     const Vec3 m = runs_back ? area_vector(b, a, third) : area_vector(a, b, third);
@@ -165,6 +205,17 @@ bool pinches_beyond(const EdgeStar& star, int n, Vec3 position, Vec3 third, bool
     return is_pinched(normal, star.new_length2(n), m, length2(m), runs_back, bounds.min_dihedral_cosine) ||
            sweeps_over(a, b, star.at_apex(n), position, third);
 }
+
+bool pinches_beside(const EdgeStar& star, int n, bool at_a, const KeptFace& kept, const ShapeBounds& bounds) {
+    const Vec3 normal = star.new_normal(n), at = star.at_stays;
+    const Vec3 end = at_a ? star.at_a(n) : star.at_b(n), other = at_a ? star.at_b(n) : star.at_a(n);
+    const Vec3 m = kept.leads_to_stays ? area_vector(end, at, kept.third) : area_vector(at, end, kept.third);
+    const bool opposite = kept.leads_to_stays == at_a;
+    return is_pinched(normal, star.new_length2(n), m, length2(m), opposite, bounds.min_dihedral_cosine) ||
+           (kept.is_on_line && sweeps_over(at, end, star.at_goes, other, kept.third));
+}
+
+namespace {
 
 bool pinches_at_link(const Model& model, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
     for (int n = 0; n < star.face_count(); ++n) {
@@ -175,12 +226,36 @@ bool pinches_at_link(const Model& model, const EdgeStar& star, Vec3 position, co
             const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
             if (pinched || (after != f.b && before != f.b)) return;
             const VertexId third = after == f.b ? before : after;
-            if (third == star.goes || third == star.stays) return;
+            if (third == star.goes || (third == star.stays && !star.keeps_stays)) return;
             pinched = pinches_beyond(star, n, position, model.position(third), before == f.b, bounds);
         });
         if (pinched) return true;
     }
     return false;
+}
+
+bool pinches_at_stays(const Model& model, const EdgeStar& star, const ShapeBounds& bounds) {
+    bool pinched = false;
+    model.for_star(star.stays, [&](FaceId f, int place) {
+        const auto& v = model[f].vertices;
+        const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
+        if (after == star.goes || before == star.goes) return;
+        for (int n = 0; n < star.face_count(); ++n) {
+            for (VertexId end : {after, before}) {
+                if (end != star.faces[n].a && end != star.faces[n].b) continue;
+                const KeptFace kept{end == before, model.position(end == before ? after : before), is_on_line(model, star, end)};
+                pinched = pinched || pinches_beside(star, n, end == star.faces[n].a, kept, bounds);
+            }
+        }
+    });
+    return pinched;
+}
+
+}  // namespace
+
+bool pinches_around(const Model& model, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
+    return pinches_at_link(model, star, position, bounds) ||
+           (star.keeps_stays && pinches_at_stays(model, star, bounds));
 }
 
 }  // namespace regionmesh

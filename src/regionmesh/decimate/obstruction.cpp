@@ -118,6 +118,9 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
         place.sides.above |= own;
         place.sides.below |= own;
     }
+    if (!star.keeps_stays) return;
+    Sides& stays_sides = place_of(model, star.stays, 0).sides;
+    stays_sides.beyond_a = stays_sides.beyond_b = stays_sides.above = stays_sides.below = planes_.all();
 }
 
 Obstruction::Place& Obstruction::place_of(const Model& model, VertexId v, int corner) {
@@ -134,9 +137,10 @@ Obstruction::Place& Obstruction::place_of(const Model& model, VertexId v, int co
 Verdict Obstruction::look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
     OldFace old{model[f].vertices, {}};
     for (VertexId v : old.vertices)
-        if (v == star.goes || v == star.stays) return Verdict::kAccepted;
+        if (v == star.goes || (v == star.stays && !star.keeps_stays)) return Verdict::kAccepted;
     for (int n = 0; n < 3; ++n) old.places[n] = &place_of(model, old.vertices[n], n);
-    const int shared = static_cast<int>(std::count_if(old.places.begin(), old.places.end(), [](const Place* place) { return (place->as_a | place->as_b) != 0; }));
+    int shared = 0;
+    for (const Place* place : old.places) shared += (place->as_a | place->as_b) != 0 || place->vertex == star.stays;
     if (shared >= 2 && pinches(model, star, bounds, old)) return Verdict::kPinch;
     const std::uint32_t clear = (old.places[0]->sides & old.places[1]->sides & old.places[2]->sides).any();
     for (std::uint32_t rest = planes_.all() & ~clear; rest != 0; rest &= rest - 1)
@@ -153,6 +157,13 @@ bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeB
             const int face = __builtin_ctz(rest);
             if (pinches_beyond(star, first_ + face, position_, model.position(third.vertex), (back >> face & 1) != 0, bounds))
                 return true;
+        }
+        if (!star.keeps_stays || (from.vertex != star.stays && to.vertex != star.stays)) continue;
+        const Place& end = from.vertex == star.stays ? to : from;
+        const KeptFace kept{to.vertex == star.stays, model.position(third.vertex), is_on_line(model, star, end.vertex)};
+        for (std::uint32_t rest = end.as_a | end.as_b; rest != 0; rest &= rest - 1) {
+            const int face = __builtin_ctz(rest);
+            if (pinches_beside(star, first_ + face, (end.as_a >> face & 1) != 0, kept, bounds)) return true;
         }
     }
     return false;
