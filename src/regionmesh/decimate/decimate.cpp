@@ -22,7 +22,7 @@ constexpr double kCompactBelow = 0.5;
 
 /// Vertices whose removal costs less than this, in units of scale^4, go in sweeps before the others are ranked. A sweep
 /// leaves at least so much of the faces, and is the last when it takes less than so much of them.
-const double kThinCost = getenv("TC") ? atof(getenv("TC")) : 1e-3;
+constexpr double kThinCost = 1e-3;
 constexpr double kLeastLeft = 0.65, kLeastGain = 0.02;
 constexpr int kMostSweeps = 16;
 
