@@ -38,6 +38,9 @@ class Lane:
     absent: str = ""
     rms: float | None = None
 
+    def faces(self):
+        return self.results[0].initial_faces
+
     def median(self, value):
         return statistics.median(value(result) for result in self.results)
 
@@ -66,7 +69,7 @@ class Setting:
 
 
 def race(lanes, rounds):
-    """Runs all lanes in each round, the other way round in every second one. The first lane starts the first."""
+    """Runs all lanes in each round, backward in every second one, and in the order given in the first."""
     for n in range(rounds):
         for lane in lanes if n % 2 == 0 else lanes[::-1]:
             if lane.absent:
@@ -78,9 +81,9 @@ def race(lanes, rounds):
     return lanes
 
 
-def ratios(first, lane):
+def ratios(a, b):
     """Of the seconds of one lane to those of another, round by round."""
-    return [a.seconds / b.seconds for a, b in zip(first.results, lane.results)]
+    return [of_a.seconds / of_b.seconds for of_a, of_b in zip(a.results, b.results)]
 
 
 def run(command, fine=(0,)):

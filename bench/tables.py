@@ -1,4 +1,6 @@
 """Prints tables, aligned; as markdown they are the same with bars."""
+import statistics
+
 from race import ratios
 
 
@@ -41,13 +43,12 @@ def figures(lane):
             f"{lane.median(lambda one: one.peak_bytes) / 1e6:.0f}")
 
 
-def ratio_cells(first, lane):
-    """Median of the ratios of the rounds, and the least and the greatest of them."""
-    if not first.results or not lane.results:
+def ratio_cells(a, b, scale=1):
+    """Median of the ratios of a's seconds to b's in the rounds, and the least and the greatest of them."""
+    if not a.results or not b.results:
         return "-", "-"
-    values = sorted(ratios(first, lane))
-    middle = (values[(len(values) - 1) // 2] + values[len(values) // 2]) / 2
-    return f"{middle:.2f}", f"{values[0]:.2f}-{values[-1]:.2f}"
+    values = [scale * ratio for ratio in ratios(a, b)]
+    return f"{statistics.median(values):.2f}", f"{min(values):.2f}-{max(values):.2f}"
 
 
 def rms_cell(lane):
