@@ -2,6 +2,9 @@
 #pragma once
 
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <chrono>
 #include <cstdint>
@@ -21,6 +24,13 @@ inline std::uint64_t peak_resident_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Gives freed memory back to the system, which the C library would keep for later. After much was freed.
+inline void give_back_freed_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 /// Adds the time from its construction to its end to a sum of seconds. For reports only: no result depends on it.
