@@ -99,10 +99,10 @@ TEST(MemoryPlan, the_window_counts_the_strips_that_it_will_hold) {
 
 TEST(MemoryPlan, what_is_not_taken_otherwise_is_the_models) {
     const MemoryDemand demand = even_demand(64);
-    const MemoryPlan small = plan_memory(200'000'000, demand), large = plan_memory(308'000'000, demand);
+    const MemoryPlan small = plan_memory(200'000'000, demand), large = plan_memory(300'000'000, demand);
     EXPECT_EQ(large.face_budget(1) - small.face_budget(1), 1'000'000u);
     EXPECT_EQ(small.room_before(1, 500), small.face_budget(1) - 500);
-    EXPECT_LE(large.room_before(1, 0) * kModelBytesPerFace + large.runs[1].gathering, 308'000'000u);
+    EXPECT_LE(large.room_before(1, 0) * kModelBytesPerFace + large.runs[1].gathering, 300'000'000u);
     EXPECT_EQ(plan_memory(kPlenty, demand).face_budget(0), kMostFaces);
 }
 

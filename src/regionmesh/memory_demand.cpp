@@ -6,7 +6,7 @@ namespace regionmesh {
 namespace {
 
 /// Bytes a face that smoothing holds, with half a vertex; and more for the stars and normals of nifpms.
-constexpr std::uint64_t kWindowBytes = 100, kNifpmsBytes = 70;
+constexpr std::uint64_t kWindowBytes = 90, kNifpmsBytes = 70;
 
 /// Runs are not cut shorter than this: their tiles would be nearly all rim.
 constexpr std::uint32_t kFewestStrips = 4;

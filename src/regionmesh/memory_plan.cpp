@@ -14,10 +14,10 @@ namespace {
 constexpr std::uint64_t kProcessBytes = std::uint64_t{20} << 20;
 
 /// The model, a face, while it is sorted or decimated, with places that are free in between.
-constexpr std::uint64_t kWorkBytesPerFace = 108;
+constexpr std::uint64_t kWorkBytesPerFace = 100;
 
 /// Beside the model, a face: of a run; of a run that is sorted into tiles and put together again; of a tile out of it.
-constexpr std::uint64_t kRunBytesPerFace = 40, kTilesBytesPerFace = 24, kTileBytesPerFace = 140;
+constexpr std::uint64_t kRunBytesPerFace = 40, kTilesBytesPerFace = 24, kTileBytesPerFace = 100;
 constexpr std::uint64_t kTilesInFlight = 24;  // sixteen, of half as many faces again as the average
 
 /// Beside the model, a face: of what checks it; of what gives it its volumes back.

@@ -245,6 +245,7 @@ void Run::keep_within_budget(std::uint64_t run_faces) {
     const std::uint64_t goal = std::max(target_.so_far(joined_faces_), std::min(room, budget * 6 / 10));
     if (result_.model.face_count() <= goal) return;
     weld_.renumber(result_.model.sort_spatially());
+    give_back_freed_memory();
     decimate_to(goal, false);
     give_back_freed_memory();
     // Where topology or the largest error forbid more, the model goes on growing.

@@ -33,6 +33,14 @@ inline void give_back_freed_memory() {
 #endif
 }
 
+/// Keeps large arrays apart from small ones, so that their memory goes back when they are freed: the C library would
+/// raise its own bound as it goes, and leave holes. For programs, once, at the start.
+inline void keep_large_arrays_apart() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
+
 /// Adds the time from its construction to its end to a sum of seconds. For reports only: no result depends on it.
 class Timer {
 public:
