@@ -3,6 +3,7 @@
 #include <new>
 
 #include "commands.h"
+#include "regionmesh/base/process.h"
 #include "regionmesh/regionmesh.h"
 
 namespace {
@@ -27,6 +28,7 @@ int run(const regionmesh::cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    regionmesh::keep_large_arrays_apart();
     CLI::App app("Certified multi-region surface models from labelled planar sections");
     app.name("regionmesh");
     app.set_version_flag("--version", REGIONMESH_VERSION);

@@ -50,6 +50,13 @@ void print_volumes(const Report& report) {
         fmt::print("{} regions could not be brought within {:.0e}\n", preserved.regions_off, kVolumeTolerance);
 }
 
+/// What topology or the largest error leave is not known beforehand.
+void print_memory(const Arguments& arguments, const Report& report) {
+    const std::uint64_t asked = parse_bytes("--memory", arguments.memory);
+    if (!arguments.face_budget.empty() || report.peak_bytes <= asked + asked / 10) return;
+    fmt::print("more than --memory {}: what the model needs on the way was not known beforehand\n", arguments.memory);
+}
+
 void print_summary(const Arguments& arguments, const Report& report) {
     fmt::print("{}: {} faces, {} vertices (from {} faces)\n", arguments.output, report.final_faces,
                report.final_vertices, report.initial_faces);
@@ -67,6 +74,7 @@ void print_summary(const Arguments& arguments, const Report& report) {
     fmt::print("{:.2f} s, {:.0f} k faces/s, {} MB at most\n", report.seconds.at("total"),
                static_cast<double>(report.initial_faces) / 1e3 / std::max(report.seconds.at("total"), 1e-9),
                report.peak_bytes / 1000000);
+    print_memory(arguments, report);
     for (int kind = 0; kind < kViolationKindCount; ++kind)
         if (report.check.counts[kind])
             fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.check.counts[kind]);
@@ -115,7 +123,8 @@ void add_reconstruct(CLI::App& app, Action& action) {
     arguments->smooth.add_options(*command);
     command->add_flag("--preserve-volume", arguments->preserve_volume,
                       "in the end, give every region the volume it had before smoothing and decimation");
-    command->add_option("--memory", arguments->memory, "stay within this, such as 500MiB or 2GiB");
+    command->add_option("--memory", arguments->memory,
+                        "stay within this, such as 500MiB or 2GiB; says before the work begins if it cannot");
     command->add_option("--face-budget", arguments->face_budget,
                         "most faces held at once, instead of one derived from --memory");
     command->add_option("--threads", arguments->threads,

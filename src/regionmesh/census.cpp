@@ -14,7 +14,7 @@ std::vector<Label> dense_background(const std::vector<InputLabel>& background, L
 }
 
 Census count_labels(SectionReader& reader, const CensusOptions& options) {
-    Census census{.labels = table_for(reader.info()), .samples = {}, .oracle = {}};
+    Census census{.labels = table_for(reader.info()), .samples = {}, .strip_faces = {}, .oracle = {}};
     const std::vector<Label> background = dense_background(options.background, census.labels);
     SectionWindow window(reader, census.labels);
     LabelCensus counter(reader.info().lattice, reader.info().sweep, {.cap = options.cap, .background = background});
@@ -25,7 +25,9 @@ Census count_labels(SectionReader& reader, const CensusOptions& options) {
     while (window.advance()) {
         if (window.sections_read() == 2) add_samples(window.low());
         add_samples(window.high());
+        const std::uint64_t before = counter.face_count();
         counter.add(window.low(), window.high(), window.is_last());
+        census.strip_faces.push_back(counter.face_count() - before);
     }
     census.face_count = counter.face_count();
     census.oracle = counter.oracle();

@@ -12,8 +12,9 @@ namespace regionmesh {
 
 struct Census {
     LabelTable labels;
-    std::vector<std::uint64_t> samples;  // by dense label
-    std::uint64_t face_count = 0;        // of the unsimplified model
+    std::vector<std::uint64_t> samples;      // by dense label
+    std::uint64_t face_count = 0;            // of the unsimplified model
+    std::vector<std::uint64_t> strip_faces;  // the same, strip by strip
     LabelOracle oracle;
 };
 

@@ -7,10 +7,11 @@
 #include "regionmesh/base/process.h"
 #include "regionmesh/census.h"
 #include "regionmesh/decimate/decimate.h"
-#include "regionmesh/memory_plan.h"
+#include "regionmesh/memory_demand.h"
 #include "regionmesh/smooth/preserve_volume.h"
 #include "regionmesh/stream/batch_volumes.h"
 #include "regionmesh/stream/place_in_space.h"
+#include "regionmesh/stream/read_ahead.h"
 #include "regionmesh/stream/section_window.h"
 #include "regionmesh/stream/smoothing.h"
 #include "regionmesh/stream/weld.h"
@@ -23,22 +24,14 @@ namespace regionmesh {
 namespace {
 
 /// Collapses that cost less than this, in units of spacing^4, are made in tiles already (docs/tiles.md says why this
-/// much). But a tile keeps so many times the share of faces that the target leaves.
+/// much).
 constexpr double kTileCostLevel = 3e-2;
-constexpr double kTileMargin = 1.25;
 
 /// Faces are decimated to so much more than the least quality where their vertices are to move once more.
 constexpr double kRoomForVolume = 1.1;
 
 /// Strips that smoothing holds beyond the usual, where the usual do not suffice.
 constexpr std::uint32_t kMoreHold = 8;
-
-/// Positions are index times spacing; an origin is added at once where no direction matrix comes between.
-Lattice meshing_lattice(const Lattice& lattice) {
-    Lattice result = lattice;
-    if (!lattice.is_axis_aligned()) result.origin = {};
-    return result;
-}
 
 /// One run: its state, and the steps in the order of reconstruct() below.
 class Run {
@@ -64,13 +57,10 @@ public:
     Reconstruction finish();
 
 private:
-    bool is_decimating() const {
-        return options_.decimate && (options_.target_faces || options_.reduce || options_.max_error);
-    }
+    bool is_decimating() const { return regionmesh::is_decimating(options_); }
     bool read(SectionWindow& window);
     void note_strip(const SectionWindow& window, const FaceBatch& batch);
     SmoothOptions smooth_options() const;
-    std::uint64_t smoothing_bytes() const;
     int sweep_axis() const { return reader_.info().sweep.axes[2]; }
     void smooth_strip(FaceBatch& batch, const SectionWindow& window);
     void add_strip(const FaceBatch& batch);
@@ -99,34 +89,35 @@ private:
     Weld weld_{result_.model};
     std::uint32_t strips_ = 0;    // added to runs so far
     double ceiling_ = -HUGE_VAL;  // as far as faces of earlier runs reach along the sweep
-    std::uint64_t budget_ = kMostFaces;
-    LabelOracle oracle_;
+    MemoryPlan memory_;
+    std::uint64_t joined_faces_ = 0;  // unsimplified, of the runs that have joined the model
+    std::optional<LabelOracle> oracle_;
     std::size_t most_bytes_ = 0;  // of model and decimation together, so far
     StopReason stopped_ = StopReason::kTarget;
 };
 
-/// A first pass over the sections, where the target needs the total; and the face budget.
+/// A first pass over the sections, where they can be read twice; and what memory is for.
 void Run::plan() {
     if (options_.smooth.passes > 0)
         smoothing_.emplace(smooth_options(),
                            LayerOrder{.axis = sweep_axis(), .thickness = lattice_.spacing[sweep_axis()]});
-    if (is_decimating() && (options_.reduce || options_.target_faces) && reader_.info().can_rewind) {
+    RunSize size{.volume = reader_.info(),
+                 .strip_faces = {},
+                 .window_strips = smoothing_ ? smoothing_->most_strips() : 0,
+                 .run_strips = is_decimating() ? plan_.run_strips : options_.strips_per_batch};
+    if (reader_.info().can_rewind) {
         tell("count");
         const Timer timer(seconds("count"));
-        target_.total = count_labels(reader_, {.cap = options_.cap, .background = options_.background}).face_count;
+        Census census = count_labels(reader_, {.cap = options_.cap, .background = options_.background});
+        target_.total = census.face_count;
+        oracle_ = std::move(census.oracle);
+        size.strip_faces = std::move(census.strip_faces);
         reader_.rewind();
     }
-    budget_ = options_.face_budget ? *options_.face_budget
-                                   : face_budget_for(options_.memory, reader_.info(), smoothing_bytes());
-}
-
-/// What smoothing will hold: so many strips of as many faces as one has on average, or one a sample where nobody knows.
-std::uint64_t Run::smoothing_bytes() const {
-    if (!smoothing_) return 0;
-    const std::uint64_t strips = reader_.section_count() - 1;
-    const std::uint64_t faces = target_.total ? *target_.total / std::max<std::uint64_t>(strips, 1)
-                                              : std::uint64_t{reader_.section_width()} * reader_.section_height();
-    return std::min<std::uint64_t>(smoothing_->most_strips(), strips) * faces * kSmoothingBytesPerFace;
+    const MemoryDemand demand = memory_demand(options_, target_, std::move(size));
+    memory_ = plan_memory(options_.memory, demand);
+    require_memory(memory_, demand);
+    plan_.run_strips = memory_.run_strips;
 }
 
 /// Strips become faces, which are smoothed some strips behind; runs of strips are decimated tile by tile up to a low
@@ -135,12 +126,13 @@ void Run::build() {
     SectionWindow window(reader_, result_.labels);
     const StripOptions strip_options{.cap = options_.cap, .background = result_.background};
     StripMesher mesher(meshing_lattice(lattice_), reader_.info().sweep, strip_options);
-    LabelCensus census(lattice_, reader_.info().sweep, strip_options);
+    std::optional<LabelCensus> census;
+    if (!oracle_) census.emplace(lattice_, reader_.info().sweep, strip_options);
     FaceBatch batch;
     while (read(window)) {
         {
             const Timer timer(seconds("reconstruct"));
-            census.add(window.low(), window.high(), window.is_last());
+            if (census) census->add(window.low(), window.high(), window.is_last());
             batch.clear();
             mesher.mesh(window.low(), window.high(), batch);
         }
@@ -155,8 +147,9 @@ void Run::build() {
         result_.report.unsmoothed_volumes = smoothing_->report().volume_before;
     }
     smoothing_.reset();
-    oracle_ = census.oracle();
+    if (census) oracle_ = census->oracle();
 }
+
 bool Run::read(SectionWindow& window) {
     const Timer timer(seconds("read"));
     return window.advance();
@@ -205,14 +198,14 @@ void Run::add_strip(const FaceBatch& batch) {
         run_.append(batch);
     }
     ++strips_;
-    const std::uint32_t run_strips = is_decimating() ? plan_.run_strips : options_.strips_per_batch;
-    if (strips_ % run_strips == 0 || strips_ + 1 == reader_.section_count()) end_run();
+    if (strips_ % plan_.run_strips == 0 || strips_ + 1 == reader_.section_count()) end_run();
 }
 
 void Run::end_run() {
     double ceiling = ceiling_;
     for (const BatchVertex& vertex : run_.vertices) ceiling = std::max(ceiling, vertex.position[sweep_axis()]);
     if (!smoothing_ && options_.preserve_volume) add_volumes(run_, weld_.front(), result_.report.unsmoothed_volumes);
+    joined_faces_ += run_.faces.size();
     if (is_decimating()) decimate_run();
     {
         const Timer timer(seconds("reconstruct"));
@@ -220,7 +213,8 @@ void Run::end_run() {
     }
     ceiling_ = ceiling;
     const std::uint64_t run_faces = run_.faces.size();
-    run_.clear();
+    run_ = {};
+    give_back_freed_memory();
     note_bytes(result_.model.face_count(), result_.model.bytes());
     if (strips_ + 1 < reader_.section_count()) keep_within_budget(run_faces);
 }
@@ -243,16 +237,20 @@ void Run::decimate_run() {
 
 void Run::keep_within_budget(std::uint64_t run_faces) {
     // The next run comes on top of what is held.
-    const std::uint64_t room = budget_ - std::min(budget_, run_faces);
+    const std::uint32_t next = strips_ / plan_.run_strips;
+    const std::uint64_t budget = memory_.face_budget(next),
+                        room = memory_.room_before(next, memory_.expected_faces(next, run_faces));
     if (!is_decimating() || result_.model.face_count() <= room) return;
     // Down by a good part, so that the heap need not be built anew after every run.
-    const std::uint64_t goal = std::max(target_.so_far(result_.report.initial_faces), std::min(room, budget_ * 6 / 10));
-    if (result_.model.face_count() > goal) {
-        weld_.renumber(result_.model.sort_spatially());
-        decimate_to(goal, false);
-    }
-    // Where topology, the largest error or the target forbid more, the model goes on growing.
-    if (result_.model.face_count() > budget_) budget_ = std::uint64_t{result_.model.face_count()} * 3 / 2;
+    const std::uint64_t goal = std::max(target_.so_far(joined_faces_), std::min(room, budget * 6 / 10));
+    if (result_.model.face_count() <= goal) return;
+    weld_.renumber(result_.model.sort_spatially());
+    give_back_freed_memory();
+    decimate_to(goal, false);
+    give_back_freed_memory();
+    // Where topology or the largest error forbid more, the model goes on growing.
+    if (stopped_ != StopReason::kTarget && result_.model.face_count() > room)
+        memory_.asked_budget = std::uint64_t{result_.model.face_count()} * 3 / 2;
 }
 
 DecimateOptions Run::decimate_options() const {
@@ -295,6 +293,7 @@ void Run::bring_to_target() {
         return;
     }
     tell("decimate");
+    give_back_freed_memory();
     result_.model.sort_spatially();
     decimate_to(target_.of(result_.report.initial_faces), true);
     result_.report.stopped = stopped_ == StopReason::kTarget     ? "target"
@@ -316,6 +315,7 @@ void Run::preserve_volumes() {
 
 /// Checks what will be written, where it will lie.
 void Run::prove() {
+    give_back_freed_memory();
     place_in_space(result_.model, lattice_);
     tell("check");
     const Timer timer(seconds("check"));
@@ -351,13 +351,11 @@ void Run::tell(const char* stage) {
     on_progress_(progress_);
 }
 
-}  // namespace
-
-namespace {
-
 Reconstruction run_once(SectionReader& reader, const ReconstructOptions& options,
                         const std::function<void(const Progress&)>& on_progress) {
-    Run run(reader, options, on_progress);
+    std::optional<ReadAhead> ahead;
+    if (options.threads != 1) ahead.emplace(reader);
+    Run run(ahead ? *ahead : reader, options, on_progress);
     run.plan();
     run.build();
     run.bring_to_target();

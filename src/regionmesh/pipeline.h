@@ -28,7 +28,7 @@ struct ReconstructOptions {
     bool intersect_check = true;
     bool cap = true;                                // --boundary cap; false: open
     std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
-    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process should stay within
+    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process is to stay within
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of one derived from memory
     std::uint32_t threads = 0;                      // at work at a time; 0: one per core. The result is the same
     std::uint32_t strips_per_batch = 1;  // strips meshed before they are welded; tiles set it where there are any
@@ -48,9 +48,10 @@ struct Reconstruction {
     Report report;
 };
 
-/// Reads all sections, builds the model on the fly within the face budget, decimates it to the target and checks it.
-/// Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader throws;
-/// Error(kInput) for a target beyond what memory allows. Deterministic.
+/// Reads all sections, builds the model on the fly within its memory, decimates it to the target and checks it. Reads
+/// them twice where that is possible, first to count faces and to plan memory; with more than one thread on a thread of
+/// its own, one call at a time. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what
+/// the reader throws; after the first pass Error(kInput) for a target beyond what memory allows. Deterministic.
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},
                            const std::function<void(const Progress&)>& on_progress = {});
 

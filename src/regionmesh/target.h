@@ -8,6 +8,9 @@
 
 namespace regionmesh {
 
+/// A tile keeps so many times the share of faces that the target leaves.
+inline constexpr double kTileMargin = 1.25;
+
 struct Target {
     std::optional<std::uint64_t> faces;  // at most so many
     std::optional<double> reduce;        // or this share less

@@ -23,12 +23,13 @@ Model sheet_and_octahedron(Vec3 middle, double size) {
     return model;
 }
 
-/// Edge 0-1 of the sheet, merged at `position`. Fold and pinch have passed.
+/// Edge 0-1 of the sheet, merged at `position`.
 bool is_blocked(const Model& model, Vec3 position) {
     EdgeStar star;
     gather(model, VertexId{0}, VertexId{1}, star);
-    EXPECT_EQ(shape_verdict(model, star, position, {.min_quality = 0}).verdict, Verdict::kAccepted);
-    return Obstruction().blocks(model, FaceTree(model), star, position);
+    const ShapeBounds bounds{.min_quality = 0};
+    EXPECT_EQ(shape_verdict(star, position, bounds).verdict, Verdict::kAccepted);
+    return Obstruction().verdict(model, FaceTree(model), star, position, bounds) == Verdict::kIntersect;
 }
 
 constexpr Vec3 kTop{0.5, 0, 1};

@@ -121,12 +121,5 @@ TEST(Memory, peak_does_not_grow_with_the_number_of_sections) {
     EXPECT_LE(whole.report.peak_faces, half.report.peak_faces * 11 / 10);
 }
 
-TEST(Memory, the_budget_follows_from_memory) {
-    const test::ArrayVolume volume = test::solid_volume({100, 100, 100});
-    const std::uint64_t reading = reading_bytes(volume.info());
-    EXPECT_EQ(face_budget_for(reading + 96 * 1000000, volume.info()), 1000000u);
-    EXPECT_GT(reading, 100u * 100 * 64);
-}
-
 }  // namespace
 }  // namespace regionmesh

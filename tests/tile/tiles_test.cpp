@@ -163,7 +163,7 @@ TEST(TilePlan, comes_from_the_size_alone) {
     lattice.size = {360, 360, 100};
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 16u);
     lattice.size = {64, 64, 64};
-    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 32u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 24u);
     lattice.size = {5000, 5000, 64};
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 8u);
 }

@@ -1,6 +1,7 @@
 // A growing array of plain data that never copies large blocks to grow, and whose unused end costs no memory.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -62,6 +63,16 @@ public:
         reserve(size);
         for (std::uint32_t i = size_; i < size; ++i) data_[i] = value;
         size_ = size;
+    }
+    /// Gives back the unused end where it is more than half of what is used: pages that were touched stay resident
+    /// otherwise.
+    void trim() {
+        if (capacity_ - size_ <= std::size_t{size_} / 2 || capacity_ <= 1024) return;
+        const std::size_t capacity = std::max<std::size_t>(size_ + size_ / 8, 1024);
+        T* trimmed = static_cast<T*>(std::realloc(static_cast<void*>(data_), capacity * sizeof(T)));
+        if (!trimmed) return;
+        data_ = trimmed;
+        capacity_ = capacity;
     }
     std::size_t bytes() const { return std::size_t{size_} * sizeof(T); }
 

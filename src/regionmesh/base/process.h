@@ -2,6 +2,9 @@
 #pragma once
 
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <chrono>
 #include <cstdint>
@@ -21,6 +24,21 @@ inline std::uint64_t peak_resident_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// Gives freed memory back to the system, which the C library would keep for later. After much was freed.
+inline void give_back_freed_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
+/// Keeps large arrays apart from small ones, so that their memory goes back when they are freed: the C library would
+/// raise its own bound as it goes, and leave holes. For programs, once, at the start.
+inline void keep_large_arrays_apart() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
 }
 
 /// Adds the time from its construction to its end to a sum of seconds. For reports only: no result depends on it.

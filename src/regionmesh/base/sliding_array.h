@@ -28,13 +28,15 @@ public:
     /// Elements before `end` that are new are copies of `value`.
     void grow(std::uint32_t end, const T& value = T{}) { items_.resize(end - base_, value); }
 
-    /// Lets go of the elements before n. Their place is taken back when it is a quarter of all.
+    /// Lets go of the elements before n. Their place is taken back when it is a quarter of all; memory
+    /// falls as the window does.
     void drop_before(std::uint32_t n) {
         first_ = n;
         const std::uint32_t dropped = first_ - base_;
         if (dropped < items_.size() / 4 || dropped == 0) return;
         std::copy(items_.begin() + dropped, items_.end(), items_.begin());
         items_.resize(items_.size() - dropped);
+        items_.trim();
         base_ = first_;
     }
     std::size_t bytes() const { return items_.bytes(); }

@@ -30,6 +30,7 @@ public:
         if (dropped < items_.size() / 4 || dropped == 0) return;
         std::copy(items_.begin() + dropped, items_.end(), items_.begin());
         items_.resize(items_.size() - dropped);
+        items_.trim();
         base_ += dropped;
     }
     std::size_t bytes() const { return start_.bytes() + items_.bytes(); }

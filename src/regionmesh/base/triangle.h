@@ -18,6 +18,7 @@ struct QualityTerms {
 
     /// True when the quality is at least `bound`: compares third powers.
     bool is_at_least(double bound) const { return area * area * area >= bound * bound * bound * product * product; }
+    double cube() const { return product > 0 ? area * area * area / (product * product) : 0.0; }
     double value() const { return product > 0 ? area / std::cbrt(product * product) : 0.0; }
 };
 

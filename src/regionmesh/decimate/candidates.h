@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "regionmesh/decimate/decimate.h"
+#include "regionmesh/decimate/edge_costs.h"
 #include "regionmesh/decimate/edge_heap.h"
-#include "regionmesh/decimate/placement.h"
 #include "regionmesh/model/label_set.h"
 
 namespace regionmesh {
@@ -14,7 +14,7 @@ namespace regionmesh {
 /// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
 class Candidates {
 public:
-    Candidates(Model& model, const DecimateOptions& options);
+    Candidates(const Model& model, const VertexQuadrics& quadrics, const DecimateOptions& options);
 
     /// Gathers all candidates anew. Returns the number of edges that strata forbid.
     std::uint64_t refresh();
@@ -22,22 +22,25 @@ public:
     bool empty() const { return heap_.empty(); }
     VertexId goes() const { return heap_.top(); }
     VertexId stays() const { return partner_[index(heap_.top())]; }
-    EdgeEnds ends(VertexId goes, VertexId stays) const;
 
     /// Puts the cheapest candidate aside until something near it changes.
     void refuse();
-    /// Before the stars change: `goes` leaves, the merged quadric moves to `position`.
-    void merge(VertexId goes, VertexId stays, Vec3 position);
-    /// After: ranks the edges round `stays` again.
+    /// After a collapse: `goes` has left, and the edges round `stays` are ranked again.
     void update(VertexId goes, VertexId stays);
 
     std::size_t bytes() const;
 
 private:
-    struct Neighbour {
-        VertexId vertex;
+    /// The edges of a vertex, place by place.
+    struct Neighbours {
+        std::vector<VertexId> vertices;
+        std::vector<std::uint8_t> label_counts;  // of the edges
+        std::vector<EdgeCost> costs;
+    };
+    /// The labels of an edge while they are gathered, and two for each of its faces.
+    struct EdgeLabels {
         LabelSet labels;
-        int uses;
+        int uses = 0;
     };
     struct Best {
         VertexId stays = kNoVertex;
@@ -45,24 +48,22 @@ private:
         bool is_before(Best other) const { return key < other.key || (key == other.key && stays < other.stays); }
     };
 
-    void count_labels();
-    void gather_quadrics();
-    void add_to_quadric(VertexId v, const Quadric& q);
-    void gather_neighbours(VertexId v);
+    void gather_neighbours(VertexId v, Neighbours& found);
+    void count_edge_labels(VertexId v, Neighbours& found);
     int label_count(VertexId v) const { return model_[v].label_count; }
-    int edge_label_count(VertexId v, const Neighbour& neighbour) const;
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
-    float key(VertexId goes, VertexId stays) const;
+    float key(VertexId goes, VertexId stays, EdgeCost cost) const;
     Best best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden);
     void rank(VertexId v, Best best);
 
-    Model& model_;
+    const Model& model_;
+    const VertexQuadrics& quadrics_;
     const DecimateOptions& options_;
-    FlatArray<PackedQuadric> quadrics_;  // each relative to its vertex
     FlatArray<VertexId> partner_;        // where the cheapest edge of a vertex in the heap leads
     FlatArray<float> floor_;             // edges up to this key were refused since the last change
     EdgeHeap heap_;
-    std::vector<Neighbour> neighbours_, other_neighbours_;
+    Neighbours neighbours_, round_merged_;
+    std::vector<EdgeLabels> edge_labels_;
 };
 
 }  // namespace regionmesh

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "regionmesh/decimate/candidates.h"
+#include "regionmesh/decimate/collapse.h"
 #include "regionmesh/decimate/edge_star.h"
 #include "regionmesh/decimate/legality.h"
 #include "regionmesh/decimate/obstruction.h"
+#include "regionmesh/decimate/thinning.h"
+#include "regionmesh/model/strata.h"
 
 namespace regionmesh {
 namespace {
@@ -17,6 +20,12 @@ constexpr double kFlat = 1e-9;
 /// Share of the face places in use below which faces are packed and their tree is built anew.
 constexpr double kCompactBelow = 0.5;
 
+/// Vertices whose removal costs less than this, in units of scale^4, go in sweeps before the others are ranked. A sweep
+/// leaves at least so much of the faces, and is the last when it takes less than so much of them.
+constexpr double kThinCost = 1e-3;
+constexpr double kLeastLeft = 0.65, kLeastGain = 0.02;
+constexpr int kMostSweeps = 16;
+
 class Decimation {
 public:
     Decimation(Model& model, const DecimateOptions& options)
@@ -24,7 +33,8 @@ public:
           options_(options),
           tree_(model),
           beyond_(fix_beyond(model, options.limits)),
-          candidates_(model, options) {
+          quadrics_((count_labels(model), model)),
+          candidates_(model, quadrics_, options) {
         bounds_.min_quality = options.min_quality;
     }
     ~Decimation() {
@@ -34,6 +44,7 @@ public:
     Decimation& operator=(const Decimation&) = delete;
 
     DecimateResult run() {
+        thin();
         for (;;) {
             if (model_.face_count() <= options_.target_faces) break;
             result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
@@ -41,10 +52,7 @@ public:
             const std::uint64_t before = count(Verdict::kAccepted);
             while (!candidates_.empty() && model_.face_count() > options_.target_faces) {
                 step();
-                if (model_.face_count() < model_.face_end() * kCompactBelow) {
-                    model_.compact_faces();
-                    tree_.build(model_);
-                }
+                pack();
             }
             if (model_.face_count() <= options_.target_faces) break;
             if (count(Verdict::kAccepted) == before || !options_.refresh) {
@@ -57,6 +65,24 @@ public:
     }
 
 private:
+    /// Removes what costs next to nothing, as long as a whole sweep stays above the target.
+    void thin() {
+        const double scale2 = options_.scale * options_.scale;
+        Thinning thinning(model_, tree_, quadrics_, options_, bounds_, std::min(options_.max_cost, kThinCost * scale2 * scale2));
+        for (int sweep = 0; sweep < kMostSweeps && model_.face_count() * kLeastLeft > options_.target_faces; ++sweep) {
+            const std::uint32_t before = model_.face_count();
+            if (2 * thinning.sweep(result_.verdicts) < kLeastGain * before) break;
+            pack();
+        }
+    }
+
+    /// When many faces are gone, the others are brought together, and their tree is built anew.
+    void pack() {
+        if (model_.face_count() >= model_.face_end() * kCompactBelow) return;
+        model_.compact_faces();
+        tree_.build(model_);
+    }
+
     /// Fixes the vertices of faces that reach beyond the limits, so that all faces that change lie within, before and
     /// after: the limits are convex. Returns those that were not fixed before.
     static std::vector<VertexId> fix_beyond(Model& model, const Box& limits) {
@@ -97,25 +123,24 @@ private:
     Verdict examine(Vec3& position) {
         const Verdict topology = topology_verdict(model_, star_);
         if (topology != Verdict::kAccepted) return topology;
-        const EdgeEnds edge = candidates_.ends(star_.goes, star_.stays);
+        const EdgeEnds edge = quadrics_.ends(model_, star_.goes, star_.stays);
         const Placement cheapest = place(edge);
         position = cheapest.position;
         keep_level(position);
-        ShapeResult shape = shape_verdict(model_, star_, position, bounds_);
+        ShapeResult shape = shape_verdict(star_, position, bounds_);
         if (is_flat(edge, cheapest.cost)) prefer_average(edge, position, shape);
         if (shape.verdict != Verdict::kAccepted) return shape.verdict;
         if (!is_within_limits(position)) return Verdict::kIntersect;
-        if (options_.intersect_check && obstruction_.blocks(model_, tree_, star_, position)) return Verdict::kIntersect;
-        return Verdict::kAccepted;
+        if (options_.intersect_check) return obstruction_.verdict(model_, tree_, star_, position, bounds_);
+        return pinches_around(model_, star_, position, bounds_) ? Verdict::kPinch : Verdict::kAccepted;
     }
 
     /// Where the whole star lies in a plane square to an axis, the merged vertex does, to the last bit.
     void keep_level(Vec3& position) const {
         for (int axis = 0; axis < 3; ++axis) {
-            const double level = model_.position(star_.goes)[axis];
-            const auto is_level = [&](const StarFace& f) { return f.at_a[axis] == level && f.at_b[axis] == level; };
-            if (model_.position(star_.stays)[axis] == level &&
-                std::all_of(star_.faces.begin(), star_.faces.end(), is_level))
+            const double level = star_.at_goes[axis];
+            if (star_.at_stays[axis] == level && star_.link_box.low[axis] == level &&
+                star_.link_box.high[axis] == level)
                 position[axis] = level;
         }
     }
@@ -131,9 +156,9 @@ private:
         Vec3 average = average_of_link(edge);
         keep_level(average);
         if (!is_flat(edge, cost_at(edge, average))) return;
-        const ShapeResult other = shape_verdict(model_, star_, average, bounds_);
+        const ShapeResult other = shape_verdict(star_, average, bounds_);
         if (other.verdict == Verdict::kAccepted &&
-            (shape.verdict != Verdict::kAccepted || other.worst_quality > shape.worst_quality)) {
+            (shape.verdict != Verdict::kAccepted || other.worst_quality3 > shape.worst_quality3)) {
             position = average;
             shape = other;
         } else {
@@ -160,20 +185,8 @@ private:
     }
 
     void collapse(Vec3 position) {
-        candidates_.merge(star_.goes, star_.stays, position);
-        for (FaceId f : star_.dead) {
-            model_.remove_face(f);
-            tree_.remove(f);
-        }
-        model_.move_star(star_.goes, star_.stays);
-        model_[star_.stays].position = position;
-        for (const StarFace& f : star_.faces) {
-            Box box;
-            box.add(position);
-            box.add(f.at_a);
-            box.add(f.at_b);
-            tree_.set(f.face, box);
-        }
+        quadrics_.merge(model_, star_.goes, star_.stays, position);
+        collapse_edge(model_, tree_, star_, position);
         candidates_.update(star_.goes, star_.stays);
     }
 
@@ -182,6 +195,7 @@ private:
     ShapeBounds bounds_;
     FaceTree tree_;
     std::vector<VertexId> beyond_;
+    VertexQuadrics quadrics_;
     Candidates candidates_;
     Obstruction obstruction_;
     EdgeStar star_;

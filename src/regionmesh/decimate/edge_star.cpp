@@ -2,49 +2,121 @@
 
 #include <algorithm>
 
-#include "regionmesh/base/triangle.h"
-
 namespace regionmesh {
 namespace {
 
 void add_surviving(const Model& model, FaceId f, int place, EdgeStar& star) {
     const Face& face = model[f];
-    StarFace kept;
-    kept.face = f;
-    kept.apex = face.vertices[place];
-    kept.a = face.vertices[(place + 1) % 3];
-    kept.b = face.vertices[(place + 2) % 3];
-    kept.at_a = model.position(kept.a);
-    kept.at_b = model.position(kept.b);
-    kept.old_normal = area_vector(model.position(kept.apex), kept.at_a, kept.at_b);
-    kept.old_length = length(kept.old_normal);
-    star.faces.push_back(kept);
+    const int after = place == 2 ? 0 : place + 1, before = place == 0 ? 2 : place - 1;
+    const std::size_t n = star.faces.size();
+    star.faces.push_back({f, face.vertices[after], face.vertices[before], face.vertices[place]});
+    if (n % 2 == 0) star.pairs.emplace_back();
+    StarPair& pair = star.pairs.back();
+    pair.a.put(n % 2, model.position(face.vertices[after]));
+    pair.b.put(n % 2, model.position(face.vertices[before]));
+}
+
+/// The measures that do not depend on where the merged vertex goes.
+void measure(EdgeStar& star) {
+    if (star.faces.size() % 2 == 1) {
+        StarPair& last = star.pairs.back();
+        last.a.put(1, last.a[0]);
+        last.b.put(1, last.b[0]);
+    }
+    Lanes3<Double2> low = both(Vec3{HUGE_VAL, HUGE_VAL, HUGE_VAL}), high = both(Vec3{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL});
+    for (std::size_t n = 0; n < star.pairs.size(); ++n) {
+        StarPair& pair = star.pairs[n];
+        const int last = std::min(2 * static_cast<int>(n) + 1, star.face_count() - 1);
+        Lanes3<Double2> apex{};
+        apex.put(0, star.at_apex(2 * static_cast<int>(n)));
+        apex.put(1, star.at_apex(last));
+        pair.old_normal = cross(pair.a - apex, pair.b - apex);
+        pair.old_length2 = dot(pair.old_normal, pair.old_normal);
+        const Lanes3<Double2> link_edge = pair.b - pair.a;
+        pair.link_length2 = dot(link_edge, link_edge);
+        low = {least(least(low.x, pair.a.x), pair.b.x), least(least(low.y, pair.a.y), pair.b.y),
+               least(least(low.z, pair.a.z), pair.b.z)};
+        high = {greatest(greatest(high.x, pair.a.x), pair.b.x), greatest(greatest(high.y, pair.a.y), pair.b.y),
+                greatest(greatest(high.z, pair.a.z), pair.b.z)};
+    }
+    star.link_box = {min(low[0], low[1]), max(high[0], high[1])};
+}
+
+/// Round an edge within one interface every vertex of the link comes first in exactly one face.
+void gather_link(const Model& model, EdgeStar& star) {
+    if (model[star.goes].label_count == 2 && model[star.stays].label_count == 2) {
+        for (const StarFace& face : star.faces) star.link.push_back(face.a);
+        return;
+    }
+    for (const StarFace& face : star.faces)
+        for (VertexId v : {face.a, face.b})
+            if (std::find(star.link.begin(), star.link.end(), v) == star.link.end()) star.link.push_back(v);
+}
+
+void start(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
+    star.goes = goes;
+    star.stays = stays;
+    star.at_goes = model.position(goes);
+    star.at_stays = model.position(stays == kNoVertex ? goes : stays);
+    star.faces.clear();
+    star.pairs.clear();
+    star.dead.clear();
+    star.apexes.clear();
+    star.link.clear();
+}
+
+void add_faces_of_goes(const Model& model, EdgeStar& star) {
+    model.for_star(star.goes, [&](FaceId f, int place) {
+        const Face& face = model[f];
+        const VertexId a = face.vertices[place == 2 ? 0 : place + 1], b = face.vertices[place == 0 ? 2 : place - 1];
+        if (a != star.stays && b != star.stays) return add_surviving(model, f, place, star);
+        star.dead.push_back(f);
+        star.apexes.push_back(a == star.stays ? b : a);
+    });
 }
 
 }  // namespace
 
 void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
-    star.goes = goes;
-    star.stays = stays;
-    star.faces.clear();
-    star.dead.clear();
-    star.apexes.clear();
-    star.link.clear();
-    model.for_star(goes, [&](FaceId f, int place) {
-        const Face& face = model[f];
-        const VertexId a = face.vertices[(place + 1) % 3], b = face.vertices[(place + 2) % 3];
-        if (a != stays && b != stays) return add_surviving(model, f, place, star);
-        star.dead.push_back(f);
-        star.apexes.push_back(a == stays ? b : a);
-    });
+    start(model, goes, stays, star);
+    star.keeps_stays = false;
+    add_faces_of_goes(model, star);
     model.for_star(stays, [&](FaceId f, int place) {
         const Face& face = model[f];
-        if (face.vertices[(place + 1) % 3] != goes && face.vertices[(place + 2) % 3] != goes)
+        if (face.vertices[place == 2 ? 0 : place + 1] != goes && face.vertices[place == 0 ? 2 : place - 1] != goes)
             add_surviving(model, f, place, star);
     });
-    for (const StarFace& face : star.faces)
-        for (VertexId v : {face.a, face.b})
-            if (std::find(star.link.begin(), star.link.end(), v) == star.link.end()) star.link.push_back(v);
+    const auto& labels = model[star.dead.front()].labels;
+    star.is_interface = std::all_of(star.faces.begin(), star.faces.end(),
+                                    [&](const StarFace& f) { return model[f.face].labels == labels; });
+    measure(star);
+    gather_link(model, star);
+}
+
+void gather_vertex(const Model& model, VertexId goes, EdgeStar& star) {
+    start(model, goes, kNoVertex, star);
+    star.keeps_stays = star.is_interface = true;
+    add_faces_of_goes(model, star);
+    measure(star);
+}
+
+void gather_half(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
+    start(model, goes, stays, star);
+    star.keeps_stays = true;
+    star.is_interface = true;
+    add_faces_of_goes(model, star);
+    measure(star);
+    for (const StarFace& face : star.faces) star.link.push_back(face.a);
+    for (VertexId apex : star.apexes)
+        if (std::find(star.link.begin(), star.link.end(), apex) == star.link.end()) star.link.push_back(apex);
+}
+
+void set_normals(EdgeStar& star, Vec3 position) {
+    const Lanes3<Double2> merged = both(position);
+    for (StarPair& pair : star.pairs) {
+        pair.new_normal = cross(pair.a - merged, pair.b - merged);
+        pair.new_length2 = dot(pair.new_normal, pair.new_normal);
+    }
 }
 
 }  // namespace regionmesh

@@ -13,12 +13,18 @@ bool contains(const std::vector<VertexId>& set, VertexId v) {
     return std::find(set.begin(), set.end(), v) != set.end();
 }
 
+std::uint64_t bit_of(VertexId v) { return std::uint64_t{1} << (index(v) & 63); }
+
 /// Every common neighbour of the ends must be an apex of the edge, and they may have no link edge in common.
 bool is_link_condition_met(const EdgeStar& star) {
-    for (const StarFace& f : star.faces) {
-        if (f.apex != star.goes) continue;
-        for (const StarFace& g : star.faces) {
-            if (g.apex != star.stays) continue;
+    // Only apexes are common to most: a bit for each neighbour of the end that goes, by id modulo 64.
+    std::uint64_t near_goes = 0;
+    for (const StarFace& f : star.faces)
+        if (f.apex == star.goes) near_goes |= bit_of(f.a) | bit_of(f.b);
+    for (const StarFace& g : star.faces) {
+        if (g.apex != star.stays || ((bit_of(g.a) | bit_of(g.b)) & near_goes) == 0) continue;
+        for (const StarFace& f : star.faces) {
+            if (f.apex != star.goes) continue;
             const bool shares_a = f.a == g.a || f.a == g.b, shares_b = f.b == g.a || f.b == g.b;
             if (shares_a && shares_b) return false;
             if ((shares_a && !contains(star.apexes, f.a)) || (shares_b && !contains(star.apexes, f.b))) return false;
@@ -49,35 +55,43 @@ bool lands_on_box_edge(const Model& model, const EdgeStar& star) {
 }
 
 /// Two faces that pass their common edge in opposite directions look the same way; their normals then are as the angle
-/// between their pages, from the other side.
-bool is_pinched(Vec3 n, double n_length, Vec3 m, double m_length, bool opposite, double max_cosine) {
-    const double cosine = opposite ? -dot(n, m) : dot(n, m);
-    return cosine > max_cosine * n_length * m_length;
+/// between their pages, from the other side. Lengths are squared.
+bool is_pinched(Vec3 n, double n_length2, Vec3 m, double m_length2, bool opposite, double max_cosine) {
+    const double product = opposite ? -dot(n, m) : dot(n, m);
+    return product > 0 && product * product > max_cosine * max_cosine * n_length2 * m_length2;
 }
 
-/// All new faces look at most 60 degrees away from their mean: no two of a disk are near to closing.
+/// All new faces look at most 60 degrees away from one direction: no two of a disk are near to closing.
 bool is_nearly_flat(const EdgeStar& star) {
-    Vec3 sum;
-    for (const StarFace& f : star.faces) sum += f.new_normal;
-    const double bound = 0.5 * length(sum);
-    return std::all_of(star.faces.begin(), star.faces.end(),
-                       [&](const StarFace& f) { return dot(f.new_normal, sum) > bound * f.new_length; });
+    Lanes3<Double2> sums{};
+    for (const StarPair& pair : star.pairs) {
+        sums.x += pair.new_normal.x;
+        sums.y += pair.new_normal.y;
+        sums.z += pair.new_normal.z;
+    }
+    const Vec3 sum = sums[0] + sums[1];
+    const Double2 bound = both(0.25 * length2(sum));
+    const Lanes3<Double2> direction = both(sum);
+    unsigned within = 3;
+    for (const StarPair& pair : star.pairs) {
+        const Double2 along = dot(pair.new_normal, direction);
+        within &= bits_of((along > both(0)) & (along * along > bound * pair.new_length2));
+    }
+    return within == 3;
 }
 
 /// Pages at the edges from the merged vertex.
-bool pinches_at_spokes(const Model& model, const EdgeStar& star, double max_cosine) {
-    const auto& labels = model[star.dead.front()].labels;
-    const bool is_disk = std::all_of(star.faces.begin(), star.faces.end(),
-                                     [&](const StarFace& f) { return model[f.face].labels == labels; });
-    if (is_disk && is_nearly_flat(star)) return false;
-    for (std::size_t i = 0; i < star.faces.size(); ++i) {
+bool pinches_at_spokes(const EdgeStar& star, double max_cosine) {
+    if (star.is_interface && is_nearly_flat(star)) return false;
+    for (int i = 0; i < star.face_count(); ++i) {
         const StarFace& f = star.faces[i];
-        for (std::size_t j = i + 1; j < star.faces.size(); ++j) {
+        for (int j = i + 1; j < star.face_count(); ++j) {
             const StarFace& g = star.faces[j];
             const bool opposite = (f.a == g.b) | (f.b == g.a);
             const bool same = (f.a == g.a) | (f.b == g.b);
             if (!(opposite | same)) continue;
-            if (is_pinched(f.new_normal, f.new_length, g.new_normal, g.new_length, opposite, max_cosine)) return true;
+            if (is_pinched(star.new_normal(i), star.new_length2(i), star.new_normal(j), star.new_length2(j), opposite, max_cosine))
+                return true;
         }
     }
     return false;
@@ -90,66 +104,158 @@ bool sweeps_over(Vec3 a, Vec3 b, Vec3 before, Vec3 now, Vec3 x) {
     return turn != 0 && orientation(a, b, before, x) == turn && orientation(a, b, x, now) == turn;
 }
 
-/// Pages at the edges of the link: each new face against the faces outside the star that it hangs on to.
-bool pinches_at_link(const Model& model, const EdgeStar& star, Vec3 position, double max_cosine) {
-    for (const StarFace& f : star.faces) {
-        bool pinched = false;
-        model.for_star(f.a, [&](FaceId g, int place) {
-            const auto& v = model[g].vertices;
-            const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
-            if (pinched || (after != f.b && before != f.b)) return;
-            const VertexId third = after == f.b ? before : after;
-            if (third == star.goes || third == star.stays) return;
-            const bool opposite = before == f.b;
-            const Vec3 x = model.position(third);
-            const Vec3 m = opposite ? area_vector(f.at_b, f.at_a, x) : area_vector(f.at_a, f.at_b, x);
-            const double toward = opposite ? -dot(m, f.new_normal) : dot(m, f.new_normal);
-            if (toward <= 0) return;
-            pinched = is_pinched(f.new_normal, f.new_length, m, length(m), opposite, max_cosine) ||
-                      sweeps_over(f.at_a, f.at_b, model.position(f.apex), position, x);
-        });
-        if (pinched) return true;
+bool folds(const EdgeStar& star, const ShapeBounds& bounds) {
+    const Double2 bound = both(bounds.min_turn_cosine * bounds.min_turn_cosine);
+    unsigned within = 3;
+    for (const StarPair& pair : star.pairs) {
+        const Double2 along = dot(pair.old_normal, pair.new_normal);
+        within &= bits_of((along > both(0)) & (along * along > bound * pair.old_length2 * pair.new_length2));
     }
-    return false;
+    return within != 3;
+}
+
+double cube_of_bound(const ShapeBounds& bounds) {
+    // A little more than asked, so that rounding does not take a face below when it is measured from another corner.
+    return bounds.min_quality * bounds.min_quality * bounds.min_quality * (1 + 1e-12);
+}
+
+/// Third power of the quality of each of two faces from a vertex to the link, given twice the areas squared
+/// (QualityTerms::cube, side by side).
+Double2 quality3(const StarPair& pair, const Lanes3<Double2>& to_a, const Lanes3<Double2>& to_b, Double2 length2) {
+    const Double2 a = square_root(dot(to_a, to_a)), b = square_root(dot(to_b, to_b)),
+                  c = square_root(pair.link_length2), area = both(0.5) * square_root(length2);
+    const Double2 shortest = least(a, least(b, c));
+    const Double2 others = greatest(a, greatest(b, c)) * greatest(least(a, b), least(greatest(a, b), c));
+    const Double2 product = others * (shortest + both(8) * area / (a + b + c));
+    return area * area * area / (product * product);
 }
 
 }  // namespace
 
 Verdict topology_verdict(const Model& model, const EdgeStar& star) {
-    const int edge_count = edge_labels(model, star.goes, star.stays).size();
-    if (edge_count != vertex_labels(model, star.goes).size()) return Verdict::kStrata;
+    // All edges of a vertex of two labels have both.
+    const bool is_inside_interface = model[star.goes].label_count == 2;
+    const int edge_count = is_inside_interface ? 2 : edge_labels(model, star.goes, star.stays).size();
+    if (!is_inside_interface && edge_count != vertex_labels(model, star.goes).size()) return Verdict::kStrata;
     if (star.faces.empty() || !is_link_condition_met(star)) return Verdict::kLink;
     if (edge_count > 2 && closes_loop_of_lines(model, star)) return Verdict::kLink;
     if (lands_on_box_edge(model, star)) return Verdict::kLink;
     return Verdict::kAccepted;
 }
 
-void set_normals(EdgeStar& star, Vec3 position) {
-    for (StarFace& f : star.faces) {
-        f.new_normal = area_vector(position, f.at_a, f.at_b);
-        f.new_length = length(f.new_normal);
-    }
+Verdict half_topology_verdict(const Model& model, const EdgeStar& star) {
+    if (star.faces.empty() || star.apexes.size() != 2) return Verdict::kLink;
+    bool met = true;
+    model.for_star(star.stays, [&](FaceId f, int place) {
+        const auto& v = model[f].vertices;
+        const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
+        if (after == star.goes || before == star.goes) return;
+        const bool has_after = contains(star.link, after), has_before = contains(star.link, before);
+        if ((has_after && !contains(star.apexes, after)) || (has_before && !contains(star.apexes, before))) met = false;
+        if (has_after && has_before && star.faces.size() == 1) met = false;
+    });
+    return met && !lands_on_box_edge(model, star) ? Verdict::kAccepted : Verdict::kLink;
 }
 
-ShapeResult shape_verdict(const Model& model, EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
+ShapeResult shape_verdict(EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
     set_normals(star, position);
-    for (const StarFace& f : star.faces) {
-        if (!(dot(f.old_normal, f.new_normal) > bounds.min_turn_cosine * f.old_length * f.new_length))
-            return {Verdict::kFold, 0};
+    if (folds(star, bounds)) return {Verdict::kFold, 0};
+    const double bound3 = cube_of_bound(bounds);
+    const Lanes3<Double2> merged = both(position);
+    double worst3 = 1;
+    for (std::size_t n = 0; n < star.pairs.size(); ++n) {
+        const StarPair& pair = star.pairs[n];
+        const Double2 own3 = quality3(pair, pair.a - merged, pair.b - merged, pair.new_length2);
+        for (int lane = 0; lane < 2; ++lane) {
+            if (own3[lane] < worst3) worst3 = own3[lane];
+            const int face = std::min(2 * static_cast<int>(n) + lane, star.face_count() - 1);
+            if (own3[lane] >= bound3) continue;
+            if (!(own3[lane] > quality_terms(star.at_apex(face), star.at_a(face), star.at_b(face)).cube()))
+                return {Verdict::kQuality, own3[lane]};
+        }
     }
-    if (pinches_at_spokes(model, star, bounds.min_dihedral_cosine) ||
-        pinches_at_link(model, star, position, bounds.min_dihedral_cosine))
-        return {Verdict::kPinch, 0};
-    double worst = 1;
-    for (const StarFace& f : star.faces) {
-        const QualityTerms terms = quality_terms(0.5 * f.new_length, length2(f.at_a - position),
-                                                 length2(f.at_b - position), length2(f.at_b - f.at_a));
-        const double quality = terms.value();
-        worst = std::min(worst, quality);
-        if (quality >= bounds.min_quality) continue;
-        if (!(quality > face_quality(model.position(f.apex), f.at_a, f.at_b))) return {Verdict::kQuality, quality};
+    if (pinches_at_spokes(star, bounds.min_dihedral_cosine)) return {Verdict::kPinch, 0};
+    return {Verdict::kAccepted, worst3};
+}
+
+double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, const ShapeBounds& bounds) {
+    const Lanes3<Double2> merged = both(at_target);
+    const Double2 turn = both(bounds.min_turn_cosine * bounds.min_turn_cosine), bound3 = both(cube_of_bound(bounds));
+    double worst3 = 1;
+    for (int first = 0; first < around.face_count(); first += 2) {
+        const StarPair& pair = around.pairs[first / 2];
+        const Lanes3<Double2> to_a = pair.a - merged, to_b = pair.b - merged, normal = cross(to_a, to_b);
+        const Double2 normal2 = dot(normal, normal), along = dot(pair.old_normal, normal);
+        const Double2 own3 = quality3(pair, to_a, to_b, normal2);
+        const unsigned good = bits_of((along > both(0)) & (along * along > turn * pair.old_length2 * normal2) & (own3 >= bound3));
+        for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
+            const StarFace& face = around.faces[first + lane];
+            if (face.a == target || face.b == target) continue;  // vanishes
+            if ((good >> lane & 1) == 0) return 0;
+            worst3 = std::min<double>(worst3, own3[lane]);
+        }
     }
-    return {Verdict::kAccepted, worst};
+    return worst3;
+}
+
+bool pinches_beyond(const EdgeStar& star, int n, Vec3 position, Vec3 third, bool runs_back, const ShapeBounds& bounds) {
+    const Vec3 a = star.at_a(n), b = star.at_b(n), normal = star.new_normal(n);
+    const Vec3 m = runs_back ? area_vector(b, a, third) : area_vector(a, b, third);
+    if ((runs_back ? -dot(m, normal) : dot(m, normal)) <= 0) return false;
+    return is_pinched(normal, star.new_length2(n), m, length2(m), runs_back, bounds.min_dihedral_cosine) ||
+           sweeps_over(a, b, star.at_apex(n), position, third);
+}
+
+bool pinches_beside(const EdgeStar& star, int n, bool at_a, const KeptFace& kept, const ShapeBounds& bounds) {
+    const Vec3 normal = star.new_normal(n), at = star.at_stays;
+    const Vec3 end = at_a ? star.at_a(n) : star.at_b(n), other = at_a ? star.at_b(n) : star.at_a(n);
+    const Vec3 m = kept.leads_to_stays ? area_vector(end, at, kept.third) : area_vector(at, end, kept.third);
+    const bool opposite = kept.leads_to_stays == at_a;
+    return is_pinched(normal, star.new_length2(n), m, length2(m), opposite, bounds.min_dihedral_cosine) ||
+           (kept.is_on_line && sweeps_over(at, end, star.at_goes, other, kept.third));
+}
+
+namespace {
+
+bool pinches_at_link(const Model& model, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
+    for (int n = 0; n < star.face_count(); ++n) {
+        const StarFace& f = star.faces[n];
+        bool pinched = false;
+        model.for_star(f.a, [&](FaceId g, int place) {
+            const auto& v = model[g].vertices;
+            const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
+            if (pinched || (after != f.b && before != f.b)) return;
+            const VertexId third = after == f.b ? before : after;
+            if (third == star.goes || (third == star.stays && !star.keeps_stays)) return;
+            pinched = pinches_beyond(star, n, position, model.position(third), before == f.b, bounds);
+        });
+        if (pinched) return true;
+    }
+    return false;
+}
+
+bool pinches_at_stays(const Model& model, const EdgeStar& star, const ShapeBounds& bounds) {
+    bool pinched = false;
+    model.for_star(star.stays, [&](FaceId f, int place) {
+        const auto& v = model[f].vertices;
+        const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
+        if (after == star.goes || before == star.goes) return;
+        for (int n = 0; n < star.face_count(); ++n) {
+            for (VertexId end : {after, before}) {
+                if (end != star.faces[n].a && end != star.faces[n].b) continue;
+                const KeptFace kept{end == before, model.position(end == before ? after : before), is_on_line(model, star, end)};
+                pinched = pinched || pinches_beside(star, n, end == star.faces[n].a, kept, bounds);
+            }
+        }
+    });
+    return pinched;
+}
+
+}  // namespace
+
+bool pinches_around(const Model& model, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
+    return pinches_at_link(model, star, position, bounds) ||
+           (star.keeps_stays && pinches_at_stays(model, star, bounds));
 }
 
 }  // namespace regionmesh

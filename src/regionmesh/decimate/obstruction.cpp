@@ -2,262 +2,197 @@
 
 #include <algorithm>
 
-#include "regionmesh/base/triangle.h"
 #include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/model/face_meeting.h"
 
 namespace regionmesh {
 namespace {
 
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
+    Box box;
+    for (Vec3 p : {a, b, c, d}) box.add(p);
+    if (max(q, box.low) != q || min(q, box.high) != q) return false;
     const int side = orientation(a, b, c, d);
     return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side &&
            orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
 
-std::uint64_t bit_of(VertexId v) { return std::uint64_t{1} << (index(v) & 63); }
-
 /// All faces of the star lie in one plane square to an axis, exactly, and stay there: an interface or a side of the
 /// box. Since none folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
-bool is_flat(const Model& model, const EdgeStar& star, Vec3 position) {
-    const auto& labels = model[star.dead.front()].labels;
-    for (int axis = 0; axis < 3; ++axis) {
+bool is_flat(const EdgeStar& star, Vec3 position) {
+    for (int axis = 0; axis < 3 && star.is_interface; ++axis) {
         const double level = position[axis];
-        if (model.position(star.goes)[axis] != level || model.position(star.stays)[axis] != level) continue;
-        return std::all_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) {
-            return f.at_a[axis] == level && f.at_b[axis] == level && model[f.face].labels == labels;
-        });
+        if (star.at_goes[axis] == level && star.at_stays[axis] == level && star.link_box.low[axis] == level &&
+            star.link_box.high[axis] == level)
+            return true;
     }
     return false;
 }
 
 }  // namespace
 
-bool Obstruction::blocks(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position) {
-    if (is_flat(model, star, position)) return false;
-    prepare(model, tree, star, position);
-    if (!is_simple_disk(model, star) && meets_itself()) return true;
-    bool blocked = false;
-    tree.search(box_, [&](FaceId f, const FaceTree::GridBox& box) {
-        if (!is_near(box)) return true;
-        const auto& v = model[f].vertices;
-        if (v[0] == star.goes || v[1] == star.goes || v[2] == star.goes) return true;
-        if (v[0] == star.stays || v[1] == star.stays || v[2] == star.stays) return true;
-        const OldFace old = look_at(model, f);
-        if (is_clear(old)) return true;
-        blocked = meets_new_face(old, box) || (old.shared == 0 && is_swept(model, star, old.corners[0], box));
-        return !blocked;
-    });
-    return blocked;
-}
-
-void Obstruction::prepare(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position) {
+Verdict Obstruction::verdict(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position,
+                             const ShapeBounds& bounds) {
+    if (is_flat(star, position)) return Verdict::kAccepted;
     position_ = position;
-    ends_ = {model.position(star.goes), model.position(star.stays)};
-    normal_ = Vec3{};
-    faces_.clear();
-    cells_.clear();
-    cell_count_ = 0;
-    for (const StarFace& f : star.faces) {
-        normal_ += f.new_normal;
-        NewFace made{f.a, f.b, {position, f.at_a, f.at_b}, {}, NewFace::kUnknown};
-        Box cell;
-        cell.add(model.position(f.apex));
-        for (int n = 0; n < 3; ++n) {
-            cell.add(made.corners[n]);
-            made.walls[n] = {made.corners[n], cross(made.corners[(n + 1) % 3] - made.corners[n], f.new_normal)};
-        }
-        faces_.push_back(made);
-        add_cell(tree, cell);
+    const bool is_simple = is_simple_disk(star);
+    box_ = star.link_box;
+    for (Vec3 p : {position, star.at_goes, star.at_stays}) box_.add(p);
+    Verdict verdict = Verdict::kAccepted;
+    for (int first = 0; first < star.face_count() && verdict == Verdict::kAccepted; first += StarPlanes::kMost) {
+        prepare(model, star, first);
+        if (!is_simple && meets_itself(model, star)) return Verdict::kIntersect;
+        tree.search(box_, [&](FaceId f, const FaceTree::GridBox&) {
+            verdict = look_at(model, star, bounds, f);
+            return verdict == Verdict::kAccepted;
+        });
     }
-    for (VertexId apex : star.apexes) {
-        Box cell;
-        for (Vec3 p : {position, ends_[0], ends_[1], model.position(apex)}) cell.add(p);
-        add_cell(tree, cell);
-    }
-    box_ = Box{};
-    low_ = high_ = 0;
-    const auto reach = [&](Vec3 p) {
-        box_.add(p);
-        const double along = dot(normal_, p - position);
-        low_ = std::min(low_, along);
-        high_ = std::max(high_, along);
-    };
-    reach(position);
-    for (Vec3 end : ends_) reach(end);
-    link_.assign(star.link.begin(), star.link.end());
-    link_at_.clear();
-    link_bits_ = 0;
-    for (VertexId v : link_) {
-        link_at_.push_back(model.position(v));
-        reach(link_at_.back());
-        link_bits_ |= bit_of(v);
-    }
+    return verdict;
 }
 
 /// The new star is a disk of one interface whose faces, seen along their mean normal, all look up and go round the
 /// merged vertex once: no two of them meet but in what they share. The ray that is counted lies in the first face.
-bool Obstruction::is_simple_disk(const Model& model, const EdgeStar& star) const {
-    const auto& labels = model[star.dead.front()].labels;
-    const Vec3 ray = 0.5 * (faces_[0].corners[1] + faces_[0].corners[2]) - position_;
-    const Vec3 right = cross(ray, normal_);
-    for (std::size_t n = 0; n < faces_.size(); ++n) {
-        if (model[star.faces[n].face].labels != labels || !is_ahead(normal_, star.faces[n].new_normal)) return false;
-        const Vec3 a = faces_[n].corners[1] - position_, b = faces_[n].corners[2] - position_;
-        if (n > 0 && !is_ahead(-right, a) && !is_ahead(right, b)) return false;
+bool Obstruction::is_simple_disk(const EdgeStar& star) const {
+    if (!star.is_interface) return false;
+    Vec3 up;
+    for (int n = 0; n < star.face_count(); ++n) up += star.new_normal(n);
+    const Vec3 ray = 0.5 * (star.at_a(0) + star.at_b(0)) - position_;
+    const Vec3 right = cross(ray, up);
+    for (int n = 0; n < star.face_count(); ++n) {
+        if (!is_ahead(up, star.new_normal(n))) return false;
+        if (n > 0 && !is_ahead(-right, star.at_a(n) - position_) && !is_ahead(right, star.at_b(n) - position_))
+            return false;
     }
     return true;
 }
 
-/// Do two new faces meet outside the merged vertex or the edge that they share?
-bool Obstruction::meets_itself() const {
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-        const NewFace& f = faces_[i];
-        for (std::size_t j = i + 1; j < faces_.size(); ++j) {
-            const NewFace& g = faces_[j];
-            const Corners &s = f.corners, &t = g.corners;
-            const bool f_a = f.a == g.a || f.a == g.b, f_b = f.b == g.a || f.b == g.b;
-            const Vec3 other = g.a == f.a || g.a == f.b ? t[2] : t[1];
-            if (f_a   ? meet_beyond_edge(position_, s[1], s[2], other)
-                : f_b ? meet_beyond_edge(position_, s[2], s[1], other)
-                      : meet_beyond_vertex(position_, s[1], s[2], t[1], t[2]))
+/// Does a new face in hand meet one that comes after it, outside the merged vertex or the edge that they share? Planes
+/// through the merged vertex tell most apart.
+bool Obstruction::meets_itself(const Model& model, const EdgeStar& star) {
+    for (int j = first_ + 1; j < star.face_count(); ++j) {
+        const StarFace& g = star.faces[j];
+        const Sides sides = place_of(model, g.a, 0).sides & place_of(model, g.b, 1).sides;
+        const std::uint32_t clear = sides.beyond_a | sides.beyond_b | sides.above | sides.below;
+        const std::uint32_t before = j - first_ < StarPlanes::kMost ? (1u << (j - first_)) - 1 : ~0u;
+        for (std::uint32_t rest = planes_.all() & before & ~clear; rest != 0; rest &= rest - 1)
+            if (meet_in_star(star, first_ + __builtin_ctz(rest), j)) return true;
+    }
+    return false;
+}
+
+bool Obstruction::meet_in_star(const EdgeStar& star, int i, int j) const {
+    const StarFace &f = star.faces[i], &g = star.faces[j];
+    const Vec3 f_a = star.at_a(i), f_b = star.at_b(i), g_a = star.at_a(j), g_b = star.at_b(j);
+    const Vec3 other = g.a == f.a || g.a == f.b ? g_b : g_a;
+    if (f.a == g.a || f.a == g.b) return meet_beyond_edge(position_, f_a, f_b, other);
+    if (f.b == g.a || f.b == g.b) return meet_beyond_edge(position_, f_b, f_a, other);
+    return meet_beyond_vertex(position_, f_a, f_b, g_a, g_b);
+}
+
+/// Takes new faces from `first` on in hand. What they know of their own corners: the planes through them.
+void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
+    first_ = first;
+    const int count = std::min(star.face_count() - first, StarPlanes::kMost);
+    planes_.prepare(star, position_, first, count);
+    if (++stamp_ == 0) {
+        std::fill(table_.begin(), table_.end(), Place());
+        stamp_ = 1;
+    }
+    used_ = 0;
+    apex_above_ = apex_below_ = 0;
+    const Sides goes = planes_.sides_of(star.at_goes), stays = planes_.sides_of(star.at_stays);
+    for (int n = 0; n < count; ++n) {
+        const Sides& apex = star.faces[first + n].apex == star.goes ? goes : stays;
+        apex_above_ |= apex.above & 1u << n;
+        apex_below_ |= apex.below & 1u << n;
+        const StarFace& face = star.faces[first + n];
+        place_of(model, face.a, 0).as_a |= 1u << n;
+        place_of(model, face.b, 0).as_b |= 1u << n;
+    }
+    for (VertexId v : star.link) {
+        Place& place = place_of(model, v, 0);
+        const std::uint32_t own = place.as_a | place.as_b;
+        place.sides.beyond_link |= own;
+        place.sides.beyond_a |= place.as_a;
+        place.sides.beyond_b |= place.as_b;
+        place.sides.above |= own;
+        place.sides.below |= own;
+    }
+    if (!star.keeps_stays) return;
+    Sides& stays_sides = place_of(model, star.stays, 0).sides;
+    stays_sides.beyond_a = stays_sides.beyond_b = stays_sides.above = stays_sides.below = planes_.all();
+}
+
+Obstruction::Place& Obstruction::place_of(const Model& model, VertexId v, int corner) {
+    std::uint32_t at = index(v) * 0x9E3779B1u >> 24;
+    for (; table_[at].stamp == stamp_; at = (at + 1) % kPlaces)
+        if (table_[at].vertex == v) return table_[at];
+    Place& place = used_ < kPlaces / 4 * 3 ? table_[at] : spare_[corner];
+    if (&place == &table_[at]) ++used_;
+    place = {v, stamp_, planes_.sides_of(model.position(v)), 0, 0};
+    return place;
+}
+
+/// Is it beyond doubt that the face does not meet any new face, comes near none, and is not swept over?
+Verdict Obstruction::look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
+    OldFace old{model[f].vertices, {}};
+    for (VertexId v : old.vertices)
+        if (v == star.goes || (v == star.stays && !star.keeps_stays)) return Verdict::kAccepted;
+    for (int n = 0; n < 3; ++n) old.places[n] = &place_of(model, old.vertices[n], n);
+    int shared = 0;
+    for (const Place* place : old.places) shared += (place->as_a | place->as_b) != 0 || place->vertex == star.stays;
+    if (shared >= 2 && pinches(model, star, bounds, old)) return Verdict::kPinch;
+    const std::uint32_t clear = (old.places[0]->sides & old.places[1]->sides & old.places[2]->sides).any();
+    for (std::uint32_t rest = planes_.all() & ~clear; rest != 0; rest &= rest - 1)
+        if (meets(model, star, first_ + __builtin_ctz(rest), old)) return Verdict::kIntersect;
+    return shared == 0 && is_swept(model, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
+}
+
+/// At an edge that is one of the link. A corner beyond the plane that is square to the new face is far from it.
+bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, const OldFace& old) const {
+    for (int n = 0; n < 3; ++n) {
+        const Place &from = *old.places[n], &to = *old.places[(n + 1) % 3], &third = *old.places[(n + 2) % 3];
+        const std::uint32_t along = from.as_a & to.as_b, back = from.as_b & to.as_a;
+        for (std::uint32_t rest = (along | back) & ~third.sides.beyond_link; rest != 0; rest &= rest - 1) {
+            const int face = __builtin_ctz(rest);
+            if (pinches_beyond(star, first_ + face, position_, model.position(third.vertex), (back >> face & 1) != 0, bounds))
                 return true;
         }
-    }
-    return false;
-}
-
-void Obstruction::add_cell(const FaceTree& tree, const Box& box) {
-    const std::uint32_t lane = cell_count_++ % FaceTree::kFan;
-    if (lane == 0) cells_.push_back(FaceTree::Boxes::none());
-    cells_.back().put(lane, tree.outward(box));
-}
-
-/// Does any cell of the star reach the box?
-bool Obstruction::is_near(const FaceTree::GridBox& box) const {
-    return std::any_of(cells_.begin(), cells_.end(),
-                       [&](const FaceTree::Boxes& cells) { return cells.meeting(box) != 0; });
-}
-
-Obstruction::OldFace Obstruction::look_at(const Model& model, FaceId f) const {
-    OldFace old;
-    old.vertices = model[f].vertices;
-    old.corners = model.corners(f);
-    int own = 0;
-    for (int n = 0; n < 3; ++n) {
-        const VertexId v = old.vertices[n];
-        if ((link_bits_ & bit_of(v)) != 0 && std::find(link_.begin(), link_.end(), v) != link_.end()) {
-            old.shared_at = old.corners[n];
-            old.shared_vertices[old.shared++] = v;
-        } else {
-            old.own[own++] = old.corners[n];
-        }
-    }
-    return old;
-}
-
-/// Cheap proofs that a face cannot meet the new star outside what they share: a wall on a link edge that has the star
-/// behind it and the face before it but for shared corners; or the face lies above or below everything. Where the face
-/// shares nothing they hold for all that is swept, too.
-bool Obstruction::is_clear(const OldFace& old) {
-    if (old.shared == 3) return false;
-    if (old.shared == 0) return is_off_slab(old.corners);
-    for (NewFace& face : faces_) {
-        const auto is_end = [&](VertexId v) { return v == face.a || v == face.b; };
-        if (!is_end(old.shared_vertices[0]) || (old.shared == 2 && !is_end(old.shared_vertices[1]))) continue;
-        bool before = true;
-        for (int n = 0; n < 3 - old.shared && before; ++n)
-            before = is_ahead(face.walls[1].out, old.own[n] - old.shared_at);
-        if (before && supports(face)) return true;
-    }
-    return false;
-}
-
-/// Is all that the star sweeps, but the ends of its link edge, behind the wall on that edge?
-bool Obstruction::supports(NewFace& face) const {
-    if (face.support == NewFace::kUnknown) {
-        const Wall& wall = face.walls[1];
-        bool all = is_ahead(wall.out, wall.at - ends_[0]) && is_ahead(wall.out, wall.at - ends_[1]);
-        for (std::size_t n = 0; n < link_.size() && all; ++n)
-            all = link_[n] == face.a || link_[n] == face.b || is_ahead(wall.out, wall.at - link_at_[n]);
-        face.support = all ? NewFace::kSupports : NewFace::kDoesNot;
-    }
-    return face.support == NewFace::kSupports;
-}
-
-/// The face lies above or below all that the star sweeps, along the mean new normal.
-bool Obstruction::is_off_slab(const Corners& p) const {
-    const auto size = [](Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); };
-    const double slack = 1e-10 * size(normal_) * size(box_.high - box_.low);
-    bool above = true, below = true;
-    for (Vec3 q : p) {
-        const double along = dot(normal_, q - position_);
-        const double own_slack = slack + 1e-10 * size(normal_) * size(q - position_);
-        above &= along > high_ + own_slack;
-        below &= along < low_ - own_slack;
-    }
-    return above || below;
-}
-
-bool Obstruction::meets_new_face(const OldFace& old, const FaceTree::GridBox& box) const {
-    const Corners& p = old.corners;
-    for (std::uint32_t group = 0; group * FaceTree::kFan < faces_.size(); ++group) {
-        for (unsigned mask = cells_[group].meeting(box); mask; mask &= mask - 1) {
-            const std::uint32_t n = group * FaceTree::kFan + static_cast<std::uint32_t>(__builtin_ctz(mask));
-            if (n >= faces_.size()) break;
-            const NewFace& face = faces_[n];
-            const Corners& t = face.corners;
-            int at_a = -1, at_b = -1;
-            for (int place = 0; place < 3 && old.shared > 0; ++place) {
-                if (old.vertices[place] == face.a) at_a = place;
-                if (old.vertices[place] == face.b) at_b = place;
-            }
-            if (at_a >= 0 && at_b >= 0) {
-                if (meet_beyond_edge(t[1], t[2], t[0], p[3 - at_a - at_b])) return true;
-            } else if (at_a >= 0) {
-                if (meets_at_corner(face, 1, p, at_a)) return true;
-            } else if (at_b >= 0) {
-                if (meets_at_corner(face, 2, p, at_b)) return true;
-            } else {
-                const auto is_before = [&](const Wall& wall) {
-                    return is_ahead(wall.out, p[0] - wall.at) && is_ahead(wall.out, p[1] - wall.at) &&
-                           is_ahead(wall.out, p[2] - wall.at);
-                };
-                if (is_before(face.walls[1]) || is_before(face.walls[0]) || is_before(face.walls[2])) continue;
-                if (meet({t[0], t[1], t[2]}, {p[0], p[1], p[2]})) return true;
-            }
+        if (!star.keeps_stays || (from.vertex != star.stays && to.vertex != star.stays)) continue;
+        const Place& end = from.vertex == star.stays ? to : from;
+        const KeptFace kept{to.vertex == star.stays, model.position(third.vertex), is_on_line(model, star, end.vertex)};
+        for (std::uint32_t rest = end.as_a | end.as_b; rest != 0; rest &= rest - 1) {
+            const int face = __builtin_ctz(rest);
+            if (pinches_beside(star, first_ + face, (end.as_a >> face & 1) != 0, kept, bounds)) return true;
         }
     }
     return false;
 }
 
-/// Do the new face and the old one, which share corner `corner` of the first and `place` of the second, meet outside
-/// it?
-bool Obstruction::meets_at_corner(const NewFace& face, int corner, const Corners& p, int place) {
-    const Vec3 at = p[place], x = p[(place + 1) % 3], y = p[(place + 2) % 3];
-    const Wall &before = face.walls[corner - 1], &after = face.walls[corner];
-    if ((is_ahead(after.out, x - at) && is_ahead(after.out, y - at)) ||
-        (is_ahead(before.out, x - at) && is_ahead(before.out, y - at)))
-        return false;
-    const Vec3 a = face.corners[(corner + 1) % 3], b = face.corners[(corner + 2) % 3];
-    return meet_beyond_vertex(at, a, b, x, y);
+/// New face n, and a face that has none of the ends of the edge.
+bool Obstruction::meets(const Model& model, const EdgeStar& star, int n, const OldFace& old) const {
+    const StarFace& f = star.faces[n];
+    return meet_outside_shared({{star.stays, f.a, f.b}, {position_, star.at_a(n), star.at_b(n)}},
+                               {old.vertices, {model.position(old.vertices[0]), model.position(old.vertices[1]), model.position(old.vertices[2])}});
 }
 
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
 /// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
-bool Obstruction::is_swept(const Model& model, const EdgeStar& star, Vec3 q, const FaceTree::GridBox& box) const {
-    for (std::uint32_t group = 0; group < cells_.size(); ++group) {
-        for (unsigned mask = cells_[group].meeting(box); mask; mask &= mask - 1) {
-            const std::uint32_t n = group * FaceTree::kFan + static_cast<std::uint32_t>(__builtin_ctz(mask));
-            if (n < star.faces.size()) {
-                const StarFace& f = star.faces[n];
-                if (is_in_tetrahedron(position_, model.position(f.apex), f.at_a, f.at_b, q)) return true;
-            } else if (is_in_tetrahedron(position_, ends_[0], ends_[1],
-                                         model.position(star.apexes[n - star.faces.size()]), q)) {
-                return true;
-            }
-        }
+bool Obstruction::is_swept(const Model& model, const EdgeStar& star, const OldFace& old) const {
+    for (VertexId v : old.vertices) {
+        const Vec3 p = model.position(v);
+        if (max(p, box_.low) != p || min(p, box_.high) != p) return false;
     }
-    return false;
+    const Vec3 q = model.position(old.vertices[0]);
+    const Sides& sides = old.places[0]->sides;
+    const std::uint32_t apart = (sides.above & apex_below_) | (sides.below & apex_above_);
+    for (std::uint32_t rest = planes_.all() & ~apart; rest != 0; rest &= rest - 1) {
+        const int n = first_ + __builtin_ctz(rest);
+        if (is_in_tetrahedron(position_, star.at_apex(n), star.at_a(n), star.at_b(n), q)) return true;
+    }
+    return std::any_of(star.apexes.begin(), star.apexes.end(), [&](VertexId apex) {
+        return is_in_tetrahedron(position_, star.at_goes, star.at_stays, model.position(apex), q);
+    });
 }
 
 }  // namespace regionmesh

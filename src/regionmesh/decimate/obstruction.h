@@ -1,10 +1,11 @@
-// Would the merged vertex's faces meet any other face? (P test 6; DESIGN 6, verdict `intersect`)
+// Would the merged vertex's faces come too close to any other face? (P tests 2 and 6; DESIGN 6: `pinch`, `intersect`)
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "regionmesh/decimate/edge_star.h"
+#include "regionmesh/decimate/legality.h"
+#include "regionmesh/decimate/star_planes.h"
 #include "regionmesh/model/face_tree.h"
 
 namespace regionmesh {
@@ -12,60 +13,48 @@ namespace regionmesh {
 /// Holds the scratch space of the test. Exact: no epsilon decides, cheap tests only rule out.
 class Obstruction {
 public:
-    /// True when a new face would meet another, new or old, other than in shared vertices and edges, or when the star
-    /// would sweep over a separate part of the surface. Requires that fold and pinch have passed with this position.
-    bool blocks(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
+    /// Looks at all faces round the star. Requires that shape_verdict accepted the star with this position.
+    ///   pinch      a new face comes closer than 5 degrees to a face beyond the link edge that both have, or has swept
+    ///              over it.
+    ///   intersect  a new face would meet another, new or old, other than in shared vertices and edges, or the star
+    ///              would sweep over a separate part of the surface.
+    Verdict verdict(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position,
+                    const ShapeBounds& bounds);
 
 private:
-    using Corners = std::array<Vec3, 3>;
-
-    /// A plane through `at`, square to `out`.
-    struct Wall {
-        Vec3 at, out;
+    /// What is known of a vertex of the faces round the star.
+    struct Place {
+        VertexId vertex;
+        std::uint32_t stamp = 0;  // the place is in use when it is that of the search
+        Sides sides;
+        std::uint32_t as_a = 0, as_b = 0;  // new faces that have the vertex, in the one place or the other
     };
-    /// A face of the new star, from the merged vertex to the link edge a-b, with a wall on each edge: the face lies
-    /// behind all three. The wall on the link edge may even have the whole star behind it.
-    struct NewFace {
-        VertexId a, b;
-        Corners corners;            // merged vertex, a, b
-        std::array<Wall, 3> walls;  // on the edges after the corners of the same places: [1] is the link edge's
-        enum { kUnknown, kSupports, kDoesNot } support;
-    };
-    /// A face outside the star, and what it shares with the link.
+    /// A face outside the star.
     struct OldFace {
         std::array<VertexId, 3> vertices;
-        Corners corners;
-        int shared = 0;
-        std::array<VertexId, 3> shared_vertices;
-        Vec3 shared_at;           // one of them
-        std::array<Vec3, 3> own;  // the other corners
+        std::array<const Place*, 3> places;
     };
 
-    void prepare(const Model& model, const FaceTree& tree, const EdgeStar& star, Vec3 position);
-    bool is_simple_disk(const Model& model, const EdgeStar& star) const;
-    bool meets_itself() const;
-    void add_cell(const FaceTree& tree, const Box& box);
-    bool is_near(const FaceTree::GridBox& box) const;
-    OldFace look_at(const Model& model, FaceId f) const;
-    bool is_clear(const OldFace& old);
-    bool supports(NewFace& face) const;
-    bool is_off_slab(const Corners& p) const;
-    bool meets_new_face(const OldFace& old, const FaceTree::GridBox& box) const;
-    static bool meets_at_corner(const NewFace& face, int corner, const Corners& p, int place);
-    bool is_swept(const Model& model, const EdgeStar& star, Vec3 q, const FaceTree::GridBox& box) const;
+    static constexpr std::uint32_t kPlaces = 256;  // a power of two; used to three quarters
+
+    bool is_simple_disk(const EdgeStar& star) const;
+    bool meets_itself(const Model& model, const EdgeStar& star);
+    bool meet_in_star(const EdgeStar& star, int i, int j) const;
+    void prepare(const Model& model, const EdgeStar& star, int first);
+    Place& place_of(const Model& model, VertexId v, int corner);
+    Verdict look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f);
+    bool pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, const OldFace& old) const;
+    bool meets(const Model& model, const EdgeStar& star, int n, const OldFace& old) const;
+    bool is_swept(const Model& model, const EdgeStar& star, const OldFace& old) const;
 
     Vec3 position_;
-    std::array<Vec3, 2> ends_;   // where the edge is now
-    Vec3 normal_;                // sum of the new faces' normals
-    double low_ = 0, high_ = 0;  // extent along it, from position_, of all that the star sweeps
-    Box box_;                    // of all that the star sweeps
-    std::vector<NewFace> faces_;
-    // The box of each new face with the tetrahedron it sweeps; then those of the dead faces.
-    std::vector<FaceTree::Boxes> cells_;
-    std::uint32_t cell_count_ = 0;
-    std::vector<VertexId> link_;
-    std::vector<Vec3> link_at_;
-    std::uint64_t link_bits_ = 0;  // a bit for each link vertex, by id modulo 64
+    Box box_;  // of all that the star sweeps
+    StarPlanes planes_;
+    int first_ = 0;                      // of the new faces in hand
+    std::uint32_t apex_above_ = 0, apex_below_ = 0;  // new faces whose apex is on that side for sure
+    std::vector<Place> table_ = std::vector<Place>(kPlaces);  // by vertex, hashed
+    std::uint32_t stamp_ = 0, used_ = 0;
+    std::array<Place, 3> spare_;  // for the corners of a face when the table is full
 };
 
 }  // namespace regionmesh

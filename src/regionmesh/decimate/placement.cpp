@@ -5,9 +5,6 @@
 namespace regionmesh {
 namespace {
 
-/// Share of the sum of weights that draws toward the middle of the edge.
-constexpr double kRegularisation = 1e-3;
-
 /// Solves the symmetric positive definite system q.A x = r by Cramer's rule.
 Vec3 solve(const Quadric& q, Vec3 r) {
     const double c00 = q.yy * q.zz - q.yz * q.yz, c01 = q.xz * q.yz - q.xy * q.zz, c02 = q.xy * q.yz - q.xz * q.yy;

@@ -11,6 +11,13 @@ struct Placement {
     double cost;  // squared length times area
 };
 
+/// Share of the sum of weights that draws toward the middle of the edge.
+inline constexpr double kRegularisation = 1e-3;
+
+/// Share of weight times squared length that is added to a cost when edges are ranked: of edges that cost about the
+/// same the shorter goes first. Faces stay rounder, and far fewer collapses are refused (docs/decimate.md).
+inline constexpr double kLengthShare = 3e-4;
+
 /// The two ends of an edge, each with its quadric relative to itself. `stays` has every side that `goes` has.
 struct EdgeEnds {
     Vec3 goes, stays;

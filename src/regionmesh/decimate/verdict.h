@@ -6,12 +6,12 @@
 
 namespace regionmesh {
 
-/// In the order of the tests (DESIGN: decimate); a collapse is refused with the first that fails.
-enum class Verdict { kAccepted, kStrata, kLink, kFold, kPinch, kQuality, kIntersect };
+/// In the order of the tests (DESIGN: decimate), cheap ones first; a collapse is refused with the first that fails.
+enum class Verdict { kAccepted, kStrata, kLink, kFold, kQuality, kPinch, kIntersect };
 
 inline constexpr int kVerdictCount = 7;
-inline constexpr std::array<const char*, kVerdictCount> kVerdictNames{"accepted", "strata",  "link",     "fold",
-                                                                      "pinch",    "quality", "intersect"};
+inline constexpr std::array<const char*, kVerdictCount> kVerdictNames{"accepted", "strata", "link",     "fold",
+                                                                      "quality",  "pinch",  "intersect"};
 
 using VerdictCounts = std::array<std::uint64_t, kVerdictCount>;
 

@@ -37,6 +37,7 @@ public:
         const std::uint64_t budget = run_count_ == 1 ? kStraightBlockBytes : kBlockBytes;
         const std::uint64_t most = std::min<std::uint64_t>(kBlockSections, section_count());
         block_sections_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(budget / section_bytes(), 1, most));
+        info_.held_bytes = block_sections_ * section_bytes() + (run_count_ == 1 ? 0 : kChunkBytes);
     }
 
     const VolumeInfo& info() const override { return info_; }

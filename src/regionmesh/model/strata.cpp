@@ -33,4 +33,10 @@ LabelSet edge_labels(const Model& model, VertexId u, VertexId v) {
     return set;
 }
 
+void count_labels(Model& model) {
+    for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
+        if (model.is_alive(VertexId{v}))
+            model[VertexId{v}].label_count = static_cast<std::uint8_t>(vertex_labels(model, VertexId{v}).size());
+}
+
 }  // namespace regionmesh

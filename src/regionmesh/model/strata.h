@@ -13,4 +13,7 @@ LabelSet vertex_labels(const Model& model, VertexId v);
 /// the faces of a background were not made), the sides that both ends lie on count too. Three or more: a *line*.
 LabelSet edge_labels(const Model& model, VertexId u, VertexId v);
 
+/// Sets Vertex::label_count of all vertices. It stays right as long as no stratum changes.
+void count_labels(Model& model);
+
 }  // namespace regionmesh

@@ -8,7 +8,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kTileCells = 32;
+constexpr std::uint32_t kTileCells = 24;
 constexpr std::uint32_t kShortestRun = 8;
 constexpr std::uint64_t kSamplesPerRun = 2u << 20;
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;

@@ -22,6 +22,7 @@ struct VolumeInfo {
     Lattice lattice = {};                               // in the file's own axes, whatever the sweep
     Sweep sweep = {};                                   // the order in which sections come
     bool can_rewind = true;                             // sections can be read again from the start
+    std::uint64_t held_bytes = 0;                       // that reading ahead takes; 0: about a section
     std::array<bool, 3> can_sweep{false, false, true};  // along which axes this file can be read section by section
 };
 

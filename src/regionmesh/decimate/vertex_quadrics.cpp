@@ -1,0 +1,51 @@
+#include "regionmesh/decimate/vertex_quadrics.h"
+
+#include "regionmesh/base/triangle.h"
+#include "regionmesh/model/strata.h"
+
+namespace regionmesh {
+namespace {
+
+/// Weight of the planes along lines, against that of faces with an edge of the same length.
+constexpr double kLineWeight = 1;
+
+}  // namespace
+
+VertexQuadrics::VertexQuadrics(const Model& model) {
+    quadrics_.resize(model.vertex_end());
+    for (std::uint32_t f = 0; f < model.face_end(); ++f) {
+        if (!model.is_alive(FaceId{f})) continue;
+        const Face& face = model[FaceId{f}];
+        const auto p = model.corners(FaceId{f});
+        const Vec3 area = area_vector(p[0], p[1], p[2]);
+        const double twice = length(area);
+        if (!(twice > 0)) continue;
+        const Vec3 normal = area / twice;
+        for (VertexId v : face.vertices) add_plane(v, normal, twice / 6);
+        add_lines(model, face, normal);
+    }
+}
+
+/// A plane through the vertex: no offset, relative to it.
+void VertexQuadrics::add_plane(VertexId v, Vec3 n, double weight) {
+    PackedQuadric& q = quadrics_[index(v)];
+    const Vec3 wn = weight * n;
+    q.xx += static_cast<float>(wn.x * n.x);
+    q.xy += static_cast<float>(wn.x * n.y);
+    q.xz += static_cast<float>(wn.x * n.z);
+    q.yy += static_cast<float>(wn.y * n.y);
+    q.yz += static_cast<float>(wn.y * n.z);
+    q.zz += static_cast<float>(wn.z * n.z);
+}
+
+void VertexQuadrics::add_lines(const Model& model, const Face& face, Vec3 normal) {
+    for (int n = 0; n < 3; ++n) {
+        const VertexId a = face.vertices[n], b = face.vertices[(n + 1) % 3];
+        if (model[a].label_count < 3 || model[b].label_count < 3 || edge_labels(model, a, b).size() < 3) continue;
+        const Vec3 along = model.position(b) - model.position(a);
+        const Vec3 upright = cross(along, normal) / length(along);
+        for (VertexId v : {a, b}) add_plane(v, upright, kLineWeight * length2(along) / 2);
+    }
+}
+
+}  // namespace regionmesh

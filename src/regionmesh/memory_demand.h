@@ -1,0 +1,23 @@
+// What a run asks of memory, from its options.
+#pragma once
+
+#include "regionmesh/memory_plan.h"
+#include "regionmesh/pipeline.h"
+#include "regionmesh/target.h"
+
+namespace regionmesh {
+
+/// What is known of a run before it begins.
+struct RunSize {
+    const VolumeInfo& volume;
+    std::vector<std::uint64_t> strip_faces;  // counted; empty: nobody has
+    std::uint32_t window_strips;             // of smoothing
+    std::uint32_t run_strips;                // of the tile plan; or welded at a time
+};
+
+/// Is there anything to decimate to?
+bool is_decimating(const ReconstructOptions& options);
+
+MemoryDemand memory_demand(const ReconstructOptions& options, const Target& target, RunSize size);
+
+}  // namespace regionmesh
