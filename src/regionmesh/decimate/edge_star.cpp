@@ -27,9 +27,7 @@ void measure(EdgeStar& star) {
     for (std::size_t n = 0; n < star.pairs.size(); ++n) {
         StarPair& pair = star.pairs[n];
         const int last = std::min(2 * static_cast<int>(n) + 1, star.face_count() - 1);
-        Lanes3<Double2> apex{};
-        apex.put(0, star.at_apex(2 * static_cast<int>(n)));
-        apex.put(1, star.at_apex(last));
+        const Lanes3<Double2> apex = side_by_side(star.at_apex(2 * static_cast<int>(n)), star.at_apex(last));
         pair.old_normal = cross(pair.a - apex, pair.b - apex);
         pair.old_length2 = dot(pair.old_normal, pair.old_normal);
         const Lanes3<Double2> link_edge = pair.b - pair.a;

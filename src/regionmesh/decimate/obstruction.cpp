@@ -17,16 +17,39 @@ bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
            orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
 
-/// All faces of the star lie in one plane square to an axis, exactly, and stay there: an interface or a side of the
-/// box. Since none folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
+/// Are these multiples of 1/64 and less than 64? Products of three of them are exact.
+bool are_short(const Lanes3<Double2>& p) {
+    // Adding 1.5 * 2^46 leaves no digits beyond 1/64.
+    const Double2 round = both(0x1.8p46), most = both(64), zero = both(0);
+    unsigned ok = 3;
+    for (Double2 x : {p.x, p.y, p.z})
+        ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
+    return ok == 3;
+}
+
+/// Do all corners lie in one plane, exactly? Told only where the coordinates have few digits, as those of samples do.
+bool is_in_one_plane(const EdgeStar& star) {
+    const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
+    for (const StarPair& pair : star.pairs) {
+        const Lanes3<Double2> a = pair.a - origin, b = pair.b - origin;
+        if (!are_short(a) || !are_short(b)) return false;
+        if (bits_of((dot(normal, a) == both(0)) & (dot(normal, b) == both(0))) != 3) return false;
+    }
+    const Lanes3<Double2> stays = both(star.at_stays - star.at_goes);
+    return are_short(stays) && bits_of(dot(normal, stays) == both(0)) == 3;
+}
+
+/// All faces of the star lie in one plane, exactly, and stay there: an interface or a side of the box. Since none
+/// folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
 bool is_flat(const EdgeStar& star, Vec3 position) {
-    for (int axis = 0; axis < 3 && star.is_interface; ++axis) {
+    if (!star.is_interface) return false;
+    for (int axis = 0; axis < 3; ++axis) {
         const double level = position[axis];
         if (star.at_goes[axis] == level && star.at_stays[axis] == level && star.link_box.low[axis] == level &&
             star.link_box.high[axis] == level)
             return true;
     }
-    return false;
+    return star.keeps_stays && is_in_one_plane(star);
 }
 
 }  // namespace
