@@ -9,13 +9,30 @@ namespace regionmesh {
 namespace {
 
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
-    Box box;
-    for (Vec3 p : {a, b, c, d}) box.add(p);
-    if (max(q, box.low) != q || min(q, box.high) != q) return false;
     const int side = orientation(a, b, c, d);
     return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side &&
            orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
+
+/// The plane of a face, and how sure it is of sides.
+class FacePlane {
+public:
+    explicit FacePlane(const std::array<Vec3, 3>& p) : at_(p[0]), normal_(cross(p[1] - p[0], p[2] - p[0])) {
+        doubt_ = kDoubt * size(p[1] - p[0]) * size(p[2] - p[0]);
+    }
+    /// +1 where the normal points, -1 on the other side, 0 where rounding may tell.
+    int side(Vec3 q) const {
+        const Vec3 step = q - at_;
+        const double ahead = dot(normal_, step), doubt = doubt_ * size(step);
+        return ahead > doubt ? 1 : ahead < -doubt ? -1 : 0;
+    }
+
+private:
+    static constexpr double kDoubt = 1e-12;
+    static double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+    Vec3 at_, normal_;
+    double doubt_;
+};
 
 /// Are these multiples of 1/64 and less than 64? Products of three of them are exact.
 bool are_short(const Lanes3<Double2>& p) {
@@ -117,24 +134,28 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
     first_ = first;
     const int count = std::min(star.face_count() - first, StarPlanes::kMost);
     planes_.prepare(star, position_, first, count);
-    if (++stamp_ == 0) {
+    if (++search_ == 0) {
         std::fill(table_.begin(), table_.end(), Place());
-        stamp_ = 1;
+        search_ = 1;
     }
     used_ = 0;
+    Place& goes = place_of(model, star.goes, 0);
+    goes.kind = Kind::kGoes;
+    Place& stays = place_of(model, star.stays, 0);
+    stays.kind = star.keeps_stays ? Kind::kStays : Kind::kGoes;
     apex_above_ = apex_below_ = 0;
-    const Sides goes = planes_.sides_of(star.at_goes), stays = planes_.sides_of(star.at_stays);
     for (int n = 0; n < count; ++n) {
-        const Sides& apex = star.faces[first + n].apex == star.goes ? goes : stays;
+        const StarFace& face = star.faces[first + n];
+        const Sides& apex = face.apex == star.goes ? goes.sides : stays.sides;
         apex_above_ |= apex.above & 1u << n;
         apex_below_ |= apex.below & 1u << n;
-        const StarFace& face = star.faces[first + n];
         place_of(model, face.a, 0).as_a |= 1u << n;
         place_of(model, face.b, 0).as_b |= 1u << n;
     }
     for (VertexId v : star.link) {
         Place& place = place_of(model, v, 0);
         const std::uint32_t own = place.as_a | place.as_b;
+        if (own != 0) place.kind = Kind::kLink;
         place.sides.beyond_link |= own;
         place.sides.beyond_a |= place.as_a;
         place.sides.beyond_b |= place.as_b;
@@ -142,48 +163,52 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
         place.sides.below |= own;
     }
     if (!star.keeps_stays) return;
-    Sides& stays_sides = place_of(model, star.stays, 0).sides;
-    stays_sides.beyond_a = stays_sides.beyond_b = stays_sides.above = stays_sides.below = planes_.all();
+    const std::uint32_t all = planes_.all();
+    stays.sides.beyond_a = stays.sides.beyond_b = stays.sides.above = stays.sides.below = all;
 }
 
-Obstruction::Place& Obstruction::place_of(const Model& model, VertexId v, int corner) {
-    std::uint32_t at = index(v) * 0x9E3779B1u >> 24;
-    for (; table_[at].stamp == stamp_; at = (at + 1) % kPlaces)
-        if (table_[at].vertex == v) return table_[at];
-    Place& place = used_ < kPlaces / 4 * 3 ? table_[at] : spare_[corner];
-    if (&place == &table_[at]) ++used_;
-    place = {v, stamp_, planes_.sides_of(model.position(v)), 0, 0};
+Obstruction::Place& Obstruction::find_place(const Model& model, VertexId v, int corner) {
+    std::uint32_t at = hash(v);
+    for (; table_[at].key >> 32 == search_; at = (at + 1) % kPlaces)
+        if (table_[at].key == key_of(v)) return table_[at];
+    const bool has_room = used_ < kPlaces / 4 * 3;
+    used_ += has_room;
+    Place& place = has_room ? table_[at] : spare_[corner];
+    place = {key_of(v), planes_.sides_of(model.position(v)), Kind::kOutside, 0, 0};
     return place;
 }
 
 /// Is it beyond doubt that the face does not meet any new face, comes near none, and is not swept over?
 Verdict Obstruction::look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
-    OldFace old{model[f].vertices, {}};
-    for (VertexId v : old.vertices)
-        if (v == star.goes || (v == star.stays && !star.keeps_stays)) return Verdict::kAccepted;
-    for (int n = 0; n < 3; ++n) old.places[n] = &place_of(model, old.vertices[n], n);
-    int shared = 0;
-    for (const Place* place : old.places) shared += (place->as_a | place->as_b) != 0 || place->vertex == star.stays;
+    const auto& v = model[f].vertices;
+    const Place &p = place_of(model, v[0], 0), &q = place_of(model, v[1], 1), &r = place_of(model, v[2], 2);
+    if (p.kind == Kind::kGoes || q.kind == Kind::kGoes || r.kind == Kind::kGoes) return Verdict::kAccepted;
+    const Corners old{&p, &q, &r};
+    const int shared = (p.kind != Kind::kOutside) + (q.kind != Kind::kOutside) + (r.kind != Kind::kOutside);
     if (shared >= 2 && pinches(model, star, bounds, old)) return Verdict::kPinch;
-    const std::uint32_t clear = (old.places[0]->sides & old.places[1]->sides & old.places[2]->sides).any();
-    for (std::uint32_t rest = planes_.all() & ~clear; rest != 0; rest &= rest - 1)
-        if (meets(model, star, first_ + __builtin_ctz(rest), old)) return Verdict::kIntersect;
+    const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
+    if (doubtful != 0 && meets(model, star, old, doubtful)) return Verdict::kIntersect;
     return shared == 0 && is_swept(model, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
 }
 
-/// At an edge that is one of the link. A corner beyond the plane that is square to the new face is far from it.
-bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, const OldFace& old) const {
+/// At an edge that is one of the link, or leads from there to `stays`. A corner beyond the plane that is square to the
+/// new face is far from it.
+bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds,
+                          const Corners& old) const {
     for (int n = 0; n < 3; ++n) {
-        const Place &from = *old.places[n], &to = *old.places[(n + 1) % 3], &third = *old.places[(n + 2) % 3];
+        const Place &from = *old[n], &to = *old[(n + 1) % 3], &third = *old[(n + 2) % 3];
         const std::uint32_t along = from.as_a & to.as_b, back = from.as_b & to.as_a;
         for (std::uint32_t rest = (along | back) & ~third.sides.beyond_link; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
-            if (pinches_beyond(star, first_ + face, position_, model.position(third.vertex), (back >> face & 1) != 0, bounds))
+            const bool runs_back = (back >> face & 1) != 0;
+            if (pinches_beyond(star, first_ + face, position_, model.position(third.vertex()), runs_back, bounds))
                 return true;
         }
-        if (!star.keeps_stays || (from.vertex != star.stays && to.vertex != star.stays)) continue;
-        const Place& end = from.vertex == star.stays ? to : from;
-        const KeptFace kept{to.vertex == star.stays, model.position(third.vertex), is_on_line(model, star, end.vertex)};
+        if (from.kind != Kind::kStays && to.kind != Kind::kStays) continue;
+        const Place& end = from.kind == Kind::kStays ? to : from;
+        if ((end.as_a | end.as_b) == 0) continue;
+        const KeptFace kept{to.kind == Kind::kStays, model.position(third.vertex()),
+                            is_on_line(model, star, end.vertex())};
         for (std::uint32_t rest = end.as_a | end.as_b; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
             if (pinches_beside(star, first_ + face, (end.as_a >> face & 1) != 0, kept, bounds)) return true;
@@ -192,24 +217,47 @@ bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeB
     return false;
 }
 
-/// New face n, and a face that has none of the ends of the edge.
-bool Obstruction::meets(const Model& model, const EdgeStar& star, int n, const OldFace& old) const {
-    const StarFace& f = star.faces[n];
-    return meet_outside_shared({{star.stays, f.a, f.b}, {position_, star.at_a(n), star.at_b(n)}},
-                               {old.vertices, {model.position(old.vertices[0]), model.position(old.vertices[1]), model.position(old.vertices[2])}});
+/// Does the face meet one of the new faces named? The plane of the face tells most apart.
+bool Obstruction::meets(const Model& model, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
+    const PlacedFace own{{old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
+                         {model.position(old[0]->vertex()), model.position(old[1]->vertex()),
+                          model.position(old[2]->vertex())}};
+    const FacePlane plane(own.at);
+    const bool has_merged = old[0]->kind == Kind::kStays || old[1]->kind == Kind::kStays || old[2]->kind == Kind::kStays;
+    const int merged_side = has_merged ? 0 : plane.side(position_);
+    for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
+        const std::uint32_t bit = rest & -rest;
+        const int n = first_ + __builtin_ctz(rest);
+        const auto& [face, a, b, apex] = star.faces[n];
+        const bool has_a = ((old[0]->as_a | old[1]->as_a | old[2]->as_a) & bit) != 0;
+        const bool has_b = ((old[0]->as_b | old[1]->as_b | old[2]->as_b) & bit) != 0;
+        const PlacedFace made{{star.stays, a, b}, {position_, star.at_a(n), star.at_b(n)}};
+        if (!boxes_overlap(own.at, made.at)) continue;
+        // Beside the plane of the old face, but for corners that both have.
+        const int side = merged_side != 0 ? merged_side : !has_a ? plane.side(made.at[1]) : plane.side(made.at[2]);
+        const bool is_off = side != 0 && (has_merged || merged_side == side) &&
+                            (has_a || plane.side(made.at[1]) == side) && (has_b || plane.side(made.at[2]) == side);
+        if (!is_off && meet_outside_shared(made, own)) return true;
+    }
+    return false;
 }
 
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
 /// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
-bool Obstruction::is_swept(const Model& model, const EdgeStar& star, const OldFace& old) const {
-    for (VertexId v : old.vertices) {
-        const Vec3 p = model.position(v);
+bool Obstruction::is_swept(const Model& model, const EdgeStar& star, const Corners& old) const {
+    const Place* best = nullptr;
+    std::uint32_t doubtful = 0;
+    for (const Place* place : old) {
+        const Vec3 p = model.position(place->vertex());
         if (max(p, box_.low) != p || min(p, box_.high) != p) return false;
+        const std::uint32_t apart = (place->sides.above & apex_below_) | (place->sides.below & apex_above_);
+        const std::uint32_t own = planes_.all() & ~apart;
+        if (best && __builtin_popcount(own) >= __builtin_popcount(doubtful)) continue;
+        best = place;
+        doubtful = own;
     }
-    const Vec3 q = model.position(old.vertices[0]);
-    const Sides& sides = old.places[0]->sides;
-    const std::uint32_t apart = (sides.above & apex_below_) | (sides.below & apex_above_);
-    for (std::uint32_t rest = planes_.all() & ~apart; rest != 0; rest &= rest - 1) {
+    const Vec3 q = model.position(best->vertex());
+    for (std::uint32_t rest = doubtful; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);
         if (is_in_tetrahedron(position_, star.at_apex(n), star.at_a(n), star.at_b(n), q)) return true;
     }
