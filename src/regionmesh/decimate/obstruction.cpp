@@ -14,24 +14,54 @@ bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
            orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
 
-/// The plane of a face, and how sure it is of sides.
-class FacePlane {
+/// The plane of a face and those through its edges, square to it; and how sure they are of sides.
+class FacePlanes {
 public:
-    explicit FacePlane(const std::array<Vec3, 3>& p) : at_(p[0]), normal_(cross(p[1] - p[0], p[2] - p[0])) {
-        doubt_ = kDoubt * size(p[1] - p[0]) * size(p[2] - p[0]);
+    explicit FacePlanes(const PlacedFace& face) : face_(face) {
+        const Vec3 u = face.at[1] - face.at[0], v = face.at[2] - face.at[0];
+        planes_[3] = {face.at[0], cross(u, v), size(u) * size(v)};
+        for (int n = 0; n < 3; ++n) {
+            const Vec3 edge = face.at[(n + 1) % 3] - face.at[n];
+            planes_[n] = {face.at[n], cross(edge, planes_[3].out), size(edge) * planes_[3].size};
+        }
+        is_sure_ = length2(planes_[3].out) > 1e-12 * length2(u) * length2(v);
     }
-    /// +1 where the normal points, -1 on the other side, 0 where rounding may tell.
-    int side(Vec3 q) const {
-        const Vec3 step = q - at_;
-        const double ahead = dot(normal_, step), doubt = doubt_ * size(step);
-        return ahead > doubt ? 1 : ahead < -doubt ? -1 : 0;
+    /// Is it sure that a plane has the other face beyond it, but for corners of both that it passes through?
+    bool are_beside(const PlacedFace& other) const {
+        if (!is_sure_) return false;
+        std::array<int, 3> place;  // of each corner in this face
+        for (int n = 0; n < 3; ++n) {
+            place[n] = -1;
+            for (int m = 0; m < 3; ++m)
+                if (other.vertices[n] == face_.vertices[m]) place[n] = m;
+        }
+        for (int n = 0; n < 3; ++n)
+            if (is_beyond(planes_[n], 1, other, place, n)) return true;
+        return is_beyond(planes_[3], 1, other, place, -1) || is_beyond(planes_[3], -1, other, place, -1);
     }
 
 private:
     static constexpr double kDoubt = 1e-12;
+    struct Plane {
+        Vec3 at, out;
+        double size;  // bounds `out` as it was computed, and its rounding
+    };
+
     static double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
-    Vec3 at_, normal_;
-    double doubt_;
+    /// `edge` is the first place of the edge that the plane goes through; -1 for all places.
+    static bool is_beyond(const Plane& plane, int side, const PlacedFace& other, const std::array<int, 3>& place,
+                          int edge) {
+        for (int n = 0; n < 3; ++n) {
+            if (place[n] >= 0 && (edge < 0 || place[n] == edge || place[n] == (edge + 1) % 3)) continue;
+            const Vec3 step = other.at[n] - plane.at;
+            if (!(side * dot(plane.out, step) > kDoubt * plane.size * size(step))) return false;
+        }
+        return true;
+    }
+
+    const PlacedFace& face_;
+    std::array<Plane, 4> planes_;
+    bool is_sure_;
 };
 
 /// Are these multiples of 1/64 and less than 64? Products of three of them are exact.
@@ -112,7 +142,7 @@ bool Obstruction::meets_itself(const Model& model, const EdgeStar& star) {
     for (int j = first_ + 1; j < star.face_count(); ++j) {
         const StarFace& g = star.faces[j];
         const Sides sides = place_of(model, g.a, 0).sides & place_of(model, g.b, 1).sides;
-        const std::uint32_t clear = sides.beyond_a | sides.beyond_b | sides.above | sides.below;
+        const std::uint32_t clear = sides.a | sides.b | sides.above | sides.below;
         const std::uint32_t before = j - first_ < StarPlanes::kMost ? (1u << (j - first_)) - 1 : ~0u;
         for (std::uint32_t rest = planes_.all() & before & ~clear; rest != 0; rest &= rest - 1)
             if (meet_in_star(star, first_ + __builtin_ctz(rest), j)) return true;
@@ -140,31 +170,35 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
     }
     used_ = 0;
     Place& goes = place_of(model, star.goes, 0);
-    goes.kind = Kind::kGoes;
     Place& stays = place_of(model, star.stays, 0);
-    stays.kind = star.keeps_stays ? Kind::kStays : Kind::kGoes;
-    apex_above_ = apex_below_ = 0;
+    goes.is_of_star = 1;
+    stays.is_of_star = !star.keeps_stays;
+    apex_ = {};
+    const Sides goes_far = planes_.far_sides_of(star.at_goes), stays_far = planes_.far_sides_of(star.at_stays);
+    std::uint32_t at_goes = 0;
     for (int n = 0; n < count; ++n) {
         const StarFace& face = star.faces[first + n];
-        const Sides& apex = face.apex == star.goes ? goes.sides : stays.sides;
-        apex_above_ |= apex.above & 1u << n;
-        apex_below_ |= apex.below & 1u << n;
+        at_goes |= (face.apex == star.goes ? 1u : 0u) << n;
         place_of(model, face.a, 0).as_a |= 1u << n;
         place_of(model, face.b, 0).as_b |= 1u << n;
     }
+    apex_ = goes_far & Sides{at_goes, at_goes, at_goes, at_goes, at_goes} ;
+    const Sides from_stays = stays_far & Sides{~at_goes, ~at_goes, ~at_goes, ~at_goes, ~at_goes};
+    apex_ = {apex_.link | from_stays.link, apex_.a | from_stays.a, apex_.b | from_stays.b,
+             apex_.above | from_stays.above, apex_.below | from_stays.below};
     for (VertexId v : star.link) {
         Place& place = place_of(model, v, 0);
         const std::uint32_t own = place.as_a | place.as_b;
-        if (own != 0) place.kind = Kind::kLink;
-        place.sides.beyond_link |= own;
-        place.sides.beyond_a |= place.as_a;
-        place.sides.beyond_b |= place.as_b;
+        place.is_shared = own != 0;
+        place.sides.link |= own;
+        place.sides.a |= place.as_a;
+        place.sides.b |= place.as_b;
         place.sides.above |= own;
         place.sides.below |= own;
     }
     if (!star.keeps_stays) return;
-    const std::uint32_t all = planes_.all();
-    stays.sides.beyond_a = stays.sides.beyond_b = stays.sides.above = stays.sides.below = all;
+    stays.is_shared = 1;
+    stays.sides.a = stays.sides.b = stays.sides.above = stays.sides.below = planes_.all();
 }
 
 Obstruction::Place& Obstruction::find_place(const Model& model, VertexId v, int corner) {
@@ -174,7 +208,9 @@ Obstruction::Place& Obstruction::find_place(const Model& model, VertexId v, int 
     const bool has_room = used_ < kPlaces / 4 * 3;
     used_ += has_room;
     Place& place = has_room ? table_[at] : spare_[corner];
-    place = {key_of(v), planes_.sides_of(model.position(v)), Kind::kOutside, 0, 0};
+    const Vec3 p = model.position(v);
+    const bool is_in_reach = max(p, box_.low) == p && min(p, box_.high) == p;
+    place = {key_of(v), planes_.sides_of(p), 0, 0, 0, 0, is_in_reach};
     return place;
 }
 
@@ -182,13 +218,14 @@ Obstruction::Place& Obstruction::find_place(const Model& model, VertexId v, int 
 Verdict Obstruction::look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
     const auto& v = model[f].vertices;
     const Place &p = place_of(model, v[0], 0), &q = place_of(model, v[1], 1), &r = place_of(model, v[2], 2);
-    if (p.kind == Kind::kGoes || q.kind == Kind::kGoes || r.kind == Kind::kGoes) return Verdict::kAccepted;
+    if ((p.is_of_star | q.is_of_star | r.is_of_star) != 0) return Verdict::kAccepted;
+    const std::uint32_t shared = p.is_shared + q.is_shared + r.is_shared;
     const Corners old{&p, &q, &r};
-    const int shared = (p.kind != Kind::kOutside) + (q.kind != Kind::kOutside) + (r.kind != Kind::kOutside);
     if (shared >= 2 && pinches(model, star, bounds, old)) return Verdict::kPinch;
     const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
     if (doubtful != 0 && meets(model, star, old, doubtful)) return Verdict::kIntersect;
-    return shared == 0 && is_swept(model, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
+    const bool may_be_swept = (p.is_in_reach & q.is_in_reach & r.is_in_reach) != 0 && shared == 0;
+    return may_be_swept && is_swept(model, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
 }
 
 /// At an edge that is one of the link, or leads from there to `stays`. A corner beyond the plane that is square to the
@@ -197,17 +234,15 @@ bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeB
                           const Corners& old) const {
     for (int n = 0; n < 3; ++n) {
         const Place &from = *old[n], &to = *old[(n + 1) % 3], &third = *old[(n + 2) % 3];
-        const std::uint32_t along = from.as_a & to.as_b, back = from.as_b & to.as_a;
-        for (std::uint32_t rest = (along | back) & ~third.sides.beyond_link; rest != 0; rest &= rest - 1) {
+        for (std::uint32_t rest = faces_at(from, to) & ~third.sides.link; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
-            const bool runs_back = (back >> face & 1) != 0;
+            const bool runs_back = (from.as_b >> face & 1) != 0;
             if (pinches_beyond(star, first_ + face, position_, model.position(third.vertex()), runs_back, bounds))
                 return true;
         }
-        if (from.kind != Kind::kStays && to.kind != Kind::kStays) continue;
-        const Place& end = from.kind == Kind::kStays ? to : from;
-        if ((end.as_a | end.as_b) == 0) continue;
-        const KeptFace kept{to.kind == Kind::kStays, model.position(third.vertex()),
+        if (!star.keeps_stays || (from.vertex() != star.stays && to.vertex() != star.stays)) continue;
+        const Place& end = from.vertex() == star.stays ? to : from;
+        const KeptFace kept{to.vertex() == star.stays, model.position(third.vertex()),
                             is_on_line(model, star, end.vertex())};
         for (std::uint32_t rest = end.as_a | end.as_b; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
@@ -217,27 +252,17 @@ bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeB
     return false;
 }
 
-/// Does the face meet one of the new faces named? The plane of the face tells most apart.
+/// Does the face meet one of the new faces named? Its own planes tell most apart.
 bool Obstruction::meets(const Model& model, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
     const PlacedFace own{{old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
                          {model.position(old[0]->vertex()), model.position(old[1]->vertex()),
                           model.position(old[2]->vertex())}};
-    const FacePlane plane(own.at);
-    const bool has_merged = old[0]->kind == Kind::kStays || old[1]->kind == Kind::kStays || old[2]->kind == Kind::kStays;
-    const int merged_side = has_merged ? 0 : plane.side(position_);
+    const FacePlanes planes(own);
     for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
-        const std::uint32_t bit = rest & -rest;
         const int n = first_ + __builtin_ctz(rest);
-        const auto& [face, a, b, apex] = star.faces[n];
-        const bool has_a = ((old[0]->as_a | old[1]->as_a | old[2]->as_a) & bit) != 0;
-        const bool has_b = ((old[0]->as_b | old[1]->as_b | old[2]->as_b) & bit) != 0;
-        const PlacedFace made{{star.stays, a, b}, {position_, star.at_a(n), star.at_b(n)}};
-        if (!boxes_overlap(own.at, made.at)) continue;
-        // Beside the plane of the old face, but for corners that both have.
-        const int side = merged_side != 0 ? merged_side : !has_a ? plane.side(made.at[1]) : plane.side(made.at[2]);
-        const bool is_off = side != 0 && (has_merged || merged_side == side) &&
-                            (has_a || plane.side(made.at[1]) == side) && (has_b || plane.side(made.at[2]) == side);
-        if (!is_off && meet_outside_shared(made, own)) return true;
+        const PlacedFace made{{star.stays, star.faces[n].a, star.faces[n].b},
+                              {position_, star.at_a(n), star.at_b(n)}};
+        if (boxes_overlap(own.at, made.at) && !planes.are_beside(made) && meet_outside_shared(made, own)) return true;
     }
     return false;
 }
@@ -248,10 +273,7 @@ bool Obstruction::is_swept(const Model& model, const EdgeStar& star, const Corne
     const Place* best = nullptr;
     std::uint32_t doubtful = 0;
     for (const Place* place : old) {
-        const Vec3 p = model.position(place->vertex());
-        if (max(p, box_.low) != p || min(p, box_.high) != p) return false;
-        const std::uint32_t apart = (place->sides.above & apex_below_) | (place->sides.below & apex_above_);
-        const std::uint32_t own = planes_.all() & ~apart;
+        const std::uint32_t own = planes_.all() & ~(place->sides & apex_).any();
         if (best && __builtin_popcount(own) >= __builtin_popcount(doubtful)) continue;
         best = place;
         doubtful = own;

@@ -22,14 +22,14 @@ public:
                     const ShapeBounds& bounds);
 
 private:
-    /// What a vertex near the star is to it.
-    enum class Kind : std::uint32_t { kOutside, kLink, kStays, kGoes };
-    /// What is known of such a vertex.
+    /// What is known of a vertex near the star.
     struct Place {
         std::uint64_t key = 0;  // search and vertex
         Sides sides;
-        Kind kind;
-        std::uint32_t as_a, as_b;  // new faces that have it, in the one place or the other
+        std::uint32_t as_a, as_b;   // new faces that have it, in the one place or the other
+        std::uint32_t is_shared;    // 1 for a vertex of the new star
+        std::uint32_t is_of_star;   // 1 where all faces that have it are of the star
+        std::uint32_t is_in_reach;  // 1 in the box of all that is swept
 
         VertexId vertex() const { return VertexId{static_cast<std::uint32_t>(key)}; }
     };
@@ -50,6 +50,9 @@ private:
     }
     Place& find_place(const Model& model, VertexId v, int corner);
     Verdict look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f);
+    static std::uint32_t faces_at(const Place& from, const Place& to) {
+        return (from.as_a & to.as_b) | (from.as_b & to.as_a);
+    }
     bool pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const;
     bool meets(const Model& model, const EdgeStar& star, const Corners& old, std::uint32_t faces) const;
     bool is_swept(const Model& model, const EdgeStar& star, const Corners& old) const;
@@ -57,8 +60,8 @@ private:
     Vec3 position_;
     Box box_;  // of all that the star sweeps
     StarPlanes planes_;
-    int first_ = 0;                      // of the new faces in hand
-    std::uint32_t apex_above_ = 0, apex_below_ = 0;  // new faces whose apex is on that side for sure
+    int first_ = 0;  // of the new faces in hand
+    Sides apex_;     // of their apexes: where they are not, for sure
     std::vector<Place> table_ = std::vector<Place>(kPlaces);  // by vertex, hashed
     std::uint32_t search_ = 0, used_ = 0;
     std::array<Place, 3> spare_;  // for the corners of a face when the table is full
