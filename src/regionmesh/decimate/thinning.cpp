@@ -33,6 +33,7 @@ std::uint32_t Thinning::sweep(VerdictCounts& verdicts) {
     ++sweep_;
     std::uint32_t removed = 0;
     for (std::uint32_t v = 0; v < model_.vertex_end(); ++v) {
+        if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress();
         const Vertex& vertex = model_[VertexId{v}];
         if (!vertex.is_alive || vertex.is_fixed || vertex.label_count != 2) continue;
         if (seen_[v] == kSettled || seen_[v] == sweep_) continue;
