@@ -69,8 +69,7 @@ bool are_short(const Lanes3<Double2>& p) {
     // Adding 1.5 * 2^46 leaves no digits beyond 1/64.
     const Double2 round = both(0x1.8p46), most = both(64), zero = both(0);
     unsigned ok = 3;
-    for (Double2 x : {p.x, p.y, p.z})
-        ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
+    for (Double2 x : {p.x, p.y, p.z}) ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
     return ok == 3;
 }
 
@@ -182,7 +181,7 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
         place_of(model, face.a, 0).as_a |= 1u << n;
         place_of(model, face.b, 0).as_b |= 1u << n;
     }
-    apex_ = goes_far & Sides{at_goes, at_goes, at_goes, at_goes, at_goes} ;
+    apex_ = goes_far & Sides{at_goes, at_goes, at_goes, at_goes, at_goes};
     const Sides from_stays = stays_far & Sides{~at_goes, ~at_goes, ~at_goes, ~at_goes, ~at_goes};
     apex_ = {apex_.link | from_stays.link, apex_.a | from_stays.a, apex_.b | from_stays.b,
              apex_.above | from_stays.above, apex_.below | from_stays.below};
@@ -254,14 +253,13 @@ bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeB
 
 /// Does the face meet one of the new faces named? Its own planes tell most apart.
 bool Obstruction::meets(const Model& model, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
-    const PlacedFace own{{old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
-                         {model.position(old[0]->vertex()), model.position(old[1]->vertex()),
-                          model.position(old[2]->vertex())}};
+    const PlacedFace own{
+        {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
+        {model.position(old[0]->vertex()), model.position(old[1]->vertex()), model.position(old[2]->vertex())}};
     const FacePlanes planes(own);
     for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);
-        const PlacedFace made{{star.stays, star.faces[n].a, star.faces[n].b},
-                              {position_, star.at_a(n), star.at_b(n)}};
+        const PlacedFace made{{star.stays, star.faces[n].a, star.faces[n].b}, {position_, star.at_a(n), star.at_b(n)}};
         if (boxes_overlap(own.at, made.at) && !planes.are_beside(made) && meet_outside_shared(made, own)) return true;
     }
     return false;

@@ -60,8 +60,8 @@ private:
     Vec3 position_;
     Box box_;  // of all that the star sweeps
     StarPlanes planes_;
-    int first_ = 0;  // of the new faces in hand
-    Sides apex_;     // of their apexes: where they are not, for sure
+    int first_ = 0;                                           // of the new faces in hand
+    Sides apex_;                                              // of their apexes: where they are not, for sure
     std::vector<Place> table_ = std::vector<Place>(kPlaces);  // by vertex, hashed
     std::uint32_t search_ = 0, used_ = 0;
     std::array<Place, 3> spare_;  // for the corners of a face when the table is full

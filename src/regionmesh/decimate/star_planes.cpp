@@ -46,7 +46,8 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
             const StarPair& pair = star.pairs[n];
             const Lanes3<Double2> a = scaled(pair.a - merged, scale), b = scaled(pair.b - merged, scale);
             // Where a face is so thin that its normal is not sure, no plane is told of.
-            const Double2 is_sure = pair.new_length2 * scale2 * scale2 > thin * dot(a, a) * dot(b, b) ? both(1) : both(0);
+            const Double2 is_sure =
+                pair.new_length2 * scale2 * scale2 > thin * dot(a, a) * dot(b, b) ? both(1) : both(0);
             const Lanes3<Double2> normal = scaled(pair.new_normal, scale2 * is_sure);
             put_pair(four.link, half, cross(b - a, normal));
             put_pair(four.a, half, cross(a, normal));
