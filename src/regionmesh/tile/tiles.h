@@ -6,9 +6,13 @@
 
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/tets/face_batch.h"
+#include "regionmesh/tile/box_grid.h"
 #include "regionmesh/volume/lattice.h"
 
 namespace regionmesh {
+
+/// Tiles out of their batch at a time, where memory is not short.
+inline constexpr std::uint32_t kTilesInFlight = 16;
 
 /// How a volume is cut: from its size only, so that nothing else changes the result.
 struct TilePlan {
@@ -25,10 +29,11 @@ struct RunExtent {
 };
 
 struct TileOptions {
-    double cost_level;          // in units of scale^4: collapses up to this cost
-    double keep_share;          // no tile goes below this share of its faces
-    std::uint32_t threads = 1;  // tiles at work at a time; 0: one per core. The result is the same
-    DecimateOptions decimate;   // quality, perturbation, scale, tests; target, cost and limits are the tile's own
+    double cost_level;                         // in units of scale^4: collapses up to this cost
+    double keep_share;                         // no tile goes below this share of its faces
+    std::uint32_t threads = 1;                 // tiles at work at a time; 0: one per core. The result is the same
+    std::uint32_t in_flight = kTilesInFlight;  // tiles out of the batch at a time, likewise
+    DecimateOptions decimate;  // quality, perturbation, scale, tests; target, cost and limits are the tile's own
 };
 
 struct TileResult {
@@ -41,5 +46,9 @@ struct TileResult {
 /// order of tiles, vertices and faces depends on the batch.
 TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, RunExtent extent,
                           const TilePlan& plan, const TileOptions& options);
+
+/// The same for any boxes.
+TileResult decimate_boxes(FaceBatch& batch, std::span<const BatchVertex> carried, const BoxGrid& grid,
+                          const TileOptions& options);
 
 }  // namespace regionmesh
