@@ -48,6 +48,7 @@ void Tile::take_out(BoxedFaces& faces, std::uint32_t box) {
     const auto obstacles = faces.obstacles_of(box);
     model_ = {};
     model_.reserve((own.size() + obstacles.size()) * 5 / 8, own.size() + obstacles.size());
+    inside_count_ = 0;
     locals_.clear();
     rim_.clear();
     for (std::uint32_t f : own) put_in(faces, f);
@@ -65,6 +66,7 @@ void Tile::put_in(BoxedFaces& faces, std::uint32_t f) {
             const BatchVertex& vertex = faces.vertex(local);
             place = index(model_.add_vertex(vertex.position, vertex.sides, is_rim));
             locals_.push_back(local);
+            inside_count_ += !is_rim;
         }
         corner[c] = VertexId{place};
     }
@@ -77,7 +79,7 @@ DecimateResult Tile::decimate(const DecimateOptions& options) {
 }
 
 /// Faces all of rim vertices have not changed, and may be in several tiles: those of the box itself count.
-void Tile::note_left(const BoxedFaces& faces, std::uint32_t box) {
+void Tile::note_left(BoxedFaces& faces, std::uint32_t box) {
     left_vertices_.clear();
     left_faces_.clear();
     const auto is_rim = [&](std::uint32_t local) { return faces.is_rim(local); };
@@ -88,8 +90,13 @@ void Tile::note_left(const BoxedFaces& faces, std::uint32_t box) {
         left_faces_.push_back(face);
     }
     number_.assign(model_.vertex_end(), kNone);
-    for (std::uint32_t n = 0; n < locals_.size(); ++n)
-        if (faces.is_rim(locals_[n])) number_[index(sorted_[n])] = kRim | faces.rim_number(locals_[n]);
+    for (std::uint32_t n = 0; n < locals_.size(); ++n) {
+        const std::uint32_t local = locals_[n];
+        if (faces.is_rim(local))
+            number_[index(sorted_[n])] = kRim | faces.rim_number(local);
+        else
+            faces.place(local) = kNone;
+    }
     for (std::uint32_t f = 0; f < model_.face_end(); ++f) {
         if (!model_.is_alive(FaceId{f})) continue;
         const auto& corners = model_[FaceId{f}].vertices;

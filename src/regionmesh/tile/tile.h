@@ -31,17 +31,22 @@ public:
     /// Takes the box's faces and its obstacles. Threads may do so for different boxes at the same time.
     void take_out(BoxedFaces& faces, std::uint32_t box);
     DecimateResult decimate(const DecimateOptions& options);
-    /// Notes what is left of the box's own faces.
-    void note_left(const BoxedFaces& faces, std::uint32_t box);
+    /// Notes what is left of the box's own faces. The box may then be taken out again.
+    void note_left(BoxedFaces& faces, std::uint32_t box);
     /// Appends it: corners that are rim have their numbers already.
     void put_back(FaceBatch& made) const;
 
     std::uint32_t face_count() const { return model_.face_count(); }
+    std::size_t left_faces() const { return left_faces_.size(); }
+    /// Vertices that are not rim: as taken out, and those left.
+    std::size_t inside_count() const { return inside_count_; }
+    std::size_t left_inside() const { return left_vertices_.size(); }
 
 private:
     void put_in(BoxedFaces& faces, std::uint32_t f);
 
     Model model_;
+    std::size_t inside_count_ = 0;
     std::vector<std::uint32_t> locals_;  // batch numbers of its vertices
     NumberTable rim_;                    // batch numbers to those of its vertices
     std::vector<VertexId> sorted_;       // where the vertices went when the model was sorted
