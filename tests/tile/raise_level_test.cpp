@@ -104,5 +104,20 @@ TEST(RaiseLevel, stops_at_the_largest_error_where_there_is_no_goal) {
     test::expect_sound(check(model_of(batch)));
 }
 
+TEST(Determinism, a_budget_kept_in_boxes_gives_the_same_bytes_for_any_number_of_threads) {
+    test::ArrayVolume volume = test::grain_volume({64, 64, 64}, 300, 16);
+    ReconstructOptions options = test::reduced(0.95);
+    options.face_budget = 75'000;
+    options.threads = 1;
+    const Reconstruction one = test::run(volume, options);
+    test::expect_sound(one.report.check);
+    EXPECT_LT(one.report.peak_faces, 90'000u) << "a run may bring more than the one before";
+    EXPECT_EQ(one.report.stopped, "target");
+    for (std::uint32_t threads : {3u, 8u}) {
+        options.threads = threads;
+        EXPECT_EQ(test::digest(test::run(volume, options).model), test::digest(one.model));
+    }
+}
+
 }  // namespace
 }  // namespace regionmesh
