@@ -29,7 +29,7 @@ constexpr double kMostAbove = 0.05;
 
 /// The level that is tried first, in units of spacing^4, and what times that of the pass before; from one try to the
 /// next it changes by the last factor at most.
-constexpr double kFirstLevel = 0.01, kNextLevel = 3, kMostStep = 16;
+constexpr double kFirstLevel = 0.015, kNextLevel = 1.25, kMostStep = 16;
 
 /// Faces left go about as this power of the level, before more is known: as measured. A sample may say otherwise,
 /// within bounds.
