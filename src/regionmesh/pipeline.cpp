@@ -259,7 +259,9 @@ void Run::raise_to(std::uint64_t faces, double high) {
                                    .threads = options_.threads,
                                    .in_flight = memory_.in_flight,
                                    .decimate = decimate_options()};
+    const std::size_t held = result_.model.face_count(), model_bytes = result_.model.bytes();
     FaceBatch whole = weld_.take_apart();
+    note_bytes(held, model_bytes + whole.vertices.size() * sizeof(BatchVertex) + held * sizeof(BatchFace));
     give_back_freed_memory();
     const RaiseResult done = raise_level(whole, plan_, {.goal_faces = faces, .high = high, .tiles = tile_options});
     add_verdicts(done.verdicts);
