@@ -47,7 +47,7 @@ TEST(MemoryPlan, holds_from_the_least_memory_on) {
     for (std::uint32_t strips : {1u, 7u, 100u}) {
         MemoryDemand demand = even_demand(strips, 20000);
         demand.fewest_run_strips = demand.run_strips;
-        const std::uint64_t memory = least(demand);
+        const std::uint64_t memory = plan_memory(1, demand).least.sum();
         EXPECT_TRUE(plan_memory(memory, demand).holds());
         EXPECT_FALSE(plan_memory(memory - 1, demand).holds());
         EXPECT_EQ(refusal(memory, demand), "nothing thrown");
@@ -71,7 +71,12 @@ TEST(MemoryPlan, runs_are_shortened_only_where_the_usual_do_not_fit) {
     demand.window_strips = 0;
     const std::uint64_t memory = least(demand);
     EXPECT_EQ(plan_memory(memory, demand).run_strips, 32u);
-    const MemoryPlan shorter = plan_memory(memory - 1, demand);
+    EXPECT_EQ(plan_memory(memory, demand).in_flight, 16u);
+    const MemoryPlan leaner = plan_memory(memory - 1, demand);
+    EXPECT_TRUE(leaner.holds());
+    EXPECT_LT(leaner.in_flight, 16u) << "which does not change the result";
+    EXPECT_EQ(leaner.run_strips, 32u);
+    const MemoryPlan shorter = plan_memory(memory / 2, demand);
     EXPECT_TRUE(shorter.holds());
     EXPECT_EQ(shorter.run_strips, 16u);
     EXPECT_EQ(plan_memory(1, demand).run_strips, 4u);

@@ -18,7 +18,9 @@ constexpr std::uint64_t kWorkBytesPerFace = 100;
 
 /// Beside the model, a face: of a run; of a run that is sorted into tiles and put together again; of a tile out of it.
 constexpr std::uint64_t kRunBytesPerFace = 40, kTilesBytesPerFace = 24, kTileBytesPerFace = 100;
-constexpr std::uint64_t kTilesInFlight = 24;  // sixteen, of half as many faces again as the average
+
+/// Where memory is short, so few are out of it.
+constexpr std::uint32_t kFewestInFlight = 4;
 
 /// Beside the model, a face: of what checks it; of what gives it its volumes back.
 constexpr std::uint64_t kCheckBytesPerFace = 20, kPreserveBytesPerFace = 100;
@@ -43,13 +45,14 @@ std::uint64_t share_of(std::uint64_t faces, double share) {
 }
 
 /// What a run of strips takes while it is worked on, a face.
-std::uint64_t run_bytes_per_face(const MemoryDemand& demand) {
+std::uint64_t run_bytes_per_face(const MemoryDemand& demand, std::uint32_t tiles_in_flight) {
     if (demand.tile_share >= 1) return kRunBytesPerFace;
     std::uint64_t tiles = 1;
     const TilePlan plan = plan_tiles(demand.volume.lattice, demand.volume.sweep);
     for (int a = 0; a < 2; ++a)
         tiles *= (demand.volume.lattice.size[demand.volume.sweep.axes[a]] + plan.tile_cells - 1) / plan.tile_cells;
-    const std::uint64_t in_flight = std::min(tiles, kTilesInFlight);
+    // Some have half as many faces again as the average.
+    const std::uint64_t in_flight = std::min<std::uint64_t>(tiles, tiles_in_flight + tiles_in_flight / 2);
     return kRunBytesPerFace + kTilesBytesPerFace + kTileBytesPerFace * in_flight / tiles;
 }
 
@@ -58,11 +61,16 @@ std::uint64_t window_at(const MemoryDemand& demand, const StripSums& faces, std:
     return faces(strip, strip + demand.window_strips) * demand.window_bytes_per_face;
 }
 
-MemoryPlan plan_runs(std::uint64_t memory, const MemoryDemand& demand, std::uint32_t run_strips) {
-    MemoryPlan plan{
-        .memory = memory, .run_strips = run_strips, .runs = {}, .least = {}, .asked_budget = demand.asked_budget};
+MemoryPlan plan_runs(std::uint64_t memory, const MemoryDemand& demand, std::uint32_t run_strips,
+                     std::uint32_t in_flight) {
+    MemoryPlan plan{.memory = memory,
+                    .run_strips = run_strips,
+                    .in_flight = in_flight,
+                    .runs = {},
+                    .least = {},
+                    .asked_budget = demand.asked_budget};
     const StripSums faces(demand.strip_faces);
-    const std::uint64_t reading = reading_bytes(demand.volume), per_face = run_bytes_per_face(demand);
+    const std::uint64_t reading = reading_bytes(demand.volume), per_face = run_bytes_per_face(demand, in_flight);
     const std::uint64_t working = demand.is_decimating ? kWorkBytesPerFace : kModelBytesPerFace;
     const auto note = [&](const MemoryNeed& need) {
         if (need.sum() > plan.least.sum()) plan.least = need;
@@ -107,11 +115,13 @@ std::uint64_t MemoryPlan::expected_faces(std::size_t run, std::uint64_t run_face
     return std::min(runs[run].faces, static_cast<std::uint64_t>(std::ceil(growth * static_cast<double>(run_faces))));
 }
 
+/// Fewer tiles in flight do not change the result: that comes first.
 MemoryPlan plan_memory(std::uint64_t memory, const MemoryDemand& demand) {
-    MemoryPlan plan = plan_runs(memory, demand, demand.run_strips);
-    for (std::uint32_t strips = demand.run_strips / 2; !plan.holds() && strips >= demand.fewest_run_strips; strips /= 2)
-        if (MemoryPlan shorter = plan_runs(memory, demand, strips); shorter.least.sum() < plan.least.sum())
-            plan = std::move(shorter);
+    MemoryPlan plan = plan_runs(memory, demand, demand.run_strips, kTilesInFlight);
+    for (std::uint32_t strips = demand.run_strips; !plan.holds() && strips >= demand.fewest_run_strips; strips /= 2)
+        if (MemoryPlan leaner = plan_runs(memory, demand, strips, kFewestInFlight);
+            leaner.least.sum() < plan.least.sum())
+            plan = std::move(leaner);
     return plan;
 }
 

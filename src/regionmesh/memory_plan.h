@@ -50,6 +50,7 @@ struct MemoryNeed {
 struct MemoryPlan {
     std::uint64_t memory = 0;      // bytes to stay within
     std::uint32_t run_strips = 1;  // the demand's, unless only shorter runs fit
+    std::uint32_t in_flight = 1;   // tiles out of their batch at a time, unless only fewer fit
     std::vector<RunMemory> runs;
     MemoryNeed least;                                // what would just do; more than `memory`: it cannot be kept
     std::optional<std::uint64_t> asked_budget = {};  // faces held at once, whatever memory says

@@ -9,6 +9,7 @@
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/memory_demand.h"
 #include "regionmesh/smooth/preserve_volume.h"
+#include "regionmesh/stage_options.h"
 #include "regionmesh/stream/batch_volumes.h"
 #include "regionmesh/stream/place_in_space.h"
 #include "regionmesh/stream/read_ahead.h"
@@ -18,6 +19,7 @@
 #include "regionmesh/target.h"
 #include "regionmesh/tets/label_census.h"
 #include "regionmesh/tets/strip_mesher.h"
+#include "regionmesh/tile/raise_level.h"
 #include "regionmesh/tile/tiles.h"
 
 namespace regionmesh {
@@ -26,9 +28,6 @@ namespace {
 /// Collapses that cost less than this, in units of spacing^4, are made in tiles already (docs/tiles.md says why this
 /// much).
 constexpr double kTileCostLevel = 3e-2;
-
-/// Faces are decimated to so much more than the least quality where their vertices are to move once more.
-constexpr double kRoomForVolume = 1.1;
 
 /// Strips that smoothing holds beyond the usual, where the usual do not suffice.
 constexpr std::uint32_t kMoreHold = 8;
@@ -60,7 +59,7 @@ private:
     bool is_decimating() const { return regionmesh::is_decimating(options_); }
     bool read(SectionWindow& window);
     void note_strip(const SectionWindow& window, const FaceBatch& batch);
-    SmoothOptions smooth_options() const;
+    SmoothOptions smooth_options() const { return regionmesh::smooth_options(options_, lattice_); }
     int sweep_axis() const { return reader_.info().sweep.axes[2]; }
     void smooth_strip(FaceBatch& batch, const SectionWindow& window);
     void add_strip(const FaceBatch& batch);
@@ -68,9 +67,10 @@ private:
     void decimate_run();
     double plane_of(std::uint32_t section) const;
     double floor() const { return smoothing_ ? smoothing_->floor() : plane_of(strips_); }
-    DecimateOptions decimate_options() const;
+    DecimateOptions decimate_options() const { return regionmesh::decimate_options(options_, lattice_); }
     void add_verdicts(const VerdictCounts& counts);
     void keep_within_budget(std::uint64_t run_faces);
+    void raise_to(std::uint64_t faces, double high);
     void decimate_to(std::uint64_t faces, bool is_last);
     void note_bytes(std::uint64_t faces, std::size_t bytes);
     void tell(const char* stage);
@@ -163,16 +163,6 @@ void Run::note_strip(const SectionWindow& window, const FaceBatch& batch) {
     tell("reconstruct");
 }
 
-SmoothOptions Run::smooth_options() const {
-    const Vec3 spacing = lattice_.spacing;
-    SmoothOptions own = options_.smooth;
-    own.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
-    own.min_quality = options_.min_quality;
-    own.intersect_check = options_.intersect_check;
-    own.threads = options_.threads;
-    return own;
-}
-
 void Run::smooth_strip(FaceBatch& batch, const SectionWindow& window) {
     {
         const Timer timer(seconds("smooth"));
@@ -227,12 +217,12 @@ void Run::decimate_run() {
     TileOptions tile_options{.cost_level = kTileCostLevel,
                              .keep_share = share * kTileMargin,
                              .threads = options_.threads,
+                             .in_flight = memory_.in_flight,
                              .decimate = decimate_options()};
     const std::uint32_t first = (strips_ - 1) / plan_.run_strips * plan_.run_strips;
     // Faces of earlier runs may reach up to the ceiling, those of later ones down to the floor.
     const RunExtent extent{std::max(plane_of(first), ceiling_), std::min(plane_of(strips_), floor())};
-    const TileResult done = decimate_tiles(run_, weld_.front(), extent, plan_, tile_options);
-    add_verdicts(done.verdicts);
+    add_verdicts(decimate_tiles(run_, weld_.front(), extent, plan_, tile_options));
 }
 
 void Run::keep_within_budget(std::uint64_t run_faces) {
@@ -244,27 +234,39 @@ void Run::keep_within_budget(std::uint64_t run_faces) {
     // Down by a good part, so that the heap need not be built anew after every run.
     const std::uint64_t goal = std::max(target_.so_far(joined_faces_), std::min(room, budget * 6 / 10));
     if (result_.model.face_count() <= goal) return;
-    weld_.renumber(result_.model.sort_spatially());
-    give_back_freed_memory();
-    decimate_to(goal, false);
-    give_back_freed_memory();
+    raise_to(goal, floor());
+    stopped_ = StopReason::kTarget;
+    if (result_.model.face_count() > room) {
+        weld_.renumber(result_.model.sort_spatially());
+        give_back_freed_memory();
+        decimate_to(goal, false);
+        give_back_freed_memory();
+    }
     // Where topology or the largest error forbid more, the model goes on growing.
     if (stopped_ != StopReason::kTarget && result_.model.face_count() > room)
         memory_.asked_budget = std::uint64_t{result_.model.face_count()} * 3 / 2;
 }
 
-DecimateOptions Run::decimate_options() const {
-    DecimateOptions own;
-    if (options_.max_error) own.max_error = *options_.max_error;
-    own.min_quality = options_.min_quality * (options_.preserve_volume ? kRoomForVolume : 1);
-    own.perturbation = options_.perturbation;
-    own.scale = std::cbrt(lattice_.spacing.x * lattice_.spacing.y * lattice_.spacing.z);
-    own.intersect_check = options_.intersect_check;
-    return own;
-}
-
 void Run::add_verdicts(const VerdictCounts& counts) {
     for (int n = 0; n < kVerdictCount; ++n) result_.report.verdicts[n] += counts[n];
+}
+
+/// Second stage: the whole model near so many faces, in tiles. Nothing that comes later reaches below `high`.
+void Run::raise_to(std::uint64_t faces, double high) {
+    const Timer timer(seconds("raise level"));
+    const TileOptions tile_options{.cost_level = 0,
+                                   .keep_share = 0,
+                                   .threads = options_.threads,
+                                   .in_flight = memory_.in_flight,
+                                   .decimate = decimate_options()};
+    const std::size_t held = result_.model.face_count(), model_bytes = result_.model.bytes();
+    FaceBatch whole = weld_.take_apart();
+    note_bytes(held, model_bytes + whole.vertices.size() * sizeof(BatchVertex) + held * sizeof(BatchFace));
+    give_back_freed_memory();
+    const RaiseResult done = raise_level(whole, plan_, {.goal_faces = faces, .high = high, .tiles = tile_options});
+    add_verdicts(done.verdicts);
+    weld_.add(whole);
+    give_back_freed_memory();
 }
 
 void Run::decimate_to(std::uint64_t faces, bool is_last) {
@@ -293,9 +295,10 @@ void Run::bring_to_target() {
         return;
     }
     tell("decimate");
-    give_back_freed_memory();
+    const std::uint64_t target = target_.of(result_.report.initial_faces);
+    raise_to(target, HUGE_VAL);
     result_.model.sort_spatially();
-    decimate_to(target_.of(result_.report.initial_faces), true);
+    decimate_to(target, true);
     result_.report.stopped = stopped_ == StopReason::kTarget     ? "target"
                              : stopped_ == StopReason::kMaxError ? "max_error"
                                                                  : "topology";

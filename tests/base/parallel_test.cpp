@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "regionmesh/base/parallel_for.h"
+#include "regionmesh/base/parallel_in_order.h"
 #include "regionmesh/base/union_find.h"
 #include "support/random.h"
 
@@ -26,6 +27,29 @@ TEST(ForChunks, covers_all_once_and_appends_in_order) {
             for (std::uint32_t n = 0; n < size; ++n) ASSERT_EQ(all[n], n);
         }
     }
+}
+
+TEST(ParallelInOrder, finishes_in_order_and_gives_each_item_a_place_of_its_own) {
+    for (std::uint32_t in_flight : {1u, 2u, 5u})
+        for (std::uint32_t threads : {1u, 2u, 8u}) {
+            std::vector<std::uint32_t> held(in_flight), order;
+            const auto work = [&](std::uint32_t n, std::uint32_t place) { held[place] = n * n; };
+            const auto finish = [&](std::uint32_t n, std::uint32_t place) {
+                EXPECT_EQ(held[place], n * n);
+                order.push_back(n);
+            };
+            parallel_in_order(1000, in_flight, threads, {work, finish});
+            ASSERT_EQ(order.size(), 1000u);
+            for (std::uint32_t n = 0; n < 1000; ++n) ASSERT_EQ(order[n], n);
+        }
+}
+
+TEST(ParallelInOrder, throws_what_a_call_throws) {
+    const auto work = [](std::uint32_t n, std::uint32_t) {
+        if (n == 7) throw n;
+    };
+    for (std::uint32_t threads : {1u, 2u})
+        EXPECT_THROW(parallel_in_order(20, 4, threads, {work, [](std::uint32_t, std::uint32_t) {}}), std::uint32_t);
 }
 
 TEST(ForChunks, rounds_sums_alike_on_any_number_of_threads) {

@@ -55,6 +55,18 @@ TEST(Weld, follows_a_front_that_got_new_ids) {
     test::expect_sound(check(sorted));
 }
 
+TEST(Weld, puts_together_what_it_took_apart) {
+    const Model plain = welded(grains(), [](const Model&, const Weld&, double) {});
+    const Model again = welded(grains(), [](Model& model, Weld& weld, double) {
+        const std::size_t front = weld.front().size();
+        const FaceBatch whole = weld.take_apart();
+        EXPECT_EQ(whole.open.size(), front);
+        EXPECT_EQ(model.face_count(), 0u);
+        weld.add(whole);
+    });
+    EXPECT_EQ(test::surface_digest(again), test::surface_digest(plain));
+}
+
 TEST(Weld, joins_what_was_decimated_up_to_the_front) {
     const Model model = welded(grains(), [](Model& part, Weld& weld, double z) {
         weld.renumber(part.sort_spatially());

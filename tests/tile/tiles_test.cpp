@@ -64,9 +64,9 @@ TEST(Tiles, remove_faces_and_keep_what_the_labels_say) {
     test::ArrayVolume volume = test::grain_volume({33, 26, 9}, 9, 3);
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    const TileResult result = decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0, .threads = 1, .decimate = {}});
+    const VerdictCounts verdicts = decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8), {.cost_level = 1e-3, .keep_share = 0, .threads = 1, .decimate = {}});
     EXPECT_LT(batch.whole.faces.size(), faces * 7 / 10);
-    EXPECT_GT(result.verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
+    EXPECT_GT(verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
     CheckOptions options;
     options.oracle = batch.oracle;
     test::expect_sound(check(batch.model(), options));

@@ -76,6 +76,9 @@ template <class T>
 Lanes3<T> cross(const Lanes3<T>& a, const Lanes3<T>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+inline Lanes3<Double2> side_by_side(Vec3 p, Vec3 q) {
+    return {Double2{p.x, q.x}, Double2{p.y, q.y}, Double2{p.z, q.z}};
+}
 inline Lanes3<Double2> both(Vec3 p) { return {both(p.x), both(p.y), both(p.z)}; }
 
 }  // namespace regionmesh

@@ -36,9 +36,8 @@ std::uint64_t Candidates::refresh() {
 void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
     found.vertices.clear();
     if (label_count(v) == 2) {
-        model_.for_star(v, [&](FaceId f, int place) {
-            found.vertices.push_back(model_[f].vertices[place == 2 ? 0 : place + 1]);
-        });
+        model_.for_star(
+            v, [&](FaceId f, int place) { found.vertices.push_back(model_[f].vertices[place == 2 ? 0 : place + 1]); });
         found.label_counts.assign(found.vertices.size(), 2);
     } else {
         count_edge_labels(v, found);
@@ -83,7 +82,8 @@ float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
     if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight)
         return kNever;
     const double scale2 = options_.scale * options_.scale;
-    return static_cast<float>(edge.rank + options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays)));
+    return static_cast<float>(edge.rank +
+                              options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays)));
 }
 
 /// The cheapest edge owned by v that comes after `after`, or leads to `fresh`.

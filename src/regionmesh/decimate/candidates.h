@@ -59,8 +59,8 @@ private:
     const Model& model_;
     const VertexQuadrics& quadrics_;
     const DecimateOptions& options_;
-    FlatArray<VertexId> partner_;        // where the cheapest edge of a vertex in the heap leads
-    FlatArray<float> floor_;             // edges up to this key were refused since the last change
+    FlatArray<VertexId> partner_;  // where the cheapest edge of a vertex in the heap leads
+    FlatArray<float> floor_;       // edges up to this key were refused since the last change
     EdgeHeap heap_;
     Neighbours neighbours_, round_merged_;
     std::vector<EdgeLabels> edge_labels_;

@@ -68,7 +68,8 @@ private:
     /// Removes what costs next to nothing, as long as a whole sweep stays above the target.
     void thin() {
         const double scale2 = options_.scale * options_.scale;
-        Thinning thinning(model_, tree_, quadrics_, options_, bounds_, std::min(options_.max_cost, kThinCost * scale2 * scale2));
+        Thinning thinning(model_, tree_, quadrics_, options_, bounds_,
+                          std::min(options_.max_cost, kThinCost * scale2 * scale2));
         for (int sweep = 0; sweep < kMostSweeps && model_.face_count() * kLeastLeft > options_.target_faces; ++sweep) {
             const std::uint32_t before = model_.face_count();
             if (2 * thinning.sweep(result_.verdicts) < kLeastGain * before) break;

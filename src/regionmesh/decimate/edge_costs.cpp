@@ -90,13 +90,18 @@ Float4 least_costs(const Quadrics& own, const Quadrics& other, const Lanes3<Floa
     sum.yy = own.yy + other.yy, sum.yz = own.yz + other.yz, sum.zz = own.zz + other.zz;
     sum.b = {own.b.x + own_half.x + other.b.x - other_half.x, own.b.y + own_half.y + other.b.y - other_half.y,
              own.b.z + own_half.z + other.b.z - other_half.z};
-    sum.c = own.c + all_four(2) * dot(own.b, half) + dot(half, own_half) + other.c -
-            all_four(2) * dot(other.b, half) + dot(half, other_half);
+    sum.c = own.c + all_four(2) * dot(own.b, half) + dot(half, own_half) + other.c - all_four(2) * dot(other.b, half) +
+            dot(half, other_half);
     weight = sum.xx + sum.yy + sum.zz;
     // In units of the weight, which keeps floats in range.
     const Float4 unit = all_four(1) / (weight + all_four(1e-37f)), pull = all_four(static_cast<float>(kRegularisation));
-    Systems systems{sum.xx * unit + pull, sum.xy * unit, sum.xz * unit, sum.yy * unit + pull, sum.yz * unit,
-                    sum.zz * unit + pull, {-sum.b.x * unit, -sum.b.y * unit, -sum.b.z * unit}};
+    Systems systems{sum.xx * unit + pull,
+                    sum.xy * unit,
+                    sum.xz * unit,
+                    sum.yy * unit + pull,
+                    sum.yz * unit,
+                    sum.zz * unit + pull,
+                    {-sum.b.x * unit, -sum.b.y * unit, -sum.b.z * unit}};
     if (locks.any) systems.lock(locks);
     const Lanes3<Float4> step = systems.solve();
     return greatest(sum.c + all_four(2) * dot(sum.b, step) + dot(step, sum.times(step)), Float4{});
@@ -104,8 +109,8 @@ Float4 least_costs(const Quadrics& own, const Quadrics& other, const Lanes3<Floa
 
 }  // namespace
 
-void find_edge_costs(const Model& model, const VertexQuadrics& quadrics, VertexId v,
-                     std::span<const VertexId> to, std::vector<EdgeCost>& costs) {
+void find_edge_costs(const Model& model, const VertexQuadrics& quadrics, VertexId v, std::span<const VertexId> to,
+                     std::vector<EdgeCost>& costs) {
     const Vec3 at = model.position(v);
     const PackedQuadric& q = quadrics[v];
     const Quadrics own = side_by_side(q, q, q, q);
@@ -125,7 +130,8 @@ void find_edge_costs(const Model& model, const VertexQuadrics& quadrics, VertexI
             locks.put(lane, own_sides, model[w].sides, way);
         }
         Float4 weight{};
-        const Float4 cost = least_costs(own, side_by_side(*others[0], *others[1], *others[2], *others[3]), way, locks, weight);
+        const Float4 cost =
+            least_costs(own, side_by_side(*others[0], *others[1], *others[2], *others[3]), way, locks, weight);
         const Float4 draw = weight * dot(way, way) * all_four(static_cast<float>(kLengthShare));
         for (int lane = 0; lane < 4; ++lane) costs[first + lane] = {cost[lane], weight[lane], cost[lane] + draw[lane]};
     }

@@ -14,9 +14,9 @@ struct EdgeCost {
     float cost, weight, rank;
 };
 
-/// Costs of the edges from v to each of `to`, as place() gives them, but in floats: to rank by. Each end that would stay
-/// has every side of the box that the other has. `costs` gets a multiple of four.
-void find_edge_costs(const Model& model, const VertexQuadrics& quadrics, VertexId v,
-                     std::span<const VertexId> to, std::vector<EdgeCost>& costs);
+/// Costs of the edges from v to each of `to`, as place() gives them, but in floats: to rank by. Each end that would
+/// stay has every side of the box that the other has. `costs` gets a multiple of four.
+void find_edge_costs(const Model& model, const VertexQuadrics& quadrics, VertexId v, std::span<const VertexId> to,
+                     std::vector<EdgeCost>& costs);
 
 }  // namespace regionmesh

@@ -27,9 +27,7 @@ void measure(EdgeStar& star) {
     for (std::size_t n = 0; n < star.pairs.size(); ++n) {
         StarPair& pair = star.pairs[n];
         const int last = std::min(2 * static_cast<int>(n) + 1, star.face_count() - 1);
-        Lanes3<Double2> apex{};
-        apex.put(0, star.at_apex(2 * static_cast<int>(n)));
-        apex.put(1, star.at_apex(last));
+        const Lanes3<Double2> apex = side_by_side(star.at_apex(2 * static_cast<int>(n)), star.at_apex(last));
         pair.old_normal = cross(pair.a - apex, pair.b - apex);
         pair.old_length2 = dot(pair.old_normal, pair.old_normal);
         const Lanes3<Double2> link_edge = pair.b - pair.a;
@@ -42,15 +40,33 @@ void measure(EdgeStar& star) {
     star.link_box = {min(low[0], low[1]), max(high[0], high[1])};
 }
 
-/// Round an edge within one interface every vertex of the link comes first in exactly one face.
+/// All faces have the same two labels.
+bool is_one_interface(const Model& model, const EdgeStar& star) {
+    if (star.faces.empty()) return true;
+    const auto& labels = model[star.faces[0].face].labels;
+    return std::all_of(star.faces.begin(), star.faces.end(),
+                       [&](const StarFace& f) { return model[f.face].labels == labels; });
+}
+
+void add_to_link(EdgeStar& star, VertexId v) {
+    if (std::find(star.link.begin(), star.link.end(), v) == star.link.end()) star.link.push_back(v);
+}
+
+/// Round an edge within one interface every vertex of the link comes first in exactly one face, but the last of an open
+/// fan.
 void gather_link(const Model& model, EdgeStar& star) {
-    if (model[star.goes].label_count == 2 && model[star.stays].label_count == 2) {
-        for (const StarFace& face : star.faces) star.link.push_back(face.a);
-        return;
+    const bool is_inside =
+        model[star.goes].label_count == 2 && (star.keeps_stays || model[star.stays].label_count == 2);
+    for (const StarFace& face : star.faces) {
+        if (is_inside) {
+            star.link.push_back(face.a);
+        } else {
+            add_to_link(star, face.a);
+            add_to_link(star, face.b);
+        }
     }
-    for (const StarFace& face : star.faces)
-        for (VertexId v : {face.a, face.b})
-            if (std::find(star.link.begin(), star.link.end(), v) == star.link.end()) star.link.push_back(v);
+    if (is_inside && star.keeps_stays)
+        for (VertexId apex : star.apexes) add_to_link(star, apex);
 }
 
 void start(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
@@ -86,29 +102,26 @@ void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
         if (face.vertices[place == 2 ? 0 : place + 1] != goes && face.vertices[place == 0 ? 2 : place - 1] != goes)
             add_surviving(model, f, place, star);
     });
-    const auto& labels = model[star.dead.front()].labels;
-    star.is_interface = std::all_of(star.faces.begin(), star.faces.end(),
-                                    [&](const StarFace& f) { return model[f.face].labels == labels; });
+    star.is_interface = is_one_interface(model, star);
     measure(star);
     gather_link(model, star);
 }
 
 void gather_vertex(const Model& model, VertexId goes, EdgeStar& star) {
     start(model, goes, kNoVertex, star);
-    star.keeps_stays = star.is_interface = true;
+    star.keeps_stays = true;
     add_faces_of_goes(model, star);
+    star.is_interface = is_one_interface(model, star);
     measure(star);
 }
 
 void gather_half(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
     start(model, goes, stays, star);
     star.keeps_stays = true;
-    star.is_interface = true;
     add_faces_of_goes(model, star);
+    star.is_interface = is_one_interface(model, star);
     measure(star);
-    for (const StarFace& face : star.faces) star.link.push_back(face.a);
-    for (VertexId apex : star.apexes)
-        if (std::find(star.link.begin(), star.link.end(), apex) == star.link.end()) star.link.push_back(apex);
+    gather_link(model, star);
 }
 
 void set_normals(EdgeStar& star, Vec3 position) {

@@ -55,11 +55,10 @@ inline bool is_on_line(const Model& model, const EdgeStar& star, VertexId end) {
 /// Collects the star. Requires that goes-stays is an edge.
 void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star);
 
-/// Collects all faces of a vertex as if it would go, nowhere yet. Requires that it lies within an interface: every
-/// neighbour is the first corner of one face.
+/// Collects all faces of a vertex as if it would go, nowhere yet.
 void gather_vertex(const Model& model, VertexId goes, EdgeStar& star);
 
-/// Collects the faces of `goes` only. Requires that goes-stays is an edge within an interface.
+/// Collects the faces of `goes` only. Requires that goes-stays is an edge.
 void gather_half(const Model& model, VertexId goes, VertexId stays, EdgeStar& star);
 
 /// Fills in the normals that the surviving faces would have with the merged vertex at `position`.

@@ -90,7 +90,8 @@ bool pinches_at_spokes(const EdgeStar& star, double max_cosine) {
             const bool opposite = (f.a == g.b) | (f.b == g.a);
             const bool same = (f.a == g.a) | (f.b == g.b);
             if (!(opposite | same)) continue;
-            if (is_pinched(star.new_normal(i), star.new_length2(i), star.new_normal(j), star.new_length2(j), opposite, max_cosine))
+            if (is_pinched(star.new_normal(i), star.new_length2(i), star.new_normal(j), star.new_length2(j), opposite,
+                           max_cosine))
                 return true;
         }
     }
@@ -144,17 +145,20 @@ Verdict topology_verdict(const Model& model, const EdgeStar& star) {
 }
 
 Verdict half_topology_verdict(const Model& model, const EdgeStar& star) {
-    if (star.faces.empty() || star.apexes.size() != 2) return Verdict::kLink;
+    if (star.faces.empty()) return Verdict::kLink;
     bool met = true;
     model.for_star(star.stays, [&](FaceId f, int place) {
         const auto& v = model[f].vertices;
-        const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
-        if (after == star.goes || before == star.goes) return;
-        const bool has_after = contains(star.link, after), has_before = contains(star.link, before);
-        if ((has_after && !contains(star.apexes, after)) || (has_before && !contains(star.apexes, before))) met = false;
-        if (has_after && has_before && star.faces.size() == 1) met = false;
+        const VertexId x = v[(place + 1) % 3], y = v[(place + 2) % 3];
+        if (x == star.goes || y == star.goes) return;
+        const bool has_x = contains(star.link, x), has_y = contains(star.link, y);
+        if ((has_x && !contains(star.apexes, x)) || (has_y && !contains(star.apexes, y))) met = false;
+        if (!has_x || !has_y) return;
+        for (const StarFace& g : star.faces)
+            if ((g.a == x && g.b == y) || (g.a == y && g.b == x)) met = false;
     });
-    return met && !lands_on_box_edge(model, star) ? Verdict::kAccepted : Verdict::kLink;
+    if (!met || (model[star.goes].label_count > 2 && closes_loop_of_lines(model, star))) return Verdict::kLink;
+    return lands_on_box_edge(model, star) ? Verdict::kLink : Verdict::kAccepted;
 }
 
 ShapeResult shape_verdict(EdgeStar& star, Vec3 position, const ShapeBounds& bounds) {
@@ -187,7 +191,8 @@ double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, con
         const Lanes3<Double2> to_a = pair.a - merged, to_b = pair.b - merged, normal = cross(to_a, to_b);
         const Double2 normal2 = dot(normal, normal), along = dot(pair.old_normal, normal);
         const Double2 own3 = quality3(pair, to_a, to_b, normal2);
-        const unsigned good = bits_of((along > both(0)) & (along * along > turn * pair.old_length2 * normal2) & (own3 >= bound3));
+        const unsigned good =
+            bits_of((along > both(0)) & (along * along > turn * pair.old_length2 * normal2) & (own3 >= bound3));
         for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
             const StarFace& face = around.faces[first + lane];
             if (face.a == target || face.b == target) continue;  // vanishes
@@ -243,7 +248,8 @@ bool pinches_at_stays(const Model& model, const EdgeStar& star, const ShapeBound
         for (int n = 0; n < star.face_count(); ++n) {
             for (VertexId end : {after, before}) {
                 if (end != star.faces[n].a && end != star.faces[n].b) continue;
-                const KeptFace kept{end == before, model.position(end == before ? after : before), is_on_line(model, star, end)};
+                const KeptFace kept{end == before, model.position(end == before ? after : before),
+                                    is_on_line(model, star, end)};
                 pinched = pinched || pinches_beside(star, n, end == star.faces[n].a, kept, bounds);
             }
         }

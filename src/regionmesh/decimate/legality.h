@@ -20,7 +20,8 @@ struct ShapeBounds {
 ///           comes to lie on an edge of the box that was beside it.
 Verdict topology_verdict(const Model& model, const EdgeStar& star);
 
-/// The same for an edge within an interface whose end `stays` does not move (gather_half).
+/// The same for an edge whose end `stays` does not move (gather_half). Requires that the edge is of the stratum of
+/// `goes`.
 Verdict half_topology_verdict(const Model& model, const EdgeStar& star);
 
 struct ShapeResult {
@@ -44,8 +45,8 @@ double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, con
 /// that face passes the edge from b to a. Requires the normals of shape_verdict.
 bool pinches_beyond(const EdgeStar& star, int n, Vec3 position, Vec3 third, bool runs_back, const ShapeBounds& bounds);
 
-/// A face that keeps the vertex `stays` of a star that does (gather_half), on an edge from there to the link: the way it
-/// passes the edge, and its third corner.
+/// A face that keeps the vertex `stays` of a star that does (gather_half), on an edge from there to the link: the way
+/// it passes the edge, and its third corner.
 struct KeptFace {
     bool leads_to_stays;
     Vec3 third;

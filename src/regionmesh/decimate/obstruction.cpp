@@ -9,24 +9,93 @@ namespace regionmesh {
 namespace {
 
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
-    Box box;
-    for (Vec3 p : {a, b, c, d}) box.add(p);
-    if (max(q, box.low) != q || min(q, box.high) != q) return false;
     const int side = orientation(a, b, c, d);
     return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side &&
            orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
 
-/// All faces of the star lie in one plane square to an axis, exactly, and stay there: an interface or a side of the
-/// box. Since none folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
+/// The plane of a face and those through its edges, square to it; and how sure they are of sides.
+class FacePlanes {
+public:
+    explicit FacePlanes(const PlacedFace& face) : face_(face) {
+        const Vec3 u = face.at[1] - face.at[0], v = face.at[2] - face.at[0];
+        planes_[3] = {face.at[0], cross(u, v), size(u) * size(v)};
+        for (int n = 0; n < 3; ++n) {
+            const Vec3 edge = face.at[(n + 1) % 3] - face.at[n];
+            planes_[n] = {face.at[n], cross(edge, planes_[3].out), size(edge) * planes_[3].size};
+        }
+        is_sure_ = length2(planes_[3].out) > 1e-12 * length2(u) * length2(v);
+    }
+    /// Is it sure that a plane has the other face beyond it, but for corners of both that it passes through?
+    bool are_beside(const PlacedFace& other) const {
+        if (!is_sure_) return false;
+        std::array<int, 3> place;  // of each corner in this face
+        for (int n = 0; n < 3; ++n) {
+            place[n] = -1;
+            for (int m = 0; m < 3; ++m)
+                if (other.vertices[n] == face_.vertices[m]) place[n] = m;
+        }
+        for (int n = 0; n < 3; ++n)
+            if (is_beyond(planes_[n], 1, other, place, n)) return true;
+        return is_beyond(planes_[3], 1, other, place, -1) || is_beyond(planes_[3], -1, other, place, -1);
+    }
+
+private:
+    static constexpr double kDoubt = 1e-12;
+    struct Plane {
+        Vec3 at, out;
+        double size;  // bounds `out` as it was computed, and its rounding
+    };
+
+    static double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+    /// `edge` is the first place of the edge that the plane goes through; -1 for all places.
+    static bool is_beyond(const Plane& plane, int side, const PlacedFace& other, const std::array<int, 3>& place,
+                          int edge) {
+        for (int n = 0; n < 3; ++n) {
+            if (place[n] >= 0 && (edge < 0 || place[n] == edge || place[n] == (edge + 1) % 3)) continue;
+            const Vec3 step = other.at[n] - plane.at;
+            if (!(side * dot(plane.out, step) > kDoubt * plane.size * size(step))) return false;
+        }
+        return true;
+    }
+
+    const PlacedFace& face_;
+    std::array<Plane, 4> planes_;
+    bool is_sure_;
+};
+
+/// Are these multiples of 1/64 and less than 64? Products of three of them are exact.
+bool are_short(const Lanes3<Double2>& p) {
+    // Adding 1.5 * 2^46 leaves no digits beyond 1/64.
+    const Double2 round = both(0x1.8p46), most = both(64), zero = both(0);
+    unsigned ok = 3;
+    for (Double2 x : {p.x, p.y, p.z}) ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
+    return ok == 3;
+}
+
+/// Do all corners lie in one plane, exactly? Told only where the coordinates have few digits, as those of samples do.
+bool is_in_one_plane(const EdgeStar& star) {
+    const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
+    for (const StarPair& pair : star.pairs) {
+        const Lanes3<Double2> a = pair.a - origin, b = pair.b - origin;
+        if (!are_short(a) || !are_short(b)) return false;
+        if (bits_of((dot(normal, a) == both(0)) & (dot(normal, b) == both(0))) != 3) return false;
+    }
+    const Lanes3<Double2> stays = both(star.at_stays - star.at_goes);
+    return are_short(stays) && bits_of(dot(normal, stays) == both(0)) == 3;
+}
+
+/// All faces of the star lie in one plane, exactly, and stay there: an interface or a side of the box. Since none
+/// folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
 bool is_flat(const EdgeStar& star, Vec3 position) {
-    for (int axis = 0; axis < 3 && star.is_interface; ++axis) {
+    if (!star.is_interface) return false;
+    for (int axis = 0; axis < 3; ++axis) {
         const double level = position[axis];
         if (star.at_goes[axis] == level && star.at_stays[axis] == level && star.link_box.low[axis] == level &&
             star.link_box.high[axis] == level)
             return true;
     }
-    return false;
+    return star.keeps_stays && is_in_one_plane(star);
 }
 
 }  // namespace
@@ -72,7 +141,7 @@ bool Obstruction::meets_itself(const Model& model, const EdgeStar& star) {
     for (int j = first_ + 1; j < star.face_count(); ++j) {
         const StarFace& g = star.faces[j];
         const Sides sides = place_of(model, g.a, 0).sides & place_of(model, g.b, 1).sides;
-        const std::uint32_t clear = sides.beyond_a | sides.beyond_b | sides.above | sides.below;
+        const std::uint32_t clear = sides.a | sides.b | sides.above | sides.below;
         const std::uint32_t before = j - first_ < StarPlanes::kMost ? (1u << (j - first_)) - 1 : ~0u;
         for (std::uint32_t rest = planes_.all() & before & ~clear; rest != 0; rest &= rest - 1)
             if (meet_in_star(star, first_ + __builtin_ctz(rest), j)) return true;
@@ -94,73 +163,86 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
     first_ = first;
     const int count = std::min(star.face_count() - first, StarPlanes::kMost);
     planes_.prepare(star, position_, first, count);
-    if (++stamp_ == 0) {
+    if (++search_ == 0) {
         std::fill(table_.begin(), table_.end(), Place());
-        stamp_ = 1;
+        search_ = 1;
     }
     used_ = 0;
-    apex_above_ = apex_below_ = 0;
-    const Sides goes = planes_.sides_of(star.at_goes), stays = planes_.sides_of(star.at_stays);
+    Place& goes = place_of(model, star.goes, 0);
+    Place& stays = place_of(model, star.stays, 0);
+    goes.is_of_star = 1;
+    stays.is_of_star = !star.keeps_stays;
+    apex_ = {};
+    const Sides goes_far = planes_.far_sides_of(star.at_goes), stays_far = planes_.far_sides_of(star.at_stays);
+    std::uint32_t at_goes = 0;
     for (int n = 0; n < count; ++n) {
-        const Sides& apex = star.faces[first + n].apex == star.goes ? goes : stays;
-        apex_above_ |= apex.above & 1u << n;
-        apex_below_ |= apex.below & 1u << n;
         const StarFace& face = star.faces[first + n];
+        at_goes |= (face.apex == star.goes ? 1u : 0u) << n;
         place_of(model, face.a, 0).as_a |= 1u << n;
         place_of(model, face.b, 0).as_b |= 1u << n;
     }
+    apex_ = goes_far & Sides{at_goes, at_goes, at_goes, at_goes, at_goes};
+    const Sides from_stays = stays_far & Sides{~at_goes, ~at_goes, ~at_goes, ~at_goes, ~at_goes};
+    apex_ = {apex_.link | from_stays.link, apex_.a | from_stays.a, apex_.b | from_stays.b,
+             apex_.above | from_stays.above, apex_.below | from_stays.below};
     for (VertexId v : star.link) {
         Place& place = place_of(model, v, 0);
         const std::uint32_t own = place.as_a | place.as_b;
-        place.sides.beyond_link |= own;
-        place.sides.beyond_a |= place.as_a;
-        place.sides.beyond_b |= place.as_b;
+        place.is_shared = own != 0;
+        place.sides.link |= own;
+        place.sides.a |= place.as_a;
+        place.sides.b |= place.as_b;
         place.sides.above |= own;
         place.sides.below |= own;
     }
     if (!star.keeps_stays) return;
-    Sides& stays_sides = place_of(model, star.stays, 0).sides;
-    stays_sides.beyond_a = stays_sides.beyond_b = stays_sides.above = stays_sides.below = planes_.all();
+    stays.is_shared = 1;
+    stays.sides.a = stays.sides.b = stays.sides.above = stays.sides.below = planes_.all();
 }
 
-Obstruction::Place& Obstruction::place_of(const Model& model, VertexId v, int corner) {
-    std::uint32_t at = index(v) * 0x9E3779B1u >> 24;
-    for (; table_[at].stamp == stamp_; at = (at + 1) % kPlaces)
-        if (table_[at].vertex == v) return table_[at];
-    Place& place = used_ < kPlaces / 4 * 3 ? table_[at] : spare_[corner];
-    if (&place == &table_[at]) ++used_;
-    place = {v, stamp_, planes_.sides_of(model.position(v)), 0, 0};
+Obstruction::Place& Obstruction::find_place(const Model& model, VertexId v, int corner) {
+    std::uint32_t at = hash(v);
+    for (; table_[at].key >> 32 == search_; at = (at + 1) % kPlaces)
+        if (table_[at].key == key_of(v)) return table_[at];
+    const bool has_room = used_ < kPlaces / 4 * 3;
+    used_ += has_room;
+    Place& place = has_room ? table_[at] : spare_[corner];
+    const Vec3 p = model.position(v);
+    const bool is_in_reach = max(p, box_.low) == p && min(p, box_.high) == p;
+    place = {key_of(v), planes_.sides_of(p), 0, 0, 0, 0, is_in_reach};
     return place;
 }
 
 /// Is it beyond doubt that the face does not meet any new face, comes near none, and is not swept over?
 Verdict Obstruction::look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
-    OldFace old{model[f].vertices, {}};
-    for (VertexId v : old.vertices)
-        if (v == star.goes || (v == star.stays && !star.keeps_stays)) return Verdict::kAccepted;
-    for (int n = 0; n < 3; ++n) old.places[n] = &place_of(model, old.vertices[n], n);
-    int shared = 0;
-    for (const Place* place : old.places) shared += (place->as_a | place->as_b) != 0 || place->vertex == star.stays;
+    const auto& v = model[f].vertices;
+    const Place &p = place_of(model, v[0], 0), &q = place_of(model, v[1], 1), &r = place_of(model, v[2], 2);
+    if ((p.is_of_star | q.is_of_star | r.is_of_star) != 0) return Verdict::kAccepted;
+    const std::uint32_t shared = p.is_shared + q.is_shared + r.is_shared;
+    const Corners old{&p, &q, &r};
     if (shared >= 2 && pinches(model, star, bounds, old)) return Verdict::kPinch;
-    const std::uint32_t clear = (old.places[0]->sides & old.places[1]->sides & old.places[2]->sides).any();
-    for (std::uint32_t rest = planes_.all() & ~clear; rest != 0; rest &= rest - 1)
-        if (meets(model, star, first_ + __builtin_ctz(rest), old)) return Verdict::kIntersect;
-    return shared == 0 && is_swept(model, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
+    const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
+    if (doubtful != 0 && meets(model, star, old, doubtful)) return Verdict::kIntersect;
+    const bool may_be_swept = (p.is_in_reach & q.is_in_reach & r.is_in_reach) != 0 && shared == 0;
+    return may_be_swept && is_swept(model, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
 }
 
-/// At an edge that is one of the link. A corner beyond the plane that is square to the new face is far from it.
-bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, const OldFace& old) const {
+/// At an edge that is one of the link, or leads from there to `stays`. A corner beyond the plane that is square to the
+/// new face is far from it.
+bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds,
+                          const Corners& old) const {
     for (int n = 0; n < 3; ++n) {
-        const Place &from = *old.places[n], &to = *old.places[(n + 1) % 3], &third = *old.places[(n + 2) % 3];
-        const std::uint32_t along = from.as_a & to.as_b, back = from.as_b & to.as_a;
-        for (std::uint32_t rest = (along | back) & ~third.sides.beyond_link; rest != 0; rest &= rest - 1) {
+        const Place &from = *old[n], &to = *old[(n + 1) % 3], &third = *old[(n + 2) % 3];
+        for (std::uint32_t rest = faces_at(from, to) & ~third.sides.link; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
-            if (pinches_beyond(star, first_ + face, position_, model.position(third.vertex), (back >> face & 1) != 0, bounds))
+            const bool runs_back = (from.as_b >> face & 1) != 0;
+            if (pinches_beyond(star, first_ + face, position_, model.position(third.vertex()), runs_back, bounds))
                 return true;
         }
-        if (!star.keeps_stays || (from.vertex != star.stays && to.vertex != star.stays)) continue;
-        const Place& end = from.vertex == star.stays ? to : from;
-        const KeptFace kept{to.vertex == star.stays, model.position(third.vertex), is_on_line(model, star, end.vertex)};
+        if (!star.keeps_stays || (from.vertex() != star.stays && to.vertex() != star.stays)) continue;
+        const Place& end = from.vertex() == star.stays ? to : from;
+        const KeptFace kept{to.vertex() == star.stays, model.position(third.vertex()),
+                            is_on_line(model, star, end.vertex())};
         for (std::uint32_t rest = end.as_a | end.as_b; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
             if (pinches_beside(star, first_ + face, (end.as_a >> face & 1) != 0, kept, bounds)) return true;
@@ -169,24 +251,33 @@ bool Obstruction::pinches(const Model& model, const EdgeStar& star, const ShapeB
     return false;
 }
 
-/// New face n, and a face that has none of the ends of the edge.
-bool Obstruction::meets(const Model& model, const EdgeStar& star, int n, const OldFace& old) const {
-    const StarFace& f = star.faces[n];
-    return meet_outside_shared({{star.stays, f.a, f.b}, {position_, star.at_a(n), star.at_b(n)}},
-                               {old.vertices, {model.position(old.vertices[0]), model.position(old.vertices[1]), model.position(old.vertices[2])}});
+/// Does the face meet one of the new faces named? Its own planes tell most apart.
+bool Obstruction::meets(const Model& model, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
+    const PlacedFace own{
+        {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
+        {model.position(old[0]->vertex()), model.position(old[1]->vertex()), model.position(old[2]->vertex())}};
+    const FacePlanes planes(own);
+    for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
+        const int n = first_ + __builtin_ctz(rest);
+        const PlacedFace made{{star.stays, star.faces[n].a, star.faces[n].b}, {position_, star.at_a(n), star.at_b(n)}};
+        if (boxes_overlap(own.at, made.at) && !planes.are_beside(made) && meet_outside_shared(made, own)) return true;
+    }
+    return false;
 }
 
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
 /// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
-bool Obstruction::is_swept(const Model& model, const EdgeStar& star, const OldFace& old) const {
-    for (VertexId v : old.vertices) {
-        const Vec3 p = model.position(v);
-        if (max(p, box_.low) != p || min(p, box_.high) != p) return false;
+bool Obstruction::is_swept(const Model& model, const EdgeStar& star, const Corners& old) const {
+    const Place* best = nullptr;
+    std::uint32_t doubtful = 0;
+    for (const Place* place : old) {
+        const std::uint32_t own = planes_.all() & ~(place->sides & apex_).any();
+        if (best && __builtin_popcount(own) >= __builtin_popcount(doubtful)) continue;
+        best = place;
+        doubtful = own;
     }
-    const Vec3 q = model.position(old.vertices[0]);
-    const Sides& sides = old.places[0]->sides;
-    const std::uint32_t apart = (sides.above & apex_below_) | (sides.below & apex_above_);
-    for (std::uint32_t rest = planes_.all() & ~apart; rest != 0; rest &= rest - 1) {
+    const Vec3 q = model.position(best->vertex());
+    for (std::uint32_t rest = doubtful; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);
         if (is_in_tetrahedron(position_, star.at_apex(n), star.at_a(n), star.at_b(n), q)) return true;
     }

@@ -22,18 +22,19 @@ public:
                     const ShapeBounds& bounds);
 
 private:
-    /// What is known of a vertex of the faces round the star.
+    /// What is known of a vertex near the star.
     struct Place {
-        VertexId vertex;
-        std::uint32_t stamp = 0;  // the place is in use when it is that of the search
+        std::uint64_t key = 0;  // search and vertex
         Sides sides;
-        std::uint32_t as_a = 0, as_b = 0;  // new faces that have the vertex, in the one place or the other
+        std::uint32_t as_a, as_b;   // new faces that have it, in the one place or the other
+        std::uint32_t is_shared;    // 1 for a vertex of the new star
+        std::uint32_t is_of_star;   // 1 where all faces that have it are of the star
+        std::uint32_t is_in_reach;  // 1 in the box of all that is swept
+
+        VertexId vertex() const { return VertexId{static_cast<std::uint32_t>(key)}; }
     };
     /// A face outside the star.
-    struct OldFace {
-        std::array<VertexId, 3> vertices;
-        std::array<const Place*, 3> places;
-    };
+    using Corners = std::array<const Place*, 3>;
 
     static constexpr std::uint32_t kPlaces = 256;  // a power of two; used to three quarters
 
@@ -41,19 +42,28 @@ private:
     bool meets_itself(const Model& model, const EdgeStar& star);
     bool meet_in_star(const EdgeStar& star, int i, int j) const;
     void prepare(const Model& model, const EdgeStar& star, int first);
-    Place& place_of(const Model& model, VertexId v, int corner);
+    static std::uint32_t hash(VertexId v) { return index(v) * 0x9E3779B1u >> 24; }
+    std::uint64_t key_of(VertexId v) const { return std::uint64_t{search_} << 32 | index(v); }
+    Place& place_of(const Model& model, VertexId v, int corner) {
+        Place& place = table_[hash(v)];
+        return place.key == key_of(v) ? place : find_place(model, v, corner);
+    }
+    Place& find_place(const Model& model, VertexId v, int corner);
     Verdict look_at(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, FaceId f);
-    bool pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, const OldFace& old) const;
-    bool meets(const Model& model, const EdgeStar& star, int n, const OldFace& old) const;
-    bool is_swept(const Model& model, const EdgeStar& star, const OldFace& old) const;
+    static std::uint32_t faces_at(const Place& from, const Place& to) {
+        return (from.as_a & to.as_b) | (from.as_b & to.as_a);
+    }
+    bool pinches(const Model& model, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const;
+    bool meets(const Model& model, const EdgeStar& star, const Corners& old, std::uint32_t faces) const;
+    bool is_swept(const Model& model, const EdgeStar& star, const Corners& old) const;
 
     Vec3 position_;
     Box box_;  // of all that the star sweeps
     StarPlanes planes_;
-    int first_ = 0;                      // of the new faces in hand
-    std::uint32_t apex_above_ = 0, apex_below_ = 0;  // new faces whose apex is on that side for sure
+    int first_ = 0;                                           // of the new faces in hand
+    Sides apex_;                                              // of their apexes: where they are not, for sure
     std::vector<Place> table_ = std::vector<Place>(kPlaces);  // by vertex, hashed
-    std::uint32_t stamp_ = 0, used_ = 0;
+    std::uint32_t search_ = 0, used_ = 0;
     std::array<Place, 3> spare_;  // for the corners of a face when the table is full
 };
 

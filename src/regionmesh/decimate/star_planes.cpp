@@ -46,7 +46,8 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
             const StarPair& pair = star.pairs[n];
             const Lanes3<Double2> a = scaled(pair.a - merged, scale), b = scaled(pair.b - merged, scale);
             // Where a face is so thin that its normal is not sure, no plane is told of.
-            const Double2 is_sure = pair.new_length2 * scale2 * scale2 > thin * dot(a, a) * dot(b, b) ? both(1) : both(0);
+            const Double2 is_sure =
+                pair.new_length2 * scale2 * scale2 > thin * dot(a, a) * dot(b, b) ? both(1) : both(0);
             const Lanes3<Double2> normal = scaled(pair.new_normal, scale2 * is_sure);
             put_pair(four.link, half, cross(b - a, normal));
             put_pair(four.a, half, cross(a, normal));
@@ -58,24 +59,49 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
             const Float4 inverse = all_four(1) / (size(*out) + all_four(kLeast));
             *out = {out->x * inverse, out->y * inverse, out->z * inverse};
         }
-        four.link_offset = dot(four.link, at_a) + all_four(kDoubt) * size(at_a);
+        four.link_offset = dot(four.link, at_a);
+        four.link_doubt = all_four(kDoubt) * size(at_a);
     }
 }
 
-Sides StarPlanes::sides_of(Vec3 p) const {
+Lanes3<Float4> StarPlanes::seen_from_merged(Vec3 p, Float4& doubt) const {
     const Vec3 step = scale_ * (p - position_);
     const float x = static_cast<float>(step.x), y = static_cast<float>(step.y), z = static_cast<float>(step.z);
-    const Lanes3<Float4> at{all_four(x), all_four(y), all_four(z)};
-    const Float4 doubt = all_four(kDoubt * (std::abs(x) + std::abs(y) + std::abs(z)) + kLeast), minus_doubt = -doubt;
+    doubt = all_four(kDoubt * (std::abs(x) + std::abs(y) + std::abs(z)) + kLeast);
+    return {all_four(x), all_four(y), all_four(z)};
+}
+
+Sides StarPlanes::sides_of(Vec3 p) const {
+    Float4 doubt{};
+    const Lanes3<Float4> at = seen_from_merged(p, doubt);
+    const Float4 minus_doubt = -doubt;
     Sides sides;
     int shift = 0;
     for (const Planes& four : planes_) {
         const Float4 own = dot(four.own, at);
-        sides.beyond_link |= bits_of(dot(four.link, at) > four.link_offset + doubt) << shift;
-        sides.beyond_a |= bits_of(dot(four.a, at) > doubt) << shift;
-        sides.beyond_b |= bits_of(dot(four.b, at) > doubt) << shift;
+        sides.link |= bits_of(dot(four.link, at) > four.link_offset + (four.link_doubt + doubt)) << shift;
+        sides.a |= bits_of(dot(four.a, at) > doubt) << shift;
+        sides.b |= bits_of(dot(four.b, at) > doubt) << shift;
         sides.above |= bits_of(own > doubt) << shift;
         sides.below |= bits_of(own < minus_doubt) << shift;
+        shift += 4;
+    }
+    return sides;
+}
+
+Sides StarPlanes::far_sides_of(Vec3 p) const {
+    Float4 doubt{};
+    const Lanes3<Float4> at = seen_from_merged(p, doubt);
+    const Float4 minus_doubt = -doubt;
+    Sides sides;
+    int shift = 0;
+    for (const Planes& four : planes_) {
+        const Float4 own = dot(four.own, at);
+        sides.link |= bits_of(dot(four.link, at) < four.link_offset - (four.link_doubt + doubt)) << shift;
+        sides.a |= bits_of(dot(four.a, at) < minus_doubt) << shift;
+        sides.b |= bits_of(dot(four.b, at) < minus_doubt) << shift;
+        sides.above |= bits_of(own < minus_doubt) << shift;
+        sides.below |= bits_of(own > doubt) << shift;
         shift += 4;
     }
     return sides;

@@ -9,19 +9,18 @@
 
 namespace regionmesh {
 
-/// The new faces of a star on whose far side something lies, beyond doubt: a bit for each of up to 32 faces.
+/// The new faces of a star on one side of whose planes something lies, beyond doubt: a bit for each of up to 32 faces.
 struct Sides {
-    std::uint32_t beyond_link = 0;  // of the plane through the link edge, square to the face
-    std::uint32_t beyond_a = 0;     // of the one through the edge from the merged vertex to a
-    std::uint32_t beyond_b = 0;     // and to b
-    std::uint32_t above = 0;        // of the face's own plane, where its normal points
+    std::uint32_t link = 0;   // beyond the plane through the link edge, square to the face
+    std::uint32_t a = 0;      // beyond the one through the edge from the merged vertex to a
+    std::uint32_t b = 0;      // and to b
+    std::uint32_t above = 0;  // the face's own plane, where its normal points
     std::uint32_t below = 0;
 
     friend Sides operator&(const Sides& s, const Sides& t) {
-        return {s.beyond_link & t.beyond_link, s.beyond_a & t.beyond_a, s.beyond_b & t.beyond_b, s.above & t.above,
-                s.below & t.below};
+        return {s.link & t.link, s.a & t.a, s.b & t.b, s.above & t.above, s.below & t.below};
     }
-    std::uint32_t any() const { return beyond_link | beyond_a | beyond_b | above | below; }
+    std::uint32_t any() const { return link | a | b | above | below; }
 };
 
 /// The planes of the new faces, as floats relative to the merged vertex: what they cannot tell beyond their rounding,
@@ -34,6 +33,8 @@ public:
     /// For new faces first .. first + count - 1, count <= kMost, with the normals of set_normals.
     void prepare(const EdgeStar& star, Vec3 position, int first, int count);
     Sides sides_of(Vec3 p) const;
+    /// The sides on which what is beyond is not: before the planes through edges, and the other of the face's own.
+    Sides far_sides_of(Vec3 p) const;
     /// A bit for each face.
     std::uint32_t all() const { return all_; }
 
@@ -41,8 +42,10 @@ private:
     /// Planes of four faces. Each `out` is of size 1, so that one doubt serves for all.
     struct Planes {
         Lanes3<Float4> link, a, b, own;
-        Float4 link_offset;
+        Float4 link_offset, link_doubt;
     };
+
+    Lanes3<Float4> seen_from_merged(Vec3 p, Float4& doubt) const;
 
     Vec3 position_;
     double scale_ = 1;  // of the star's size: its inverse

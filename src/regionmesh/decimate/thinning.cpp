@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "regionmesh/decimate/collapse.h"
+#include "regionmesh/model/strata.h"
 
 namespace regionmesh {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr std::uint8_t kSettled = 255;
 
 /// Vertices with more faces are left to the ranking.
-constexpr int kMostFaces = 12;
+constexpr int kMostFaces = 16;
 
 /// Targets that are tried.
 constexpr std::size_t kAttempts = 2;
@@ -33,8 +34,9 @@ std::uint32_t Thinning::sweep(VerdictCounts& verdicts) {
     ++sweep_;
     std::uint32_t removed = 0;
     for (std::uint32_t v = 0; v < model_.vertex_end(); ++v) {
+        if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress();
         const Vertex& vertex = model_[VertexId{v}];
-        if (!vertex.is_alive || vertex.is_fixed || vertex.label_count != 2) continue;
+        if (!vertex.is_alive || vertex.is_fixed || vertex.label_count > 3) continue;
         if (seen_[v] == kSettled || seen_[v] == sweep_) continue;
         if (try_to_remove(VertexId{v}, verdicts))
             ++removed;
@@ -46,10 +48,9 @@ std::uint32_t Thinning::sweep(VerdictCounts& verdicts) {
 
 bool Thinning::try_to_remove(VertexId v, VerdictCounts& verdicts) {
     find_targets(v);
-    std::sort(targets_.begin(), targets_.end(),
-              [](const Target& a, const Target& b) {
-                  return a.worst_quality3 != b.worst_quality3 ? a.worst_quality3 > b.worst_quality3 : a.vertex < b.vertex;
-              });
+    std::sort(targets_.begin(), targets_.end(), [](const Target& a, const Target& b) {
+        return a.worst_quality3 != b.worst_quality3 ? a.worst_quality3 > b.worst_quality3 : a.vertex < b.vertex;
+    });
     for (std::size_t n = 0; n < std::min(targets_.size(), kAttempts); ++n) {
         const Verdict verdict = examine(v, targets_[n].vertex);
         ++verdicts[static_cast<int>(verdict)];
@@ -60,22 +61,34 @@ bool Thinning::try_to_remove(VertexId v, VerdictCounts& verdicts) {
     return false;
 }
 
-/// Neighbours that the vertex may go to as far as cost, fold and quality tell.
+/// Neighbours that the vertex may go to as far as strata, cost, fold and quality tell.
 void Thinning::find_targets(VertexId v) {
     targets_.clear();
     gather_vertex(model_, v, around_);
     if (around_.face_count() > kMostFaces) return;
     const Quadric own = quadrics_[v].unpack();
-    for (const StarFace& face : around_.faces) {
-        const VertexId target = face.a;
-        if (model_[target].is_fixed || seen_[index(target)] == sweep_) continue;
-        const Quadric other = quadrics_[target].unpack();
-        const double cost = own.at(model_.position(target) - around_.at_goes) + other.c;
-        if (!(cost <= max_cost_)) continue;
-        if (cost > options_.max_error * options_.max_error * (own.weight() + other.weight())) continue;
-        const double quality3 = fan_quality3(around_, target, model_.position(target), bounds_);
-        if (quality3 > 0) targets_.push_back({target, quality3});
+    if (model_[v].label_count == 2) {
+        for (const StarFace& face : around_.faces) add_target(own, face.a);
+        return;
     }
+    ends_.clear();
+    for (const StarFace& face : around_.faces) {
+        for (VertexId end : {face.a, face.b}) {
+            if (model_[end].label_count < 3 || std::find(ends_.begin(), ends_.end(), end) != ends_.end()) continue;
+            ends_.push_back(end);
+            if (edge_labels(model_, v, end).size() == model_[v].label_count) add_target(own, end);
+        }
+    }
+}
+
+void Thinning::add_target(const Quadric& own, VertexId target) {
+    if (model_[target].is_fixed || seen_[index(target)] == sweep_) return;
+    const Quadric other = quadrics_[target].unpack();
+    const double cost = own.at(model_.position(target) - around_.at_goes) + other.c;
+    if (!(cost <= max_cost_)) return;
+    if (cost > options_.max_error * options_.max_error * (own.weight() + other.weight())) return;
+    const double quality3 = fan_quality3(around_, target, model_.position(target), bounds_);
+    if (quality3 > 0) targets_.push_back({target, quality3});
 }
 
 Verdict Thinning::examine(VertexId v, VertexId target) {

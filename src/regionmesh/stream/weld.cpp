@@ -23,6 +23,29 @@ std::vector<BatchVertex> Weld::front() const {
     return vertices;
 }
 
+FaceBatch Weld::take_apart() {
+    FaceBatch batch;
+    std::vector<std::uint32_t> locals(model_.vertex_end());
+    batch.vertices.reserve(model_.vertex_count());
+    for (std::uint32_t v = 0; v < model_.vertex_end(); ++v) {
+        const Vertex& vertex = model_[VertexId{v}];
+        if (!vertex.is_alive) continue;
+        locals[v] = static_cast<std::uint32_t>(batch.vertices.size());
+        batch.vertices.push_back({vertex.position, vertex.sides});
+    }
+    batch.faces.reserve(model_.face_count());
+    for (std::uint32_t f = 0; f < model_.face_end(); ++f) {
+        if (!model_.is_alive(FaceId{f})) continue;
+        const auto& corners = model_[FaceId{f}].vertices;
+        batch.faces.push_back({{locals[index(corners[0])], locals[index(corners[1])], locals[index(corners[2])]},
+                               model_[FaceId{f}].labels});
+    }
+    for (VertexId v : front_) batch.open.push_back(locals[index(v)]);
+    front_.clear();
+    model_ = {};
+    return batch;
+}
+
 void Weld::renumber(const std::vector<VertexId>& new_ids) {
     for (VertexId& v : front_) v = new_ids[index(v)];
 }

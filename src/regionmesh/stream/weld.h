@@ -20,6 +20,9 @@ public:
     /// The vertices that the next batch carries.
     std::vector<BatchVertex> front() const;
 
+    /// The whole model as one batch, which may be added again: its open vertices are the front. Empties the model.
+    FaceBatch take_apart();
+
     /// The vertices of the model have new ids (Model::sort_spatially).
     void renumber(const std::vector<VertexId>& new_ids);
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "regionmesh/decimate/decimate.h"
 #include "regionmesh/tets/face_batch.h"
+#include "regionmesh/tile/decimate_boxes.h"
 #include "regionmesh/volume/lattice.h"
 
 namespace regionmesh {
@@ -24,22 +24,11 @@ struct RunExtent {
     double low, high;
 };
 
-struct TileOptions {
-    double cost_level;          // in units of scale^4: collapses up to this cost
-    double keep_share;          // no tile goes below this share of its faces
-    std::uint32_t threads = 1;  // tiles at work at a time; 0: one per core. The result is the same
-    DecimateOptions decimate;   // quality, perturbation, scale, tests; target, cost and limits are the tile's own
-};
-
-struct TileResult {
-    VerdictCounts verdicts{};
-};
-
 /// Decimates the batch of a whole run in place, tile by tile. Vertices that two tiles share, or that are carried or
 /// open, are fixed, and so are those of faces that reach out of their tile's box; a tile's merged vertices stay
 /// strictly inside its box, so that what two tiles change cannot meet. `carried` are the batch's carried vertices. The
 /// order of tiles, vertices and faces depends on the batch.
-TileResult decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, RunExtent extent,
-                          const TilePlan& plan, const TileOptions& options);
+VerdictCounts decimate_tiles(FaceBatch& batch, std::span<const BatchVertex> carried, RunExtent extent,
+                             const TilePlan& plan, const TileOptions& options);
 
 }  // namespace regionmesh

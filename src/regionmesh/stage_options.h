@@ -1,0 +1,15 @@
+// What a run's options say to its stages.
+#pragma once
+
+#include "regionmesh/decimate/decimate.h"
+#include "regionmesh/pipeline.h"
+#include "regionmesh/volume/lattice.h"
+
+namespace regionmesh {
+
+SmoothOptions smooth_options(const ReconstructOptions& options, const Lattice& lattice);
+
+/// Without target and limits.
+DecimateOptions decimate_options(const ReconstructOptions& options, const Lattice& lattice);
+
+}  // namespace regionmesh
