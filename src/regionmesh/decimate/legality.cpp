@@ -146,11 +146,13 @@ Verdict topology_verdict(const Model& model, const EdgeStar& star) {
 
 Verdict half_topology_verdict(const Model& model, const EdgeStar& star) {
     if (star.faces.empty()) return Verdict::kLink;
+    std::uint64_t near_goes = 0;
+    for (VertexId v : star.link) near_goes |= bit_of(v);
     bool met = true;
     model.for_star(star.stays, [&](FaceId f, int place) {
         const auto& v = model[f].vertices;
         const VertexId x = v[(place + 1) % 3], y = v[(place + 2) % 3];
-        if (x == star.goes || y == star.goes) return;
+        if (x == star.goes || y == star.goes || ((bit_of(x) | bit_of(y)) & near_goes) == 0) return;
         const bool has_x = contains(star.link, x), has_y = contains(star.link, y);
         if ((has_x && !contains(star.apexes, x)) || (has_y && !contains(star.apexes, y))) met = false;
         if (!has_x || !has_y) return;

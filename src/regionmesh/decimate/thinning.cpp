@@ -52,7 +52,7 @@ bool Thinning::try_to_remove(VertexId v, VerdictCounts& verdicts) {
         return a.worst_quality3 != b.worst_quality3 ? a.worst_quality3 > b.worst_quality3 : a.vertex < b.vertex;
     });
     for (std::size_t n = 0; n < std::min(targets_.size(), kAttempts); ++n) {
-        const Verdict verdict = examine(v, targets_[n].vertex);
+        const Verdict verdict = examine(targets_[n].vertex);
         ++verdicts[static_cast<int>(verdict)];
         if (verdict != Verdict::kAccepted) continue;
         collapse(targets_[n].vertex);
@@ -83,16 +83,17 @@ void Thinning::find_targets(VertexId v) {
 
 void Thinning::add_target(const Quadric& own, VertexId target) {
     if (model_[target].is_fixed || seen_[index(target)] == sweep_) return;
-    const Quadric other = quadrics_[target].unpack();
+    const PackedQuadric& other = quadrics_[target];
     const double cost = own.at(model_.position(target) - around_.at_goes) + other.c;
     if (!(cost <= max_cost_)) return;
-    if (cost > options_.max_error * options_.max_error * (own.weight() + other.weight())) return;
+    const double weight = own.weight() + other.xx + other.yy + other.zz;
+    if (cost > options_.max_error * options_.max_error * weight) return;
     const double quality3 = fan_quality3(around_, target, model_.position(target), bounds_);
     if (quality3 > 0) targets_.push_back({target, quality3});
 }
 
-Verdict Thinning::examine(VertexId v, VertexId target) {
-    gather_half(model_, v, target, star_);
+Verdict Thinning::examine(VertexId target) {
+    gather_half(model_, around_.goes, target, star_);
     const Verdict topology = half_topology_verdict(model_, star_);
     if (topology != Verdict::kAccepted) return topology;
     const ShapeResult shape = shape_verdict(star_, star_.at_stays, bounds_);

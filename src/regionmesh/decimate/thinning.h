@@ -35,7 +35,7 @@ private:
     bool try_to_remove(VertexId v, VerdictCounts& verdicts);
     void find_targets(VertexId v);
     void add_target(const Quadric& own, VertexId target);
-    Verdict examine(VertexId v, VertexId target);
+    Verdict examine(VertexId target);
     void collapse(VertexId target);
 
     Model& model_;

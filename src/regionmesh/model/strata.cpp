@@ -34,9 +34,15 @@ LabelSet edge_labels(const Model& model, VertexId u, VertexId v) {
 }
 
 void count_labels(Model& model) {
-    for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
-        if (model.is_alive(VertexId{v}))
-            model[VertexId{v}].label_count = static_cast<std::uint8_t>(vertex_labels(model, VertexId{v}).size());
+    for (std::uint32_t v = 0; v < model.vertex_end(); ++v) {
+        Vertex& vertex = model[VertexId{v}];
+        if (!vertex.is_alive || vertex.star == kNoCorner) continue;
+        const auto& first = model[FaceId{vertex.star >> 2}].labels;
+        bool is_interface = vertex.sides == 0 && first[0] != first[1];  // as most vertices are
+        for (Corner c = vertex.star; c != kNoCorner && is_interface; c = model[FaceId{c >> 2}].next[c & 3])
+            is_interface = model[FaceId{c >> 2}].labels == first;
+        vertex.label_count = is_interface ? 2 : static_cast<std::uint8_t>(vertex_labels(model, VertexId{v}).size());
+    }
 }
 
 }  // namespace regionmesh
