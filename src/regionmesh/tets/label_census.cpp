@@ -25,40 +25,57 @@ std::uint64_t faces_of(unsigned pattern) {
 }  // namespace
 
 LabelCensus::LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions options)
-    : width_(lattice.size[sweep.axes[0]]), height_(lattice.size[sweep.axes[1]]), options_(std::move(options)) {}
+    : width_(lattice.size[sweep.axes[0]]),
+      height_(lattice.size[sweep.axes[1]]),
+      options_(std::move(options)),
+      mixed_(width_ - 1) {}
 
 void LabelCensus::add(std::span<const Label> low, std::span<const Label> high, bool is_last) {
+    const bool is_capped = options_.cap && (is_first_ || is_last);
     for (std::uint32_t j = 0; j < height_; ++j) {
-        for (std::uint32_t i = 0; i < width_; ++i) {
-            const bool has_i = i + 1 < width_, has_j = j + 1 < height_;
-            const std::size_t a = std::size_t{j} * width_ + i;
-            // Beyond the box the node itself stands in; `available` says which steps there are.
-            const std::size_t b = a + (has_i ? 1 : 0), row = has_j ? width_ : 0;
-            const Corners labels{low[a],  low[b],  low[a + row],  low[b + row],
-                                 high[a], high[b], high[a + row], high[b + row]};
-            const Label first = labels[0];
-            Label difference = 0;
-            for (Label label : labels) difference |= label ^ first;
-            const bool is_last_node = !has_i && !has_j;
-            if (difference || is_last_node) {
-                const Step plane = (has_i ? 1 : 0) | (has_j ? 2 : 0);
-                count_node(labels, plane | 4);
-                if (is_last) {
-                    const Corners top{high[a], high[b], high[a + row], high[b + row],
-                                      high[a], high[b], high[a + row], high[b + row]};
-                    count_node(top, plane);
-                }
-            }
-            if (!has_i || !has_j) continue;
-            if (difference) count_cell(labels);
-            if (!options_.cap) continue;
-            unsigned sides = unsigned(i == 0) | unsigned(i + 2 == width_) << 1 | unsigned(j == 0) << 2 |
-                             unsigned(j + 2 == height_) << 3;
-            sides |= unsigned(is_first_) << 4 | unsigned(is_last) << 5;
-            if (sides) count_caps(labels, sides);
+        if (is_capped || j == 0 || j + 2 >= height_ || width_ < 3) {
+            for (std::uint32_t i = 0; i < width_; ++i) look_at(low, high, is_last, i, j);
+            continue;
         }
+        // Inside the row only mixed cells count; its ends lie on sides of the box.
+        const std::size_t row = std::size_t{j} * width_;
+        mixed_.find(&low[row], &low[row + width_], &high[row], &high[row + width_]);
+        look_at(low, high, is_last, 0, j);
+        mixed_.for_each([&](std::uint32_t i) {
+            if (i > 0 && i + 2 < width_) look_at(low, high, is_last, i, j);
+        });
+        for (std::uint32_t i = width_ - 2; i < width_; ++i) look_at(low, high, is_last, i, j);
     }
     is_first_ = false;
+}
+
+/// Node i, j of the low section, and the cell that begins there.
+void LabelCensus::look_at(std::span<const Label> low, std::span<const Label> high, bool is_last, std::uint32_t i,
+                          std::uint32_t j) {
+    const bool has_i = i + 1 < width_, has_j = j + 1 < height_;
+    const std::size_t a = std::size_t{j} * width_ + i;
+    // Beyond the box the node itself stands in; `available` says which steps there are.
+    const std::size_t b = a + (has_i ? 1 : 0), row = has_j ? width_ : 0;
+    const Corners labels{low[a], low[b], low[a + row], low[b + row], high[a], high[b], high[a + row], high[b + row]};
+    Label difference = 0;
+    for (Label label : labels) difference |= label ^ labels[0];
+    const bool is_last_node = !has_i && !has_j;
+    if (difference || is_last_node) {
+        const Step plane = (has_i ? 1 : 0) | (has_j ? 2 : 0);
+        count_node(labels, plane | 4);
+        if (is_last) {
+            const Corners top{high[a], high[b], high[a + row], high[b + row],
+                              high[a], high[b], high[a + row], high[b + row]};
+            count_node(top, plane);
+        }
+    }
+    if (!has_i || !has_j) return;
+    if (difference) count_cell(labels);
+    if (!options_.cap) return;
+    unsigned sides =
+        unsigned(i == 0) | unsigned(i + 2 == width_) << 1 | unsigned(j == 0) << 2 | unsigned(j + 2 == height_) << 3;
+    sides |= unsigned(is_first_) << 4 | unsigned(is_last) << 5;
+    if (sides) count_caps(labels, sides);
 }
 
 /// The simplices whose base node is the cell's first, restricted to the steps that stay in the box.

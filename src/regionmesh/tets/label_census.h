@@ -8,6 +8,7 @@
 
 #include "regionmesh/base/label.h"
 #include "regionmesh/base/label_oracle.h"
+#include "regionmesh/tets/mixed_cells.h"
 #include "regionmesh/tets/strip_mesher.h"
 
 namespace regionmesh {
@@ -29,6 +30,8 @@ public:
 private:
     using Corners = std::array<Label, 8>;
 
+    void look_at(std::span<const Label> low, std::span<const Label> high, bool is_last, std::uint32_t i,
+                 std::uint32_t j);
     void count_cell(const Corners& labels);
     void count_node(const Corners& labels, Step available);
     void count_caps(const Corners& labels, unsigned sides);
@@ -37,6 +40,7 @@ private:
 
     std::uint32_t width_, height_;
     StripOptions options_;
+    MixedCells mixed_;  // of a row of cells
     bool is_first_ = true;
     std::uint64_t faces_ = 0;
     std::uint64_t quadruple_points_ = 0;

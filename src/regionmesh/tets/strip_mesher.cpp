@@ -16,16 +16,6 @@ constexpr int slot_of(int kind) {
     return slot;
 }
 
-/// True for each cell of the row whose eight labels are not all the same. Plain or-ed loops, which compilers vectorise.
-void find_mixed(const Label* a, const Label* b, const Label* c, const Label* d, std::uint32_t cells,
-                std::uint8_t* mixed) {
-    for (std::uint32_t i = 0; i < cells; ++i) {
-        const Label x = a[i];
-        mixed[i] = ((x ^ a[i + 1]) | (x ^ b[i]) | (x ^ b[i + 1]) | (x ^ c[i]) | (x ^ c[i + 1]) | (x ^ d[i]) |
-                    (x ^ d[i + 1])) != 0;
-    }
-}
-
 }  // namespace
 
 StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions options)
@@ -34,12 +24,12 @@ StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions optio
       options_(std::move(options)),
       width_(lattice.size[sweep.axes[0]]),
       height_(lattice.size[sweep.axes[1]]),
-      count_(lattice.size[sweep.axes[2]]) {
+      count_(lattice.size[sweep.axes[2]]),
+      mixed_(width_ - 1) {
     assert(width_ >= 2 && height_ >= 2 && count_ >= 2);
     const std::size_t samples = std::size_t{width_} * height_;
     for (auto& plane : planes_) plane.assign(samples * kPlaneSlots, 0);
     for (auto& row : rows_) row.assign(std::size_t{width_} * kRowSlots, 0);
-    mixed_.resize(width_);
     plan_tetrahedra();
     plan_triangles();
 }
@@ -131,9 +121,8 @@ void StripMesher::mesh(std::span<const Label> low, std::span<const Label> high, 
 void StripMesher::mesh_row(std::uint32_t j) {
     const std::size_t row = std::size_t{j} * width_;
     const std::uint32_t cells = width_ - 1;
-    find_mixed(&low_[row], &low_[row + width_], &high_[row], &high_[row + width_], cells, mixed_.data());
-    for (std::uint32_t i = 0; i < cells; ++i)
-        if (mixed_[i]) mesh_cell(i, j);
+    mixed_.find(&low_[row], &low_[row + width_], &high_[row], &high_[row + width_]);
+    mixed_.for_each([&](std::uint32_t i) { mesh_cell(i, j); });
     if (!options_.cap) return;
     cap_side(0, j, 0);
     cap_side(cells - 1, j, 1);

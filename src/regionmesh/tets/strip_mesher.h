@@ -9,6 +9,7 @@
 #include "regionmesh/base/label.h"
 #include "regionmesh/tets/face_batch.h"
 #include "regionmesh/tets/marching_tetrahedra.h"
+#include "regionmesh/tets/mixed_cells.h"
 #include "regionmesh/volume/lattice.h"
 
 namespace regionmesh {
@@ -80,7 +81,7 @@ private:
     std::vector<std::uint32_t> planes_[2];  // vertex number + 1, 0 for none yet
     std::vector<std::uint32_t> rows_[2];
     std::vector<std::uint32_t> touched_[2];  // places in planes_ that are not 0
-    std::vector<std::uint8_t> mixed_;        // of a row of cells
+    MixedCells mixed_;                       // of a row of cells
 };
 
 }  // namespace regionmesh
