@@ -138,12 +138,8 @@ private:
 
     /// Where the whole star lies in a plane square to an axis, the merged vertex does, to the last bit.
     void keep_level(Vec3& position) const {
-        for (int axis = 0; axis < 3; ++axis) {
-            const double level = star_.at_goes[axis];
-            if (star_.at_stays[axis] == level && star_.link_box.low[axis] == level &&
-                star_.link_box.high[axis] == level)
-                position[axis] = level;
-        }
+        for (int axis = 0; axis < 3; ++axis)
+            if (star_.is_level(axis)) position[axis] = star_.at_goes[axis];
     }
 
     bool is_flat(const EdgeEnds& edge, double cost) const {

@@ -91,6 +91,14 @@ void add_faces_of_goes(const Model& model, EdgeStar& star) {
     });
 }
 
+void gather_faces_of_goes(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
+    start(model, goes, stays, star);
+    star.keeps_stays = true;
+    add_faces_of_goes(model, star);
+    star.is_interface = is_one_interface(model, star);
+    measure(star);
+}
+
 }  // namespace
 
 void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
@@ -108,19 +116,11 @@ void gather(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
 }
 
 void gather_vertex(const Model& model, VertexId goes, EdgeStar& star) {
-    start(model, goes, kNoVertex, star);
-    star.keeps_stays = true;
-    add_faces_of_goes(model, star);
-    star.is_interface = is_one_interface(model, star);
-    measure(star);
+    gather_faces_of_goes(model, goes, kNoVertex, star);
 }
 
 void gather_half(const Model& model, VertexId goes, VertexId stays, EdgeStar& star) {
-    start(model, goes, stays, star);
-    star.keeps_stays = true;
-    add_faces_of_goes(model, star);
-    star.is_interface = is_one_interface(model, star);
-    measure(star);
+    gather_faces_of_goes(model, goes, stays, star);
     gather_link(model, star);
 }
 

@@ -43,6 +43,11 @@ struct EdgeStar {
     Vec3 at_a(int n) const { return pairs[n / 2].a[n % 2]; }
     Vec3 at_b(int n) const { return pairs[n / 2].b[n % 2]; }
     Vec3 at_apex(int n) const { return faces[n].apex == goes ? at_goes : at_stays; }
+    /// The whole star lies in a plane square to the axis, to the last bit.
+    bool is_level(int axis) const {
+        const double level = at_goes[axis];
+        return at_stays[axis] == level && link_box.low[axis] == level && link_box.high[axis] == level;
+    }
     Vec3 new_normal(int n) const { return pairs[n / 2].new_normal[n % 2]; }
     double new_length2(int n) const { return pairs[n / 2].new_length2[n % 2]; }
 };

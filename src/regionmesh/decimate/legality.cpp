@@ -61,6 +61,9 @@ bool is_pinched(Vec3 n, double n_length2, Vec3 m, double m_length2, bool opposit
     return product > 0 && product * product > max_cosine * max_cosine * n_length2 * m_length2;
 }
 
+/// Are these products of vectors above the bounds, which are given squared?
+Mask2 are_above(Double2 products, Double2 bounds2) { return (products > both(0)) & (products * products > bounds2); }
+
 /// All new faces look at most 60 degrees away from one direction: no two of a disk are near to closing.
 bool is_nearly_flat(const EdgeStar& star) {
     Lanes3<Double2> sums{};
@@ -74,8 +77,7 @@ bool is_nearly_flat(const EdgeStar& star) {
     const Lanes3<Double2> direction = both(sum);
     unsigned within = 3;
     for (const StarPair& pair : star.pairs) {
-        const Double2 along = dot(pair.new_normal, direction);
-        within &= bits_of((along > both(0)) & (along * along > bound * pair.new_length2));
+        within &= bits_of(are_above(dot(pair.new_normal, direction), bound * pair.new_length2));
     }
     return within == 3;
 }
@@ -109,8 +111,8 @@ bool folds(const EdgeStar& star, const ShapeBounds& bounds) {
     const Double2 bound = both(bounds.min_turn_cosine * bounds.min_turn_cosine);
     unsigned within = 3;
     for (const StarPair& pair : star.pairs) {
-        const Double2 along = dot(pair.old_normal, pair.new_normal);
-        within &= bits_of((along > both(0)) & (along * along > bound * pair.old_length2 * pair.new_length2));
+        within &=
+            bits_of(are_above(dot(pair.old_normal, pair.new_normal), bound * pair.old_length2 * pair.new_length2));
     }
     return within != 3;
 }
@@ -191,10 +193,10 @@ double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, con
     for (int first = 0; first < around.face_count(); first += 2) {
         const StarPair& pair = around.pairs[first / 2];
         const Lanes3<Double2> to_a = pair.a - merged, to_b = pair.b - merged, normal = cross(to_a, to_b);
-        const Double2 normal2 = dot(normal, normal), along = dot(pair.old_normal, normal);
+        const Double2 normal2 = dot(normal, normal);
         const Double2 own3 = quality3(pair, to_a, to_b, normal2);
         const unsigned good =
-            bits_of((along > both(0)) & (along * along > turn * pair.old_length2 * normal2) & (own3 >= bound3));
+            bits_of(are_above(dot(pair.old_normal, normal), turn * pair.old_length2 * normal2) & (own3 >= bound3));
         for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
             const StarFace& face = around.faces[first + lane];
             if (face.a == target || face.b == target) continue;  // vanishes

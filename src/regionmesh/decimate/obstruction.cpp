@@ -64,37 +64,37 @@ private:
     bool is_sure_;
 };
 
-/// Are these multiples of 1/64 and less than 64? Products of three of them are exact.
-bool are_short(const Lanes3<Double2>& p) {
+/// Are these multiples of 1/64, and less than 2^45? Their differences are exact.
+bool are_of_few_digits(const Lanes3<Double2>& p) {
     // Adding 1.5 * 2^46 leaves no digits beyond 1/64.
-    const Double2 round = both(0x1.8p46), most = both(64), zero = both(0);
+    const Double2 round = both(0x1.8p46), most = both(0x1p45), zero = both(0);
     unsigned ok = 3;
     for (Double2 x : {p.x, p.y, p.z}) ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
     return ok == 3;
 }
 
-/// Do all corners lie in one plane, exactly? Told only where the coordinates have few digits, as those of samples do.
+/// Do all corners lie in one plane, exactly? Told only where the coordinates have few digits, as those of samples do,
+/// and lie less than 64 apart: products of three differences are exact then.
 bool is_in_one_plane(const EdgeStar& star) {
     const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
-    for (const StarPair& pair : star.pairs) {
-        const Lanes3<Double2> a = pair.a - origin, b = pair.b - origin;
-        if (!are_short(a) || !are_short(b)) return false;
-        if (bits_of((dot(normal, a) == both(0)) & (dot(normal, b) == both(0))) != 3) return false;
-    }
-    const Lanes3<Double2> stays = both(star.at_stays - star.at_goes);
-    return are_short(stays) && bits_of(dot(normal, stays) == both(0)) == 3;
+    const auto is_in_plane = [&](const Lanes3<Double2>& p) {
+        const Lanes3<Double2> step = p - origin;
+        const Double2 most = both(64), zero = both(0);
+        unsigned is_near = 3;
+        for (Double2 x : {step.x, step.y, step.z}) is_near &= bits_of(greatest(x, zero - x) < most);
+        return is_near == 3 && are_of_few_digits(p) && bits_of(dot(normal, step) == zero) == 3;
+    };
+    return are_of_few_digits(origin) && is_in_plane(both(star.at_stays)) &&
+           std::all_of(star.pairs.begin(), star.pairs.end(),
+                       [&](const StarPair& pair) { return is_in_plane(pair.a) && is_in_plane(pair.b); });
 }
 
 /// All faces of the star lie in one plane, exactly, and stay there: an interface or a side of the box. Since none
 /// folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
 bool is_flat(const EdgeStar& star, Vec3 position) {
     if (!star.is_interface) return false;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double level = position[axis];
-        if (star.at_goes[axis] == level && star.at_stays[axis] == level && star.link_box.low[axis] == level &&
-            star.link_box.high[axis] == level)
-            return true;
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        if (star.is_level(axis) && position[axis] == star.at_goes[axis]) return true;
     return star.keeps_stays && is_in_one_plane(star);
 }
 
@@ -172,8 +172,6 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
     Place& stays = place_of(model, star.stays, 0);
     goes.is_of_star = 1;
     stays.is_of_star = !star.keeps_stays;
-    apex_ = {};
-    const Sides goes_far = planes_.far_sides_of(star.at_goes), stays_far = planes_.far_sides_of(star.at_stays);
     std::uint32_t at_goes = 0;
     for (int n = 0; n < count; ++n) {
         const StarFace& face = star.faces[first + n];
@@ -181,10 +179,7 @@ void Obstruction::prepare(const Model& model, const EdgeStar& star, int first) {
         place_of(model, face.a, 0).as_a |= 1u << n;
         place_of(model, face.b, 0).as_b |= 1u << n;
     }
-    apex_ = goes_far & Sides{at_goes, at_goes, at_goes, at_goes, at_goes};
-    const Sides from_stays = stays_far & Sides{~at_goes, ~at_goes, ~at_goes, ~at_goes, ~at_goes};
-    apex_ = {apex_.link | from_stays.link, apex_.a | from_stays.a, apex_.b | from_stays.b,
-             apex_.above | from_stays.above, apex_.below | from_stays.below};
+    apex_ = planes_.far_sides_of(star.at_goes).of(at_goes) | planes_.far_sides_of(star.at_stays).of(~at_goes);
     for (VertexId v : star.link) {
         Place& place = place_of(model, v, 0);
         const std::uint32_t own = place.as_a | place.as_b;

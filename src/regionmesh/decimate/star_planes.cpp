@@ -64,22 +64,18 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
     }
 }
 
-Lanes3<Float4> StarPlanes::seen_from_merged(Vec3 p, Float4& doubt) const {
-    const Vec3 step = scale_ * (p - position_);
+/// What lies before a plane lies beyond the same plane seen from the other side, where all signs are turned.
+template <bool kIsFar>
+Sides StarPlanes::find_sides(Vec3 p) const {
+    const Vec3 step = (kIsFar ? -scale_ : scale_) * (p - position_);
     const float x = static_cast<float>(step.x), y = static_cast<float>(step.y), z = static_cast<float>(step.z);
-    doubt = all_four(kDoubt * (std::abs(x) + std::abs(y) + std::abs(z)) + kLeast);
-    return {all_four(x), all_four(y), all_four(z)};
-}
-
-Sides StarPlanes::sides_of(Vec3 p) const {
-    Float4 doubt{};
-    const Lanes3<Float4> at = seen_from_merged(p, doubt);
-    const Float4 minus_doubt = -doubt;
+    const Lanes3<Float4> at{all_four(x), all_four(y), all_four(z)};
+    const Float4 doubt = all_four(kDoubt * (std::abs(x) + std::abs(y) + std::abs(z)) + kLeast), minus_doubt = -doubt;
     Sides sides;
     int shift = 0;
     for (const Planes& four : planes_) {
-        const Float4 own = dot(four.own, at);
-        sides.link |= bits_of(dot(four.link, at) > four.link_offset + (four.link_doubt + doubt)) << shift;
+        const Float4 own = dot(four.own, at), offset = kIsFar ? -four.link_offset : four.link_offset;
+        sides.link |= bits_of(dot(four.link, at) > offset + (four.link_doubt + doubt)) << shift;
         sides.a |= bits_of(dot(four.a, at) > doubt) << shift;
         sides.b |= bits_of(dot(four.b, at) > doubt) << shift;
         sides.above |= bits_of(own > doubt) << shift;
@@ -89,22 +85,7 @@ Sides StarPlanes::sides_of(Vec3 p) const {
     return sides;
 }
 
-Sides StarPlanes::far_sides_of(Vec3 p) const {
-    Float4 doubt{};
-    const Lanes3<Float4> at = seen_from_merged(p, doubt);
-    const Float4 minus_doubt = -doubt;
-    Sides sides;
-    int shift = 0;
-    for (const Planes& four : planes_) {
-        const Float4 own = dot(four.own, at);
-        sides.link |= bits_of(dot(four.link, at) < four.link_offset - (four.link_doubt + doubt)) << shift;
-        sides.a |= bits_of(dot(four.a, at) < minus_doubt) << shift;
-        sides.b |= bits_of(dot(four.b, at) < minus_doubt) << shift;
-        sides.above |= bits_of(own < minus_doubt) << shift;
-        sides.below |= bits_of(own > doubt) << shift;
-        shift += 4;
-    }
-    return sides;
-}
+template Sides StarPlanes::find_sides<false>(Vec3 p) const;
+template Sides StarPlanes::find_sides<true>(Vec3 p) const;
 
 }  // namespace regionmesh

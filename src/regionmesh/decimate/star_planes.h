@@ -1,7 +1,6 @@
 // On which side of the planes of a new star does a point lie?
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +19,11 @@ struct Sides {
     friend Sides operator&(const Sides& s, const Sides& t) {
         return {s.link & t.link, s.a & t.a, s.b & t.b, s.above & t.above, s.below & t.below};
     }
+    friend Sides operator|(const Sides& s, const Sides& t) {
+        return {s.link | t.link, s.a | t.a, s.b | t.b, s.above | t.above, s.below | t.below};
+    }
+    /// For these faces only.
+    Sides of(std::uint32_t faces) const { return *this & Sides{faces, faces, faces, faces, faces}; }
     std::uint32_t any() const { return link | a | b | above | below; }
 };
 
@@ -32,9 +36,9 @@ public:
 
     /// For new faces first .. first + count - 1, count <= kMost, with the normals of set_normals.
     void prepare(const EdgeStar& star, Vec3 position, int first, int count);
-    Sides sides_of(Vec3 p) const;
+    Sides sides_of(Vec3 p) const { return find_sides<false>(p); }
     /// The sides on which what is beyond is not: before the planes through edges, and the other of the face's own.
-    Sides far_sides_of(Vec3 p) const;
+    Sides far_sides_of(Vec3 p) const { return find_sides<true>(p); }
     /// A bit for each face.
     std::uint32_t all() const { return all_; }
 
@@ -45,7 +49,8 @@ private:
         Float4 link_offset, link_doubt;
     };
 
-    Lanes3<Float4> seen_from_merged(Vec3 p, Float4& doubt) const;
+    template <bool kIsFar>
+    Sides find_sides(Vec3 p) const;
 
     Vec3 position_;
     double scale_ = 1;  // of the star's size: its inverse

@@ -13,9 +13,7 @@ namespace regionmesh {
 /// A tree of boxes over the faces in order of id, which should be a spatial order (Model::sort_spatially).
 class FaceTree {
 public:
-    static constexpr std::uint32_t kFan = GridTree::kFan;
     using GridBox = GridTree::GridBox;
-    using Boxes = GridTree::Boxes;
 
     explicit FaceTree(const Model& model) { build(model); }
     /// Over the boxes given, for faces numbered as they are.
@@ -23,9 +21,6 @@ public:
 
     /// Begins again with the faces that are alive now; the old boxes are let go first.
     void build(const Model& model);
-
-    /// The smallest box of the grid round `box`, and a little more.
-    GridBox outward(const Box& box) const { return boxes_.outward(box); }
 
     /// Face f now lies in `box`. The boxes above it grow, and never shrink.
     void set(FaceId f, const Box& box) { boxes_.set(index(f), box); }
