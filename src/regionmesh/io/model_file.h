@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "regionmesh/model/model.h"
+#include "regionmesh/volume/label_names.h"
 #include "regionmesh/volume/label_table.h"
 
 namespace regionmesh {
@@ -21,6 +22,7 @@ struct PointArray {
 struct WriteOptions {
     std::vector<Label> background = {};         // written second in a pair, as the exterior is
     std::vector<PointArray> point_arrays = {};  // .vtp only: Float64
+    LabelNames names = {};                      // of regions, in formats that can hold them
 };
 
 /// Writes the living vertices and faces, numbered densely in order of id. First under a temporary name beside `path`,
@@ -50,6 +52,7 @@ void require_writable_model(const std::filesystem::path& path, bool with_point_a
 struct ModelFile {
     Model model;
     LabelTable labels;
+    LabelNames names = {};  // that the file gives to labels
 };
 
 /// Reads what write_model writes, and VTP files of other programs: one piece, triangles only, a cell array

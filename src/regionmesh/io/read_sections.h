@@ -20,6 +20,7 @@ struct ReadOptions {
     std::optional<Vec3> spacing = {};        // instead of the file's own
     std::optional<std::array<std::uint32_t, 3>> raw_size = {};  // raw files: samples along x, y, z
     std::optional<SampleType> raw_type = {};                    // raw files: little-endian samples
+    std::optional<std::uint32_t> layer = {};                    // of a file that holds several, counted from 0
 };
 
 /// Opens one volume file, one directory of sections, or a list of section files in the order given.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "regionmesh/base/label.h"
+#include "regionmesh/volume/label_names.h"
 #include "regionmesh/volume/lattice.h"
 
 namespace regionmesh {
@@ -24,6 +25,7 @@ struct VolumeInfo {
     bool can_rewind = true;                             // sections can be read again from the start
     std::uint64_t held_bytes = 0;                       // that reading ahead takes; 0: about a section
     std::array<bool, 3> can_sweep{false, false, true};  // along which axes this file can be read section by section
+    LabelNames names = {};                              // that the file, or one beside it, gives to labels
 };
 
 /// Pull interface of every format. Reads ahead a bounded number of sections, never the whole volume.
