@@ -299,9 +299,7 @@ void Run::bring_to_target() {
     raise_to(target, HUGE_VAL);
     result_.model.sort_spatially();
     decimate_to(target, true);
-    result_.report.stopped = stopped_ == StopReason::kTarget     ? "target"
-                             : stopped_ == StopReason::kMaxError ? "max_error"
-                                                                 : "topology";
+    result_.report.stopped = to_string(stopped_);
 }
 
 /// Gives the regions the volumes that they had before smoothing and decimation.
