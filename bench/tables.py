@@ -1,21 +1,26 @@
 """Prints tables, aligned; as markdown they are the same with bars."""
 import statistics
+import sys
 
 from race import ratios
 
 
 class Printer:
-    def __init__(self, markdown):
+    def __init__(self, markdown, file=sys.stdout):
         self.markdown = markdown
+        self.file = file
+
+    def line(self, text=""):
+        print(text, file=self.file, flush=True)
 
     def title(self, text):
-        print(f"# {text}\n" if self.markdown else f"{text}\n", flush=True)
+        self.line(f"# {text}\n" if self.markdown else f"{text}\n")
 
     def heading(self, text):
-        print(f"## {text}\n" if self.markdown else text, flush=True)
+        self.line(f"## {text}\n" if self.markdown else text)
 
     def paragraph(self, text):
-        print(f"{text}\n", flush=True)
+        self.line(f"{text}\n")
 
     def table(self, rows):
         """The first row is the head. Columns of words are aligned to the left: those whose head starts with a capital."""
@@ -26,8 +31,8 @@ class Printer:
         if self.markdown:
             aligned.insert(1, ["-" * width if words else "-" * (width - 1) + ":" for width, words in zip(widths, is_words)])
         for row in aligned:
-            print(f"| {' | '.join(row)} |" if self.markdown else "  ".join(row).rstrip())
-        print(flush=True)
+            self.line(f"| {' | '.join(row)} |" if self.markdown else "  ".join(row).rstrip())
+        self.line()
 
 
 LANE_HEAD = ("Case", "Program", "faces", "final", "seconds", "us/face", "peak MB")

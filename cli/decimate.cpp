@@ -4,12 +4,13 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "regionmesh/base/process.h"
 
 namespace regionmesh::cli {
 namespace {
 
 struct Arguments {
-    std::string model, output;
+    std::string model, output, report;
     std::string target_faces, reduce, max_error, min_quality = "0.1", perturbation = "1e-7";
     bool no_intersect_check = false, quiet = false;
     InputOptions input;
@@ -31,10 +32,31 @@ DecimateOptions to_options(const Arguments& arguments, const Model& model) {
     return options;
 }
 
+/// Decimates; what was done, as reconstruct reports it.
+Report decimated(Model& model, const DecimateOptions& options) {
+    Report report;
+    report.initial_faces = report.peak_faces = model.face_count();
+    report.initial_vertices = model.vertex_count();
+    {
+        const Timer timer(report.seconds["decimate"]);
+        model.sort_spatially();
+        const std::size_t model_bytes = model.bytes();
+        const DecimateResult done = decimate(model, options);
+        report.verdicts = done.verdicts;
+        report.refreshes = done.refreshes;
+        report.stopped = to_string(done.stopped);
+        report.bytes_per_face = static_cast<double>(model_bytes + done.bytes) / report.peak_faces;
+    }
+    report.final_faces = model.face_count();
+    report.final_vertices = model.vertex_count();
+    return report;
+}
+
 int decimate_command(const Arguments& arguments) {
     if (arguments.target_faces.empty() && arguments.reduce.empty() && arguments.max_error.empty())
         throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
     require_writable_model(arguments.output);
+    if (!arguments.report.empty()) require_writable(arguments.report);
     ModelFile file = read_model(arguments.model);
     const CheckOptions check_options = arguments.input.check_options(file.labels);
     const CheckReport before = check(file.model, check_options);
@@ -42,19 +64,17 @@ int decimate_command(const Arguments& arguments) {
         throw Error(ErrorCode::kInput,
                     fmt::format("{}: {} violations; only a sound model can be decimated soundly: see regionmesh check",
                                 arguments.model, before.violation_count()));
-    const std::uint32_t initial = file.model.face_count();
-    const DecimateOptions options = to_options(arguments, file.model);
-    file.model.sort_spatially();
-    const DecimateResult done = decimate(file.model, options);
-    const CheckReport after = check(file.model, check_options);
+    Report report = decimated(file.model, to_options(arguments, file.model));
+    report.check = check(file.model, check_options);
     write_model(file.model, file.labels, arguments.output, {.background = check_options.background});
+    report.peak_bytes = peak_resident_bytes();
+    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels));
     if (!arguments.quiet) {
         fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output,
-                   file.model.face_count(), initial, after.quality.min, after.violation_count());
-        if (done.stopped == StopReason::kTopology)
-            fmt::print("stopped before the target: no further edge can be collapsed\n");
+                   report.final_faces, report.initial_faces, report.check.quality.min, report.check.violation_count());
+        if (report.stopped == "topology") fmt::print("stopped before the target: no further edge can be collapsed\n");
     }
-    return after.violation_count() == 0 ? 0 : 3;
+    return report.check.violation_count() == 0 ? 0 : 3;
 }
 
 }  // namespace
@@ -72,6 +92,7 @@ void add_decimate(CLI::App& app, Action& action) {
     command->add_option("--min-quality", arguments->min_quality, "least quality of a face that decimation makes");
     command->add_option("--perturbation", arguments->perturbation, "largest cost added to tell equal edges apart");
     command->add_flag("--no-intersect-check", arguments->no_intersect_check, "let faces cross; faster");
+    command->add_option("--report", arguments->report, "JSON report to write");
     command->add_flag("--quiet", arguments->quiet, "no summary");
     command->callback([arguments, &action] { action = [arguments] { return decimate_command(*arguments); }; });
 }

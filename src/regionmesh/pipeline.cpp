@@ -212,10 +212,11 @@ void Run::end_run() {
 /// First stage: in tiles, up to the cost level, and never below what the target will leave.
 void Run::decimate_run() {
     const double share = target_.share();
-    if (share * kTileMargin >= 1) return;
+    if (share * kFreeMargin >= 1) return;
     const Timer timer(seconds("decimate tiles"));
     TileOptions tile_options{.cost_level = kTileCostLevel,
-                             .keep_share = share * kTileMargin,
+                             .keep_share = std::min(share * kTileMargin, 1.0),
+                             .free_share = share > kFreeFrom ? share * kFreeMargin : 1,
                              .threads = options_.threads,
                              .in_flight = memory_.in_flight,
                              .decimate = decimate_options()};
@@ -299,9 +300,7 @@ void Run::bring_to_target() {
     raise_to(target, HUGE_VAL);
     result_.model.sort_spatially();
     decimate_to(target, true);
-    result_.report.stopped = stopped_ == StopReason::kTarget     ? "target"
-                             : stopped_ == StopReason::kMaxError ? "max_error"
-                                                                 : "topology";
+    result_.report.stopped = to_string(stopped_);
 }
 
 /// Gives the regions the volumes that they had before smoothing and decimation.

@@ -8,8 +8,9 @@
 
 namespace regionmesh {
 
-/// A tile keeps so many times the share of faces that the target leaves.
-inline constexpr double kTileMargin = 1.25;
+/// A tile keeps so many times the share of faces that the target leaves; of what costs nothing less, where the target
+/// leaves more than the last share.
+inline constexpr double kTileMargin = 1.25, kFreeMargin = 1.02, kFreeFrom = 0.45;
 
 struct Target {
     std::optional<std::uint64_t> faces;  // at most so many

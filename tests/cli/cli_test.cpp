@@ -112,6 +112,17 @@ TEST_F(Cli, every_smoothing_option_leads_to_a_sound_model_of_its_own) {
     }
 }
 
+TEST_F(Cli, the_report_of_decimate_says_what_became_of_the_edges) {
+    ASSERT_EQ(run("reconstruct " + volume() + "-o " + out("full.ply") + " --no-decimate").code, 0);
+    ASSERT_EQ(run("decimate " + out("full.ply") + " -o " + out("half.ply") + " --reduce 50% --report " + out("r.json")).code, 0);
+    const std::string report = text_of(out("r.json"));
+    EXPECT_THAT(report, HasSubstr("\"stopped\": \"target\""));
+    EXPECT_THAT(report, HasSubstr("\"decimate\": "));
+    EXPECT_THAT(report, Not(HasSubstr("\"accepted\": 0,")));
+    EXPECT_EQ(run("decimate " + out("full.ply") + " -o " + out("half2.ply") + " --reduce 50% --report /no/such/r.json").code, 1);
+    EXPECT_EQ(files_left(), 3) << "a report that cannot be written is found out before the work";
+}
+
 TEST_F(Cli, the_report_says_what_smoothing_did) {
     EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("m.vtp") + " --report " + out("r.json")).code, 0);
     for (const char* said : {"\"smoothing\"", "\"vertices\"", "\"turned_faces\"", "\"crossing_pairs\"", "\"stepped_back\"", "\"rms_displacement\"", "\"smooth\""})

@@ -28,6 +28,11 @@ struct DecimateOptions {
 
 enum class StopReason { kTarget, kMaxError, kTopology };
 
+/// As reports have it: "target", "max_error", "topology".
+constexpr const char* to_string(StopReason reason) {
+    return reason == StopReason::kTarget ? "target" : reason == StopReason::kMaxError ? "max_error" : "topology";
+}
+
 struct DecimateResult {
     VerdictCounts verdicts{};     // strata: edges that cannot be candidates, counted once a refresh
     std::uint32_t refreshes = 0;  // times that the candidates were gathered after the first

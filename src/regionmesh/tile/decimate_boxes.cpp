@@ -9,18 +9,26 @@
 namespace regionmesh {
 namespace {
 
-DecimateOptions options_for(const TileOptions& options, std::uint32_t face_count, const Box& limits) {
-    DecimateOptions own = options.decimate;
-    own.target_faces = static_cast<std::uint32_t>(std::ceil(options.keep_share * face_count));
-    own.max_cost = options.cost_level * std::pow(own.scale, 4);
-    own.refresh = false;
-    own.limits = limits;
-    return own;
-}
+/// What costs less, in units of scale^4, costs nothing.
+constexpr double kFreeLevel = 1e-6;
 
+/// First what costs nothing, where it may go further than the rest.
 DecimateResult decimate_tile(Tile& tile, BoxedFaces& faces, std::uint32_t box, const TileOptions& options) {
     tile.take_out(faces, box);
-    DecimateResult done = tile.decimate(options_for(options, tile.face_count(), faces.grid().limits(box)));
+    Model& model = tile.model();
+    DecimateOptions own = options.decimate;
+    own.refresh = false;
+    own.limits = faces.grid().limits(box);
+    const std::uint32_t face_count = model.face_count();
+    const auto decimate_to = [&](double share, double level) {
+        own.target_faces = static_cast<std::uint32_t>(std::ceil(share * face_count));
+        own.max_cost = level * std::pow(own.scale, 4);
+        return model.face_count() > own.target_faces ? decimate(model, own) : DecimateResult{};
+    };
+    DecimateResult done;
+    if (options.free_share < options.keep_share) done = decimate_to(options.free_share, kFreeLevel);
+    const DecimateResult more = decimate_to(options.keep_share, options.cost_level);
+    for (int n = 0; n < kVerdictCount; ++n) done.verdicts[n] += more.verdicts[n];
     tile.note_left(faces, box);
     return done;
 }

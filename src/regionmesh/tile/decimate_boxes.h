@@ -15,7 +15,8 @@ inline constexpr std::uint32_t kTilesInFlight = 16;
 
 struct TileOptions {
     double cost_level;                         // in units of scale^4: collapses up to this cost
-    double keep_share;                         // no tile goes below this share of its faces
+    double keep_share;                         // no tile goes below this share of its faces,
+    double free_share = 1;                     // but by what costs nothing, down to this one where it is less
     std::uint32_t threads = 1;                 // tiles at work at a time; 0: one per core. The result is the same
     std::uint32_t in_flight = kTilesInFlight;  // tiles out of the batch at a time, likewise
     DecimateOptions decimate;  // quality, perturbation, scale, tests; target, cost and limits are the tile's own

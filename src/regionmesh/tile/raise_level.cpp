@@ -21,6 +21,7 @@ constexpr std::uint32_t kFewestBoxes = 6, kPartInFlight = 6;
 constexpr std::uint32_t kSampled = 8;
 constexpr int kMostTries = 3;
 constexpr double kNearEnough = 0.03;
+constexpr double kMuchLower = 4;
 
 /// A pass that went below the goal all the same is made again with a lower level and a larger least share; so
 /// often at most, and up to so much more than the share.
@@ -89,11 +90,16 @@ public:
     double find(double share, double level) {
         for (int n = 0; n < kMostTries; ++n) {
             const double left = left_at(level);
+            goes_free_ =
+                n > 0 && left < share && level * kMuchLower < seen_level_ && left < seen_left_ * (1 + kNearEnough);
             level = next(level, left, share);
-            if (std::abs(left / share - 1) < kNearEnough) break;
+            if (goes_free_ || std::abs(left / share - 1) < kNearEnough) break;
         }
         return level;
     }
+
+    /// Whether a much lower level left no more, and both too few: what goes costs nothing, and no level will do.
+    bool goes_free() const { return goes_free_; }
 
     /// The level to take after one that has left so much.
     double next(double level, double left, double share) {
@@ -119,6 +125,7 @@ private:
     std::vector<std::uint32_t> boxes_;
     TileOptions options_;
     double power_ = kPower, seen_level_ = 0, seen_left_ = 0;
+    bool goes_free_ = false;
 };
 
 /// One pass: the level found, and what is left then; nothing where all levels go too far.
@@ -128,6 +135,7 @@ std::optional<TileResult> raise_once(BoxedFaces& faces, TileOptions options, dou
     LevelSearch search(faces, options);
     double share = goal * kAbove / held;
     if (goal > 0) level = search.find(share, level);
+    if (search.goes_free()) options.keep_share = share;  // it may go from one box as well as from another
     for (int n = 0; n < kMostAttempts; ++n) {
         options.cost_level = level;
         TileResult done = decimate_boxes(faces, options);

@@ -53,6 +53,7 @@ void Tile::take_out(BoxedFaces& faces, std::uint32_t box) {
     rim_.clear();
     for (std::uint32_t f : own) put_in(faces, f);
     for (const KeyedIndex& obstacle : obstacles) put_in(faces, obstacle.index);
+    sorted_ = model_.sort_spatially();
 }
 
 void Tile::put_in(BoxedFaces& faces, std::uint32_t f) {
@@ -71,11 +72,6 @@ void Tile::put_in(BoxedFaces& faces, std::uint32_t f) {
         corner[c] = VertexId{place};
     }
     model_.add_face(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]);
-}
-
-DecimateResult Tile::decimate(const DecimateOptions& options) {
-    sorted_ = model_.sort_spatially();
-    return regionmesh::decimate(model_, options);
 }
 
 /// Faces all of rim vertices have not changed, and may be in several tiles: those of the box itself count.

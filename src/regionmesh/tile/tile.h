@@ -30,13 +30,13 @@ class Tile {
 public:
     /// Takes the box's faces and its obstacles. Threads may do so for different boxes at the same time.
     void take_out(BoxedFaces& faces, std::uint32_t box);
-    DecimateResult decimate(const DecimateOptions& options);
+    /// The faces taken out, along a curve, and the vertices that they share; rim is fixed.
+    Model& model() { return model_; }
     /// Notes what is left of the box's own faces. The box may then be taken out again.
     void note_left(BoxedFaces& faces, std::uint32_t box);
     /// Appends it: corners that are rim have their numbers already.
     void put_back(FaceBatch& made) const;
 
-    std::uint32_t face_count() const { return model_.face_count(); }
     std::size_t left_faces() const { return left_faces_.size(); }
     /// Vertices that are not rim: as taken out, and those left.
     std::size_t inside_count() const { return inside_count_; }
