@@ -1,6 +1,7 @@
 // The INRIMAGE-4 format of INRIA, which CGAL reads: a text header, most often of 256 bytes, then bare samples.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -50,7 +51,7 @@ public:
     }
     double real(std::string_view key, std::string_view otherwise) const {
         const auto number = parse_real(text(key, otherwise));
-        if (!number) refuse(key, "a number is needed");
+        if (!number || std::isnan(*number)) refuse(key, "a number is needed");
         return *number;
     }
     [[noreturn]] void refuse(std::string_view key, const std::string& wanted) const {

@@ -17,7 +17,7 @@ namespace regionmesh::io {
 namespace {
 
 constexpr std::size_t kMostTagBytes = std::size_t{4} << 20;  // of all tags together
-constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
+constexpr std::size_t kChunkBytes = std::size_t{64} << 10;
 
 constexpr std::array<std::pair<std::string_view, SampleType>, 8> kTypes{{{"Int8", SampleType::kI8},
                                                                          {"UInt8", SampleType::kU8},
