@@ -184,7 +184,7 @@ void place_in_space(const InputFile& file, pugi::xml_node image, pugi::xml_node 
     std::array<std::uint64_t, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         constexpr std::int64_t kMost = std::int64_t{1} << 40;
-        if (extent.size() != 6 || std::abs(extent[2 * axis]) > kMost || std::abs(extent[2 * axis + 1]) > kMost ||
+        if (extent.size() != 6 || extent[2 * axis] < -kMost || extent[2 * axis + 1] > kMost ||
             extent[2 * axis + 1] < extent[2 * axis])
             fail(file.path(), fmt::format("Extent is '{}': first and last index on each axis are needed", shown(text)));
         const std::int64_t low = extent[2 * axis], parts = extent[2 * axis + 1] - low;
