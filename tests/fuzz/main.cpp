@@ -102,6 +102,7 @@ void fuzz(const Format& format, const Arguments& arguments) {
         const std::size_t index = random.below(seeds.texts.size());
         const std::string text = mutate(seeds.texts, index, random);
         const fs::path path = work / ("mutant" + seeds.extensions[index]);
+        fs::remove(path);  // writing over a file may wait for the disk
         std::ofstream(path, std::ios::binary) << text;
         const std::string again = std::string(path) + ": again with --seed " + std::to_string(arguments.seed) +
                                   " --from " + std::to_string(number) + " --count 1 " + format.name;
