@@ -7,7 +7,7 @@
 namespace regionmesh::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, FileType>, 27> kTypes{{
+constexpr std::array<std::pair<const char*, FileType>, 34> kTypes{{
     {".npy", FileType::kNpy},          {".nii", FileType::kNifti},        {".nii.gz", FileType::kNifti},
     {".raw", FileType::kRaw},          {".png", FileType::kPng},          {".tif", FileType::kTiff},
     {".tiff", FileType::kTiff},        {".hdr", FileType::kNiftiPair},    {".img", FileType::kNiftiPair},
@@ -17,6 +17,9 @@ constexpr std::array<std::pair<const char*, FileType>, 27> kTypes{{
     {".pnm", FileType::kOtherImage},   {".ppm", FileType::kOtherImage},   {".tga", FileType::kOtherImage},
     {".webp", FileType::kOtherImage},  {".dcm", FileType::kOtherImage},   {".exr", FileType::kOtherImage},
     {".pcx", FileType::kOtherImage},   {".pam", FileType::kOtherImage},   {".avif", FileType::kOtherImage},
+    {".nrrd", FileType::kNrrd},        {".nhdr", FileType::kNrrd},        {".mha", FileType::kMetaImage},
+    {".mhd", FileType::kMetaImage},    {".vti", FileType::kVti},          {".inr", FileType::kInr},
+    {".inr.gz", FileType::kInr},
 }};
 
 }  // namespace
