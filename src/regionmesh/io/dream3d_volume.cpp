@@ -83,6 +83,7 @@ Hdf5Entry choose_array(const std::filesystem::path& file, const std::string& sou
 
 /// Cells along x, y, z, which the array must have, too: as axes z, y, x or as one, with or without one for components.
 Hdf5Volume volume_of(const std::string& source, const Hdf5Entry& array, const ImageGeometry& geometry) {
+    require_labels(source, array);
     std::array<std::uint64_t, 3> size{};
     for (int axis = 0; axis < 3; ++axis) {
         const double cells = geometry.dimensions[axis];

@@ -107,20 +107,6 @@ private:
     std::uint64_t bytes_;
 };
 
-void require_readable(const Hdf5Volume& volume) {
-    const Hdf5Entry& dataset = volume.dataset;
-    if (!dataset.obstacle.empty())
-        fail(volume.source, dataset.path + ": " + dataset.obstacle + "; write it again with gzip or uncompressed");
-    if (!dataset.sample_type)
-        fail(volume.source, dataset.path + ": samples are " + dataset.type + "; labels must be integers");
-    std::uint64_t bytes = sample_bytes(*dataset.sample_type);
-    for (const std::uint64_t size : dataset.chunk) {
-        if (size == 0 || bytes > kMaxChunkBytes / size)
-            fail(volume.source, dataset.path + ": a chunk holds more than a GiB; store it in smaller ones (h5repack)");
-        bytes *= size;
-    }
-}
-
 /// What is best read together. Samples without chunks lie in the order of the array: single sections along its slowest
 /// axis, runs of them along the others.
 Triple reading_chunk(const Hdf5Volume& volume, const ArrayAxes& axes, const std::array<std::uint32_t, 3>& size) {
@@ -160,9 +146,21 @@ std::string list_datasets(const std::filesystem::path& file, const std::vector<H
     return text;
 }
 
+void require_labels(const std::string& source, const Hdf5Entry& dataset) {
+    if (!dataset.obstacle.empty())
+        fail(source, dataset.path + ": " + dataset.obstacle + "; write it again with gzip or uncompressed");
+    if (!dataset.sample_type)
+        fail(source, dataset.path + ": samples are " + dataset.type + "; labels must be integers");
+    std::uint64_t bytes = sample_bytes(*dataset.sample_type);
+    for (const std::uint64_t size : dataset.chunk) {
+        if (size == 0 || bytes > kMaxChunkBytes / size)
+            fail(source, dataset.path + ": a chunk holds more than a GiB; store it in smaller ones (h5repack)");
+        bytes *= size;
+    }
+}
+
 std::unique_ptr<SectionReader> open_hdf5_volume(std::unique_ptr<Hdf5Reader> file, const Hdf5Volume& volume,
                                                 const ReadOptions& options) {
-    require_readable(volume);
     const Hdf5Entry& dataset = volume.dataset;
     ArrayAxes axes;
     if (volume.flat_size) {
@@ -174,11 +172,13 @@ std::unique_ptr<SectionReader> open_hdf5_volume(std::unique_ptr<Hdf5Reader> file
     VolumeInfo info = volume_info(volume.source, volume.format, *dataset.sample_type, size);
     place(info, volume.placement, options);
     const Triple chunk = reading_chunk(volume, axes, size);
-    const std::uint64_t chunk_bytes = chunk[0] * chunk[1] * chunk[2] * sample_bytes(*dataset.sample_type);
+    const std::uint64_t sample = sample_bytes(*dataset.sample_type);
+    const std::uint64_t box_bytes =
+        std::min(std::max(kBoxBytes, chunk[0] * chunk[1] * chunk[2] * sample), volume_bytes(info.source, size, sample));
     const BlockLayout layout{
         .format = {.type = *dataset.sample_type, .is_big_endian = std::endian::native == std::endian::big},
         .chunk = chunk,
-        .source_bytes = 3 * std::max(chunk_bytes, kBoxBytes)};  // here, on the way, and unpacked in the library
+        .source_bytes = 3 * box_bytes};  // here, on the way, and unpacked in the library
     auto source = std::make_unique<Hdf5Source>(std::move(file), volume, axes, Triple{size[0], size[1], size[2]}, chunk);
     return open_blocks(std::move(source), std::move(info), layout, options);
 }

@@ -28,6 +28,9 @@ std::string describe(const Hdf5Entry& dataset);
 std::string list_datasets(const std::filesystem::path& file, const std::vector<Hdf5Entry>& datasets);
 
 /// Throws where the dataset's samples are no integers or cannot be read here.
+void require_labels(const std::string& source, const Hdf5Entry& dataset);
+
+/// Requires a dataset that passed require_labels.
 std::unique_ptr<SectionReader> open_hdf5_volume(std::unique_ptr<Hdf5Reader> file, const Hdf5Volume& volume,
                                                 const ReadOptions& options);
 

@@ -64,6 +64,7 @@ std::unique_ptr<SectionReader> open_hdf5(const fs::path& path, const std::string
         return open_hdf5_volume(std::move(file), *volume, options);
     }
     Hdf5Volume volume{.source = source, .dataset = choose_dataset(*file, source, inside)};
+    require_labels(source, volume.dataset);
     volume.axis_names = axis_names(volume.dataset);
     const ArrayAxes axes = choose_axes(source, volume.dataset.shape, volume.axis_names, options);
     volume.placement = common_placement(axes, volume.dataset.shape.size(), [&](const std::string& name) {
