@@ -71,18 +71,18 @@ std::vector<Hdf5Entry> region_arrays(const std::vector<Hdf5Entry>& entries,
     return arrays;
 }
 
-Hdf5Entry choose_array(const std::filesystem::path& file, const std::string& source,
-                       const std::vector<Hdf5Entry>& arrays) {
+Hdf5Entry choose_array(const std::filesystem::path& file, const std::vector<Hdf5Entry>& arrays) {
     if (arrays.size() == 1) return arrays.front();
     if (arrays.empty()) {
-        fail(source, "no image geometry has a cell array FeatureIds; name another, as in " + file.string() +
-                         ":/DataContainers/NAME/CellData/NAME");
+        fail(file, "no image geometry has a cell array FeatureIds; name another, as in " + file.string() +
+                       ":/DataContainers/NAME/CellData/NAME");
     }
-    fail(source, "holds several arrays FeatureIds; name one: " + list_datasets(file, arrays));
+    fail(file, "holds several arrays FeatureIds; name one: " + list_datasets(file, arrays));
 }
 
 /// Cells along x, y, z, which the array must have, too: as axes z, y, x or as one, with or without one for components.
-Hdf5Volume volume_of(const std::string& source, const Hdf5Entry& array, const ImageGeometry& geometry) {
+Hdf5Volume volume_of(const std::filesystem::path& file, const Hdf5Entry& array, const ImageGeometry& geometry) {
+    const std::string source = file.string() + ":" + array.path;
     require_labels(source, array);
     std::array<std::uint64_t, 3> size{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -114,19 +114,19 @@ Hdf5Volume volume_of(const std::string& source, const Hdf5Entry& array, const Im
 
 }  // namespace
 
-std::optional<Hdf5Volume> find_dream3d_volume(Hdf5Reader& file, const std::string& source, const std::string& inside) {
+std::optional<Hdf5Volume> find_dream3d_volume(Hdf5Reader& file, const std::string& inside) {
     if (!file.entry("/DataContainers") && !file.entry("/DataStructure")) return std::nullopt;
     const std::vector<Hdf5Entry> entries = file.entries();
     const std::vector<ImageGeometry> geometries = image_geometries(entries);
     const auto named = std::ranges::find(entries, inside, &Hdf5Entry::path);
     if (named != entries.end() && named->is_dataset) {
         const ImageGeometry* geometry = geometry_of(geometries, inside);
-        return geometry ? std::optional(volume_of(source, *named, *geometry)) : std::nullopt;
+        return geometry ? std::optional(volume_of(file.path(), *named, *geometry)) : std::nullopt;
     }
     if (!inside.empty() && inside != "/" && named == entries.end()) return std::nullopt;
     const Hdf5Entry array =
-        choose_array(file.path(), source, region_arrays(entries, geometries, inside.empty() ? "/" : inside));
-    return volume_of(source, array, *geometry_of(geometries, array.path));
+        choose_array(file.path(), region_arrays(entries, geometries, inside.empty() ? "/" : inside));
+    return volume_of(file.path(), array, *geometry_of(geometries, array.path));
 }
 
 }  // namespace regionmesh::io

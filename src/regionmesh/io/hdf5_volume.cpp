@@ -124,12 +124,6 @@ Triple reading_chunk(const Hdf5Volume& volume, const ArrayAxes& axes, const std:
 
 }  // namespace
 
-bool may_be_volume(const Hdf5Entry& entry) {
-    if (!entry.is_dataset || !entry.sample_type) return false;
-    const auto more = std::ranges::count_if(entry.shape, [](std::uint64_t size) { return size > 1; });
-    return std::ranges::count(entry.shape, 0u) == 0 && more >= 2 && (more == 3 || entry.shape.size() > 1) && more <= 3;
-}
-
 std::string describe(const Hdf5Entry& dataset) {
     std::string text = dataset.path + " (" + dataset.type;
     for (std::size_t axis = 0; axis < dataset.shape.size(); ++axis)
@@ -147,14 +141,12 @@ std::string list_datasets(const std::filesystem::path& file, const std::vector<H
 }
 
 void require_labels(const std::string& source, const Hdf5Entry& dataset) {
-    if (!dataset.obstacle.empty())
-        fail(source, dataset.path + ": " + dataset.obstacle + "; write it again with gzip or uncompressed");
-    if (!dataset.sample_type)
-        fail(source, dataset.path + ": samples are " + dataset.type + "; labels must be integers");
+    if (!dataset.obstacle.empty()) fail(source, dataset.obstacle + "; write it again with gzip or uncompressed");
+    if (!dataset.sample_type) fail(source, "samples are " + dataset.type + "; labels must be integers");
     std::uint64_t bytes = sample_bytes(*dataset.sample_type);
     for (const std::uint64_t size : dataset.chunk) {
         if (size == 0 || bytes > kMaxChunkBytes / size)
-            fail(source, dataset.path + ": a chunk holds more than a GiB; store it in smaller ones (h5repack)");
+            fail(source, "a chunk holds more than a GiB; store it in smaller ones (h5repack)");
         bytes *= size;
     }
 }
