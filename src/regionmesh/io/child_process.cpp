@@ -81,10 +81,13 @@ void limit_memory(std::uint64_t bytes) {
     if (pages > 0) limit(RLIMIT_AS, pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + bytes);
 }
 
+/// From now on; whole seconds are all that the system knows.
 void limit_seconds(unsigned seconds) {
     rusage used{};
     ::getrusage(RUSAGE_SELF, &used);
-    limit(RLIMIT_CPU, static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1 + seconds);
+    const auto microseconds = used.ru_utime.tv_usec + used.ru_stime.tv_usec;
+    limit(RLIMIT_CPU,
+          static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + microseconds / 1000000) + 1 + seconds);
 }
 
 bool answer_one(int socket, const ChildProcess::Answer& answer) {

@@ -17,7 +17,8 @@ std::vector<std::string> axis_names(const Hdf5Entry& dataset) {
     if (found == dataset.words.end()) return {};
     std::vector<std::string> names;
     try {
-        for (const auto& axis : nlohmann::json::parse(found->second).at("axes")) names.push_back(axis.at("key"));
+        const auto tags = nlohmann::json::parse(found->second);
+        for (const auto& axis : tags.at("axes")) names.push_back(axis.at("key"));
     } catch (const nlohmann::json::exception&) {
         return {};
     }
