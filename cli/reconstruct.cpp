@@ -109,7 +109,7 @@ void add_reconstruct(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("reconstruct", "sections in, a conforming, simplified, checked model out");
     command
         ->add_option("input", arguments->inputs,
-                     "volume (.npy .nii .nii.gz .tif .raw), directory of sections, or list of sections")
+                     "volume (.npy .nii.gz .nrrd .mha .vti .inr .tif .raw ...), directory of sections, or list of sections")
         ->required();
     command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
     arguments->input.add_volume_options(*command);

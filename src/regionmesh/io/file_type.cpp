@@ -7,7 +7,7 @@
 namespace regionmesh::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, FileType>, 36> kTypes{{
+constexpr std::array<std::pair<const char*, FileType>, 43> kTypes{{
     {".npy", FileType::kNpy},          {".nii", FileType::kNifti},        {".nii.gz", FileType::kNifti},
     {".raw", FileType::kRaw},          {".png", FileType::kPng},          {".tif", FileType::kTiff},
     {".tiff", FileType::kTiff},        {".hdr", FileType::kNiftiPair},    {".img", FileType::kNiftiPair},
@@ -20,6 +20,9 @@ constexpr std::array<std::pair<const char*, FileType>, 36> kTypes{{
     {".he5", FileType::kHdf5},         {".nxs", FileType::kHdf5},         {".dream3d", FileType::kHdf5},
     {".zarr", FileType::kStore},       {".n5", FileType::kStore},         {".zip", FileType::kStore},
     {".pcx", FileType::kOtherImage},   {".pam", FileType::kOtherImage},   {".avif", FileType::kOtherImage},
+    {".nrrd", FileType::kNrrd},        {".nhdr", FileType::kNrrd},        {".mha", FileType::kMetaImage},
+    {".mhd", FileType::kMetaImage},    {".vti", FileType::kVti},          {".inr", FileType::kInr},
+    {".inr.gz", FileType::kInr},
 }};
 
 }  // namespace
