@@ -128,7 +128,7 @@ TEST_F(ReadHdf5Test, one_channel_or_time_is_chosen_and_two_such_axes_are_refused
     EXPECT_EQ(read_volume({inside("channels.h5", "/one")}, second).labels,
               expected([](InputLabel v) { return v + 100; }));
     EXPECT_THAT(refusal({inside("channels.h5", "/two")}, second), HasSubstr("axis 'c'"));
-    EXPECT_THAT(refusal({data("chunked/one.h5")}, second), HasSubstr("one volume only"));
+    EXPECT_THAT(refusal({data("chunked/one.h5")}, second), HasSubstr("has one layer"));
     second.layer = 2;
     EXPECT_THAT(refusal({inside("channels.h5", "/one")}, second), HasSubstr("there is no 2"));
 }

@@ -19,6 +19,8 @@ public:
     Bytes read(const std::string& path, const Hdf5Box& box);
 
 private:
+    std::vector<Hdf5Entry> ask(const std::string& request);
+
     std::filesystem::path path_;
     ChildProcess child_;
 };

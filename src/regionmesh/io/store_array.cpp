@@ -252,16 +252,24 @@ private:
     fs::path path_;
 };
 
-/// A folder that holds metadata only was not fetched whole, or is the wrong one.
-void require_a_chunk(const fs::path& folder) {
+/// Whether the chunks that are there may hold a large block, by their sizes; looks at no more of them than it takes. A
+/// folder of metadata only was not fetched whole, or is the wrong one.
+bool holds_a_block(const StoreArray& array) {
     std::error_code error;
-    for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
-         entry.increment(error)) {
+    std::uint64_t bytes = 0, files = 0;
+    for (fs::recursive_directory_iterator entry(array.folder, error);
+         !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        if (!name.starts_with('.') && name != "zarr.json" && name != "attributes.json") return;
+        std::error_code ignored;
+        if (name.starts_with('.') || name == "zarr.json" || name == "attributes.json") continue;
+        if (!entry->is_regular_file(ignored)) continue;
+        bytes += entry->file_size(ignored);
+        ++files;
+        if (may_hold(bytes, array.codecs, kMaxBlockBytes) || files == kMaxChunks) return true;
     }
-    if (error) fail(folder, "the folder cannot be read: " + error.message());
-    fail(folder, "holds no chunk of samples; fetch the store again");
+    if (error) fail(array.folder, "the folder cannot be read: " + error.message());
+    if (files == 0) fail(array.folder, "holds no chunk of samples; fetch the store again");
+    return false;
 }
 
 }  // namespace
@@ -289,15 +297,17 @@ void check_array(const StoreArray& array, const fs::path& metadata) {
 
 std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume volume, const ReadOptions& options) {
     const auto size = checked_size(array.folder, volume.axes.along(array.shape));
-    require_a_chunk(array.folder);
+    const bool is_backed = holds_a_block(array);
     VolumeInfo info = volume_info(volume.source, volume.format, array.format.type, size);
     place(info, volume.placement, options);
     info.names = std::move(volume.names);
     const BlockLayout layout{.format = array.format,
                              .chunk = volume.axes.along(array.chunk),
-                             .source_bytes = 2 * product(array.chunk) * sample_bytes(array.format.type)};
+                             .source_bytes = 2 * product(array.chunk) * sample_bytes(array.format.type),
+                             .is_backed = is_backed};
+    const ReadOptions rest = volume.axes.without_layer(options);
     auto source = std::make_unique<ChunkSource>(std::move(array), std::move(volume.axes));
-    return open_blocks(std::move(source), std::move(info), layout, options);
+    return open_blocks(std::move(source), std::move(info), layout, rest);
 }
 
 SampleType integer_type(const fs::path& metadata, const std::string& word) {
