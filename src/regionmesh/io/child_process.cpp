@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <utility>
 
@@ -78,10 +78,14 @@ void limit(int resource, rlim_t most) {
     ::setrlimit(resource, &now);
 }
 
+/// The first number there is the size of the process in pages.
 void limit_memory(std::uint64_t bytes) {
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    if (pages > 0) limit(RLIMIT_AS, pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + bytes);
+    char text[32] = {};
+    const int file = ::open("/proc/self/statm", O_RDONLY);
+    const bool is_known = file >= 0 && ::read(file, text, sizeof text - 1) > 0;
+    if (file >= 0) ::close(file);
+    const std::uint64_t page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    if (is_known) limit(RLIMIT_AS, std::strtoull(text, nullptr, 10) * page + bytes);
 }
 
 /// From now on; whole seconds are all that the system knows.

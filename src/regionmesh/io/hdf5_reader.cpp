@@ -15,7 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr unsigned kReadSeconds = 30;  // a chunk of a GiB takes some to unpack
+// Of computing: a chunk of a GiB takes some to unpack, and so do 100,000 objects to look at.
+constexpr unsigned kFewSeconds = 10;
+constexpr unsigned kManySeconds = 30;
 constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
 
 /// The superblock stands at the start, or behind a block of the user's own of 512 bytes, 1024, 2048 and so on.
@@ -102,23 +104,23 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path)
              path.string() + ": the HDF5 library fails on this file (it crashed, or took more time or memory than it " +
                  "should); the file is damaged, fetch it again") {}
 
-std::vector<Hdf5Entry> Hdf5Reader::ask(const std::string& request) {
+std::vector<Hdf5Entry> Hdf5Reader::ask(const std::string& request, unsigned seconds) {
     return reading(path_, [&] {
         std::vector<Hdf5Entry> entries;
-        for (const Json& entry : parse(child_.ask(to_bytes(request)))) entries.push_back(from_json(entry));
+        for (const Json& entry : parse(child_.ask(to_bytes(request), seconds))) entries.push_back(from_json(entry));
         return entries;
     });
 }
 
 std::optional<Hdf5Entry> Hdf5Reader::entry(const std::string& path) {
-    std::vector<Hdf5Entry> entries = ask(dump({{"path", path}}));
+    std::vector<Hdf5Entry> entries = ask(dump({{"path", path}}), kFewSeconds);
     return entries.empty() ? std::nullopt : std::optional(std::move(entries.front()));
 }
 
-std::vector<Hdf5Entry> Hdf5Reader::entries() { return ask("{}"); }
+std::vector<Hdf5Entry> Hdf5Reader::entries() { return ask("{}", kManySeconds); }
 
 Bytes Hdf5Reader::read(const std::string& path, const Hdf5Box& box) {
-    return child_.ask(to_bytes(dump({{"path", path}, {"start", box.start}, {"count", box.count}})), kReadSeconds);
+    return child_.ask(to_bytes(dump({{"path", path}, {"start", box.start}, {"count", box.count}})), kManySeconds);
 }
 
 }  // namespace regionmesh::io

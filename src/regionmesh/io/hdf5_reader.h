@@ -19,7 +19,7 @@ public:
     Bytes read(const std::string& path, const Hdf5Box& box);
 
 private:
-    std::vector<Hdf5Entry> ask(const std::string& request);
+    std::vector<Hdf5Entry> ask(const std::string& request, unsigned seconds);
 
     std::filesystem::path path_;
     ChildProcess child_;

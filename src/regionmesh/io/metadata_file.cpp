@@ -27,7 +27,7 @@ bool is_too_deep(const std::string& text) {
 
 std::optional<nlohmann::json> read_json(const std::filesystem::path& path) {
     std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+    if (std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found) return std::nullopt;
     const InputFile file(path);
     if (file.size() > kMaxBytes)
         fail(path, "the metadata take " + std::to_string(file.size()) + " bytes; check the file");

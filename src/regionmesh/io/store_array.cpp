@@ -134,7 +134,8 @@ private:
     void read_file(const Indices& cell) {
         path_ = path_of(cell);
         std::error_code ignored;
-        if (!fs::exists(path_, ignored)) return fill(intersect(wanted_, cell_range(cell, array_.file)));
+        if (fs::status(path_, ignored).type() == fs::file_type::not_found)
+            return fill(intersect(wanted_, cell_range(cell, array_.file)));
         const InputFile file(path_);
         if (array_.is_sharded) return read_shard(file, cell);
         load_chunk(file, 0, file.size());
@@ -252,9 +253,21 @@ private:
     fs::path path_;
 };
 
-/// Whether the chunks that are there may hold a large block, by their sizes; looks at no more of them than it takes. A
+/// What a block as deep as a chunk takes, along the axis where that is most.
+std::uint64_t deepest_block(const StoreArray& array, const ArrayAxes& axes) {
+    const auto size = axes.along(array.shape), chunk = axes.along(array.chunk);
+    std::uint64_t most = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::uint64_t section = size[(axis + 1) % 3] * size[(axis + 2) % 3];
+        const std::uint64_t bytes = std::min(chunk[axis], size[axis]) * sample_bytes(array.format.type);
+        most = std::max(most, section > kMaxBlockBytes / bytes ? kMaxBlockBytes : section * bytes);
+    }
+    return most;
+}
+
+/// Whether the chunks that are there may hold so many bytes, by their sizes; looks at no more of them than it takes. A
 /// folder of metadata only was not fetched whole, or is the wrong one.
-bool holds_a_block(const StoreArray& array) {
+bool may_be_filled(const StoreArray& array, std::uint64_t wanted) {
     std::error_code error;
     std::uint64_t bytes = 0, files = 0;
     for (fs::recursive_directory_iterator entry(array.folder, error);
@@ -265,7 +278,7 @@ bool holds_a_block(const StoreArray& array) {
         if (!entry->is_regular_file(ignored)) continue;
         bytes += entry->file_size(ignored);
         ++files;
-        if (may_hold(bytes, array.codecs, kMaxBlockBytes) || files == kMaxChunks) return true;
+        if (may_hold(bytes, array.codecs, wanted) || files == kMaxChunks) return true;
     }
     if (error) fail(array.folder, "the folder cannot be read: " + error.message());
     if (files == 0) fail(array.folder, "holds no chunk of samples; fetch the store again");
@@ -297,7 +310,8 @@ void check_array(const StoreArray& array, const fs::path& metadata) {
 
 std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume volume, const ReadOptions& options) {
     const auto size = checked_size(array.folder, volume.axes.along(array.shape));
-    const bool is_backed = holds_a_block(array);
+    const std::uint64_t deepest = deepest_block(array, volume.axes);
+    const bool is_backed = may_be_filled(array, deepest > kMaxBareBytes ? deepest : 0);
     VolumeInfo info = volume_info(volume.source, volume.format, array.format.type, size);
     place(info, volume.placement, options);
     info.names = std::move(volume.names);
