@@ -108,8 +108,10 @@ void add_reconstruct(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("reconstruct", "sections in, a conforming, simplified, checked model out");
     command
-        ->add_option("input", arguments->inputs,
-                     "volume (.npy .nii.gz .nrrd .mha .vti .inr .tif .raw ...), directory of sections, or list of sections")
+        ->add_option(
+            "input", arguments->inputs,
+            "volume (.npy .nii.gz .nrrd .mha .vti .tif .h5:/dataset .dream3d .zarr ...), directory of sections, "
+            "or list of sections")
         ->required();
     command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
     arguments->input.add_volume_options(*command);

@@ -26,7 +26,7 @@ namespace regionmesh::fuzz {
 namespace {
 
 constexpr int kMostSeconds = 10;  // of processor time: the machine may have other things to do
-constexpr int kMostWaiting = 120;
+constexpr int kMostWaiting = 600;
 
 char watched[4096];
 std::atomic<std::int64_t> held{0}, peak{0}, limit{INT64_MAX};
