@@ -21,7 +21,7 @@ public:
     template <class Text>
     void add(ViolationKind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces, Text&& text) {
         if (counts_[static_cast<int>(kind)]++ < listed_)
-            violations_.push_back({kind, std::move(vertices), std::move(faces), text()});
+            violations_.push_back({kind, std::move(vertices), std::move(faces), text(), {}, {}});
     }
 
     void append(Findings&& later) {
@@ -66,5 +66,7 @@ void check_crossing(const Model& model, const CheckOptions& options, const Sorte
 /// The tree may be missing: one is made where it is needed.
 void check_nesting(const Model& model, const CheckOptions& options, const SortedFaceTree* tree, Findings& findings);
 void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings);
+/// Says where the violation is, in its sentence, too.
+void place_violation(const Model& model, Violation& violation);
 
 }  // namespace regionmesh

@@ -5,6 +5,7 @@
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/union_find.h"
 #include "regionmesh/check/findings.h"
+#include "regionmesh/check/generic_star.h"
 #include "regionmesh/check/region_sums.h"
 #include "regionmesh/model/fan.h"
 #include "regionmesh/model/label_set.h"
@@ -23,7 +24,7 @@ struct StarChunk {
 class StarCheck {
 public:
     StarCheck(const Model& model, const CheckOptions& options, UnionFind& sheets)
-        : model_(model), options_(options), sheets_(sheets), findings_(options.listed) {}
+        : model_(model), options_(options), sheets_(sheets), generic_(model, options), findings_(options.listed) {}
 
     StarChunk run(std::uint32_t first, std::uint32_t end) {
         for (std::uint32_t v = first; v < end; ++v)
@@ -65,10 +66,23 @@ private:
         if (!is_odd && labels_.size() < LabelSet::kCapacity && look_at_closed_fans(v, has_exterior)) {
             // Faces on the same vertices are in no closed fan, unless they have no label in common.
             if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
+            if (has_exterior || labels_.size() > 2) look_at_form(v);
         } else {
             look_at_any_fans(v);
             look_for_duplicates(v);
+            if (labels_.size() > 4) look_at_form(v);
         }
+    }
+
+    void look_at_form(VertexId v) {
+        const StarFault fault = generic_.fault(v);
+        if (fault == StarFault::kNone) return;
+        findings_.add(ViolationKind::kNonGenericVertex, {index(v)}, {}, [&] {
+            return name(v) + (fault == StarFault::kLabels  ? ": more than four labels meet"
+                              : fault == StarFault::kPages ? ": more than three labels meet at one of its edges"
+                              : fault == StarFault::kLines ? ": its lines are not those where three or four labels meet"
+                                                           : ": its faces are too many to be told");
+        });
     }
 
     /// Nearly all vertices: the faces of each region go round v once, from one neighbour to the next. So all is well
@@ -220,6 +234,7 @@ private:
     const Model& model_;
     const CheckOptions& options_;
     UnionFind& sheets_;
+    GenericStar generic_;
     Findings findings_;
     RegionSums regions_;
     std::uint64_t quadruple_points_inside_ = 0;

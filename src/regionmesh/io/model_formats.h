@@ -8,6 +8,7 @@
 
 #include "regionmesh/base/label.h"
 #include "regionmesh/base/vec3.h"
+#include "regionmesh/io/file_surface.h"
 #include "regionmesh/io/model_file.h"
 #include "regionmesh/model/model.h"
 #include "regionmesh/volume/label_table.h"
@@ -52,21 +53,12 @@ private:
     std::vector<std::uint32_t> numbers_;  // by vertex id: its number in the file; empty where that is the id
 };
 
-/// A surface as a file has it. The readers promise that the arrays fit one another and every vertex number is in range.
-struct FileSurface {
-    std::vector<Vec3> points;
-    std::vector<std::array<std::uint32_t, 3>> faces;
-    std::vector<std::array<InputLabel, 2>> labels;  // by face
-    InputLabel exterior_label = -1;
-};
-
-/// Most faces and vertices of a Model: a corner packs a face id and a place into 32 bits.
-inline constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) - 1;
-inline constexpr std::uint64_t kMostVertices = (std::uint64_t{1} << 32) - 1;
-
 void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, const std::filesystem::path& path);
 void write_ply(const FileView& view, const std::filesystem::path& path);
 FileSurface read_vtp(const std::filesystem::path& path);
+FileSurface read_vtu(const std::filesystem::path& path);
 FileSurface read_ply(const std::filesystem::path& path);
+FileSurface read_stl(const std::filesystem::path& path);
+FileSurface read_obj(const std::filesystem::path& path);
 
 }  // namespace regionmesh
