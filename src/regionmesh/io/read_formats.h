@@ -25,6 +25,11 @@ std::unique_ptr<SectionReader> open_raw(const std::filesystem::path& path, const
 /// wrote one, with a unit.
 std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, const ReadOptions& options);
 
+/// An HDF5 file, and the path of a dataset or group inside, which may be empty: a DREAM.3D file's regions, else the
+/// only dataset of integers that may be a volume. Chunks are read once, in a process of its own.
+std::unique_ptr<SectionReader> open_hdf5(const std::filesystem::path& path, const std::string& inside,
+                                         const ReadOptions& options);
+
 /// PNG and one-page TIFF files, a section each, in the order given.
 std::unique_ptr<SectionReader> open_image_list(const std::vector<std::filesystem::path>& files,
                                                const ReadOptions& options);
