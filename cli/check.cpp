@@ -43,8 +43,7 @@ void print_findings(const std::string& name, const CheckReport& report) {
             if (violation.kind == static_cast<ViolationKind>(kind) && shown++ < 3) fmt::print("  {}\n", violation.text);
     }
     if (report.violation_count() == 0) fmt::print("no violations\n");
-    if (report.counts[static_cast<int>(ViolationKind::kOrientation)] > 0)
-        fmt::print("faces that look opposite ways can be turned: --orient\n");
+    print_orient_hint(report);
 }
 
 int check_command(const Arguments& arguments) {

@@ -27,10 +27,16 @@ std::string counts_text(const CheckReport& report) {
     return text;
 }
 
+void print_orient_hint(const CheckReport& report) {
+    if (report.counts[static_cast<int>(ViolationKind::kOrientation)] > 0)
+        fmt::print("faces that look opposite ways can be turned: --orient\n");
+}
+
 void print_unsound(const FixedPart& fixed, const CheckReport& before, const CheckReport& after) {
     if (before.violation_count() > 0)
         fmt::print("{} vertices and {} faces left as they came: {}\n", fixed.vertices, fixed.faces,
                    counts_text(before));
+    print_orient_hint(before);
     for (int kind = 0; kind < kViolationKindCount; ++kind)
         if (after.counts[kind] > before.counts[kind])
             fmt::print("worse than it came: {} {}, before {}\n", to_string(static_cast<ViolationKind>(kind)),

@@ -24,6 +24,9 @@ struct ModelOptions {
 /// "pinched_vertex 12, open_edge 40": all kinds found, in their order; empty where there are none.
 std::string counts_text(const CheckReport& report);
 
+/// Says how to mend faces that look opposite ways, where there are such.
+void print_orient_hint(const CheckReport& report);
+
 /// Says what was left as it came, and what is there now that was not before.
 void print_unsound(const FixedPart& fixed, const CheckReport& before, const CheckReport& after);
 

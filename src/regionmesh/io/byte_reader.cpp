@@ -34,10 +34,14 @@ void ByteReader::drop(std::size_t count) {
     taken_ += count;
 }
 
-std::string_view ByteReader::take(std::size_t count) {
+std::string_view ByteReader::peek(std::size_t count) {
     while (end_ - begin_ < count)
         if (!fill()) fail("ends too early: it was cut short");
-    const std::string_view bytes = held().substr(0, count);
+    return held().substr(0, count);
+}
+
+std::string_view ByteReader::take(std::size_t count) {
+    const std::string_view bytes = peek(count);
     drop(count);
     return bytes;
 }

@@ -25,6 +25,8 @@ public:
 
     /// The next `count` bytes, at most a megabyte. Throws where the file ends before.
     std::string_view take(std::size_t count);
+    /// The same, which stay to be taken.
+    std::string_view peek(std::size_t count);
     /// The next line, without what ends it (LF or CR LF); none at the end of the file. Throws for one of 16 MiB and
     /// more.
     std::optional<std::string_view> take_line();

@@ -17,9 +17,9 @@ namespace regionmesh {
 
 /// The readers promise that the arrays fit one another and every vertex number is in range.
 struct FileSurface {
-    std::vector<Vec3> points;
-    std::vector<std::array<std::uint32_t, 3>> faces;
-    std::vector<std::array<InputLabel, 2>> labels;  // by face; the normal points from the first to the second
+    std::vector<Vec3> points = {};
+    std::vector<std::array<std::uint32_t, 3>> faces = {};
+    std::vector<std::array<InputLabel, 2>> labels = {};  // by face; the normal points from the first to the second
     InputLabel exterior_label = -1;
     LabelNames names = {};
     bool is_by_region = false;      // faces came region by region, each with the exterior on its other side

@@ -72,6 +72,7 @@ struct ReadModelOptions {
 ///              and so on), or with one (label, region), or with none: one region
 ///   .stl       text: each solid is a region; binary: one region
 ///   .obj       groups `interface_3_7` between two labels; any other group is a region
+///   .dream3d   the triangle geometry with its FaceLabels, of version 6 to 8
 ///   a folder   a .ply, .stl or .obj for each region
 /// Where a surface comes region by region, faces that lie back to back become one face between their regions; the
 /// others bound region and exterior. Polygons are cut into triangles. Vertices keep their order and number, but where

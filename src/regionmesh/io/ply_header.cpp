@@ -109,9 +109,9 @@ std::uint64_t PlyElement::least_bytes(PlyEncoding encoding) const {
 
 PlyHeader read_ply_header(io::ByteReader& file) {
     PlyHeader header;
-    const auto first = file.size() < 4 ? std::nullopt : std::optional(file.take(4));
-    if (!first || (*first != "ply\n" && *first != "ply\r")) file.fail("is no PLY file");
-    if (*first == "ply\r") file.take(1);
+    // Looked at before a line is asked for: other files may have none.
+    if (file.size() < 4 || !file.peek(4).starts_with("ply")) file.fail("is no PLY file");
+    if (file.take_line() != "ply") file.fail("is no PLY file");
     bool has_format = false;
     while (file.size() - file.left() <= kLongestHeader) {
         const auto line = file.take_line();

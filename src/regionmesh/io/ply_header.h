@@ -25,7 +25,7 @@ struct PlyProperty {
 struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
-    std::vector<PlyProperty> properties;
+    std::vector<PlyProperty> properties = {};
 
     /// The place of a property; none where there is none of this name.
     std::optional<std::size_t> find(std::string_view property) const;

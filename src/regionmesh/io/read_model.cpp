@@ -20,8 +20,12 @@ struct Format {
     const char* extension;
     FileSurface (*read)(const std::filesystem::path&);
 };
-constexpr std::array<Format, 5> kFormats{
-    {{".vtp", read_vtp}, {".vtu", read_vtu}, {".ply", read_ply}, {".stl", read_stl}, {".obj", read_obj}}};
+constexpr std::array<Format, 6> kFormats{{{".vtp", read_vtp},
+                                          {".vtu", read_vtu},
+                                          {".ply", read_ply},
+                                          {".stl", read_stl},
+                                          {".obj", read_obj},
+                                          {".dream3d", read_dream3d}}};
 
 const Format* format_of(const std::filesystem::path& path) {
     const std::string extension = io::extension(path);
