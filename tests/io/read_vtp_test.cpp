@@ -84,17 +84,16 @@ TEST_F(ReadVtp, polygons_are_cut_and_each_triangle_has_their_labels) {
     std::string text = vtp_text("NumberOfPoints=\"3\"", "NumberOfPoints=\"6\"");
     const auto put = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
     put("NumberOfPolys=\"1\"", "NumberOfPolys=\"3\"");
-    // A quad that is longer along its first diagonal, one that is not, and a pentagon.
-    put("0 0 0 1 0 0 0.5 1e0 0", "0 0 0 3 0 0 3 1 0 0 1 0 6 0 0 -1 0.5 0");
-    put(">0 1 2<", ">0 1 2 3 5 1 2 3 0 1 2 3 5<");
+    // A quad twice, from one corner and the next, and a pentagon.
+    put("0 0 0 1 0 0 0.5 1e0 0", "0 0 0 3 0 0 3 1 0 1 1 0 6 0 0 -1 0.5 0");
+    put(">0 1 2<", ">0 1 2 3 3 0 1 2 0 1 2 3 5<");
     put(">3</DataArray></Polys>", ">4 8 13</DataArray></Polys>");
     put(">3 5<", ">1 2 3 4 5 6<");
-    put("0 1 0 6 0 0", "1 1 0 6 0 0");
     put_text(path("m.vtp"), text);
     const FileSurface surface = read_vtp(path("m.vtp"));
     using Face = std::array<std::uint32_t, 3>;
     using Pair = std::array<InputLabel, 2>;
-    EXPECT_THAT(surface.faces, testing::ElementsAre(Face{0, 1, 3}, Face{1, 2, 3}, Face{5, 1, 3}, Face{1, 2, 3},
+    EXPECT_THAT(surface.faces, testing::ElementsAre(Face{0, 1, 3}, Face{1, 2, 3}, Face{3, 0, 1}, Face{3, 1, 2},
                                                     Face{0, 1, 2}, Face{0, 2, 3}, Face{0, 3, 5}));
     EXPECT_THAT(surface.labels, testing::ElementsAre(Pair{1, 2}, Pair{1, 2}, Pair{3, 4}, Pair{3, 4}, Pair{5, 6},
                                                      Pair{5, 6}, Pair{5, 6}));

@@ -45,6 +45,12 @@ private:
 /// Faces or vertices that are looked at together; nothing else depends on how many.
 inline constexpr std::uint32_t kCheckChunk = 1 << 14;
 
+/// Such a face is no face to its neighbours.
+inline bool repeats_a_vertex(const Face& face) {
+    const auto& v = face.vertices;
+    return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+}
+
 inline std::string name(VertexId v) { return "vertex " + std::to_string(index(v)); }
 inline std::string name(FaceId f) { return "face " + std::to_string(index(f)); }
 inline std::string name(VertexId u, VertexId v) {

@@ -64,6 +64,9 @@ void read_text(io::ByteReader& file, RegionGroups& groups, FileSurface& surface)
     int count = 0;
     while (const auto line = file.take_line()) {
         std::string_view rest = *line;
+        if (rest.find('\0') != std::string_view::npos)
+            file.fail_line(
+                "is no text, and the file has not the size of a binary STL file with as many faces as it says");
         const std::string_view word = io::take_word(rest);
         if (word == "solid") {
             group = groups.add(clean_name(rest), true);
