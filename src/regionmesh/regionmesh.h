@@ -7,6 +7,7 @@
 #include "regionmesh/check/fix_unsound.h"
 #include "regionmesh/compare/compare.h"
 #include "regionmesh/decimate/decimate.h"
+#include "regionmesh/io/label_names_file.h"
 #include "regionmesh/io/model_file.h"
 #include "regionmesh/io/output_file.h"
 #include "regionmesh/io/read_sections.h"

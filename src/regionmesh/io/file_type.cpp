@@ -7,7 +7,7 @@
 namespace regionmesh::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, FileType>, 33> kTypes{{
+constexpr std::array<std::pair<const char*, FileType>, 40> kTypes{{
     {".npy", FileType::kNpy},          {".nii", FileType::kNifti},        {".nii.gz", FileType::kNifti},
     {".raw", FileType::kRaw},          {".png", FileType::kPng},          {".tif", FileType::kTiff},
     {".tiff", FileType::kTiff},        {".hdr", FileType::kNiftiPair},    {".img", FileType::kNiftiPair},
@@ -19,6 +19,9 @@ constexpr std::array<std::pair<const char*, FileType>, 33> kTypes{{
     {".h5", FileType::kHdf5},          {".hdf5", FileType::kHdf5},        {".hdf", FileType::kHdf5},
     {".he5", FileType::kHdf5},         {".nxs", FileType::kHdf5},         {".dream3d", FileType::kHdf5},
     {".pcx", FileType::kOtherImage},   {".pam", FileType::kOtherImage},   {".avif", FileType::kOtherImage},
+    {".nrrd", FileType::kNrrd},        {".nhdr", FileType::kNrrd},        {".mha", FileType::kMetaImage},
+    {".mhd", FileType::kMetaImage},    {".vti", FileType::kVti},          {".inr", FileType::kInr},
+    {".inr.gz", FileType::kInr},
 }};
 
 }  // namespace

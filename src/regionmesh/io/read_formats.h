@@ -18,6 +18,20 @@ std::unique_ptr<SectionReader> open_npy(const std::filesystem::path& path, const
 /// section.
 std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, const ReadOptions& options);
 
+/// NRRD, attached or detached, raw, gzipped or as text. Coordinates are those of the header's own space. Segmentations
+/// of 3D Slicer bring the names of their segments; of several layers one is read.
+std::unique_ptr<SectionReader> open_nrrd(const std::filesystem::path& path, const ReadOptions& options);
+
+/// MetaImage: .mha, and .mhd with its files of samples; raw, compressed or as text.
+std::unique_ptr<SectionReader> open_meta_image(const std::filesystem::path& path, const ReadOptions& options);
+
+/// VTK image data of one piece: the active scalars, else the only array of integers. Samples of cells lie at their
+/// centres.
+std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const ReadOptions& options);
+
+/// INRIMAGE-4, gzipped or not.
+std::unique_ptr<SectionReader> open_inr(const std::filesystem::path& path, const ReadOptions& options);
+
 /// Bare little-endian samples, x fastest, as options.raw_size and options.raw_type say.
 std::unique_ptr<SectionReader> open_raw(const std::filesystem::path& path, const ReadOptions& options);
 

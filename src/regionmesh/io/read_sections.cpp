@@ -48,6 +48,14 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
             return io::open_hdf5(path, "", options);
         case io::FileType::kPng:
             return io::open_image_list({path}, options);
+        case io::FileType::kNrrd:
+            return io::open_nrrd(path, options);
+        case io::FileType::kMetaImage:
+            return io::open_meta_image(path, options);
+        case io::FileType::kVti:
+            return io::open_vti(path, options);
+        case io::FileType::kInr:
+            return io::open_inr(path, options);
         case io::FileType::kNiftiPair:
             io::fail(path, "NIfTI pairs (.hdr and .img) are not read; join them into one .nii file");
         case io::FileType::kOtherImage:
