@@ -6,6 +6,7 @@
 #include "regionmesh/check/check.h"
 #include "regionmesh/compare/compare.h"
 #include "regionmesh/decimate/decimate.h"
+#include "regionmesh/io/label_names_file.h"
 #include "regionmesh/io/model_file.h"
 #include "regionmesh/io/output_file.h"
 #include "regionmesh/io/read_sections.h"
