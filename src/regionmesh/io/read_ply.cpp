@@ -17,7 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are taken as they lie in the file");
 
-constexpr std::size_t kLongestHeader = 1 << 16;
+constexpr std::size_t kLongestHeader = 1 << 24;  // names of regions stand in it
 
 // Reads numbers packed without gaps.
 class Unpacker {
@@ -52,8 +52,17 @@ struct PlyHeader {
     std::uint64_t vertex_count = 0, face_count = 0;
     bool is_wide = false;
     InputLabel exterior_label = -1;
+    LabelNames names;
     std::uint64_t bytes = 0;
 };
+
+// `text` is "3 name"; anything else is a comment like others.
+void add_name(std::string_view text, LabelNames& names) {
+    InputLabel label = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), label);
+    const std::string_view rest(end, text.data() + text.size());
+    if (error == std::errc{} && rest.size() > 1 && rest[0] == ' ') names[label] = rest.substr(1);
+}
 
 class PlyReader {
 public:
@@ -91,7 +100,7 @@ T PlyReader::number(std::string_view text, std::string_view what) const {
 
 PlyHeader PlyReader::read_header() {
     constexpr std::string_view kVertexElement = "element vertex ", kFaceElement = "element face ",
-                               kExterior = "comment exterior_label ";
+                               kExterior = "comment exterior_label ", kRegion = "comment region ";
     PlyHeader header;
     std::string words;  // the header without comments and counts, as ply_layout.h has it
     for (std::string line; header.bytes <= kLongestHeader && std::getline(file_, line);) {
@@ -115,6 +124,8 @@ PlyHeader PlyReader::read_header() {
             line = kFaceElement.substr(0, kFaceElement.size() - 1);
         } else if (view.starts_with(kExterior)) {
             header.exterior_label = number<InputLabel>(view.substr(kExterior.size()), "exterior_label");
+        } else if (view.starts_with(kRegion)) {
+            add_name(view.substr(kRegion.size()), header.names);
         }
         if (!line.starts_with("comment")) words += line + '\n';
     }
@@ -169,6 +180,7 @@ FileSurface PlyReader::read() {
     check_size(header);
     FileSurface surface;
     surface.exterior_label = header.exterior_label;
+    surface.names = header.names;
     Unpacker unpacker(file_, name_);
     read_points(header, unpacker, surface);
     read_faces(header, unpacker, surface);

@@ -96,6 +96,20 @@ void read_labels(const VtkXmlFile& file, pugi::xml_node piece, std::uint64_t cou
         });
 }
 
+// Labels and names side by side; names of other programs' making, in other numbers, are left.
+void read_names(const VtkXmlFile& file, FileSurface& surface) {
+    const pugi::xml_node fields = file.dataset().child("FieldData"), labels = array_named(fields, "RegionLabels"),
+                         names = array_named(fields, "RegionNames");
+    if (!labels || !names) return;
+    const std::vector<std::string> texts = file.read_strings(names);
+    if (file.number(labels, "NumberOfTuples", 0) != texts.size()) return;
+    std::size_t n = 0;
+    file.read_integers(labels, texts.size(), [&](std::span<const std::int64_t> values) {
+        for (const std::int64_t label : values)
+            if (const std::string& name = texts[n++]; !name.empty()) surface.names[label] = name;
+    });
+}
+
 }  // namespace
 
 FileSurface read_vtp(const std::filesystem::path& path) {
@@ -106,6 +120,7 @@ FileSurface read_vtp(const std::filesystem::path& path) {
     if (points > kMostVertices || faces > kMostFaces)
         file.fail(fmt::format("{} points and {} faces are more than a model can hold", points, faces));
     FileSurface surface;
+    read_names(file, surface);
     read_points(file, piece, points, surface);
     if (faces > 0) {
         read_faces(file, piece, faces, surface);

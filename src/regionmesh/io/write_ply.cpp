@@ -54,13 +54,16 @@ void put_label(Packer& packer, InputLabel label, bool is_wide) {
 
 }  // namespace
 
-void write_ply(const FileView& view, const std::filesystem::path& path) {
+void write_ply(const FileView& view, OutputFile& file) {
     const Model& model = view.model();
     const bool is_wide = !all_labels_fit_32_bits(view);
-    OutputFile file(path);
-    file.write(fmt::format("{}comment exterior_label {}\nelement vertex {}\n{}element face {}\n{}{}end_header\n",
-                           kPlyMagic, view.exterior_label(), model.vertex_count(), kPlyVertex, model.face_count(),
-                           kPlyFace, is_wide ? kPlyWideLabels : kPlyLabels));
+    std::string comments = fmt::format("comment exterior_label {}\n", view.exterior_label());
+    for (const Label label : view.ordered_labels())
+        if (const std::string name = view.name(label); !name.empty())
+            comments += fmt::format("comment region {} {}\n", view.labels().input(label), name);
+    file.write(fmt::format("{}{}element vertex {}\n{}element face {}\n{}{}end_header\n", kPlyMagic, comments,
+                           model.vertex_count(), kPlyVertex, model.face_count(), kPlyFace,
+                           is_wide ? kPlyWideLabels : kPlyLabels));
     Packer packer(file);
     view.for_vertices([&](VertexId v) {
         const Vec3 position = model.position(v);
@@ -74,7 +77,6 @@ void write_ply(const FileView& view, const std::filesystem::path& path) {
         for (const InputLabel label : face.labels) put_label(packer, label, is_wide);
     });
     packer.flush();
-    file.commit();
 }
 
 }  // namespace regionmesh
