@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "model_options.h"
 #include "output_options.h"
 
 namespace regionmesh::cli {
@@ -14,6 +15,7 @@ struct Arguments {
     std::string target_faces, reduce, max_error, min_quality = "0.1", perturbation = "1e-7";
     bool no_intersect_check = false, quiet = false;
     InputOptions input;
+    ModelOptions reading;
     OutputOptions output;
 };
 
@@ -37,22 +39,20 @@ int decimate_command(const Arguments& arguments) {
     if (arguments.target_faces.empty() && arguments.reduce.empty() && arguments.max_error.empty())
         throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
     arguments.output.require_writable(!arguments.input.cap());
-    ModelFile file = read_model(arguments.model);
+    ModelFile file = arguments.reading.read(arguments.model);
     const CheckOptions check_options = arguments.input.check_options(file.labels);
     const CheckReport before = check(file.model, check_options);
-    if (before.violation_count() > 0)
-        throw Error(ErrorCode::kInput,
-                    fmt::format("{}: {} violations; only a sound model can be decimated soundly: see regionmesh check",
-                                arguments.model, before.violation_count()));
     const std::uint32_t initial = file.model.face_count();
     const DecimateOptions options = to_options(arguments, file.model);
     file.model.sort_spatially();
+    const FixedPart fixed = before.violation_count() > 0 ? fix_unsound(file.model, check_options) : FixedPart{};
     const DecimateResult done = decimate(file.model, options);
     const CheckReport after = check(file.model, check_options);
     arguments.output.write(file.model, file.labels, check_options.background, arguments.output.names_or(file.names));
     if (!arguments.quiet) {
         fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output.path,
                    file.model.face_count(), initial, after.quality.min, after.violation_count());
+        print_unsound(fixed, before, after);
         if (done.stopped == StopReason::kTopology)
             fmt::print("stopped before the target: no further edge can be collapsed\n");
     }
@@ -63,9 +63,9 @@ int decimate_command(const Arguments& arguments) {
 
 void add_decimate(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("decimate", "a sound labelled surface in, with fewer faces out");
-    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
-        ->required();
+    CLI::App* command = app.add_subcommand("decimate", "a labelled surface in, with fewer faces out");
+    command->add_option("model", arguments->model, kModelRead)->required();
+    arguments->reading.add_options(*command);
     arguments->output.add_options(*command);
     arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "at most so many faces");

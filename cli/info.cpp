@@ -14,7 +14,7 @@ struct Arguments {
     InputOptions input;
 };
 
-void print_labels(const Census& census) {
+void print_labels(const Census& census, const LabelNames& names) {
     std::vector<Label> order;
     for (Label label = 0; label < census.labels.size(); ++label)
         if (label < census.samples.size() && census.samples[label] > 0) order.push_back(label);
@@ -22,9 +22,12 @@ void print_labels(const Census& census) {
               [&](Label a, Label b) { return census.labels.less(census.labels.input(a), census.labels.input(b)); });
     fmt::print("labels     {}\n", order.size());
     constexpr std::size_t kShown = 20;
-    for (std::size_t n = 0; n < std::min(order.size(), kShown); ++n)
-        fmt::print("  {:>12}  {} samples\n", census.labels.text(census.labels.input(order[n])),
-                   census.samples[order[n]]);
+    for (std::size_t n = 0; n < std::min(order.size(), kShown); ++n) {
+        const InputLabel label = census.labels.input(order[n]);
+        const auto name = names.find(label);
+        fmt::print("  {:>12}  {} samples{}{}\n", census.labels.text(label), census.samples[order[n]],
+                   name == names.end() ? "" : "  ", name == names.end() ? "" : name->second);
+    }
     if (order.size() > kShown) fmt::print("  and {} more\n", order.size() - kShown);
 }
 
@@ -47,7 +50,7 @@ int info_command(const Arguments& arguments) {
     const char axis = std::string("xyz")[info.sweep.axes[2]];
     fmt::print("sweep      along {}, {} sections of {} x {}\n", axis, reader->section_count(), reader->section_width(),
                reader->section_height());
-    print_labels(census);
+    print_labels(census, info.names);
     const auto megabytes = [&](double share) {
         return (static_cast<double>(reading_bytes(info)) +
                 share * static_cast<double>(census.face_count * kBytesPerFace)) /

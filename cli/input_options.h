@@ -12,12 +12,12 @@ namespace regionmesh::cli {
 
 struct InputOptions {
     std::string sweep = "auto";
-    std::string spacing, size, type;
+    std::string spacing, size, type, layer;
     std::vector<std::string> background;
     bool no_background = false;
     std::string boundary = "cap";
 
-    /// Adds --sweep, --spacing, --size and --type.
+    /// Adds --sweep, --spacing, --layer, --size and --type.
     void add_volume_options(CLI::App& command);
     /// Adds --background and --no-background.
     void add_background_options(CLI::App& command);

@@ -2,8 +2,14 @@
 
 namespace regionmesh::cli {
 
+const std::string kModelWritten = "model to write: " + writable_extensions();
+
 void OutputOptions::add_options(CLI::App& command) {
-    command.add_option("-o,--output", path, "model to write: " + writable_extensions())->required();
+    command.add_option("-o,--output", path, kModelWritten)->required();
+    add_content_options(command);
+}
+
+void OutputOptions::add_content_options(CLI::App& command) {
     command.add_option("--names", names,
                        "table of labels and names (.csv, .tsv, .txt, .xml) instead of the input's own");
     command.add_flag("--per-region", per_region, "a file for each region, MODEL-LABEL: .stl, .obj and .ply");

@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "model_options.h"
 #include "output_options.h"
 #include "regionmesh/base/process.h"
 #include "smooth_arguments.h"
@@ -15,6 +16,7 @@ struct Arguments {
     bool preserve_volume = false, no_intersect_check = false, quiet = false;
     SmoothArguments smooth;
     InputOptions input;
+    ModelOptions reading;
     OutputOptions output;
 };
 
@@ -42,12 +44,13 @@ int smooth_command(const Arguments& arguments) {
         throw Error(ErrorCode::kInput, "--preserve-volume: open regions have no volume; leave out --boundary open");
     arguments.output.require_writable(!arguments.input.cap());
     if (!arguments.report.empty()) require_writable(arguments.report);
-    ModelFile file = read_model(arguments.model);
+    ModelFile file = arguments.reading.read(arguments.model);
     const CheckOptions check_options = arguments.input.check_options(file.labels);
     Report report;
     report.initial_faces = file.model.face_count();
     report.initial_vertices = file.model.vertex_count();
     const CheckReport before = check(file.model, check_options);
+    const FixedPart fixed = before.violation_count() > 0 ? fix_unsound(file.model, check_options) : FixedPart{};
     {
         const Timer timer(report.seconds["smooth"]);
         report.smoothing = smooth(file.model, to_options(arguments, file.model));
@@ -65,13 +68,15 @@ int smooth_command(const Arguments& arguments) {
     arguments.output.write(file.model, file.labels, check_options.background, names);
     report.peak_bytes = peak_resident_bytes();
     if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels, names));
-    if (!arguments.quiet)
+    if (!arguments.quiet) {
         fmt::print(
             "{}: {} vertices, {} stepped back, moved by {:.3g} at most; quality {:.3f} at worst, {} violations (before "
             "{})\n",
             arguments.output.path, report.smoothing.vertices, report.smoothing.stepped_back,
             report.smoothing.largest_displacement, report.check.quality.min, report.check.violation_count(),
             before.violation_count());
+        print_unsound(fixed, before, report.check);
+    }
     return report.check.violation_count() == 0 ? 0 : 3;
 }
 
@@ -80,8 +85,8 @@ int smooth_command(const Arguments& arguments) {
 void add_smooth(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("smooth", "a labelled surface in, the same without steps out");
-    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
-        ->required();
+    command->add_option("model", arguments->model, kModelRead)->required();
+    arguments->reading.add_options(*command);
     arguments->output.add_options(*command);
     arguments->smooth.add_options(*command);
     arguments->input.add_label_options(*command);

@@ -150,8 +150,9 @@ TEST_F(ReadNiftiTest, truncated_samples_are_named_by_their_section) {
                 HasSubstr("section 2: the inflated data end here"));
     const std::string packed = text_of(data("nifti/sform_uint8.nii.gz"));
     put_text(path("cut.nii.gz"), packed.substr(0, packed.size() - 4));
-    EXPECT_THAT(refusal({path("cut.nii.gz")}),
-                HasSubstr("cut.nii.gz: section 2: the gzip stream ends early; the file is truncated, fetch it again"));
+    EXPECT_THAT(
+        refusal({path("cut.nii.gz")}),
+        HasSubstr("cut.nii.gz: section 2: the compressed stream ends early; the file is truncated, fetch it again"));
 }
 
 TEST_F(ReadNiftiTest, damaged_gzip_is_found_by_its_check_sum) {
@@ -159,7 +160,7 @@ TEST_F(ReadNiftiTest, damaged_gzip_is_found_by_its_check_sum) {
     packed[packed.size() - 6] ^= 1;
     put_text(path("bad.nii.gz"), packed);
     EXPECT_THAT(refusal({path("bad.nii.gz")}),
-                HasSubstr("section 2: the gzip stream is damaged (incorrect data check)"));
+                HasSubstr("section 2: the compressed stream is damaged (incorrect data check)"));
 }
 
 TEST_F(ReadNiftiTest, gzip_in_several_members_with_padding_is_one_stream) {

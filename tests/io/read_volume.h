@@ -120,6 +120,38 @@ inline SampleType type_in_name(const std::filesystem::path& path) {
     return parse_sample_type(word.substr(word.rfind('_') + 1)).value();
 }
 
+/// A 5 x 4 x 3 volume whose name tells its type comes back label for label, along every axis that it can be swept
+/// along.
+inline void expect_as_named(const std::filesystem::path& file, const std::string& format) {
+    SCOPED_TRACE(file);
+    const SampleType type = type_in_name(file);
+    const Volume volume = read_volume({file});
+    EXPECT_EQ(volume.info.format, format);
+    EXPECT_EQ(volume.info.type, type);
+    EXPECT_EQ(volume.info.lattice.size, (std::array<std::uint32_t, 3>{5, 4, 3}));
+    EXPECT_EQ(volume.labels, expected(type));
+    constexpr std::array kSweeps{SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (volume.info.can_sweep[axis]) {
+            EXPECT_EQ(read_volume({file}, swept(kSweeps[axis])).labels, volume.labels) << "xyz"[axis];
+        } else {
+            EXPECT_NE(refusal({file}, swept(kSweeps[axis])).find("only along z"), std::string::npos);
+        }
+    }
+}
+
+/// origin, and direction * spacing by rows.
+inline void expect_in_space(const VolumeInfo& info, Vec3 origin, const std::array<double, 9>& matrix) {
+    for (int row = 0; row < 3; ++row) {
+        EXPECT_NEAR(info.lattice.origin[row], origin[row], 1e-12) << info.source;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(info.lattice.direction[3 * row + axis] * info.lattice.spacing[axis], matrix[3 * row + axis],
+                        1e-12)
+                << info.source << row << axis;
+        }
+    }
+}
+
 /// The regular files of a folder of tests/data, without those below it.
 inline Paths files_in(const std::string& folder) {
     Paths files;

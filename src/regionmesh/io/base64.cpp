@@ -93,6 +93,7 @@ bool Base64Decoder::read_group() {
             bits = bits << 6 | value;
         } else {
             place_ = text_.size();
+            has_failed_ = true;
             return false;
         }
     }

@@ -37,6 +37,8 @@ public:
 
     /// Fills `bytes` and returns how many it could: fewer where the text ends, or is no base64 from there on.
     std::size_t read(std::span<std::byte> bytes);
+    /// Whether the text was found to be no base64.
+    bool has_failed() const { return has_failed_; }
     /// No more bytes than these can follow.
     std::size_t most_left() const {
         return static_cast<std::size_t>(waiting_count_ - waiting_begin_) + (text_.size() - place_) / 4 * 3;
@@ -50,6 +52,7 @@ private:
     std::byte waiting_[3];
     int waiting_begin_ = 0;
     int waiting_count_ = 0;
+    bool has_failed_ = false;
 };
 
 }  // namespace regionmesh

@@ -7,7 +7,7 @@
 namespace regionmesh::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, FileType>, 27> kTypes{{
+constexpr std::array<std::pair<const char*, FileType>, 40> kTypes{{
     {".npy", FileType::kNpy},          {".nii", FileType::kNifti},        {".nii.gz", FileType::kNifti},
     {".raw", FileType::kRaw},          {".png", FileType::kPng},          {".tif", FileType::kTiff},
     {".tiff", FileType::kTiff},        {".hdr", FileType::kNiftiPair},    {".img", FileType::kNiftiPair},
@@ -16,7 +16,12 @@ constexpr std::array<std::pair<const char*, FileType>, 27> kTypes{{
     {".jp2", FileType::kOtherImage},   {".pbm", FileType::kOtherImage},   {".pgm", FileType::kOtherImage},
     {".pnm", FileType::kOtherImage},   {".ppm", FileType::kOtherImage},   {".tga", FileType::kOtherImage},
     {".webp", FileType::kOtherImage},  {".dcm", FileType::kOtherImage},   {".exr", FileType::kOtherImage},
+    {".h5", FileType::kHdf5},          {".hdf5", FileType::kHdf5},        {".hdf", FileType::kHdf5},
+    {".he5", FileType::kHdf5},         {".nxs", FileType::kHdf5},         {".dream3d", FileType::kHdf5},
     {".pcx", FileType::kOtherImage},   {".pam", FileType::kOtherImage},   {".avif", FileType::kOtherImage},
+    {".nrrd", FileType::kNrrd},        {".nhdr", FileType::kNrrd},        {".mha", FileType::kMetaImage},
+    {".mhd", FileType::kMetaImage},    {".vti", FileType::kVti},          {".inr", FileType::kInr},
+    {".inr.gz", FileType::kInr},
 }};
 
 }  // namespace

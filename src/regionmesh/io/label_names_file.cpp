@@ -15,12 +15,14 @@
 #include <vector>
 
 #include "regionmesh/base/error.h"
+#include "regionmesh/io/header_text.h"
 #include "regionmesh/io/input_file.h"
 
 namespace regionmesh {
 namespace {
 
 namespace fs = std::filesystem;
+using io::trim;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
 constexpr std::string_view kBlanks = " \t\r\v\f";
@@ -30,12 +32,6 @@ struct Row {
     std::size_t line;
     std::vector<std::string> fields;
 };
-
-std::string_view trim(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(kBlanks);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
 
 /// A whole number; spreadsheets may add ".0". Beyond the signed ones, the bits of an unsigned one.
 std::optional<InputLabel> parse_label(std::string_view text) {
@@ -58,36 +54,6 @@ bool is_number(std::string_view text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error != std::errc::invalid_argument && end == text.data() + text.size();
-}
-
-/// How many bytes the UTF-8 character at the front of `text` takes; 0 where there is none.
-std::size_t utf8_length(std::string_view text) {
-    const auto lead = static_cast<unsigned char>(text[0]);
-    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : 4;
-    if ((lead >= 0x80 && lead < 0xC2) || lead > 0xF4 || text.size() < length) return 0;
-    const bool is_whole = std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length),
-                                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });
-    return is_whole ? length : 0;
-}
-
-/// One line of UTF-8, trimmed.
-std::string tidy(std::string_view text) {
-    text = trim(text);
-    std::string name;
-    while (!text.empty()) {
-        const std::size_t length = utf8_length(text);
-        const auto byte = static_cast<unsigned char>(text[0]);
-        if (length == 0) {
-            name += static_cast<char>(0xC0 | byte >> 6);
-            name += static_cast<char>(0x80 | (byte & 0x3F));
-        } else if (byte < ' ' || byte == 0x7F) {
-            name += ' ';
-        } else {
-            name += text.substr(0, length);
-        }
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return name;
 }
 
 /// The table on its way from text to names.
@@ -256,7 +222,7 @@ LabelNames TableReader::read() {
         if (!label)
             refuse(row.line,
                    fmt::format("'{}' is no label; a whole number is needed", row.fields[*labels].substr(0, 40)));
-        const std::string name = tidy(row.fields[*names]);
+        const std::string name = io::one_line(row.fields[*names]);
         if (name.empty()) continue;
         const auto [known, is_new] = result.emplace(*label, name);
         if (!is_new && known->second != name)
@@ -270,12 +236,12 @@ LabelNames read_xml(const fs::path& path, const std::string& text) {
     pugi::xml_document document;
     if (!document.load_buffer(text.data(), text.size())) io::fail(path, "is no whole XML; fetch the file again");
     const pugi::xml_node atlas = document.child("atlas");
-    const bool counts_from_0 = tidy(atlas.child("header").child_value("type")).starts_with("Prob");
+    const bool counts_from_0 = io::one_line(atlas.child("header").child_value("type")).starts_with("Prob");
     LabelNames result;
     for (const pugi::xml_node node : atlas.child("data").children("label")) {
         const pugi::xml_attribute index = node.attribute("index");
         const auto label = parse_label(trim(index ? index.value() : node.child_value("index")));
-        const std::string name = tidy(index ? node.child_value() : node.child_value("name"));
+        const std::string name = io::one_line(index ? node.child_value() : node.child_value("name"));
         if (!label) io::fail(path, fmt::format("the label of '{}' is no whole number; mend it", name));
         if (!name.empty())
             result.emplace(static_cast<InputLabel>(static_cast<std::uint64_t>(*label) + counts_from_0), name);

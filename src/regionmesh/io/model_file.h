@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,10 +71,28 @@ struct ModelFile {
     LabelNames names = {};  // that the file gives to labels
 };
 
-/// Reads what write_model writes, and VTP files of other programs: one piece, triangles only, a cell array
-/// BoundaryLabels of two integers; ascii, inline or appended, raw or base64, zlib or no compression. Vertices keep
-/// their order and number. Throws Error(kInput) naming the file and what is wrong; sizes in the file are believed only
-/// as far as its bytes go.
-ModelFile read_model(const std::filesystem::path& path);
+struct ReadModelOptions {
+    /// Joins points no farther apart than this, in the unit of the file, and then faces that lie back to back; 0:
+    /// points at one place. Points of .stl files, and of several files in a folder, are joined at 0 without being
+    /// asked.
+    std::optional<double> weld = {};
+    /// Turns faces so that neighbours agree on which side each region lies (io/file_surface.h).
+    bool orient = false;
+};
+
+/// Reads what write_model writes into .vtp, .ply, .stl and .obj, and surfaces of other programs:
+///   .vtp .vtu  polygons, and a cell array BoundaryLabels of two integers; ascii, inline or appended, raw or base64,
+///              zlib or no compression; several pieces
+///   .ply       text or binary, any properties; faces with two labels (label_first and label_second, label0 and label1
+///              and so on), or with one (label, region), or with none: one region
+///   .stl       text: each solid is a region; binary: one region
+///   .obj       groups `interface_3_7` between two labels; any other group is a region
+///   .dream3d   the triangle geometry with its FaceLabels, of version 6 to 8
+///   a folder   a .ply, .stl or .obj for each region
+/// Where a surface comes region by region, faces that lie back to back become one face between their regions; the
+/// others bound region and exterior. Polygons are cut into triangles. Vertices keep their order and number, but where
+/// points are joined. Throws Error(kInput) naming the file and what is wrong; sizes in the file are believed only as
+/// far as its bytes go.
+ModelFile read_model(const std::filesystem::path& path, const ReadModelOptions& options = {});
 
 }  // namespace regionmesh

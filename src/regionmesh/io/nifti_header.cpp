@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "regionmesh/io/affine.h"
 #include "regionmesh/io/input_file.h"
 #include "regionmesh/io/volume_size.h"
 
@@ -118,9 +119,6 @@ std::array<std::uint32_t, 3> volume_size(const std::filesystem::path& path, cons
     return checked_size(path, size);
 }
 
-/// Three columns to multiply (i, j, k) by.
-using Columns = std::array<Vec3, 3>;
-
 /// nifti1.h, method 2: the rotation of the unit quaternion (a, b, c, d), and qfac for a left-handed third axis.
 Columns qform_columns(const Fields& fields, Vec3 spacing) {
     auto [b, c, d] = fields.quatern;
@@ -138,30 +136,12 @@ Columns qform_columns(const Fields& fields, Vec3 spacing) {
             qfac * spacing.z * Vec3{2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b}};
 }
 
-/// Splits the affine into lengths and unit columns, which need not be orthogonal.
-void set_affine(const std::filesystem::path& path, const char* form, const Columns& columns, Vec3 origin,
-                Lattice& lattice) {
-    lattice.origin = origin;
-    Columns units;
-    for (int axis = 0; axis < 3; ++axis) {
-        lattice.spacing[axis] = length(columns[axis]);
-        units[axis] = columns[axis] / lattice.spacing[axis];
-        for (int row = 0; row < 3; ++row) lattice.direction[3 * row + axis] = units[axis][row];
-    }
-    // Not-a-number fails the first comparison too.
-    if (!(std::abs(dot(units[0], cross(units[1], units[2]))) > 1e-6) ||
-        !std::isfinite(length2(lattice.spacing) + length2(origin))) {
-        fail(path, std::string("the ") + form +
-                       " is no affine map (its columns lie in a plane, or are not finite); set " + form +
-                       "_code to 0 or mend it");
-    }
-}
-
 void read_affine(const std::filesystem::path& path, const Fields& fields, Lattice& lattice) {
     if (fields.sform_code > 0) {
         const auto& s = fields.srow;
-        set_affine(path, "sform", {Vec3{s[0], s[4], s[8]}, Vec3{s[1], s[5], s[9]}, Vec3{s[2], s[6], s[10]}},
-                   {s[3], s[7], s[11]}, lattice);
+        set_affine(path, "sform", "set sform_code to 0 or mend it",
+                   {Vec3{s[0], s[4], s[8]}, Vec3{s[1], s[5], s[9]}, Vec3{s[2], s[6], s[10]}}, {s[3], s[7], s[11]},
+                   lattice);
         return;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -170,7 +150,8 @@ void read_affine(const std::filesystem::path& path, const Fields& fields, Lattic
     }
     if (fields.qform_code > 0) {
         const auto& q = fields.qoffset;
-        set_affine(path, "qform", qform_columns(fields, lattice.spacing), {q[0], q[1], q[2]}, lattice);
+        set_affine(path, "qform", "set qform_code to 0 or mend it", qform_columns(fields, lattice.spacing),
+                   {q[0], q[1], q[2]}, lattice);
     }
 }
 

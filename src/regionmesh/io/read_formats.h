@@ -18,12 +18,31 @@ std::unique_ptr<SectionReader> open_npy(const std::filesystem::path& path, const
 /// section.
 std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, const ReadOptions& options);
 
+/// NRRD, attached or detached, raw, gzipped or as text. Coordinates are those of the header's own space. Segmentations
+/// of 3D Slicer bring the names of their segments; of several layers one is read.
+std::unique_ptr<SectionReader> open_nrrd(const std::filesystem::path& path, const ReadOptions& options);
+
+/// MetaImage: .mha, and .mhd with its files of samples; raw, compressed or as text.
+std::unique_ptr<SectionReader> open_meta_image(const std::filesystem::path& path, const ReadOptions& options);
+
+/// VTK image data of one piece: the active scalars, else the only array of integers. Samples of cells lie at their
+/// centres.
+std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const ReadOptions& options);
+
+/// INRIMAGE-4, gzipped or not.
+std::unique_ptr<SectionReader> open_inr(const std::filesystem::path& path, const ReadOptions& options);
+
 /// Bare little-endian samples, x fastest, as options.raw_size and options.raw_type say.
 std::unique_ptr<SectionReader> open_raw(const std::filesystem::path& path, const ReadOptions& options);
 
 /// A TIFF whose pages are sections, or an ImageJ stack with one page for all of them. Spacing is read where ImageJ
 /// wrote one, with a unit.
 std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, const ReadOptions& options);
+
+/// An HDF5 file, and the path of a dataset or group inside, which may be empty: a DREAM.3D file's regions, else the
+/// only dataset of integers that may be a volume. Chunks are read once, in a process of its own.
+std::unique_ptr<SectionReader> open_hdf5(const std::filesystem::path& path, const std::string& inside,
+                                         const ReadOptions& options);
 
 /// PNG and one-page TIFF files, a section each, in the order given.
 std::unique_ptr<SectionReader> open_image_list(const std::vector<std::filesystem::path>& files,

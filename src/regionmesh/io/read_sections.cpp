@@ -10,8 +10,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// "a.h5:/b" is the dataset /b of a.h5, unless a file has just that name.
+std::unique_ptr<SectionReader> open_inside(const fs::path& path, const ReadOptions& options) {
+    const std::string text = path.string();
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) return nullptr;
+    for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
+        const fs::path file = text.substr(0, colon);
+        if (io::file_type(file) != io::FileType::kHdf5 || !fs::is_regular_file(file, ignored)) continue;
+        const std::string inside = text.substr(colon + 1);
+        return io::open_hdf5(file, inside.starts_with('/') ? inside : "/" + inside, options);
+    }
+    return nullptr;
+}
+
 std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions& options) {
     std::error_code ignored;
+    if (auto reader = open_inside(path, options)) return reader;
     const bool has_raw_option = options.raw_size || options.raw_type;
     if (fs::is_directory(path, ignored)) {
         if (has_raw_option)
@@ -29,8 +44,18 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
             return io::open_raw(path, options);
         case io::FileType::kTiff:
             return io::open_tiff(path, options);
+        case io::FileType::kHdf5:
+            return io::open_hdf5(path, "", options);
         case io::FileType::kPng:
             return io::open_image_list({path}, options);
+        case io::FileType::kNrrd:
+            return io::open_nrrd(path, options);
+        case io::FileType::kMetaImage:
+            return io::open_meta_image(path, options);
+        case io::FileType::kVti:
+            return io::open_vti(path, options);
+        case io::FileType::kInr:
+            return io::open_inr(path, options);
         case io::FileType::kNiftiPair:
             io::fail(path, "NIfTI pairs (.hdr and .img) are not read; join them into one .nii file");
         case io::FileType::kOtherImage:

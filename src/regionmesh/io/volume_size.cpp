@@ -70,6 +70,8 @@ std::string size_text(const std::array<std::uint64_t, 3>& size) {
 }
 
 void apply_options(VolumeInfo& info, const ReadOptions& options, const std::string& remedy) {
+    if (options.layer.value_or(0) != 0)
+        fail(info.source, "has one layer, 0; --layer " + std::to_string(*options.layer) + " is none");
     if (options.spacing) {
         for (int axis = 0; axis < 3; ++axis) {
             const double spacing = (*options.spacing)[axis];

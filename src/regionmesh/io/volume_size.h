@@ -32,7 +32,8 @@ std::string size_text(const std::array<std::uint64_t, 3>& size);
 
 /// Applies what the options say to `info`: spacing, and the sweep among those that can_sweep allows; kAuto takes the
 /// one with the smallest section, z before y before x where they are equal. `remedy` ends the error for a sweep that is
-/// not allowed. Throws also for sections of more than 2^31 samples.
+/// not allowed. Throws also for sections of more than 2^31 samples, and for a layer other than 0: formats with layers
+/// choose one before.
 void apply_options(VolumeInfo& info, const ReadOptions& options, const std::string& remedy = "give --sweep z");
 
 }  // namespace regionmesh::io

@@ -40,9 +40,9 @@ void write_two(const FileView& view, const WriteOptions&, OutputFiles& files, co
 constexpr Format kFormats[] = {
     {.extension = ".vtp", .write = write_with_arrays<write_vtp>, .has_point_arrays = true},
     {.extension = ".vtu", .write = write_with_arrays<write_vtu>, .has_point_arrays = true},
-    {.extension = ".ply", .write = write_one<write_ply>, .write_region = write_ply},
-    {.extension = ".stl", .write = write_one<write_stl>, .write_region = write_binary_stl},
-    {.extension = ".obj", .write = write_one<write_obj>, .write_region = write_obj},
+    {.extension = ".ply", .write = write_one<write_ply>, .write_region = write_region_ply},
+    {.extension = ".stl", .write = write_one<write_stl>, .write_region = write_region_stl},
+    {.extension = ".obj", .write = write_one<write_obj>, .write_region = write_region_obj},
     {.extension = ".msh", .write = write_two, .needs_closed_regions = true, .companion = ".geo"},
     {.extension = ".smesh", .write = write_one<write_smesh>, .needs_closed_regions = true},
     {.extension = ".poly", .write = write_one<write_poly>, .needs_closed_regions = true},

@@ -37,4 +37,16 @@ void write_obj(const FileView& view, OutputFile& file) {
     text.flush();
 }
 
+/// The group has no second label: the file is for one region, its normals outward.
+void write_region_obj(const FileView& view, OutputFile& file) {
+    TextWriter text(file);
+    text.line("g", FileRegions(view).all().front().title);
+    view.for_vertices([&](VertexId v) { text.line("v", view.model().position(v)); });
+    view.for_faces([&](FaceId f) {
+        const auto [a, b, c] = view.face(f).vertices;
+        text.line("f", a + 1, b + 1, c + 1);
+    });
+    text.flush();
+}
+
 }  // namespace regionmesh

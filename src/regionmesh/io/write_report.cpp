@@ -57,13 +57,21 @@ Json smoothing_json(const Report& report) {
             {"window_bytes", done.window_bytes}};
 }
 
-Json violations_json(const std::vector<Violation>& violations) {
+Json violations_json(const std::vector<Violation>& violations, const LabelTable& labels) {
     Json json = Json::array();
-    for (const Violation& violation : violations)
+    for (const Violation& violation : violations) {
         json.push_back({{"kind", to_string(violation.kind)},
                         {"text", violation.text},
                         {"vertices", violation.vertices},
                         {"faces", violation.faces}});
+        if (!violation.at) continue;
+        json.back()["at"] = {violation.at->x, violation.at->y, violation.at->z};
+        Json& met = json.back()["labels"] = Json::array();
+        for (const Label label : violation.labels) {
+            const Json text = label_json(is_exterior(label) ? labels.exterior_label() : labels.input(label), labels);
+            if (met.empty() || met.back() != text) met.push_back(text);  // the sides of the box are one exterior
+        }
+    }
     return json;
 }
 
@@ -76,7 +84,7 @@ void put_check(Json& json, const CheckReport& report, const LabelTable& labels, 
                             {"mean_turning_angle", report.lines.mean_turning_angle}};
     json["region_pairs"] = report.region_pairs;
     json["quadruple_points_inside"] = report.quadruple_points_inside;
-    json["violations"] = violations_json(report.violations);
+    json["violations"] = violations_json(report.violations, labels);
     Json& counts = json["violation_counts"] = Json::object();
     for (std::size_t kind = 0; kind < report.counts.size(); ++kind)
         counts[to_string(static_cast<ViolationKind>(kind))] = report.counts[kind];

@@ -40,7 +40,8 @@ void write_stl(const FileView& view, OutputFile& file) {
     text.flush();
 }
 
-void write_binary_stl(const FileView& view, OutputFile& file) {
+/// Binary, in single precision: one solid.
+void write_region_stl(const FileView& view, OutputFile& file) {
     const Model& model = view.model();
     char head[84] = "binary STL of regionmesh";  // must not begin with "solid"
     const std::uint32_t count = model.face_count();

@@ -127,8 +127,8 @@ void write_names(const FileView& view, OutputFile& file) {
     if (count == 0) return;
     file.write(
         fmt::format("<DataArray type=\"Int64\" Name=\"RegionLabels\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}"
-                    "</DataArray>\n<DataArray type=\"String\" Name=\"RegionNames\" NumberOfTuples=\"{}\" "
-                    "format=\"ascii\">\n{}</DataArray>\n",
+                    "</DataArray>\n<Array type=\"String\" Name=\"RegionNames\" NumberOfTuples=\"{}\" "
+                    "format=\"ascii\">\n{}</Array>\n",
                     count, labels, count, codes));
 }
 

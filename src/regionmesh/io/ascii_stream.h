@@ -1,0 +1,43 @@
+// Samples written as text.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "regionmesh/io/byte_stream.h"
+#include "regionmesh/io/sample_format.h"
+
+namespace regionmesh::io {
+
+/// How the bytes of an AsciiStream are to be decoded, whatever type the header says: numbers of 64 bits.
+inline constexpr SampleFormat kAsciiFormat{.type = SampleType::kI64};
+
+/// A number takes two letters at least, with the blank behind it, but for the last.
+constexpr std::uint64_t most_ascii_samples(std::uint64_t letters) { return letters / 2 + 1; }
+
+/// The whole numbers in a text between blanks (or commas), each as the eight bytes of a little-endian integer; beyond
+/// the signed ones, the bits of an unsigned one.
+class AsciiStream final : public ByteStream {
+public:
+    explicit AsciiStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX);
+
+    std::size_t read(std::span<std::byte> bytes) override;
+    void rewind() override;
+    const std::string& problem() const override { return problem_; }
+
+private:
+    bool next_word();
+    bool refill();
+
+    InputFile file_;
+    std::uint64_t begin_, end_, place_;
+    std::vector<char> text_;
+    std::size_t text_place_ = 0;
+    std::string word_;
+    std::byte number_[8];
+    std::size_t number_place_ = sizeof number_;
+    std::string problem_;
+};
+
+}  // namespace regionmesh::io

@@ -1,0 +1,52 @@
+// Work that may crash or never end, done in a copy of this process.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace regionmesh::io {
+
+using Bytes = std::vector<std::byte>;
+
+/// What the copy may take, on top of what it has when it begins.
+struct ChildLimits {
+    std::uint64_t memory_bytes = std::uint64_t{4} << 30;  // address space
+    unsigned seconds = 120;                               // of computing, for one answer
+};
+
+/// A copy of this process, made by fork, that answers requests one after another with a function given beforehand.
+/// For libraries that a damaged file can make crash, loop or eat memory: that ends the copy only, and is told by
+/// Error(kInput). The copy holds no files or sockets of this process, prints nothing, and ends with this object.
+///
+/// Fork as early as can be: the copy keeps the memory that there is then. Where other threads run, the function may
+/// use no lock that one of them may hold just then, but for those of the C library's own memory and files. Requires
+/// one caller at a time.
+class ChildProcess {
+public:
+    using Answer = std::function<Bytes(std::span<const std::byte> request)>;
+
+    /// `complaint` is the text of the Error when the copy ends without an answer.
+    ChildProcess(Answer answer, std::string complaint, const ChildLimits& limits = {});
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+    ~ChildProcess();
+
+    /// What `answer` returns. An Error that it throws is thrown here; after that it can be asked again.
+    Bytes ask(std::span<const std::byte> request);
+
+private:
+    void end();
+    [[noreturn]] void complain();
+
+    std::string complaint_;
+    pid_t process_ = -1;
+    int socket_ = -1;
+};
+
+}  // namespace regionmesh::io

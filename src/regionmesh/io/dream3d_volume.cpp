@@ -1,0 +1,132 @@
+#include "regionmesh/io/dream3d_volume.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "regionmesh/io/input_file.h"
+#include "regionmesh/io/volume_size.h"
+
+namespace regionmesh::io {
+namespace {
+
+struct ImageGeometry {
+    std::string path;  // of what holds its cell arrays
+    std::vector<double> dimensions, spacing, origin;
+};
+
+std::vector<double> attribute(const Hdf5Entry& entry, const char* name) {
+    const auto found = entry.numbers.find(name);
+    return found == entry.numbers.end() ? std::vector<double>() : found->second;
+}
+
+/// Of both versions: in the first the numbers are datasets of a group in the container, in the second attributes.
+std::vector<ImageGeometry> image_geometries(const std::vector<Hdf5Entry>& entries) {
+    constexpr std::string_view kGroup = "/_SIMPL_GEOMETRY";
+    std::vector<ImageGeometry> geometries;
+    const auto values = [&](const std::string& path) {
+        const auto found = std::ranges::find(entries, path, &Hdf5Entry::path);
+        return found == entries.end() ? std::vector<double>() : found->values;
+    };
+    for (const Hdf5Entry& entry : entries) {
+        if (entry.path.starts_with("/DataContainers/") && entry.path.ends_with(kGroup)) {
+            geometries.push_back({entry.path.substr(0, entry.path.size() - kGroup.size()),
+                                  values(entry.path + "/DIMENSIONS"), values(entry.path + "/SPACING"),
+                                  values(entry.path + "/ORIGIN")});
+        } else if (entry.path.starts_with("/DataStructure/") && entry.numbers.contains("_DIMENSIONS")) {
+            geometries.push_back({entry.path, attribute(entry, "_DIMENSIONS"), attribute(entry, "_SPACING"),
+                                  attribute(entry, "_ORIGIN")});
+        }
+    }
+    std::erase_if(geometries, [](const ImageGeometry& geometry) { return geometry.dimensions.size() != 3; });
+    return geometries;
+}
+
+bool is_below(const std::string& path, const std::string& group) {
+    return path.starts_with(group) &&
+           (path.size() == group.size() || path[group.size()] == '/' || group.ends_with('/'));
+}
+
+const ImageGeometry* geometry_of(const std::vector<ImageGeometry>& geometries, const std::string& path) {
+    const ImageGeometry* nearest = nullptr;
+    for (const ImageGeometry& geometry : geometries) {
+        if (is_below(path, geometry.path) && (!nearest || geometry.path.size() > nearest->path.size()))
+            nearest = &geometry;
+    }
+    return nearest;
+}
+
+/// The arrays of regions in image geometries, below `group`. Older files call a region a grain.
+std::vector<Hdf5Entry> region_arrays(const std::vector<Hdf5Entry>& entries,
+                                     const std::vector<ImageGeometry>& geometries, const std::string& group) {
+    std::vector<Hdf5Entry> arrays;
+    for (const char* name : {"/FeatureIds", "/GrainIds"}) {
+        for (const Hdf5Entry& entry : entries) {
+            if (entry.is_dataset && entry.path.ends_with(name) && is_below(entry.path, group) &&
+                geometry_of(geometries, entry.path)) {
+                arrays.push_back(entry);
+            }
+        }
+        if (!arrays.empty()) break;
+    }
+    return arrays;
+}
+
+Hdf5Entry choose_array(const std::filesystem::path& file, const std::string& source,
+                       const std::vector<Hdf5Entry>& arrays) {
+    if (arrays.size() == 1) return arrays.front();
+    if (arrays.empty()) {
+        fail(source, "no image geometry has a cell array FeatureIds; name another, as in " + file.string() +
+                         ":/DataContainers/NAME/CellData/NAME");
+    }
+    fail(source, "holds several arrays FeatureIds; name one: " + list_datasets(file, arrays));
+}
+
+/// Cells along x, y, z, which the array must have, too: as axes z, y, x or as one, with or without one for components.
+Hdf5Volume volume_of(const std::string& source, const Hdf5Entry& array, const ImageGeometry& geometry) {
+    require_labels(source, array);
+    std::array<std::uint64_t, 3> size{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double cells = geometry.dimensions[axis];
+        if (!(cells >= 1 && cells <= static_cast<double>(kMaxAxisSamples))) {
+            fail(source, geometry.path + ": the image geometry has " + std::to_string(cells) + " cells along " +
+                             "xyz"[axis] + "; check the file");
+        }
+        size[axis] = static_cast<std::uint64_t>(cells);
+    }
+    std::vector<std::uint64_t> shape = array.shape;
+    if ((shape.size() == 2 || shape.size() == 4) && shape.back() == 1) shape.pop_back();
+    Hdf5Volume volume{.format = "dream3d", .source = source, .dataset = array};
+    if (shape.size() == 1 && size[0] * size[1] <= shape[0] / size[2] && size[0] * size[1] * size[2] == shape[0]) {
+        volume.flat_size = size;
+    } else if (shape != std::vector<std::uint64_t>{size[2], size[1], size[0]}) {
+        fail(source, describe(array) + " does not fit the image geometry of " + size_text(size) +
+                         " cells; name an array of its cells, one component each");
+    }
+    volume.axis_names = array.shape.size() == 4 ? std::vector<std::string>{"z", "y", "x", "component"}
+                                                : std::vector<std::string>{"z", "y", "x"};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (geometry.spacing.size() == 3) volume.placement.spacing[axis] = geometry.spacing[axis];
+        volume.placement.origin[axis] = volume.placement.spacing[axis] / 2;
+        if (geometry.origin.size() == 3) volume.placement.origin[axis] += geometry.origin[axis];
+    }
+    return volume;
+}
+
+}  // namespace
+
+std::optional<Hdf5Volume> find_dream3d_volume(Hdf5Reader& file, const std::string& source, const std::string& inside) {
+    if (!file.entry("/DataContainers") && !file.entry("/DataStructure")) return std::nullopt;
+    const std::vector<Hdf5Entry> entries = file.entries();
+    const std::vector<ImageGeometry> geometries = image_geometries(entries);
+    const auto named = std::ranges::find(entries, inside, &Hdf5Entry::path);
+    if (named != entries.end() && named->is_dataset) {
+        const ImageGeometry* geometry = geometry_of(geometries, inside);
+        return geometry ? std::optional(volume_of(source, *named, *geometry)) : std::nullopt;
+    }
+    if (!inside.empty() && inside != "/" && named == entries.end()) return std::nullopt;
+    const Hdf5Entry array =
+        choose_array(file.path(), source, region_arrays(entries, geometries, inside.empty() ? "/" : inside));
+    return volume_of(source, array, *geometry_of(geometries, array.path));
+}
+
+}  // namespace regionmesh::io

@@ -1,0 +1,35 @@
+// The XML of VTK image data, without the arrays in it.
+// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "regionmesh/io/input_file.h"
+#include "regionmesh/volume/lattice.h"
+#include "regionmesh/volume/section_reader.h"
+
+namespace regionmesh::io {
+
+/// An array of integers, one a sample, and where its bytes lie.
+struct VtiArray {
+    enum class Form { kAscii, kBase64, kRaw };
+    Form form = Form::kRaw;
+    std::uint64_t begin = 0, end = 0;  // in the file; text may go on behind it
+    SampleType type = SampleType::kU8;
+    std::string name;
+};
+
+struct VtiHeader {
+    Lattice lattice;  // of the samples: points, or centres of cells
+    VtiArray array;
+    bool is_compressed = false;
+    bool is_big_endian = false;
+    std::size_t word_bytes = 4;  // of the counts in front of arrays
+};
+
+/// Reads the file once up to its appended data, but holds the tags only. Throws Error(kInput) naming the file: more
+/// than one piece, no array of integers or several of which none is the active scalars, another compression than zlib.
+VtiHeader read_vti_header(const InputFile& file);
+
+}  // namespace regionmesh::io

@@ -1,0 +1,95 @@
+#include "fuzz/fuzz_formats.h"
+
+#include <array>
+#include <cstdint>
+
+#include "regionmesh/check/fix_unsound.h"
+#include "regionmesh/decimate/decimate.h"
+#include "regionmesh/io/label_names_file.h"
+#include "regionmesh/io/model_file.h"
+#include "regionmesh/io/read_sections.h"
+
+namespace regionmesh::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostSections = 40;
+constexpr std::size_t kMostSamples = std::size_t{1} << 20;  // a section's own memory is the caller's choice
+
+void pull_sections(SectionReader& reader) {
+    const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
+    if (samples > kMostSamples) return;
+    std::vector<InputLabel> section(samples);
+    for (std::size_t count = 0; count < kMostSections && reader.next(section); ++count) continue;
+}
+
+void read_volume(const fs::path& path, ReadOptions options, Random& random) {
+    constexpr std::array kSweeps{SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
+    if (random.one_in(2)) options.sweep = kSweeps[random.below(3)];
+    if (random.one_in(4)) options.layer = static_cast<std::uint32_t>(random.below(3));
+    const auto reader = open_sections({path}, options);
+    pull_sections(*reader);
+    if (!reader->info().can_rewind) return;
+    reader->rewind();
+    pull_sections(*reader);
+}
+
+void volume(const fs::path& path, Random& random) { read_volume(path, {}, random); }
+
+/// Bare samples: what may be wrong is what the options say.
+void raw(const fs::path& path, Random& random) {
+    ReadOptions options;
+    options.raw_type = static_cast<SampleType>(random.below(9));
+    options.raw_size.emplace();
+    for (std::uint32_t& size : *options.raw_size)
+        size = static_cast<std::uint32_t>(random.one_in(8) ? random.next() >> random.below(64) : 1 + random.below(6));
+    if (random.one_in(2)) {
+        options.raw_type = SampleType::kU8;
+        options.raw_size = {static_cast<std::uint32_t>(fs::file_size(path)), 1, 1};
+    }
+    read_volume(path, options, random);
+}
+
+constexpr std::uint32_t kMostFaces = 2000;  // of what is worked on
+
+/// What can be read is also checked and decimated: no surface may be too odd.
+void model(const fs::path& path, Random& random) {
+    ReadModelOptions options{.orient = random.one_in(2)};
+    if (random.one_in(2)) options.weld = random.one_in(2) ? 0 : 0.01;
+    ModelFile file = read_model(path, options);
+    if (file.model.face_count() > kMostFaces) return;
+    check(file.model, {.threads = 1});
+    file.model.sort_spatially();
+    fix_unsound(file.model, {.threads = 1});
+    decimate(file.model, {.target_faces = file.model.face_count() / 4});
+}
+
+void names(const fs::path& path, Random&) { read_label_names(path); }
+
+}  // namespace
+
+std::span<const Format> formats() {
+    static const std::array kFormats{
+        Format{"npy", "npy", {".npy"}, volume},
+        Format{"nifti", "nifti", {".nii", ".gz"}, volume},
+        Format{"tiff", "tiff", {".tif"}, volume},
+        Format{"png", "png", {".png"}, volume},
+        Format{"raw", "nrrd", {".raw"}, raw},
+        Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
+        Format{"meta", "meta", {".mha", ".mhd"}, volume},
+        Format{"vti", "vti", {".vti"}, volume},
+        Format{"inr", "inr", {".inr", ".gz"}, volume},
+        Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
+        Format{"vtp", "", {".vtp"}, model},
+        Format{"vtu", "surfaces", {".vtu"}, model},
+        Format{"ply", "ply", {".ply"}, model},
+        Format{"plies", "surfaces", {".ply"}, model},
+        Format{"stl", "surfaces", {".stl"}, model},
+        Format{"obj", "surfaces", {".obj"}, model},
+        Format{"dream3d", "surfaces", {".dream3d"}, model},
+    };
+    return kFormats;
+}
+
+}  // namespace regionmesh::fuzz
