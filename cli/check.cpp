@@ -57,7 +57,7 @@ int check_command(const Arguments& arguments) {
             file.labels);
     }
     const CheckReport report = check(file.model, options);
-    if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels));
+    if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels, file.names));
     if (!arguments.quiet) print_findings(arguments.model, report);
     return report.violation_count() == 0 ? 0 : 3;
 }

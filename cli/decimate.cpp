@@ -5,16 +5,18 @@
 #include "commands.h"
 #include "input_options.h"
 #include "model_options.h"
+#include "output_options.h"
 
 namespace regionmesh::cli {
 namespace {
 
 struct Arguments {
-    std::string model, output;
+    std::string model;
     std::string target_faces, reduce, max_error, min_quality = "0.1", perturbation = "1e-7";
     bool no_intersect_check = false, quiet = false;
     InputOptions input;
     ModelOptions reading;
+    OutputOptions output;
 };
 
 DecimateOptions to_options(const Arguments& arguments, const Model& model) {
@@ -36,7 +38,7 @@ DecimateOptions to_options(const Arguments& arguments, const Model& model) {
 int decimate_command(const Arguments& arguments) {
     if (arguments.target_faces.empty() && arguments.reduce.empty() && arguments.max_error.empty())
         throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
-    require_writable_model(arguments.output);
+    arguments.output.require_writable(!arguments.input.cap());
     ModelFile file = arguments.reading.read(arguments.model);
     const CheckOptions check_options = arguments.input.check_options(file.labels);
     const CheckReport before = check(file.model, check_options);
@@ -46,10 +48,9 @@ int decimate_command(const Arguments& arguments) {
     const FixedPart fixed = before.violation_count() > 0 ? fix_unsound(file.model, check_options) : FixedPart{};
     const DecimateResult done = decimate(file.model, options);
     const CheckReport after = check(file.model, check_options);
-    write_model(file.model, file.labels, arguments.output,
-                {.background = check_options.background, .names = file.names});
+    arguments.output.write(file.model, file.labels, check_options.background, arguments.output.names_or(file.names));
     if (!arguments.quiet) {
-        fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output,
+        fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output.path,
                    file.model.face_count(), initial, after.quality.min, after.violation_count());
         print_unsound(fixed, before, after);
         if (done.stopped == StopReason::kTopology)
@@ -65,7 +66,7 @@ void add_decimate(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("decimate", "a labelled surface in, with fewer faces out");
     command->add_option("model", arguments->model, kModelRead)->required();
     arguments->reading.add_options(*command);
-    command->add_option("-o,--output", arguments->output, "model to write; the extension says how")->required();
+    arguments->output.add_options(*command);
     arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "at most so many faces");
     command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");

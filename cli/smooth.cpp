@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input_options.h"
 #include "model_options.h"
+#include "output_options.h"
 #include "regionmesh/base/process.h"
 #include "smooth_arguments.h"
 
@@ -10,12 +11,13 @@ namespace regionmesh::cli {
 namespace {
 
 struct Arguments {
-    std::string model, output, report, min_quality = "0.1", scale;
+    std::string model, report, min_quality = "0.1", scale;
     std::uint32_t threads = 0;
     bool preserve_volume = false, no_intersect_check = false, quiet = false;
     SmoothArguments smooth;
     InputOptions input;
     ModelOptions reading;
+    OutputOptions output;
 };
 
 SmoothOptions to_options(const Arguments& arguments, const Model& model) {
@@ -40,7 +42,7 @@ WantedVolumes wanted_volumes(const CheckReport& report) {
 int smooth_command(const Arguments& arguments) {
     if (arguments.preserve_volume && !arguments.input.cap())
         throw Error(ErrorCode::kInput, "--preserve-volume: open regions have no volume; leave out --boundary open");
-    require_writable_model(arguments.output);
+    arguments.output.require_writable(!arguments.input.cap());
     if (!arguments.report.empty()) require_writable(arguments.report);
     ModelFile file = arguments.reading.read(arguments.model);
     const CheckOptions check_options = arguments.input.check_options(file.labels);
@@ -62,15 +64,15 @@ int smooth_command(const Arguments& arguments) {
     report.final_faces = report.initial_faces;
     report.final_vertices = report.initial_vertices;
     report.stopped = "none asked";
-    write_model(file.model, file.labels, arguments.output,
-                {.background = check_options.background, .names = file.names});
+    const LabelNames names = arguments.output.names_or(file.names);
+    arguments.output.write(file.model, file.labels, check_options.background, names);
     report.peak_bytes = peak_resident_bytes();
-    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels));
+    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels, names));
     if (!arguments.quiet) {
         fmt::print(
             "{}: {} vertices, {} stepped back, moved by {:.3g} at most; quality {:.3f} at worst, {} violations (before "
             "{})\n",
-            arguments.output, report.smoothing.vertices, report.smoothing.stepped_back,
+            arguments.output.path, report.smoothing.vertices, report.smoothing.stepped_back,
             report.smoothing.largest_displacement, report.check.quality.min, report.check.violation_count(),
             before.violation_count());
         print_unsound(fixed, before, report.check);
@@ -85,7 +87,7 @@ void add_smooth(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("smooth", "a labelled surface in, the same without steps out");
     command->add_option("model", arguments->model, kModelRead)->required();
     arguments->reading.add_options(*command);
-    command->add_option("-o,--output", arguments->output, "model to write; the extension says how")->required();
+    arguments->output.add_options(*command);
     arguments->smooth.add_options(*command);
     arguments->input.add_label_options(*command);
     command->add_flag("--preserve-volume", arguments->preserve_volume,

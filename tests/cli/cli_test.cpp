@@ -168,7 +168,7 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
     write_model(test::octahedron(), labels, path("good.vtp"), {});
-    expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.obj"), 1, "m.obj");
+    expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.obj");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 1, "--smooth-lambda");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 1, "--scale");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 1, "--min-quality");
@@ -225,7 +225,7 @@ TEST_F(Cli, bad_usage_is_exit_2) {
 }
 
 TEST_F(Cli, an_output_that_cannot_be_written_is_refused_and_leaves_nothing) {
-    for (const std::string& to : {out("m.obj"), out("m"), out("none/m.vtp"), path("volume.raw").string() + "/m.vtp"}) {
+    for (const std::string& to : {out("m.xyz"), out("m"), out("none/m.vtp"), path("volume.raw").string() + "/m.vtp"}) {
         SCOPED_TRACE(to);
         const Ran ran = run("reconstruct " + volume() + "-o " + to);
         EXPECT_TRUE(ran.code == 1 || ran.code == 2) << ran.code;

@@ -279,11 +279,11 @@ TEST_F(ModelFileTest, extension_is_matched_in_any_case_and_others_are_refused) {
     const LabelTable labels = labels_of({3, 5});
     expect_same(round_trip(two_boxes(), labels, ".VTP"), two_boxes(), labels);
     try {
-        write_model(two_boxes(), labels, path("m.stl"));
+        write_model(two_boxes(), labels, path("m.xyz"));
         ADD_FAILURE() << "nothing thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::kOutput);
-        EXPECT_THAT(error.what(), HasSubstr("'.stl': use .vtp or .ply"));
+        EXPECT_THAT(error.what(), HasSubstr("'.xyz': use one of .vtp"));
     }
     EXPECT_THAT(failure_of(path("m.xyz")), HasSubstr("has the extension '.xyz': use one of .vtp .vtu .ply"));
     EXPECT_EQ(file_count(), 0);
@@ -301,7 +301,7 @@ TEST_F(ModelFileTest, point_arrays_stand_in_vtp_files_and_nowhere_else) {
     const ModelFile file = read_model(path("m.vtp"));
     EXPECT_EQ(faces_of(file.model, file.labels), faces_of(model, labels_of({1, 2})));
     EXPECT_THROW(write_model(model, labels_of({1, 2}), path("m.ply"), options), Error);
-    EXPECT_THROW(require_writable_model(path("m.ply"), true), Error);
+    EXPECT_THROW(require_writable_model(path("m.ply"), {}, true), Error);
     EXPECT_EQ(file_count(), 1);
 }
 

@@ -39,6 +39,7 @@ public:
     FileSurface read(bool is_grid);
 
 private:
+    void read_names();
     void refuse_other_cells(pugi::xml_node piece) const;
     void read_points(pugi::xml_node piece, std::uint64_t count);
     void read_types(pugi::xml_node cells, std::uint64_t count) const;
@@ -52,7 +53,22 @@ private:
     std::vector<std::uint32_t> corner_counts_;  // of its cells
 };
 
+/// Labels and names side by side; other arrays with these names are left.
+void VtkSurfaceReader::read_names() {
+    const pugi::xml_node fields = file_.dataset().child("FieldData"), labels = array_named(fields, "RegionLabels"),
+                         names = fields.find_child_by_attribute("Array", "Name", "RegionNames");
+    if (!labels || !names || std::string_view(names.attribute("type").value()) != "String") return;
+    const std::vector<std::string> texts = file_.read_strings(names);
+    if (file_.number(labels, "NumberOfTuples", 0) != texts.size()) return;
+    std::size_t n = 0;
+    file_.read_integers(labels, texts.size(), [&](std::span<const std::int64_t> values) {
+        for (const std::int64_t label : values)
+            if (const std::string name = clean_name(texts[n++]); !name.empty()) surface_.names[label] = name;
+    });
+}
+
 FileSurface VtkSurfaceReader::read(bool is_grid) {
+    read_names();
     const pugi::xml_node exterior = array_named(file_.dataset().child("FieldData"), "ExteriorLabel");
     if (exterior)
         file_.read_integers(exterior, 1, [&](std::span<const std::int64_t> values) {

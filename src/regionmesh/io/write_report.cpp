@@ -14,7 +14,8 @@ void put_volume(Json& json, const char* name, const std::vector<double>& volumes
     if (label < volumes.size()) json[name] = volumes[label];
 }
 
-Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, const Report* run) {
+Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, const LabelNames& names,
+                  const Report* run) {
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
         return labels.less(labels.input(a.label), labels.input(b.label));
     });
@@ -25,6 +26,8 @@ Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, c
                         {"components", region.components},
                         {"volume", region.volume},
                         {"area", region.area}});
+        if (const auto name = names.find(labels.input(region.label)); name != names.end())
+            json.back()["name"] = name->second;
         if (!run) continue;
         put_volume(json.back(), "volume_unsmoothed", run->unsmoothed_volumes, region.label);
         put_volume(json.back(), "volume_smoothed", run->smoothing.volume_after, region.label);
@@ -72,9 +75,10 @@ Json violations_json(const std::vector<Violation>& violations, const LabelTable&
     return json;
 }
 
-void put_check(Json& json, const CheckReport& report, const LabelTable& labels, const Report* run = nullptr) {
+void put_check(Json& json, const CheckReport& report, const LabelTable& labels, const LabelNames& names,
+               const Report* run = nullptr) {
     json["quality"] = quality_json(report.quality);
-    json["regions"] = regions_json(report.regions, labels, run);
+    json["regions"] = regions_json(report.regions, labels, names, run);
     json["triple_lines"] = {{"edges", report.lines.edges},
                             {"length", report.lines.length},
                             {"mean_turning_angle", report.lines.mean_turning_angle}};
@@ -88,7 +92,7 @@ void put_check(Json& json, const CheckReport& report, const LabelTable& labels, 
 
 }  // namespace
 
-std::string report_json(const Report& report, const LabelTable& labels) {
+std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names) {
     Json json{{"initial_faces", report.initial_faces},
               {"initial_vertices", report.initial_vertices},
               {"final_faces", report.final_faces},
@@ -107,13 +111,13 @@ std::string report_json(const Report& report, const LabelTable& labels) {
                                  {"drift", report.preserved.drift},
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
-    put_check(json, report.check, labels, &report);
+    put_check(json, report.check, labels, names, &report);
     return text_of(json);
 }
 
-std::string check_json(const CheckReport& report, const LabelTable& labels) {
+std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names) {
     Json json;
-    put_check(json, report, labels);
+    put_check(json, report, labels, names);
     return text_of(json);
 }
 
