@@ -168,7 +168,7 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
     write_model(test::octahedron(), labels, path("good.vtp"), {});
-    expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.obj");
+    expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.xyz");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 1, "--smooth-lambda");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 1, "--scale");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 1, "--min-quality");
