@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "model_options.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -12,6 +13,7 @@ struct Arguments {
     std::uint32_t threads = 0;
     bool quiet = false;
     InputOptions input;
+    ModelOptions reading;
 };
 
 /// The oracle in the dense labels of the model's table; labels that the model does not know get numbers of their own.
@@ -41,10 +43,11 @@ void print_findings(const std::string& name, const CheckReport& report) {
             if (violation.kind == static_cast<ViolationKind>(kind) && shown++ < 3) fmt::print("  {}\n", violation.text);
     }
     if (report.violation_count() == 0) fmt::print("no violations\n");
+    print_orient_hint(report);
 }
 
 int check_command(const Arguments& arguments) {
-    ModelFile file = read_model(arguments.model);
+    ModelFile file = arguments.reading.read(arguments.model);
     CheckOptions options = arguments.input.check_options(file.labels);
     options.threads = arguments.threads;
     if (!arguments.sections.empty()) {
@@ -54,7 +57,7 @@ int check_command(const Arguments& arguments) {
             file.labels);
     }
     const CheckReport report = check(file.model, options);
-    if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels));
+    if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels, file.names));
     if (!arguments.quiet) print_findings(arguments.model, report);
     return report.violation_count() == 0 ? 0 : 3;
 }
@@ -65,8 +68,8 @@ void add_check(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand(
         "check", "looks for cracks, folds, crossings and changes of topology; exit 3 if there are any");
-    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
-        ->required();
+    command->add_option("model", arguments->model, kModelRead)->required();
+    arguments->reading.add_options(*command);
     command->add_option("--sections", arguments->sections,
                         "the volume that the model was made from: compare with its labels");
     arguments->input.add_volume_options(*command);

@@ -13,6 +13,7 @@ void add_reconstruct(CLI::App& app, Action& action);
 void add_decimate(CLI::App& app, Action& action);
 void add_smooth(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_convert(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 

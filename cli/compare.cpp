@@ -152,7 +152,7 @@ int compare_command(const Arguments& arguments) {
         throw Error(ErrorCode::kInput,
                     fmt::format("--samples {}: give a number from 1 to {}", arguments.samples, kMostSamples));
     if (!arguments.json.empty()) require_writable(arguments.json);
-    if (!arguments.distance.empty()) require_writable_model(arguments.distance, true);
+    if (!arguments.distance.empty()) require_writable_model(arguments.distance, {}, true);
     const ModelFile a = read_faces(arguments.a), b = read_faces(arguments.b);
     const CompareReport report = compare({a.model, a.labels}, {b.model, b.labels}, options);
     if (!report.distance.both)

@@ -4,16 +4,20 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "model_options.h"
+#include "output_options.h"
 #include "regionmesh/base/process.h"
 
 namespace regionmesh::cli {
 namespace {
 
 struct Arguments {
-    std::string model, output, report;
+    std::string model, report;
     std::string target_faces, reduce, max_error, min_quality = "0.1", perturbation = "1e-7";
     bool no_intersect_check = false, quiet = false;
     InputOptions input;
+    ModelOptions reading;
+    OutputOptions output;
 };
 
 DecimateOptions to_options(const Arguments& arguments, const Model& model) {
@@ -39,7 +43,6 @@ Report decimated(Model& model, const DecimateOptions& options) {
     report.initial_vertices = model.vertex_count();
     {
         const Timer timer(report.seconds["decimate"]);
-        model.sort_spatially();
         const std::size_t model_bytes = model.bytes();
         const DecimateResult done = decimate(model, options);
         report.verdicts = done.verdicts;
@@ -55,23 +58,23 @@ Report decimated(Model& model, const DecimateOptions& options) {
 int decimate_command(const Arguments& arguments) {
     if (arguments.target_faces.empty() && arguments.reduce.empty() && arguments.max_error.empty())
         throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
-    require_writable_model(arguments.output);
+    arguments.output.require_writable(!arguments.input.cap());
     if (!arguments.report.empty()) require_writable(arguments.report);
-    ModelFile file = read_model(arguments.model);
+    ModelFile file = arguments.reading.read(arguments.model);
     const CheckOptions check_options = arguments.input.check_options(file.labels);
     const CheckReport before = check(file.model, check_options);
-    if (before.violation_count() > 0)
-        throw Error(ErrorCode::kInput,
-                    fmt::format("{}: {} violations; only a sound model can be decimated soundly: see regionmesh check",
-                                arguments.model, before.violation_count()));
+    file.model.sort_spatially();
+    const FixedPart fixed = before.violation_count() > 0 ? fix_unsound(file.model, check_options) : FixedPart{};
     Report report = decimated(file.model, to_options(arguments, file.model));
     report.check = check(file.model, check_options);
-    write_model(file.model, file.labels, arguments.output, {.background = check_options.background});
+    const LabelNames names = arguments.output.names_or(file.names);
+    arguments.output.write(file.model, file.labels, check_options.background, names);
     report.peak_bytes = peak_resident_bytes();
-    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels));
+    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels, names));
     if (!arguments.quiet) {
-        fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output,
+        fmt::print("{}: {} faces (from {}), quality {:.3f} at worst, {} violations\n", arguments.output.path,
                    report.final_faces, report.initial_faces, report.check.quality.min, report.check.violation_count());
+        print_unsound(fixed, before, report.check);
         if (report.stopped == "topology") fmt::print("stopped before the target: no further edge can be collapsed\n");
     }
     return report.check.violation_count() == 0 ? 0 : 3;
@@ -81,10 +84,10 @@ int decimate_command(const Arguments& arguments) {
 
 void add_decimate(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("decimate", "a sound labelled surface in, with fewer faces out");
-    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
-        ->required();
-    command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
+    CLI::App* command = app.add_subcommand("decimate", "a labelled surface in, with fewer faces out");
+    command->add_option("model", arguments->model, kModelRead)->required();
+    arguments->reading.add_options(*command);
+    arguments->output.add_options(*command);
     arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "at most so many faces");
     command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     regionmesh::cli::add_decimate(app, action);
     regionmesh::cli::add_smooth(app, action);
     regionmesh::cli::add_check(app, action);
+    regionmesh::cli::add_convert(app, action);
     regionmesh::cli::add_compare(app, action);
     regionmesh::cli::add_info(app, action);
     try {

@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "output_options.h"
 #include "progress_line.h"
 #include "smooth_arguments.h"
 
@@ -10,13 +11,14 @@ namespace {
 
 struct Arguments {
     std::vector<std::string> inputs;
-    std::string output, report;
+    std::string report;
     std::string target_faces, reduce, max_error, min_quality = "0.1", memory = "2GiB", face_budget,
                                                  perturbation = "1e-7";
     std::uint32_t threads = 0;
     bool preserve_volume = false, no_decimate = false, no_intersect_check = false, quiet = false;
     SmoothArguments smooth;
     InputOptions input;
+    OutputOptions output;
 };
 
 ReconstructOptions to_options(const Arguments& arguments) {
@@ -58,7 +60,7 @@ void print_memory(const Arguments& arguments, const Report& report) {
 }
 
 void print_summary(const Arguments& arguments, const Report& report) {
-    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", arguments.output, report.final_faces,
+    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", arguments.output.path, report.final_faces,
                report.final_vertices, report.initial_faces);
     fmt::print(
         "quality {:.3f} at worst, {:.3f} on average; {} regions, {} pairs with an interface, {} quadruple points "
@@ -82,22 +84,23 @@ void print_summary(const Arguments& arguments, const Report& report) {
 
 int reconstruct_command(const Arguments& arguments) {
     const ReconstructOptions options = to_options(arguments);
-    require_writable_model(arguments.output);
+    arguments.output.require_writable(!options.cap);
     if (!arguments.report.empty()) require_writable(arguments.report);
     const auto reader = arguments.input.open(arguments.inputs);
+    const LabelNames names = arguments.output.names_or(reader->info().names);
     ProgressLine line(arguments.quiet);
     Reconstruction made = reconstruct(*reader, options, [&](const Progress& progress) { line.show(progress); });
     line.clear();
     double writing = 0;
     {
         const Timer timer(writing);
-        write_model(made.model, made.labels, arguments.output, {.background = made.background});
+        arguments.output.write(made.model, made.labels, made.background, names);
     }
     Report& report = made.report;
     report.seconds["write"] = writing;
     report.seconds["total"] += writing;
     report.peak_bytes = peak_resident_bytes();
-    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, made.labels));
+    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, made.labels, names));
     if (!arguments.quiet) print_summary(arguments, report);
     return report.check.violation_count() == 0 ? 0 : 3;
 }
@@ -113,7 +116,7 @@ void add_reconstruct(CLI::App& app, Action& action) {
             "volume (.npy .nii.gz .nrrd .mha .vti .tif .h5:/dataset .dream3d .zarr ...), directory of sections, "
             "or list of sections")
         ->required();
-    command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
+    arguments->output.add_options(*command);
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "decimate to at most so many faces");

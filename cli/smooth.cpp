@@ -2,6 +2,8 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "model_options.h"
+#include "output_options.h"
 #include "regionmesh/base/process.h"
 #include "smooth_arguments.h"
 
@@ -9,11 +11,13 @@ namespace regionmesh::cli {
 namespace {
 
 struct Arguments {
-    std::string model, output, report, min_quality = "0.1", scale;
+    std::string model, report, min_quality = "0.1", scale;
     std::uint32_t threads = 0;
     bool preserve_volume = false, no_intersect_check = false, quiet = false;
     SmoothArguments smooth;
     InputOptions input;
+    ModelOptions reading;
+    OutputOptions output;
 };
 
 SmoothOptions to_options(const Arguments& arguments, const Model& model) {
@@ -38,14 +42,15 @@ WantedVolumes wanted_volumes(const CheckReport& report) {
 int smooth_command(const Arguments& arguments) {
     if (arguments.preserve_volume && !arguments.input.cap())
         throw Error(ErrorCode::kInput, "--preserve-volume: open regions have no volume; leave out --boundary open");
-    require_writable_model(arguments.output);
+    arguments.output.require_writable(!arguments.input.cap());
     if (!arguments.report.empty()) require_writable(arguments.report);
-    ModelFile file = read_model(arguments.model);
+    ModelFile file = arguments.reading.read(arguments.model);
     const CheckOptions check_options = arguments.input.check_options(file.labels);
     Report report;
     report.initial_faces = file.model.face_count();
     report.initial_vertices = file.model.vertex_count();
     const CheckReport before = check(file.model, check_options);
+    const FixedPart fixed = before.violation_count() > 0 ? fix_unsound(file.model, check_options) : FixedPart{};
     {
         const Timer timer(report.seconds["smooth"]);
         report.smoothing = smooth(file.model, to_options(arguments, file.model));
@@ -59,16 +64,19 @@ int smooth_command(const Arguments& arguments) {
     report.final_faces = report.initial_faces;
     report.final_vertices = report.initial_vertices;
     report.stopped = "none asked";
-    write_model(file.model, file.labels, arguments.output, {.background = check_options.background});
+    const LabelNames names = arguments.output.names_or(file.names);
+    arguments.output.write(file.model, file.labels, check_options.background, names);
     report.peak_bytes = peak_resident_bytes();
-    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels));
-    if (!arguments.quiet)
+    if (!arguments.report.empty()) write_text(arguments.report, report_json(report, file.labels, names));
+    if (!arguments.quiet) {
         fmt::print(
             "{}: {} vertices, {} stepped back, moved by {:.3g} at most; quality {:.3f} at worst, {} violations (before "
             "{})\n",
-            arguments.output, report.smoothing.vertices, report.smoothing.stepped_back,
+            arguments.output.path, report.smoothing.vertices, report.smoothing.stepped_back,
             report.smoothing.largest_displacement, report.check.quality.min, report.check.violation_count(),
             before.violation_count());
+        print_unsound(fixed, before, report.check);
+    }
     return report.check.violation_count() == 0 ? 0 : 3;
 }
 
@@ -77,9 +85,9 @@ int smooth_command(const Arguments& arguments) {
 void add_smooth(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("smooth", "a labelled surface in, the same without steps out");
-    command->add_option("model", arguments->model, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")
-        ->required();
-    command->add_option("-o,--output", arguments->output, "model to write: .vtp or .ply")->required();
+    command->add_option("model", arguments->model, kModelRead)->required();
+    arguments->reading.add_options(*command);
+    arguments->output.add_options(*command);
     arguments->smooth.add_options(*command);
     arguments->input.add_label_options(*command);
     command->add_flag("--preserve-volume", arguments->preserve_volume,

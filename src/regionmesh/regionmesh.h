@@ -4,6 +4,7 @@
 #include "regionmesh/base/error.h"
 #include "regionmesh/census.h"
 #include "regionmesh/check/check.h"
+#include "regionmesh/check/fix_unsound.h"
 #include "regionmesh/compare/compare.h"
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/io/label_names_file.h"

@@ -179,7 +179,7 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
     write_model(test::octahedron(), labels, path("good.vtp"), {});
-    expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.obj"), 1, "m.obj");
+    expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.xyz");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 1, "--smooth-lambda");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 1, "--scale");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 1, "--min-quality");
@@ -246,7 +246,7 @@ TEST_F(Cli, bad_usage_is_exit_2) {
 }
 
 TEST_F(Cli, an_output_that_cannot_be_written_is_refused_and_leaves_nothing) {
-    for (const std::string& to : {out("m.obj"), out("m"), out("none/m.vtp"), path("volume.raw").string() + "/m.vtp"}) {
+    for (const std::string& to : {out("m.xyz"), out("m"), out("none/m.vtp"), path("volume.raw").string() + "/m.vtp"}) {
         SCOPED_TRACE(to);
         const Ran ran = run("reconstruct " + volume() + "-o " + to);
         EXPECT_TRUE(ran.code == 1 || ran.code == 2) << ran.code;
@@ -304,6 +304,56 @@ TEST_F(Cli, check_finds_that_a_model_is_of_another_volume) {
     const Ran ran = run("check " + out("m.vtp") + " --sections " + volume());
     EXPECT_EQ(ran.code, 3);
     EXPECT_THAT(ran.out, HasSubstr("euler"));
+}
+
+TEST_F(Cli, decimate_keeps_what_is_broken_and_says_so) {
+    EXPECT_EQ(run("reconstruct " + volume() + "--no-background --smooth 0 --no-decimate -o " + path("whole.vtp").string()).code, 0);
+    ModelFile file = read_model(path("whole.vtp"));
+    const std::uint32_t faces = file.model.face_count();
+    file.model.remove_face(FaceId{faces / 2});
+    write_model(file.model, file.labels, path("cracked.vtp"), {});
+    const std::string options = " --no-background --reduce 60% -o " + out("m.vtp");
+    const Ran ran = run("decimate " + path("cracked.vtp").string() + options);
+    EXPECT_EQ(ran.code, 3) << ran.error;
+    EXPECT_EQ(ran.error, "");
+    EXPECT_THAT(ran.out, HasSubstr("3 vertices and 0 faces left as they came: open_edge"));
+    EXPECT_THAT(ran.out, Not(HasSubstr("worse")));
+    EXPECT_LE(read_model(out("m.vtp")).model.face_count(), 2 * faces / 5);
+    EXPECT_EQ(run("decimate " + path("whole.vtp").string() + options).code, 0);
+}
+
+TEST_F(Cli, convert_brings_regions_together_and_other_commands_read_them) {
+    const std::string regions = data("surfaces/regions");
+    const Ran ran = run("convert " + regions + " " + out("m.vtp"));
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_THAT(ran.out, HasSubstr("22 faces, 12 vertices"));
+    EXPECT_EQ(run("convert " + out("m.vtp") + " " + out("m.ply") + " --quiet").out, "");
+    EXPECT_EQ(run("check " + out("m.ply")).code, 0);
+    EXPECT_EQ(run("check " + regions).code, 0);
+    EXPECT_EQ(run("decimate " + data("surfaces/dream3d_8.dream3d") + " --reduce 10% -o " + out("d.vtp")).code, 0);
+    EXPECT_EQ(run("smooth " + data("surfaces/vtk_quads.vtp") + " -o " + out("s.vtp")).code, 0);
+}
+
+TEST_F(Cli, orient_turns_faces_and_check_says_where_they_are) {
+    put_text(path("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng interface_3_-1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n");
+    const std::string model = path("m.obj").string();
+    const Ran ran = run("check " + model + " --json " + out("c.json"));
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_THAT(ran.out, HasSubstr("its two faces look opposite ways at (1, 0, 0)"));
+    EXPECT_THAT(ran.out, HasSubstr("--orient"));
+    for (const char* said : {"\"at\": [", "\"labels\": ["}) EXPECT_THAT(text_of(out("c.json")), HasSubstr(said));
+    EXPECT_EQ(run("check --orient " + model).code, 0);
+}
+
+TEST_F(Cli, convert_refuses_what_it_cannot_use) {
+    const std::string good = data("surfaces/vtk.obj");
+    expect_refusal("convert " + path("nothing.stl").string() + " " + out("m.vtp"), 1, "nothing.stl");
+    expect_refusal("convert " + good + " " + out("m.doc"), 1, "m.doc");
+    expect_refusal("convert " + good + " " + out("none/m.vtp"), 1, "m.vtp");
+    expect_refusal("convert " + good + " " + out("m.vtp") + " --weld near", 1, "--weld");
+    expect_refusal("convert " + data("surfaces") + "/none " + out("m.vtp"), 1, "use one of .vtp");
+    expect_refusal("convert " + data("nifti") + " " + out("m.vtp"), 1, "holds no surfaces");
+    expect_refusal("convert " + good, 2, "required");
 }
 
 TEST_F(Cli, compare_prints_a_table_and_writes_all_figures) {

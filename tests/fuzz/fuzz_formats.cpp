@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "regionmesh/check/fix_unsound.h"
+#include "regionmesh/decimate/decimate.h"
 #include "regionmesh/io/label_names_file.h"
 #include "regionmesh/io/model_file.h"
 #include "regionmesh/io/read_sections.h"
@@ -67,7 +69,19 @@ void raw(const fs::path& path, Random& random) {
     read_volume(path, options, random);
 }
 
-void model(const fs::path& path, Random&) { read_model(path); }
+constexpr std::uint32_t kMostFaces = 2000;  // of what is worked on
+
+/// What can be read is also checked and decimated: no surface may be too odd.
+void model(const fs::path& path, Random& random) {
+    ReadModelOptions options{.orient = random.one_in(2)};
+    if (random.one_in(2)) options.weld = random.one_in(2) ? 0 : 0.01;
+    ModelFile file = read_model(path, options);
+    if (file.model.face_count() > kMostFaces) return;
+    check(file.model, {.threads = 1});
+    file.model.sort_spatially();
+    fix_unsound(file.model, {.threads = 1});
+    decimate(file.model, {.target_faces = file.model.face_count() / 4});
+}
 
 void names(const fs::path& path, Random&) { read_label_names(path); }
 
@@ -92,7 +106,12 @@ std::span<const Format> formats() {
         Format{"ome", "chunked/ome", {}, volume, ".zarr"},
         Format{"n5", "chunked/n5", {}, volume, ".n5"},
         Format{"vtp", "", {".vtp"}, model},
+        Format{"vtu", "surfaces", {".vtu"}, model},
         Format{"ply", "ply", {".ply"}, model},
+        Format{"plies", "surfaces", {".ply"}, model},
+        Format{"stl", "surfaces", {".stl"}, model},
+        Format{"obj", "surfaces", {".obj"}, model},
+        Format{"dream3d", "surfaces", {".dream3d"}, model},
     };
     return kFormats;
 }

@@ -279,13 +279,13 @@ TEST_F(ModelFileTest, extension_is_matched_in_any_case_and_others_are_refused) {
     const LabelTable labels = labels_of({3, 5});
     expect_same(round_trip(two_boxes(), labels, ".VTP"), two_boxes(), labels);
     try {
-        write_model(two_boxes(), labels, path("m.stl"));
+        write_model(two_boxes(), labels, path("m.xyz"));
         ADD_FAILURE() << "nothing thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::kOutput);
-        EXPECT_THAT(error.what(), HasSubstr("'.stl': use .vtp or .ply"));
+        EXPECT_THAT(error.what(), HasSubstr("'.xyz': use one of .vtp"));
     }
-    EXPECT_THAT(failure_of(path("m.stl")), HasSubstr("use .vtp or .ply"));
+    EXPECT_THAT(failure_of(path("m.xyz")), HasSubstr("has the extension '.xyz': use one of .vtp .vtu .ply"));
     EXPECT_EQ(file_count(), 0);
 }
 
@@ -301,16 +301,19 @@ TEST_F(ModelFileTest, point_arrays_stand_in_vtp_files_and_nowhere_else) {
     const ModelFile file = read_model(path("m.vtp"));
     EXPECT_EQ(faces_of(file.model, file.labels), faces_of(model, labels_of({1, 2})));
     EXPECT_THROW(write_model(model, labels_of({1, 2}), path("m.ply"), options), Error);
-    EXPECT_THROW(require_writable_model(path("m.ply"), true), Error);
+    EXPECT_THROW(require_writable_model(path("m.ply"), {}, true), Error);
     EXPECT_EQ(file_count(), 1);
 }
 
 TEST_F(ModelFileTest, missing_files_and_folders_are_input_errors) {
-    for (const char* name : {"m.vtp", "m.ply"}) {
-        EXPECT_THAT(failure_of(path(name)), HasSubstr("cannot be read"));
+    for (const char* name : {"m.vtp", "m.vtu", "m.ply", "m.stl", "m.obj", "m.dream3d"}) {
+        failure_of(path(name));
         std::filesystem::create_directory(path(name));
-        EXPECT_THAT(failure_of(path(name)), HasSubstr("cannot be read"));
+        failure_of(path(name));
     }
+    EXPECT_THAT(failure_of(path("m.vtp")), HasSubstr("cannot be read"));
+    EXPECT_THAT(failure_of(path("m.ply")), HasSubstr("is a directory"));
+    EXPECT_THAT(failure_of(path("none.ply")), HasSubstr("no such file"));
 }
 
 TEST_F(ModelFileTest, every_encoding_of_the_vtk_writer_is_read) {
@@ -333,20 +336,21 @@ TEST_F(ModelFileTest, ply_errors_name_what_is_wrong) {
         return text.replace(text.find(from), from.size(), to);
     };
     const std::size_t face = good.find("end_header\n") + 11 + 4 * 25;
-    std::string quad = good, far = good;
-    quad[face] = 4;
+    std::string line = good, far = good;
+    line[face] = 2;
     far[face + 1] = 9;
-    EXPECT_THAT(failure_of_text("m.ply", changed("property double x", "property float x")),
-                HasSubstr("properties that regionmesh writes"));
-    EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", "vertex 18446744073709551615")),
-                HasSubstr("more than a model can hold"));
-    EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", "vertex 4000000000")),
-                HasSubstr("where its header promises"));
+    EXPECT_THAT(failure_of_text("m.ply", changed("property double x", "property real x")),
+                HasSubstr("'real' is no type"));
+    EXPECT_THAT(failure_of_text("m.ply", changed("property double x", "property double u")),
+                HasSubstr("vertices without x, y and z"));
+    for (const char* count : {"vertex 18446744073709551615", "vertex 4000000000", "vertex 17"})
+        EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", count)), HasSubstr("which promises"));
     EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", "vertex four")),
-                HasSubstr("bad number of vertices 'four'"));
-    EXPECT_THAT(failure_of_text("m.ply", good.substr(0, good.size() - 1)), HasSubstr("where its header promises"));
+                HasSubstr("line 4: bad number of elements 'four'"));
+    EXPECT_THAT(failure_of_text("m.ply", good.substr(0, good.size() - 1)), HasSubstr("cut short"));
+    EXPECT_THAT(failure_of_text("m.ply", good + "x"), HasSubstr("1 bytes more"));
     EXPECT_THAT(failure_of_text("m.ply", "solid"), HasSubstr("no PLY file"));
-    EXPECT_THAT(failure_of_text("m.ply", quad), HasSubstr("face 0 has 4 corners"));
+    EXPECT_THAT(failure_of_text("m.ply", line), HasSubstr("face 0 has 2 corners"));
     EXPECT_THAT(failure_of_text("m.ply", far), HasSubstr("face 0 names vertex 9 of 4"));
 }
 

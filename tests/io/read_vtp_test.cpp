@@ -69,6 +69,36 @@ TEST_F(ReadVtp, hand_written_file_is_read) {
     EXPECT_EQ(surface.exterior_label, -1);
 }
 
+TEST_F(ReadVtp, pieces_follow_one_another) {
+    const std::string text = vtp_text();
+    const std::size_t begin = text.find("<Piece"), end = text.find("</PolyData>");
+    const std::string piece = text.substr(begin, end - begin);
+    put_text(path("m.vtp"), vtp_text("</PolyData>", "<Piece NumberOfPoints=\"0\"/>" + piece + "</PolyData>"));
+    const FileSurface surface = read_vtp(path("m.vtp"));
+    EXPECT_THAT(surface.faces, testing::ElementsAre(std::array{0u, 1u, 2u}, std::array{3u, 4u, 5u}));
+    EXPECT_EQ(surface.points.size(), 6u);
+    EXPECT_THAT(surface.labels, testing::Each(std::array<InputLabel, 2>{3, 5}));
+}
+
+TEST_F(ReadVtp, polygons_are_cut_and_each_triangle_has_their_labels) {
+    std::string text = vtp_text("NumberOfPoints=\"3\"", "NumberOfPoints=\"6\"");
+    const auto put = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+    put("NumberOfPolys=\"1\"", "NumberOfPolys=\"3\"");
+    // A quad twice, from one corner and the next, and a pentagon.
+    put("0 0 0 1 0 0 0.5 1e0 0", "0 0 0 3 0 0 3 1 0 1 1 0 6 0 0 -1 0.5 0");
+    put(">0 1 2<", ">0 1 2 3 3 0 1 2 0 1 2 3 5<");
+    put(">3</DataArray></Polys>", ">4 8 13</DataArray></Polys>");
+    put(">3 5<", ">1 2 3 4 5 6<");
+    put_text(path("m.vtp"), text);
+    const FileSurface surface = read_vtp(path("m.vtp"));
+    using Face = std::array<std::uint32_t, 3>;
+    using Pair = std::array<InputLabel, 2>;
+    EXPECT_THAT(surface.faces, testing::ElementsAre(Face{0, 1, 3}, Face{1, 2, 3}, Face{3, 0, 1}, Face{3, 1, 2},
+                                                    Face{0, 1, 2}, Face{0, 2, 3}, Face{0, 3, 5}));
+    EXPECT_THAT(surface.labels, testing::ElementsAre(Pair{1, 2}, Pair{1, 2}, Pair{3, 4}, Pair{3, 4}, Pair{5, 6},
+                                                     Pair{5, 6}, Pair{5, 6}));
+}
+
 TEST_F(ReadVtp, unsigned_labels_keep_their_bits) {
     std::string text = vtp_text("Int16", "UInt64");
     put_text(path("m.vtp"), text.replace(text.find("3 5<"), 3, "9223372036854775808 18446744073709551615"));
@@ -84,7 +114,8 @@ TEST_F(ReadVtp, errors_name_what_is_wrong) {
         {"3 5<", "3<", "array 'BoundaryLabels' is 1 numbers short"},
         {"3 5<", "3 5 6<", "array 'BoundaryLabels' has more numbers"},
         {"3 5<", "3 5x<", "has '5x' where a number belongs"},
-        {">3</DataArray></Polys>", ">4</DataArray></Polys>", "cell 0 is no triangle: its offset is 4 after 0"},
+        {">3</DataArray></Polys>", ">2</DataArray></Polys>", "cell 0 is no polygon: its offset is 2 after 0"},
+        {">3</DataArray></Polys>", ">4</DataArray></Polys>", "array 'connectivity' is 1 numbers short"},
         {"0 1 2<", "0 1 3<", "cell 0 names point 3 of 3"},
         {"0 1 2<", "0 1 -1<", "cell 0 names point -1 of 3"},
         {"1e0", "nan", "point 2 has a coordinate that is not finite"},
@@ -92,7 +123,7 @@ TEST_F(ReadVtp, errors_name_what_is_wrong) {
         {"NumberOfPolys=\"1\"", "NumberOfPolys=\"-1\"", "NumberOfPolys is '-1'"},
         {"NumberOfPolys=\"1\"", "NumberOfPolys=\"99999999999\"", "more than a model can hold"},
         {"NumberOfPoints=\"3\"", "NumberOfPoints=\"4000000000\"", "numbers short"},
-        {"</Piece>", "</Piece><Piece/>", "more than one Piece"},
+        {"NumberOfVerts=\"0\"", "NumberOfStrips=\"1\"", "NumberOfStrips is not 0"},
         {"type=\"PolyData\"", "type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"",
          "compressor vtkLZ4DataCompressor"},
         {"<PolyData>", "<Poly>", "no XML"},

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<const char*, kViolationKindCount> kKindNames{
     "open_edge",      "overfull_edge",    "orientation",         "pinched_vertex", "few_edges",
     "duplicate_face", "degenerate_face",  "coincident_vertices", "unused_vertex",  "crossing_faces",
-    "euler",          "quadruple_points", "region_pairs",        "nesting"};
+    "euler",          "quadruple_points", "region_pairs",        "nesting",        "non_generic_vertex"};
 
 bool is_background(const CheckOptions& options, Label label) {
     return std::find(options.background.begin(), options.background.end(), label) != options.background.end();
@@ -50,6 +50,7 @@ CheckReport check(const Model& model, const CheckOptions& options) {
     check_against_labels(options, report, findings);
     report.lines = measure_lines(model);
     findings.move_to(report);
+    for (Violation& violation : report.violations) place_violation(model, violation);
     return report;
 }
 

@@ -30,16 +30,21 @@ enum class ViolationKind {
     kQuadruplePoints,     // interior quadruple points are not those of the labels
     kRegionPairs,         // pairs of regions with an interface are not those of the labels
     kNesting,             // a separate part of the surface lies in the wrong region
+    kNonGenericVertex,    // each region is sound, but the star is no disk, book of three pages or cone over K4
 };
-inline constexpr int kViolationKindCount = 14;
+inline constexpr int kViolationKindCount = 15;
 const char* to_string(ViolationKind kind);
 
-/// One finding: the things concerned (ids of the model checked) and a sentence.
+/// One finding: the things concerned (ids of the model checked), a sentence, and where it is: the place of the first
+/// vertex, or the middle of the first face, and the labels that meet there. What is said of a whole region has no
+/// place.
 struct Violation {
     ViolationKind kind;
     std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> faces;
     std::string text;
+    std::optional<Vec3> at = {};
+    std::vector<Label> labels = {};
 };
 
 /// Per-region measures; volume in length^3 with the sign that outward faces give, area in length^2.

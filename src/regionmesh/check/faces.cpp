@@ -57,7 +57,7 @@ FaceChunk look_at_faces(const Model& model, Vec3 origin, std::uint32_t listed, s
         for (int side = 0; side < 2; ++side) {
             if (is_exterior(labels[side])) continue;
             RegionReport& region = regions[labels[side]];
-            region.euler += 1;
+            region.euler += repeats_a_vertex(model[f]) ? 0 : 1;
             region.area += area;
             region.volume += side == 0 ? volume : -volume;
         }

@@ -21,7 +21,7 @@ public:
     template <class Text>
     void add(ViolationKind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces, Text&& text) {
         if (counts_[static_cast<int>(kind)]++ < listed_)
-            violations_.push_back({kind, std::move(vertices), std::move(faces), text()});
+            violations_.push_back({kind, std::move(vertices), std::move(faces), text(), {}, {}});
     }
 
     void append(Findings&& later) {
@@ -45,6 +45,12 @@ private:
 /// Faces or vertices that are looked at together; nothing else depends on how many.
 inline constexpr std::uint32_t kCheckChunk = 1 << 14;
 
+/// Such a face is no face to its neighbours.
+inline bool repeats_a_vertex(const Face& face) {
+    const auto& v = face.vertices;
+    return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+}
+
 inline std::string name(VertexId v) { return "vertex " + std::to_string(index(v)); }
 inline std::string name(FaceId f) { return "face " + std::to_string(index(f)); }
 inline std::string name(VertexId u, VertexId v) {
@@ -66,5 +72,7 @@ void check_crossing(const Model& model, const CheckOptions& options, const Sorte
 /// The tree may be missing: one is made where it is needed.
 void check_nesting(const Model& model, const CheckOptions& options, const SortedFaceTree* tree, Findings& findings);
 void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings);
+/// Says where the violation is, in its sentence, too.
+void place_violation(const Model& model, Violation& violation);
 
 }  // namespace regionmesh

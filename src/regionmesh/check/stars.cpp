@@ -1,10 +1,13 @@
 // What can be seen round one vertex at a time: edges, fans, Euler characteristics, and how boundaries hang together.
 #include <algorithm>
+#include <numeric>
 #include <span>
+#include <tuple>
 
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/union_find.h"
 #include "regionmesh/check/findings.h"
+#include "regionmesh/check/generic_star.h"
 #include "regionmesh/check/region_sums.h"
 #include "regionmesh/model/fan.h"
 #include "regionmesh/model/label_set.h"
@@ -23,7 +26,7 @@ struct StarChunk {
 class StarCheck {
 public:
     StarCheck(const Model& model, const CheckOptions& options, UnionFind& sheets)
-        : model_(model), options_(options), sheets_(sheets), findings_(options.listed) {}
+        : model_(model), options_(options), sheets_(sheets), generic_(model, options), findings_(options.listed) {}
 
     StarChunk run(std::uint32_t first, std::uint32_t end) {
         for (std::uint32_t v = first; v < end; ++v)
@@ -38,17 +41,31 @@ private:
         VertexId a, b;
         std::array<Label, 2> labels;
     };
+    /// A side of a page at one of its edges.
+    struct Use {
+        VertexId end;
+        Label label;
+        std::uint32_t side;  // page * 2 + which
+        int turn;            // 1: it passes the edge outward
+    };
+    /// Putting a fan in order takes the square of its faces.
+    static constexpr std::size_t kMostOrdered = 1024;
+
     static std::uint32_t sheet(FaceId f, int side) { return 2 * index(f) + static_cast<std::uint32_t>(side); }
     bool is_background(Label label) const {
         return std::find(options_.background.begin(), options_.background.end(), label) != options_.background.end();
     }
 
     void look_at_vertex(VertexId v) {
+        if (model_[v].star == kNoCorner)
+            return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {},
+                                 [&] { return name(v) + " has no face"; });
         pages_.clear();
         labels_ = LabelSet();
         bool has_exterior = false, is_odd = false;
         model_.for_star(v, [&](FaceId f, int place) {
             const Face& face = model_[f];
+            if (repeats_a_vertex(face)) return;  // what it lies between meets without it
             pages_.push_back({f, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels});
             is_odd |= face.labels[0] == face.labels[1];
             for (Label label : face.labels) {
@@ -58,17 +75,29 @@ private:
                     labels_.add(label);
             }
         });
-        if (pages_.empty())
-            return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {},
-                                 [&] { return name(v) + " has no face"; });
+        if (pages_.empty()) return;
         if (model_[v].sides == 0 && labels_.size() == 4) ++quadruple_points_inside_;
-        if (!is_odd && labels_.size() < LabelSet::kCapacity && look_at_closed_fans(v, has_exterior)) {
+        const bool is_small = labels_.size() < LabelSet::kCapacity && pages_.size() <= kMostOrdered;
+        if (!is_odd && is_small && look_at_closed_fans(v, has_exterior)) {
             // Faces on the same vertices are in no closed fan, unless they have no label in common.
             if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
+            if (has_exterior || labels_.size() > 2) look_at_form(v);
         } else {
             look_at_any_fans(v);
             look_for_duplicates(v);
+            if (labels_.size() > 4) look_at_form(v);
         }
+    }
+
+    void look_at_form(VertexId v) {
+        const StarFault fault = generic_.fault(v);
+        if (fault == StarFault::kNone) return;
+        findings_.add(ViolationKind::kNonGenericVertex, {index(v)}, {}, [&] {
+            return name(v) + (fault == StarFault::kLabels  ? ": more than four labels meet"
+                              : fault == StarFault::kPages ? ": more than three labels meet at one of its edges"
+                              : fault == StarFault::kLines ? ": its lines are not those where three or four labels meet"
+                                                           : ": its faces are too many to be told");
+        });
     }
 
     /// Nearly all vertices: the faces of each region go round v once, from one neighbour to the next. So all is well
@@ -116,110 +145,111 @@ private:
         return edges;
     }
 
+    /// Anything goes here: any number of labels and of faces at an edge. Takes hardly longer than it takes to sort.
     void look_at_any_fans(VertexId v) {
-        neighbours_.clear();
-        for (const Page& page : pages_) {
-            neighbours_.push_back(page.a);
-            neighbours_.push_back(page.b);
-        }
-        std::sort(neighbours_.begin(), neighbours_.end());
-        neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+        gather_uses();
+        const auto ends = [&](const Use& a, const Use& b) { return a.end != b.end; };
+        std::size_t edges = uses_.empty() ? 0 : 1;
+        for (std::size_t n = 1; n < uses_.size(); ++n) edges += ends(uses_[n - 1], uses_[n]);
         const bool may_be_rim =
             model_[v].sides != 0 &&
             (options_.boundary_is_open ||
-             std::any_of(labels_.begin(), labels_.end(), [&](Label label) { return is_background(label); }));
-        if (neighbours_.size() < 3 && !may_be_rim)
+             std::any_of(uses_.begin(), uses_.end(), [&](const Use& use) { return is_background(use.label); }));
+        if (edges < 3 && !may_be_rim)
             findings_.add(ViolationKind::kFewEdges, {index(v)}, {},
                           [&] { return name(v) + " has fewer than three edges"; });
-        for (Label label : labels_) {
-            regions_[label].euler += 1;
-            look_at_fan(v, label);
+        up_.resize(2 * pages_.size());
+        std::iota(up_.begin(), up_.end(), 0u);
+        for (std::size_t first = 0, end = 1; first < uses_.size(); first = end++) {
+            while (end < uses_.size() && uses_[end].end == uses_[first].end && uses_[end].label == uses_[first].label)
+                ++end;
+            if (!is_exterior(uses_[first].label)) look_at_edge(v, std::span(uses_).subspan(first, end - first));
         }
-        for (VertexId w : neighbours_)
-            if (v < w) look_at_edge(v, w);
+        look_at_parts(v);
+    }
+
+    /// Of all sides of all pages, edge by edge and label by label.
+    void gather_uses() {
+        uses_.clear();
+        for (std::uint32_t n = 0; n < pages_.size(); ++n) {
+            const Page& page = pages_[n];
+            for (std::uint32_t side = 0; side < 2; ++side) {
+                uses_.push_back({page.a, page.labels[side], 2 * n + side, side == 0 ? 1 : -1});
+                uses_.push_back({page.b, page.labels[side], 2 * n + side, side == 0 ? -1 : 1});
+            }
+        }
+        std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) {
+            return std::tie(a.end, a.label, a.side) < std::tie(b.end, b.label, b.side);
+        });
+    }
+
+    /// The sides that one region has at the edge.
+    void look_at_edge(VertexId v, std::span<const Use> sides) {
+        const auto [w, label, first_side, first_turn] = sides[0];
+        const std::uint32_t first_sheet = sheet(pages_[first_side / 2].face, static_cast<int>(first_side % 2));
+        int turn = 0;
+        for (const Use& use : sides) {
+            turn += use.turn;
+            up_[root_of(use.side)] = root_of(first_side);
+            sheets_.join(first_sheet, sheet(pages_[use.side / 2].face, static_cast<int>(use.side % 2)));
+        }
+        if (w < v) return;  // told from there
+        regions_[label].euler -= 1;
+        const bool may_be_open =
+            (options_.boundary_is_open || is_background(label)) && (model_[v].sides & model_[w].sides) != 0;
+        const auto say = [&, w = w, label = label](ViolationKind kind, const std::string& what) {
+            findings_.add(kind, {index(v), index(w)}, {},
+                          [&] { return name(v, w) + ", " + region_name(options_, label) + ": " + what; });
+        };
+        if (sides.size() == 1 && !may_be_open) say(ViolationKind::kOpenEdge, "one face");
+        if (sides.size() > 2) say(ViolationKind::kOverfullEdge, std::to_string(sides.size()) + " faces");
+        if (sides.size() == 2 && turn != 0) say(ViolationKind::kOrientation, "its two faces look opposite ways");
     }
 
     /// The faces of a region at a vertex must be one fan: joined by the edges between them.
-    void look_at_fan(VertexId v, Label label) {
-        fan_.clear();
-        for (std::uint32_t n = 0; n < pages_.size(); ++n)
-            if (pages_[n].labels[0] == label || pages_[n].labels[1] == label) fan_.push_back(n);
-        reached_.assign(fan_.size(), false);
-        todo_.assign(1, 0);
-        reached_[0] = true;
-        std::size_t count = 1;
-        while (!todo_.empty()) {
-            const Page& page = pages_[fan_[todo_.back()]];
-            todo_.pop_back();
-            for (std::uint32_t n = 0; n < fan_.size(); ++n) {
-                const Page& other = pages_[fan_[n]];
-                const bool joined = page.a == other.a || page.a == other.b || page.b == other.a || page.b == other.b;
-                if (reached_[n] || !joined) continue;
-                reached_[n] = true;
-                ++count;
-                todo_.push_back(n);
-            }
+    void look_at_parts(VertexId v) {
+        parts_.clear();
+        for (std::uint32_t side = 0; side < up_.size(); ++side) {
+            const Label label = pages_[side / 2].labels[side % 2];
+            if (!is_exterior(label)) parts_.push_back({label, root_of(side)});
         }
-        if (count < fan_.size())
-            findings_.add(ViolationKind::kPinchedVertex, {index(v)}, {},
-                          [&] { return name(v) + ": " + region_name(options_, label) + " has more than one fan"; });
-    }
-
-    void look_at_edge(VertexId v, VertexId w) {
-        struct Use {
-            Label label;
-            int count, turn;
-            std::uint32_t sheet;
-        };
-        std::array<Use, LabelSet::kCapacity> uses;
-        int use_count = 0;
-        for (const Page& page : pages_) {
-            if (page.a != w && page.b != w) continue;
-            for (int side = 0; side < 2; ++side) {
-                if (is_exterior(page.labels[side])) continue;
-                const int turn = (page.a == w) == (side == 0) ? 1 : -1;
-                const auto at = std::find_if(uses.begin(), uses.begin() + use_count,
-                                             [&](const Use& use) { return use.label == page.labels[side]; });
-                if (at != uses.begin() + use_count) {
-                    ++at->count;
-                    at->turn += turn;
-                    sheets_.join(at->sheet, sheet(page.face, side));
-                } else if (use_count < LabelSet::kCapacity) {
-                    uses[use_count++] = {page.labels[side], 1, turn, sheet(page.face, side)};
-                }
-            }
-        }
-        for (int n = 0; n < use_count; ++n) {
-            const Use& use = uses[n];
-            regions_[use.label].euler -= 1;
-            const bool may_be_open =
-                (options_.boundary_is_open || is_background(use.label)) && (model_[v].sides & model_[w].sides) != 0;
-            const auto say = [&](ViolationKind kind, const std::string& what) {
-                findings_.add(kind, {index(v), index(w)}, {},
-                              [&] { return name(v, w) + ", " + region_name(options_, use.label) + ": " + what; });
-            };
-            if (use.count == 1 && !may_be_open) say(ViolationKind::kOpenEdge, "one face");
-            if (use.count > 2) say(ViolationKind::kOverfullEdge, std::to_string(use.count) + " faces");
-            if (use.count == 2 && use.turn != 0) say(ViolationKind::kOrientation, "its two faces look opposite ways");
+        std::sort(parts_.begin(), parts_.end());
+        parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
+        for (std::size_t first = 0, end = 1; first < parts_.size(); first = end++) {
+            while (end < parts_.size() && parts_[end].first == parts_[first].first) ++end;
+            const Label label = parts_[first].first;
+            regions_[label].euler += 1;
+            if (end - first > 1)
+                findings_.add(ViolationKind::kPinchedVertex, {index(v)}, {},
+                              [&] { return name(v) + ": " + region_name(options_, label) + " has more than one fan"; });
         }
     }
 
+    std::uint32_t root_of(std::uint32_t side) {
+        while (up_[side] != side) side = up_[side] = up_[up_[side]];
+        return side;
+    }
+
+    /// Each face on the vertices of another is told once, beside one of these.
     void look_for_duplicates(VertexId v) {
-        for (std::size_t i = 0; i < pages_.size(); ++i) {
-            const Page& p = pages_[i];
-            if (p.a < v || p.b < v) continue;
-            for (std::size_t j = i + 1; j < pages_.size(); ++j) {
-                const Page& q = pages_[j];
-                if ((p.a == q.a && p.b == q.b) || (p.a == q.b && p.b == q.a))
-                    findings_.add(ViolationKind::kDuplicateFace, {}, {index(p.face), index(q.face)},
-                                  [&] { return name(p.face) + " and " + name(q.face) + " have the same vertices"; });
-            }
+        rims_.clear();
+        for (const Page& page : pages_)
+            if (v < page.a && v < page.b)
+                rims_.push_back({std::min(page.a, page.b), std::max(page.a, page.b), page.face});
+        std::sort(rims_.begin(), rims_.end());
+        for (std::size_t n = 1; n < rims_.size(); ++n) {
+            const auto& [a, b, f] = rims_[n - 1];
+            const auto& [c, d, g] = rims_[n];
+            if (a == c && b == d)
+                findings_.add(ViolationKind::kDuplicateFace, {}, {index(f), index(g)},
+                              [&, f = f, g = g] { return name(f) + " and " + name(g) + " have the same vertices"; });
         }
     }
 
     const Model& model_;
     const CheckOptions& options_;
     UnionFind& sheets_;
+    GenericStar generic_;
     Findings findings_;
     RegionSums regions_;
     std::uint64_t quadruple_points_inside_ = 0;
@@ -227,9 +257,10 @@ private:
     LabelSet labels_;            // of the regions among them
     std::vector<FanPage> fans_;  // region after region
     std::vector<std::size_t> ends_;
-    std::vector<VertexId> neighbours_;
-    std::vector<std::uint32_t> fan_, todo_;
-    std::vector<bool> reached_;
+    std::vector<Use> uses_;
+    std::vector<std::uint32_t> up_;  // of the sides of pages: joined with this one
+    std::vector<std::pair<Label, std::uint32_t>> parts_;
+    std::vector<std::tuple<VertexId, VertexId, FaceId>> rims_;
 };
 
 /// Each part of a region's boundary has one root among its sheets.

@@ -251,18 +251,20 @@ Bytes Hdf5Catalogue::read(const std::string& path, const Hdf5Box& box) {
     }
     const Hdf5Type stored(H5Dget_type(dataset_.id()));
     const auto type = sample_type(stored);
-    if (!type) fail(path_, path + ": the samples cannot be read (" + library_words() + "); fetch the file again");
+    const bool is_real = H5Tget_class(stored.id()) == H5T_FLOAT;
+    if (!type && !is_real)
+        fail(path_, path + ": the samples cannot be read (" + library_words() + "); fetch the file again");
     const std::vector<hsize_t> start(box.start.begin(), box.start.end()), count(box.count.begin(), box.count.end());
     const Hdf5Space space(H5Dget_space(dataset_.id()));
     if (shape_of(space).size() != count.size()) fail(path_, path + ": changed while it was read; start again");
     const Hdf5Space memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr));
-    std::size_t bytes = sample_bytes(*type);
+    std::size_t bytes = is_real ? sizeof(double) : sample_bytes(*type);
     for (const std::uint64_t size : box.count) bytes *= size;
     Bytes samples(bytes);
     const bool is_bit_field = H5Tget_class(stored.id()) == H5T_BITFIELD;
+    const hid_t native = is_real ? H5T_NATIVE_DOUBLE : memory_type(*type, is_bit_field);
     if (H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
-        H5Dread(dataset_.id(), memory_type(*type, is_bit_field), memory.id(), space.id(), H5P_DEFAULT, samples.data()) <
-            0) {
+        H5Dread(dataset_.id(), native, memory.id(), space.id(), H5P_DEFAULT, samples.data()) < 0) {
         fail(path_, path + ": samples cannot be read (" + library_words() + "); the file is damaged, fetch it again");
     }
     return samples;

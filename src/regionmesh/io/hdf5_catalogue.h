@@ -46,8 +46,8 @@ public:
     std::optional<Hdf5Entry> entry(const std::string& path);
     /// All groups and datasets below the root, in order of their names. Throws where there are more than 100,000.
     std::vector<Hdf5Entry> entries();
-    /// Samples in the byte order of this machine, last axis fastest. Requires a sample_type, and a box inside the
-    /// array.
+    /// Samples in the byte order of this machine, last axis fastest; reals of any size as doubles. Requires a
+    /// sample_type or reals, and a box inside the array.
     Bytes read(const std::string& path, const Hdf5Box& box);
 
 private:

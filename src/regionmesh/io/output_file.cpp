@@ -66,10 +66,14 @@ void OutputFile::put(std::string_view bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
 }
 
-void OutputFile::commit() {
+void OutputFile::close() {
     std::FILE* const file = file_;
     file_ = nullptr;
-    if (std::fclose(file) != 0) fail(errno);
+    if (file && std::fclose(file) != 0) fail(errno);
+}
+
+void OutputFile::commit() {
+    close();
     if (temporary_.empty()) return;
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
@@ -80,6 +84,16 @@ void OutputFile::commit() {
 void OutputFile::fail(int error_number) const {
     throw Error(ErrorCode::kOutput, fmt::format("{}: cannot be written: {}", path_.string(),
                                                 std::generic_category().message(error_number)));
+}
+
+OutputFile& OutputFiles::add(const std::filesystem::path& path) {
+    if (!files_.empty()) files_.back()->close();
+    return *files_.emplace_back(std::make_unique<OutputFile>(path));
+}
+
+void OutputFiles::commit() {
+    for (const auto& file : files_) file->close();
+    for (const auto& file : files_) file->commit();
 }
 
 void require_writable(const std::filesystem::path& path) {

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace regionmesh {
 
@@ -25,19 +27,36 @@ public:
     void overwrite(std::uint64_t offset, std::string_view bytes);
     /// Bytes written so far.
     std::uint64_t size() const { return size_; }
-    /// Closes the file and gives it its name. Nothing may be written afterwards.
+    /// Throws the Error for a failure of the system.
+    [[noreturn]] void fail(int error_number) const;
+    /// Where the bytes go: the temporary name, or the device itself. For libraries that open files on their own.
+    const std::filesystem::path& place() const { return temporary_.empty() ? target_ : temporary_; }
+    /// Closes the file under its temporary name. Nothing may be written afterwards.
+    void close();
+    /// Closes the file if that is to be done, and gives it its name.
     void commit();
 
 private:
     void open_temporary();
     void put(std::string_view bytes);
-    [[noreturn]] void fail(int error_number) const;
 
     std::filesystem::path path_;       // as the caller named it, for messages
     std::filesystem::path target_;     // links followed
     std::filesystem::path temporary_;  // empty when there is none to remove
     std::FILE* file_ = nullptr;
     std::uint64_t size_ = 0;
+};
+
+/// Files that belong together: none has its name before all are whole.
+class OutputFiles {
+public:
+    /// Closes the file before, so that any number can wait.
+    OutputFile& add(const std::filesystem::path& path);
+    /// Gives all files their names. Should the system refuse one of them, those before it stand.
+    void commit();
+
+private:
+    std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
 /// Throws Error(kOutput) where a file could not be written at `path`; leaves all as it is. For a look before long work.

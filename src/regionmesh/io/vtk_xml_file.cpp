@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "regionmesh/base/error.h"
@@ -57,6 +59,8 @@ void append_as(std::span<const std::byte> bytes, bool is_swapped, std::vector<To
     }
 }
 
+constexpr std::uint64_t kAnyCount = std::numeric_limits<std::uint64_t>::max();
+
 // How numbers of a VTK type become T.
 template <class T>
 struct Conversion {
@@ -69,11 +73,12 @@ struct Conversion {
 template <class T>
 std::optional<Conversion<T>> conversion(std::string_view type) {
     constexpr Conversion<T> kConversions[] = {
-        {"Int8", 1, append_as<std::int8_t, T>, false},   {"UInt8", 1, append_as<std::uint8_t, T>, false},
-        {"Int16", 2, append_as<std::int16_t, T>, false}, {"UInt16", 2, append_as<std::uint16_t, T>, false},
-        {"Int32", 4, append_as<std::int32_t, T>, false}, {"UInt32", 4, append_as<std::uint32_t, T>, false},
-        {"Int64", 8, append_as<std::int64_t, T>, false}, {"UInt64", 8, append_as<std::uint64_t, T>, false},
-        {"Float32", 4, append_as<float, T>, true},       {"Float64", 8, append_as<double, T>, true},
+        {"Int8", 1, append_as<std::int8_t, T>, false},    {"UInt8", 1, append_as<std::uint8_t, T>, false},
+        {"Int16", 2, append_as<std::int16_t, T>, false},  {"UInt16", 2, append_as<std::uint16_t, T>, false},
+        {"Int32", 4, append_as<std::int32_t, T>, false},  {"UInt32", 4, append_as<std::uint32_t, T>, false},
+        {"Int64", 8, append_as<std::int64_t, T>, false},  {"UInt64", 8, append_as<std::uint64_t, T>, false},
+        {"Float32", 4, append_as<float, T>, true},        {"Float64", 8, append_as<double, T>, true},
+        {"String", 1, append_as<std::uint8_t, T>, false},
     };
     for (const Conversion<T>& c : kConversions)
         if (c.type == type && !(c.is_real && std::is_integral_v<T>)) return c;
@@ -87,7 +92,7 @@ public:
     using Problem = std::optional<std::string>;
 
     ArrayDecoder(const Conversion<T>& how, bool is_swapped, std::uint64_t count, const ArraySink<T>& sink)
-        : how_(how), is_swapped_(is_swapped), left_(count), sink_(sink) {}
+        : how_(how), is_swapped_(is_swapped), left_(count), has_any_count_(count == kAnyCount), sink_(sink) {}
 
     Problem decode_ascii(std::string_view text);
     Problem decode_plain(ByteSource source, std::size_t word_bytes);
@@ -97,12 +102,15 @@ private:
     Problem hand_on();
     Problem take(std::span<const std::byte> bytes);
     Problem inflate_block(std::uint64_t size);
-    Problem end() const { return left_ == 0 ? std::nullopt : Problem(fmt::format("is {} numbers short", left_)); }
+    Problem end() const {
+        return left_ == 0 || has_any_count_ ? std::nullopt : Problem(fmt::format("is {} numbers short", left_));
+    }
     bool read_words(ByteSource& source, std::size_t word_bytes, std::span<std::uint64_t> words) const;
 
     Conversion<T> how_;
     bool is_swapped_;
     std::uint64_t left_;
+    bool has_any_count_;
     const ArraySink<T>& sink_;
     std::vector<T> values_;
     std::vector<std::byte> compressed_, bytes_;
@@ -310,6 +318,20 @@ void VtkXmlFile::read(pugi::xml_node array, std::uint64_t count, const ArraySink
 
 void VtkXmlFile::read_integers(pugi::xml_node array, std::uint64_t count, const ArraySink<std::int64_t>& sink) const {
     read(array, count, sink);
+}
+
+std::vector<std::string> VtkXmlFile::read_strings(pugi::xml_node array) const {
+    std::vector<std::string> strings;
+    std::string open;
+    read<std::int64_t>(array, kAnyCount, [&](std::span<const std::int64_t> codes) {
+        for (const std::int64_t code : codes) {
+            if (code != 0)
+                open += static_cast<char>(code);
+            else
+                strings.push_back(std::exchange(open, {}));
+        }
+    });
+    return strings;
 }
 
 void VtkXmlFile::read_reals(pugi::xml_node array, std::uint64_t count, const ArraySink<double>& sink) const {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace regionmesh {
 
@@ -33,6 +34,9 @@ public:
     /// 64 bits keep their bits; reals where integers are needed are an error.
     void read_integers(pugi::xml_node array, std::uint64_t count, const ArraySink<std::int64_t>& sink) const;
     void read_reals(pugi::xml_node array, std::uint64_t count, const ArraySink<double>& sink) const;
+
+    /// The strings of a DataArray of that type.
+    std::vector<std::string> read_strings(pugi::xml_node array) const;
 
     /// A count or number in an attribute; `otherwise` where there is none.
     std::uint64_t number(pugi::xml_node node, const char* attribute, std::uint64_t otherwise) const;

@@ -52,15 +52,21 @@ void put_label(Packer& packer, InputLabel label, bool is_wide) {
     if (is_wide) packer.put(static_cast<std::uint32_t>(static_cast<std::uint64_t>(label) >> 32));
 }
 
-}  // namespace
+/// Which labels a face has.
+enum class FaceLabels { kBoth, kNone };
 
-void write_ply(const FileView& view, const std::filesystem::path& path) {
+void write(const FileView& view, FaceLabels face_labels, OutputFile& file) {
     const Model& model = view.model();
     const bool is_wide = !all_labels_fit_32_bits(view);
-    OutputFile file(path);
-    file.write(fmt::format("{}comment exterior_label {}\nelement vertex {}\n{}element face {}\n{}{}end_header\n",
-                           kPlyMagic, view.exterior_label(), model.vertex_count(), kPlyVertex, model.face_count(),
-                           kPlyFace, is_wide ? kPlyWideLabels : kPlyLabels));
+    std::string comments = fmt::format("comment exterior_label {}\n", view.exterior_label());
+    for (const Label label : view.ordered_labels())
+        if (const std::string name = view.name(label); !name.empty())
+            comments += fmt::format("comment region {} {}\n", view.labels().input(label), name);
+    file.write(fmt::format("{}{}element vertex {}\n{}element face {}\n{}{}end_header\n", kPlyMagic, comments,
+                           model.vertex_count(), kPlyVertex, model.face_count(), kPlyFace,
+                           face_labels == FaceLabels::kNone ? ""
+                           : is_wide                        ? kPlyWideLabels
+                                                            : kPlyLabels));
     Packer packer(file);
     view.for_vertices([&](VertexId v) {
         const Vec3 position = model.position(v);
@@ -71,10 +77,16 @@ void write_ply(const FileView& view, const std::filesystem::path& path) {
         const FileFace face = view.face(f);
         packer.put(std::uint8_t{3});
         for (const std::uint32_t v : face.vertices) packer.put(v);
+        if (face_labels == FaceLabels::kNone) return;
         for (const InputLabel label : face.labels) put_label(packer, label, is_wide);
     });
     packer.flush();
-    file.commit();
 }
+
+}  // namespace
+
+void write_ply(const FileView& view, OutputFile& file) { write(view, FaceLabels::kBoth, file); }
+
+void write_region_ply(const FileView& view, OutputFile& file) { write(view, FaceLabels::kNone, file); }
 
 }  // namespace regionmesh

@@ -14,7 +14,8 @@ void put_volume(Json& json, const char* name, const std::vector<double>& volumes
     if (label < volumes.size()) json[name] = volumes[label];
 }
 
-Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, const Report* run) {
+Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, const LabelNames& names,
+                  const Report* run) {
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
         return labels.less(labels.input(a.label), labels.input(b.label));
     });
@@ -25,6 +26,8 @@ Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, c
                         {"components", region.components},
                         {"volume", region.volume},
                         {"area", region.area}});
+        if (const auto name = names.find(labels.input(region.label)); name != names.end())
+            json.back()["name"] = name->second;
         if (!run) continue;
         put_volume(json.back(), "volume_unsmoothed", run->unsmoothed_volumes, region.label);
         put_volume(json.back(), "volume_smoothed", run->smoothing.volume_after, region.label);
@@ -54,25 +57,34 @@ Json smoothing_json(const Report& report) {
             {"window_bytes", done.window_bytes}};
 }
 
-Json violations_json(const std::vector<Violation>& violations) {
+Json violations_json(const std::vector<Violation>& violations, const LabelTable& labels) {
     Json json = Json::array();
-    for (const Violation& violation : violations)
+    for (const Violation& violation : violations) {
         json.push_back({{"kind", to_string(violation.kind)},
                         {"text", violation.text},
                         {"vertices", violation.vertices},
                         {"faces", violation.faces}});
+        if (!violation.at) continue;
+        json.back()["at"] = {violation.at->x, violation.at->y, violation.at->z};
+        Json& met = json.back()["labels"] = Json::array();
+        for (const Label label : violation.labels) {
+            const Json text = label_json(is_exterior(label) ? labels.exterior_label() : labels.input(label), labels);
+            if (met.empty() || met.back() != text) met.push_back(text);  // the sides of the box are one exterior
+        }
+    }
     return json;
 }
 
-void put_check(Json& json, const CheckReport& report, const LabelTable& labels, const Report* run = nullptr) {
+void put_check(Json& json, const CheckReport& report, const LabelTable& labels, const LabelNames& names,
+               const Report* run = nullptr) {
     json["quality"] = quality_json(report.quality);
-    json["regions"] = regions_json(report.regions, labels, run);
+    json["regions"] = regions_json(report.regions, labels, names, run);
     json["triple_lines"] = {{"edges", report.lines.edges},
                             {"length", report.lines.length},
                             {"mean_turning_angle", report.lines.mean_turning_angle}};
     json["region_pairs"] = report.region_pairs;
     json["quadruple_points_inside"] = report.quadruple_points_inside;
-    json["violations"] = violations_json(report.violations);
+    json["violations"] = violations_json(report.violations, labels);
     Json& counts = json["violation_counts"] = Json::object();
     for (std::size_t kind = 0; kind < report.counts.size(); ++kind)
         counts[to_string(static_cast<ViolationKind>(kind))] = report.counts[kind];
@@ -80,7 +92,7 @@ void put_check(Json& json, const CheckReport& report, const LabelTable& labels, 
 
 }  // namespace
 
-std::string report_json(const Report& report, const LabelTable& labels) {
+std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names) {
     Json json{{"initial_faces", report.initial_faces},
               {"initial_vertices", report.initial_vertices},
               {"final_faces", report.final_faces},
@@ -99,13 +111,13 @@ std::string report_json(const Report& report, const LabelTable& labels) {
                                  {"drift", report.preserved.drift},
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
-    put_check(json, report.check, labels, &report);
+    put_check(json, report.check, labels, names, &report);
     return text_of(json);
 }
 
-std::string check_json(const CheckReport& report, const LabelTable& labels) {
+std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names) {
     Json json;
-    put_check(json, report, labels);
+    put_check(json, report, labels, names);
     return text_of(json);
 }
 

@@ -40,7 +40,7 @@ public:
     Preserving(Model& model, const WantedVolumes& wanted, const SmoothOptions& options)
         : model_(model), wanted_(wanted), options_(options), rest_(model.vertex_end()) {
         for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
-            if (!model.is_alive(VertexId{v})) rest_[v] = kForEver;
+            if (!model.is_alive(VertexId{v}) || model[VertexId{v}].is_fixed) rest_[v] = kForEver;
     }
 
     PreserveReport run() {

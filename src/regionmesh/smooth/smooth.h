@@ -7,8 +7,8 @@
 
 namespace regionmesh {
 
-/// Moves the vertices in place; ids stay. The same passes and the same guard as in the stream. A model that has faults
-/// keeps them where it cannot do better. Deterministic.
+/// Moves the vertices in place, but for fixed ones; ids stay. The same passes and the same guard as in the stream. A
+/// model that has faults keeps them where it cannot do better. Deterministic.
 SmoothReport smooth(Model& model, const SmoothOptions& options);
 
 }  // namespace regionmesh

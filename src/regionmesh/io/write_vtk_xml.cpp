@@ -1,4 +1,4 @@
-// VTK PolyData in XML: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+// VTK PolyData and UnstructuredGrid in XML: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -34,6 +34,7 @@ constexpr const char* vtk_type() {
     if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
     if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
     if constexpr (std::is_same_v<T, std::int8_t>) return "Int8";
+    if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
 }
 
 // Smoothed positions have few bytes that repeat: zlib would take most of the writing for a tenth of their size. Where
@@ -102,21 +103,47 @@ private:
     std::string text_;
 };
 
-void write_head(const FileView& view, OutputFile& file) {
+constexpr std::uint8_t kVtkTriangle = 5;
+
+enum class DataSet { kPolyData, kUnstructuredGrid };
+
+void write_number(std::string_view name, std::int64_t number, OutputFile& file) {
+    file.write(fmt::format(
+        "<DataArray type=\"Int64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name, number));
+}
+
+// Strings in ascii are the codes of their bytes, with a 0 behind each string.
+void write_names(const FileView& view, OutputFile& file) {
+    std::string labels, codes;
+    int count = 0;
+    for (const Label label : view.ordered_labels()) {
+        const std::string name = view.name(label);
+        if (name.empty()) continue;
+        ++count;
+        labels += fmt::format("{}\n", view.labels().input(label));
+        for (const char c : name) codes += fmt::format("{} ", static_cast<unsigned char>(c));
+        codes += "0\n";
+    }
+    if (count == 0) return;
     file.write(
-        "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
-        "compressor=\"vtkZLibDataCompressor\">\n"
-        "<PolyData>\n");
-    if (view.exterior_label() != -1)
-        file.write(
-            fmt::format("<FieldData>\n<DataArray type=\"Int64\" Name=\"ExteriorLabel\" NumberOfTuples=\"1\" "
-                        "format=\"ascii\">{}</DataArray>\n</FieldData>\n",
-                        view.exterior_label()));
+        fmt::format("<DataArray type=\"Int64\" Name=\"RegionLabels\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}"
+                    "</DataArray>\n<Array type=\"String\" Name=\"RegionNames\" NumberOfTuples=\"{}\" "
+                    "format=\"ascii\">\n{}</Array>\n",
+                    count, labels, count, codes));
+}
+
+void write_head(const FileView& view, DataSet kind, OutputFile& file) {
+    const bool is_grid = kind == DataSet::kUnstructuredGrid;
     file.write(
-        fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-                    "NumberOfPolys=\"{}\">\n",
-                    view.model().vertex_count(), view.model().face_count()));
+        fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                    "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n<FieldData>\n",
+                    is_grid ? "UnstructuredGrid" : "PolyData"));
+    if (view.exterior_label() != -1) write_number("ExteriorLabel", view.exterior_label(), file);
+    write_names(view, file);
+    const std::uint64_t vertices = view.model().vertex_count(), faces = view.model().face_count();
+    file.write(fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" ", vertices));
+    if (!is_grid) file.write("NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" ");
+    file.write(fmt::format("NumberOf{}=\"{}\">\n", is_grid ? "Cells" : "Polys", faces));
 }
 
 void write_points(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
@@ -152,9 +179,10 @@ void write_labels(const FileView& view, OutputFile& file) {
 
 // `Index` holds the largest vertex number and three times the number of faces.
 template <class Index>
-void write_faces(const FileView& view, OutputFile& file) {
+void write_faces(const FileView& view, DataSet kind, OutputFile& file) {
     const std::uint64_t count = view.model().face_count();
-    file.write("<Polys>\n");
+    const bool is_grid = kind == DataSet::kUnstructuredGrid;
+    file.write(is_grid ? "<Cells>\n" : "<Polys>\n");
     ArrayWriter<Index> connectivity(file, "connectivity", 1, 3 * count);
     view.for_faces([&](FaceId f) {
         for (const std::uint32_t v : view.face(f).vertices) connectivity.put(static_cast<Index>(v));
@@ -163,23 +191,35 @@ void write_faces(const FileView& view, OutputFile& file) {
     ArrayWriter<Index> offsets(file, "offsets", 1, count);
     for (std::uint64_t i = 1; i <= count; ++i) offsets.put(static_cast<Index>(3 * i));
     offsets.close();
-    file.write("</Polys>\n");
+    if (is_grid) {
+        ArrayWriter<std::uint8_t> types(file, "types", 1, count);
+        for (std::uint64_t i = 0; i < count; ++i) types.put(kVtkTriangle);
+        types.close();
+    }
+    file.write(is_grid ? "</Cells>\n" : "</Polys>\n");
 }
 
-}  // namespace
-
-void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, const std::filesystem::path& path) {
-    OutputFile file(path);
-    write_head(view, file);
+void write_vtk_xml(const FileView& view, DataSet kind, const std::vector<PointArray>& arrays, OutputFile& file) {
+    write_head(view, kind, file);
     write_points(view, arrays, file);
     write_labels(view, file);
     constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
     if (std::uint64_t{3} * view.model().face_count() <= kMost && view.model().vertex_count() <= kMost)
-        write_faces<std::int32_t>(view, file);
+        write_faces<std::int32_t>(view, kind, file);
     else
-        write_faces<std::int64_t>(view, file);
-    file.write("</Piece>\n</PolyData>\n</VTKFile>\n");
-    file.commit();
+        write_faces<std::int64_t>(view, kind, file);
+    file.write(kind == DataSet::kUnstructuredGrid ? "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"
+                                                  : "</Piece>\n</PolyData>\n</VTKFile>\n");
+}
+
+}  // namespace
+
+void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
+    write_vtk_xml(view, DataSet::kPolyData, arrays, file);
+}
+
+void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
+    write_vtk_xml(view, DataSet::kUnstructuredGrid, arrays, file);
 }
 
 }  // namespace regionmesh
