@@ -3,7 +3,7 @@ import os
 
 from solver_run import run
 
-SIDES = ("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")
+SIDES = ("XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX")
 STRAIN = 1e-3
 
 

@@ -49,6 +49,19 @@ FileRegions::FileRegions(const FileView& view) : view_(view), numbers_(view.labe
             if (!is_exterior(label)) has_faces[label] = true;
     });
     std::set<std::string> taken;
+    for (const auto& [key, count] : counts) {
+        const FaceId f = examples[key];
+        std::array<Label, 2> labels = view.model()[f].labels;
+        if (view.is_turned(f)) std::swap(labels[0], labels[1]);
+        std::string name = "interface";
+        for (Label& label : labels) {
+            if (is_exterior(label)) label = exterior(0);
+            name += '_' + (is_exterior(label) ? "exterior" : word_of_label(view.label_text(label)));
+        }
+        taken.insert(name);
+        interfaces_.push_back({labels, name, count});
+        interface_numbers_[key] = static_cast<std::uint32_t>(interfaces_.size());
+    }
     for (const Label label : view.ordered_labels()) {
         if (!has_faces[label] || view.is_background(label)) continue;
         const std::string text = view.label_text(label), plain = "region_" + word_of_label(text);
@@ -62,18 +75,6 @@ FileRegions::FileRegions(const FileView& view) : view_(view), numbers_(view.labe
         }
         regions_.push_back({label, "region_" + text + (name.empty() ? "" : " " + name), word});
         numbers_[label] = static_cast<std::uint32_t>(regions_.size());
-    }
-    for (const auto& [key, count] : counts) {
-        const FaceId f = examples[key];
-        std::array<Label, 2> labels = view.model()[f].labels;
-        if (view.is_turned(f)) std::swap(labels[0], labels[1]);
-        std::string name = "interface";
-        for (Label& label : labels) {
-            if (is_exterior(label)) label = exterior(0);
-            name += '_' + (is_exterior(label) ? "exterior" : word_of_label(view.label_text(label)));
-        }
-        interfaces_.push_back({labels, name, count});
-        interface_numbers_[key] = static_cast<std::uint32_t>(interfaces_.size());
     }
 }
 

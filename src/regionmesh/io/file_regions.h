@@ -27,6 +27,9 @@ struct FileInterface {
     std::uint32_t face_count = 0;
 };
 
+/// Sets of what lies on the sides of the box, in the order of exterior labels.
+inline constexpr std::array<const char*, 6> kSideNames{"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"};
+
 class FileRegions {
 public:
     explicit FileRegions(const FileView& view);

@@ -46,6 +46,9 @@ struct WriteOptions {
 ///   .stl    text, a solid for each region (not the background), its normals outward. Per region: binary.
 ///   .msh    MSH 4.1, text: a surface for each interface of two solid parts; and beside it a .geo that makes volumes.
 ///   .smesh .poly  for TetGen: faces with a marker for each interface, points in holes and regions.
+///   .inp    for Abaqus and CalculiX: S3 elements, sets of interfaces, regions and sides of the box, surfaces.
+///   .glb    binary glTF, single precision round the middle of the model: a mesh for each region.
+///   .dream3d  version 8, single precision: a TriangleGeom with FaceLabels (32 bits; the exterior is -1) and NodeType.
 /// Text holds doubles to the last bit. The bytes depend on the model, the labels and the options only. Memory: a few
 /// megabytes, and 4 bytes a vertex where some were removed; 8 bytes a face for .obj and .stl, some hundred for those
 /// that volume meshers read. Throws Error(kOutput) for another extension and for options that its format cannot hold,

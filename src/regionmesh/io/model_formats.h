@@ -31,6 +31,9 @@ void write_smesh(const FileView& view, OutputFile& file);
 void write_poly(const FileView& view, OutputFile& file);
 /// The faces, and the text for Gmsh that makes volumes of them.
 void write_msh(const FileView& view, OutputFiles& files, const std::filesystem::path& path);
+void write_inp(const FileView& view, OutputFile& file);
+void write_glb(const FileView& view, OutputFile& file);
+void write_dream3d(const FileView& view, OutputFile& file);
 FileSurface read_vtp(const std::filesystem::path& path);
 FileSurface read_vtu(const std::filesystem::path& path);
 FileSurface read_ply(const std::filesystem::path& path);

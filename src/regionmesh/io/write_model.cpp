@@ -46,6 +46,9 @@ constexpr Format kFormats[] = {
     {.extension = ".msh", .write = write_two, .needs_closed_regions = true, .companion = ".geo"},
     {.extension = ".smesh", .write = write_one<write_smesh>, .needs_closed_regions = true},
     {.extension = ".poly", .write = write_one<write_poly>, .needs_closed_regions = true},
+    {.extension = ".inp", .write = write_one<write_inp>},
+    {.extension = ".glb", .write = write_one<write_glb>},
+    {.extension = ".dream3d", .write = write_one<write_dream3d>},
 };
 
 std::string extensions_where(bool (*is_such)(const Format&)) {

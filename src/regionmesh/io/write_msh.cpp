@@ -14,7 +14,6 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::array<const char*, 6> kSideNames{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 constexpr int kTriangle = 2;  // Gmsh's number for the type of element
 
 /// A surface of Gmsh bounds one shell on each side, so that each volume is made of whole ones; and it lies on one side
