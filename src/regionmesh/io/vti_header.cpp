@@ -154,8 +154,10 @@ Candidate choose_array(const InputFile& file, const std::vector<Candidate>& all)
         }
         if (count == 1) return *chosen;
     }
+    constexpr std::size_t kShown = 20;
     std::string names;
-    for (const Candidate& candidate : all) names += (names.empty() ? "" : "; ") + candidate.text();
+    for (std::size_t i = 0; i < std::min(all.size(), kShown); ++i) names += (i == 0 ? "" : "; ") + all[i].text();
+    if (all.size() > kShown) names += fmt::format("; and {} more", all.size() - kShown);
     if (!chosen) {
         fail(file.path(), "has no array of integers with one component, as labels need; it has " +
                               (names.empty() ? "none at all" : names));
