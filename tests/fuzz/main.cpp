@@ -67,8 +67,8 @@ Seeds gather_stores(const Format& format) {
 /// The changed text in a file of that name, or in its place in a copy of its store.
 void put(const fs::path& path, const Seeds& seeds, std::size_t index, const std::string& text) {
     fs::path file = path;
+    fs::remove_all(path);  // writing over a file may wait for the disk
     if (!seeds.stores.empty()) {
-        fs::remove_all(path);
         fs::copy(seeds.stores[index], path, fs::copy_options::recursive);
         file /= seeds.places[index];
     }
