@@ -87,7 +87,7 @@ std::span<const Format> formats() {
         Format{"plies", "surfaces", {".ply"}, model},
         Format{"stl", "surfaces", {".stl"}, model},
         Format{"obj", "surfaces", {".obj"}, model},
-        Format{"dream3d", "surfaces", {".dream3d"}, model},
+        Format{"dream3d_faces", "surfaces", {".dream3d"}, model},
     };
     return kFormats;
 }

@@ -251,6 +251,7 @@ bool Obstruction::meets(const Model& model, const EdgeStar& star, const Corners&
     const PlacedFace own{
         {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
         {model.position(old[0]->vertex()), model.position(old[1]->vertex()), model.position(old[2]->vertex())}};
+    if (is_degenerate({own.at[0], own.at[1], own.at[2]})) return false;  // it meets none, as in the check
     const FacePlanes planes(own);
     for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);

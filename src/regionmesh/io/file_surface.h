@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -51,9 +50,6 @@ void join_back_to_back(FileSurface& surface);
 /// outside, are above 0; where two meet, so that the exterior, or else label 0, is outside; else as most of its faces
 /// do.
 void orient_faces(FileSurface& surface);
-
-/// The text as a name: one line of UTF-8 without spaces round it; '?' for what is none.
-std::string clean_name(std::string_view text);
 
 /// The labels of faces that come in groups with names: "interface_3_7" has 3 behind its faces and 7 before them;
 /// "region_3", "region_3 liver" and "3" have 3 behind them and the exterior before; others likewise, with the first

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "regionmesh/io/file_surface.h"
+#include "regionmesh/io/header_text.h"
 
 namespace regionmesh {
 namespace {
@@ -31,7 +32,7 @@ constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{{{"char", 
 
 PlyType type_named(const io::ByteReader& file, std::string_view word) {
     const auto at = std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& type) { return type.first == word; });
-    if (at == kTypes.end()) file.fail_line("'" + clean_name(word.substr(0, 40)) + "' is no type of a PLY file");
+    if (at == kTypes.end()) file.fail_line("'" + io::one_line(word.substr(0, 40)) + "' is no type of a PLY file");
     return at->second;
 }
 
@@ -39,7 +40,7 @@ PlyEncoding encoding_named(const io::ByteReader& file, std::string_view word) {
     if (word == "ascii") return PlyEncoding::kText;
     if (word == "binary_little_endian") return PlyEncoding::kLittleEndian;
     if (word == "binary_big_endian") return PlyEncoding::kBigEndian;
-    file.fail_line("'" + clean_name(word.substr(0, 40)) + "' is no format of a PLY file");
+    file.fail_line("'" + io::one_line(word.substr(0, 40)) + "' is no format of a PLY file");
 }
 
 PlyElement read_element(const io::ByteReader& file, std::string_view rest) {
@@ -47,7 +48,7 @@ PlyElement read_element(const io::ByteReader& file, std::string_view rest) {
     const std::string_view count = io::take_word(rest);
     const auto number = io::to_integer(count);
     if (!number || count.starts_with('-'))
-        file.fail_line("bad number of elements '" + clean_name(count.substr(0, 40)) + "'");
+        file.fail_line("bad number of elements '" + io::one_line(count.substr(0, 40)) + "'");
     element.count = static_cast<std::uint64_t>(*number);
     return element;
 }
@@ -70,7 +71,7 @@ void read_comment(std::string_view rest, PlyHeader& header) {
     const auto label = io::to_integer(number);
     if (!label) return;
     if (word == "exterior_label") header.exterior_label = *label;
-    if (word == "region" && !clean_name(rest).empty()) header.names.try_emplace(*label, clean_name(rest));
+    if (word == "region" && !io::one_line(rest).empty()) header.names.try_emplace(*label, io::one_line(rest));
 }
 
 void require_room(const io::ByteReader& file, const PlyHeader& header) {
@@ -80,7 +81,7 @@ void require_room(const io::ByteReader& file, const PlyHeader& header) {
         const bool is_too_much = least > 0 ? element.count > left / least : element.count > file.size();
         if (is_too_much)
             file.fail("has " + std::to_string(file.left()) + " bytes after its header, which promises " +
-                      std::to_string(element.count) + " elements '" + clean_name(element.name.substr(0, 40)) +
+                      std::to_string(element.count) + " elements '" + io::one_line(element.name.substr(0, 40)) +
                       "': it was cut short");
         left -= element.count * least;
     }

@@ -9,6 +9,7 @@
 
 #include "regionmesh/base/error.h"
 #include "regionmesh/io/file_type.h"
+#include "regionmesh/io/header_text.h"
 #include "regionmesh/io/input_file.h"
 #include "regionmesh/io/model_formats.h"
 #include "regionmesh/io/natural_order.h"
@@ -56,7 +57,7 @@ FileSurface read_folder(const std::filesystem::path& folder) {
         FileSurface surface = format_of(path)->read(path);
         if (!surface.is_by_region)
             io::fail(path, "has labels on both sides of its faces, which a file for one region has not: name it alone");
-        const std::uint32_t group = groups.add(clean_name(path.stem().string()), true);
+        const std::uint32_t group = groups.add(io::one_line(path.stem().string()), true);
         for (auto& labels : surface.labels) labels = {group, 0};
         surface.names.clear();
         append(all, surface);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "regionmesh/io/byte_reader.h"
+#include "regionmesh/io/header_text.h"
 #include "regionmesh/io/model_formats.h"
 
 namespace regionmesh {
@@ -47,7 +48,7 @@ private:
         if (at == kGroupWords.end()) return;
         const std::size_t kind = static_cast<std::size_t>(at - kGroupWords.begin());
         has_[kind] = true;
-        current_[kind] = groups_.add(clean_name(rest), false);
+        current_[kind] = groups_.add(io::one_line(rest), false);
     }
 
     /// What our own files say beside.
@@ -56,7 +57,7 @@ private:
         const auto label = io::to_integer(number);
         if (!label) return;
         if (word == "exterior_label") surface_.exterior_label = *label;
-        if (word == "region" && !clean_name(rest).empty()) surface_.names.try_emplace(*label, clean_name(rest));
+        if (word == "region" && !io::one_line(rest).empty()) surface_.names.try_emplace(*label, io::one_line(rest));
     }
 
     void read_point(std::string_view rest) {

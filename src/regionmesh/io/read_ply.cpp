@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "regionmesh/io/byte_reader.h"
+#include "regionmesh/io/header_text.h"
 #include "regionmesh/io/model_formats.h"
 #include "regionmesh/io/ply_header.h"
 
@@ -83,7 +84,7 @@ private:
         const auto word = file_.take_word();
         if (!word) file_.fail("ends too early: it was cut short");
         const auto value = io::to_real(*word);
-        if (!value) file_.fail_line("'" + clean_name(word->substr(0, 40)) + "' stands where a number belongs");
+        if (!value) file_.fail_line("'" + io::one_line(word->substr(0, 40)) + "' stands where a number belongs");
         return *value;
     }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "regionmesh/io/byte_reader.h"
+#include "regionmesh/io/header_text.h"
 #include "regionmesh/io/model_formats.h"
 
 namespace regionmesh {
@@ -69,7 +70,7 @@ void read_text(io::ByteReader& file, RegionGroups& groups, FileSurface& surface)
                 "is no text, and the file has not the size of a binary STL file with as many faces as it says");
         const std::string_view word = io::take_word(rest);
         if (word == "solid") {
-            group = groups.add(clean_name(rest), true);
+            group = groups.add(io::one_line(rest), true);
         } else if (word == "vertex") {
             if (!group) file.fail_line("a vertex comes before the first solid");
             if (count == 3) file.fail_line("a facet has more than three vertices: write triangles");

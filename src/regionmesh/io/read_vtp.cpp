@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "regionmesh/io/header_text.h"
 #include "regionmesh/io/model_formats.h"
 #include "regionmesh/io/vtk_xml_file.h"
 
@@ -63,7 +64,7 @@ void VtkSurfaceReader::read_names() {
     std::size_t n = 0;
     file_.read_integers(labels, texts.size(), [&](std::span<const std::int64_t> values) {
         for (const std::int64_t label : values)
-            if (const std::string name = clean_name(texts[n++]); !name.empty()) surface_.names[label] = name;
+            if (const std::string name = io::one_line(texts[n++]); !name.empty()) surface_.names[label] = name;
     });
 }
 

@@ -34,39 +34,7 @@ std::optional<Told> told_by(std::string_view name, InputLabel exterior) {
     return Told{{*label, exterior}, std::string(rest)};
 }
 
-/// How many bytes the character at the front takes in UTF-8; 0 where there is none.
-std::size_t length_of_character(std::string_view text) {
-    const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
-    const std::size_t length = byte(0) < 0x80            ? 1
-                               : byte(0) - 0xC2u < 0x1Eu ? 2
-                               : byte(0) - 0xE0u < 0x10u ? 3
-                               : byte(0) - 0xF0u < 0x05u ? 4
-                                                         : 0;
-    if (length == 0 || length > text.size()) return 0;
-    for (std::size_t n = 1; n < length; ++n)
-        if ((byte(n) & 0xC0) != 0x80) return 0;
-    // Longer than need be, halves of a pair, or beyond the last character.
-    const bool is_odd = length > 2 && ((byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) >= 0xA0) ||
-                                       (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) >= 0x90));
-    return is_odd ? 0 : length;
-}
-
 }  // namespace
-
-std::string clean_name(std::string_view text) {
-    std::string name;
-    while (!text.empty()) {
-        const std::size_t length = length_of_character(text);
-        const bool is_control = static_cast<unsigned char>(text[0]) < ' ' || text[0] == '\x7f';
-        if (length == 0 || is_control)
-            name += is_control ? ' ' : '?';
-        else
-            name += text.substr(0, length);
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    const std::size_t first = std::min(name.find_first_not_of(' '), name.size());
-    return name.substr(first, name.find_last_not_of(' ') + 1 - first);
-}
 
 std::uint32_t RegionGroups::add(const std::string& name, bool is_apart) {
     if (!is_apart && !name.empty()) {
