@@ -74,6 +74,35 @@ TEST_F(Cli, reconstruct_writes_a_model_and_a_report) {
     test::expect_sound(check(file.model));
 }
 
+TEST_F(Cli, names_of_a_table_go_to_the_model_and_the_report) {
+    put_text(path("names.csv"), "label,name\n1,the ball\n");
+    const std::string names = " --names " + path("names.csv").string();
+    const Ran ran = run("reconstruct " + volume() + "-o " + out("m.vtp") + names + " --report " + out("r.json"));
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_EQ(read_model(out("m.vtp")).names, (LabelNames{{1, "the ball"}}));
+    EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"name\": \"the ball\""));
+    const Ran smoothed = run("smooth " + out("m.vtp") + " -o " + out("s.ply"));
+    EXPECT_EQ(smoothed.code, 0) << smoothed.error;
+    EXPECT_EQ(read_model(out("s.ply")).names, (LabelNames{{1, "the ball"}}));
+}
+
+TEST_F(Cli, table_of_names_that_cannot_be_read_is_refused_before_the_work) {
+    expect_refusal("reconstruct " + volume() + "-o " + out("m.vtp") + " --names " + path("none.csv").string(), 1,
+                   "none.csv");
+}
+
+TEST_F(Cli, per_region_writes_a_file_for_each_region) {
+    const Ran ran = run("reconstruct " + volume() + "-o " + out("m.stl") + " --no-background --per-region");
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_EQ(files_left(), 2);
+    EXPECT_TRUE(std::filesystem::exists(out("m-0.stl")));
+    EXPECT_TRUE(std::filesystem::exists(out("m-1.stl")));
+}
+
+TEST_F(Cli, open_box_is_refused_where_volumes_are_needed) {
+    expect_refusal("reconstruct " + volume() + "-o " + out("m.smesh") + " --boundary open", 1, "--boundary open");
+}
+
 TEST_F(Cli, quiet_says_nothing) {
     const Ran ran = run("reconstruct " + volume() + "-o " + out("m.ply") + " --quiet");
     EXPECT_EQ(ran.code, 0);

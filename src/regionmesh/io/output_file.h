@@ -27,10 +27,6 @@ public:
     void overwrite(std::uint64_t offset, std::string_view bytes);
     /// Bytes written so far.
     std::uint64_t size() const { return size_; }
-    /// Throws the Error for a failure of the system.
-    [[noreturn]] void fail(int error_number) const;
-    /// Where the bytes go: the temporary name, or the device itself. For libraries that open files on their own.
-    const std::filesystem::path& place() const { return temporary_.empty() ? target_ : temporary_; }
     /// Closes the file under its temporary name. Nothing may be written afterwards.
     void close();
     /// Closes the file if that is to be done, and gives it its name.
@@ -39,6 +35,7 @@ public:
 private:
     void open_temporary();
     void put(std::string_view bytes);
+    [[noreturn]] void fail(int error_number) const;
 
     std::filesystem::path path_;       // as the caller named it, for messages
     std::filesystem::path target_;     // links followed

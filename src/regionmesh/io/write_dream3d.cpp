@@ -2,9 +2,9 @@
 // https://www.dream3d.io (the file has groups and arrays as objects, each with an id, a type and its dimensions)
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <initializer_list>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -17,7 +17,8 @@ namespace {
 
 using namespace io;
 
-constexpr hsize_t kRows = 1 << 16;  // written at a time
+constexpr hsize_t kRows = 1 << 16;        // written at a time
+constexpr std::size_t kGrowth = 1 << 22;  // of the file in memory
 
 template <class T>
 struct ArrayType;
@@ -46,31 +47,36 @@ struct ArrayType<std::int8_t> {
     static hid_t native() { return H5T_NATIVE_INT8; }
 };
 
+/// Made in memory and then written: the library does not get over a disk that is full.
 class Dream3dWriter {
 public:
     Dream3dWriter(const FileView& view, OutputFile& file) : view_(view), output_(file) {}
 
     void write() {
         require_labels();
-        Hdf5File file(need(H5Fcreate(output_.place().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)));
+        const Hdf5Properties in_memory(need(H5Pcreate(H5P_FILE_ACCESS)));
+        need_done(H5Pset_fapl_core(in_memory.id(), kGrowth, false));
+        const Hdf5File file(need(H5Fcreate("model.dream3d", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory.id())));
         put_text(file.id(), "FileVersion", "8.0");
         {
             const Hdf5Group structure = group(file.id(), "DataStructure");
             write_geometry(structure.id());
             put_numbers(structure.id(), "NextObjectId", {next_id_});
         }
-        if (!file.close()) fail();
+        need_done(H5Fflush(file.id(), H5F_SCOPE_GLOBAL));
+        std::string bytes(static_cast<std::size_t>(need(H5Fget_file_image(file.id(), nullptr, 0))), '\0');
+        need(H5Fget_file_image(file.id(), bytes.data(), bytes.size()));
+        output_.write(bytes);
     }
 
 private:
-    [[noreturn]] void fail() const { output_.fail(errno != 0 ? errno : EIO); }
-    hid_t need(hid_t id) const {
-        if (id < 0) fail();
+    /// The file lies in memory, so only that can fail.
+    template <class Id>
+    static Id need(Id id) {
+        if (id < 0) throw std::bad_alloc();
         return id;
     }
-    void need_done(herr_t status) const {
-        if (status < 0) fail();
-    }
+    static void need_done(herr_t status) { need(status); }
 
     /// 32 bits with a sign, of which -1 is the exterior.
     void require_labels() const {

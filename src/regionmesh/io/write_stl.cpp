@@ -37,6 +37,10 @@ void write_stl(const FileView& view, OutputFile& file) {
         });
         text.line("endsolid", regions.all()[n].title);
     }
+    if (regions.all().empty()) {
+        text.line("solid empty");
+        text.line("endsolid empty");
+    }
     text.flush();
 }
 
