@@ -75,7 +75,7 @@ TEST(ChildProcess, a_crash_an_endless_loop_and_greed_end_the_child_only) {
 TEST(ChildProcess, seconds_count_for_each_answer_anew) {
     const auto work = [](std::span<const std::byte>) {
         const std::clock_t start = std::clock();
-        while (std::clock() - start < CLOCKS_PER_SEC * 9 / 10) {
+        while (std::clock() - start < CLOCKS_PER_SEC / 2) {
         }
         return Bytes();
     };

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -88,13 +89,12 @@ void limit_memory(std::uint64_t bytes) {
     if (is_known) limit(RLIMIT_AS, std::strtoull(text, nullptr, 10) * page + bytes);
 }
 
-/// From now on; whole seconds are all that the system knows.
+/// From now on. A limit of all that the process takes would have to be raised by what it has taken so far, which the
+/// system counts in two ways that drift apart.
 void limit_seconds(unsigned seconds) {
-    rusage used{};
-    ::getrusage(RUSAGE_SELF, &used);
-    const auto microseconds = used.ru_utime.tv_usec + used.ru_stime.tv_usec;
-    limit(RLIMIT_CPU,
-          static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + microseconds / 1000000) + 1 + seconds);
+    itimerval timer{};
+    timer.it_value.tv_sec = static_cast<time_t>(seconds);
+    ::setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
 bool answer_one(int socket, const ChildProcess::Answer& answer) {

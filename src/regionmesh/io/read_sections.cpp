@@ -27,6 +27,8 @@ std::unique_ptr<SectionReader> open_inside(const fs::path& path, const ReadOptio
 
 /// Groups of a store need no file of their own: then the name of the store must tell.
 std::unique_ptr<SectionReader> open_store(const fs::path& folder, const ReadOptions& options) {
+    std::error_code locked;
+    if (fs::directory_iterator(folder, locked); locked) return nullptr;  // for the reader of directories to say
     if (io::is_zarr(folder)) return io::open_zarr(folder, options);
     if (io::is_n5(folder)) return io::open_n5(folder, options);
     for (const fs::path& part : fs::path(folder.lexically_normal())) {
