@@ -77,9 +77,17 @@ TEST(Architecture, arrows_point_only_as_the_design_says) {
 
 TEST(Architecture, nothing_but_regionmesh_h_includes_io) {
     for_sources(kLibrary, [&](const fs::path& file) {
-        if (file == kLibrary / "regionmesh.h" || file.parent_path() == kLibrary / "io") return;
+        if (file == kLibrary / "regionmesh.h" || first_part(fs::relative(file, kLibrary).string()) == "io") return;
         for (const std::string& include : includes_of(file)) EXPECT_NE(first_part(include), "io") << file.string() << " includes " << include;
     });
+}
+
+TEST(Architecture, formats_of_volumes_and_of_models_do_not_see_one_another) {
+    for (const auto& [folder, other] : {std::pair("io/volumes", "io/models/"), std::pair("io/models", "io/volumes/")})
+        for_sources(kLibrary / folder, [&](const fs::path& file) {
+            for (const std::string& include : includes_of(file))
+                EXPECT_FALSE(include.starts_with(other)) << file.string() << " includes " << include;
+        });
 }
 
 TEST(Architecture, nothing_includes_the_whole) {

@@ -9,7 +9,7 @@
 
 #include "io/temporary_folder.h"
 #include "regionmesh/base/error.h"
-#include "regionmesh/io/model_formats.h"
+#include "regionmesh/io/models/model_formats.h"
 
 namespace regionmesh {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "io/read_volume.h"
+#include "io/volumes/read_volume.h"
 #include "io/temporary_folder.h"
 
 namespace regionmesh {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "regionmesh/io/input_file.h"
-#include "regionmesh/io/metadata_file.h"
 #include "regionmesh/io/read_sections.h"
+#include "regionmesh/io/volumes/metadata_file.h"
 
 namespace regionmesh::io {
 namespace {

@@ -51,8 +51,9 @@ struct WriteOptions {
 ///   .dream3d  version 8, single precision: a TriangleGeom with FaceLabels (32 bits; the exterior is -1) and NodeType.
 /// Text holds doubles to the last bit. The bytes depend on the model, the labels and the options only. Memory: a few
 /// megabytes, and 4 bytes a vertex where some were removed; 8 bytes a face for .obj and .stl, some hundred for those
-/// that volume meshers read and for .dream3d. Throws Error(kOutput) for another extension and for options that its format cannot hold,
-/// before anything is written, and Error(kOutput) when the file cannot be written or the disk is full.
+/// that volume meshers read and for .dream3d. Throws Error(kOutput) for another extension and for options that its
+/// format cannot hold, before anything is written, and Error(kOutput) when the file cannot be written or the disk is
+/// full.
 void write_model(const Model& model, const LabelTable& labels, const std::filesystem::path& path,
                  const WriteOptions& options = {});
 

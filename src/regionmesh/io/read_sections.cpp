@@ -3,8 +3,8 @@
 #include "regionmesh/base/error.h"
 #include "regionmesh/io/file_type.h"
 #include "regionmesh/io/input_file.h"
-#include "regionmesh/io/read_formats.h"
-#include "regionmesh/io/zarr_array.h"
+#include "regionmesh/io/volumes/read_formats.h"
+#include "regionmesh/io/volumes/zarr_array.h"
 
 namespace regionmesh {
 namespace {

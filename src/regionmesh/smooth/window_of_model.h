@@ -8,8 +8,8 @@
 
 namespace regionmesh {
 
-/// Adds the vertices and faces that are alive, in their order; the caller ends the layer. Fixed vertices are said to lie
-/// on all sides of the box: so they stay. Returns the number in the window of each vertex.
+/// Adds the vertices and faces that are alive, in their order; the caller ends the layer. Fixed vertices are said to
+/// lie on all sides of the box: so they stay. Returns the number in the window of each vertex.
 std::vector<std::uint32_t> add_model(const Model& model, SurfaceWindow& window);
 
 }  // namespace regionmesh

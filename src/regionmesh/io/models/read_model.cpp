@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "regionmesh/base/error.h"
+#include "regionmesh/io/file_type.h"
+#include "regionmesh/io/header_text.h"
+#include "regionmesh/io/input_file.h"
+#include "regionmesh/io/models/model_formats.h"
+#include "regionmesh/io/natural_order.h"
+
+namespace regionmesh {
+namespace {
+
+struct Format {
+    const char* extension;
+    FileSurface (*read)(const std::filesystem::path&);
+};
+constexpr std::array<Format, 6> kFormats{{{".vtp", read_vtp},
+                                          {".vtu", read_vtu},
+                                          {".ply", read_ply},
+                                          {".stl", read_stl},
+                                          {".obj", read_obj},
+                                          {".dream3d", read_dream3d}}};
+
+const Format* format_of(const std::filesystem::path& path) {
+    const std::string extension = io::extension(path);
+    const auto at = std::ranges::find(kFormats, extension, &Format::extension);
+    return at == kFormats.end() ? nullptr : &*at;
+}
+
+std::string extensions() {
+    std::string text;
+    for (const Format& format : kFormats) text += (text.empty() ? "" : " ") + std::string(format.extension);
+    return text;
+}
+
+/// The surfaces in a folder, in natural order of their names. Each is a region, called what the file is.
+FileSurface read_folder(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> paths;
+    std::error_code error;
+    for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (format_of(at->path()) && !at->path().filename().string().starts_with('.')) paths.push_back(at->path());
+    if (error) io::fail(folder, "cannot be read: " + error.message());
+    if (paths.empty()) io::fail(folder, "holds no surfaces: a file for each region, one of " + extensions());
+    std::ranges::sort(paths, [](const auto& a, const auto& b) {
+        return io::natural_less(a.filename().string(), b.filename().string());
+    });
+    FileSurface all{.is_by_region = true, .has_shared_points = false};
+    RegionGroups groups;
+    for (const auto& path : paths) {
+        FileSurface surface = format_of(path)->read(path);
+        if (!surface.is_by_region)
+            io::fail(path, "has labels on both sides of its faces, which a file for one region has not: name it alone");
+        const std::uint32_t group = groups.add(io::one_line(path.stem().string()), true);
+        for (auto& labels : surface.labels) labels = {group, 0};
+        surface.names.clear();
+        append(all, surface);
+        if (all.points.size() > kMostVertices || all.faces.size() > kMostFaces)
+            io::fail(folder, "has more points or faces than a model can hold");
+    }
+    groups.put_labels(all);
+    return all;
+}
+
+FileSurface read_surface(const std::filesystem::path& path) {
+    if (const Format* format = format_of(path)) return format->read(path);
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) return read_folder(path);
+    io::fail(path, fmt::format("no model format that can be read has the extension '{}': use one of {}",
+                               path.extension().string(), extensions()));
+}
+
+Box bounding_box(const FileSurface& surface) {
+    Box box;
+    for (const auto& face : surface.faces)
+        for (const std::uint32_t v : face) box.add(surface.points[v]);
+    return box;
+}
+
+// The side of the box in whose plane the face lies, exactly.
+std::optional<int> side_of_face(const FileSurface& surface, const std::array<std::uint32_t, 3>& face, const Box& box) {
+    for (int side = 0; side < 6; ++side) {
+        const int axis = side / 2;
+        const double plane = (side % 2 == 0 ? box.low : box.high)[axis];
+        if (std::ranges::all_of(face, [&](std::uint32_t v) { return surface.points[v][axis] == plane; })) return side;
+    }
+    return std::nullopt;
+}
+
+// Whether all faces with the exterior lie in the planes of the box. Where one does not (the lattice was turned), the
+// exterior is taken as a whole: side 0, and no vertex is on a side.
+bool exterior_is_box(const FileSurface& surface, const Box& box) {
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+        if (std::ranges::count(surface.labels[f], surface.exterior_label) > 0 &&
+            !side_of_face(surface, surface.faces[f], box))
+            return false;
+    return true;
+}
+
+ModelFile assemble(const FileSurface& surface) {
+    ModelFile file{.model = {}, .labels = LabelTable(), .names = surface.names};
+    Model& model = file.model;
+    model.reserve(surface.points.size(), surface.faces.size());
+    for (const Vec3& point : surface.points) model.add_vertex(point);
+    const Box box = bounding_box(surface);
+    const bool has_sides = exterior_is_box(surface, box);
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const auto& [a, b, c] = surface.faces[f];
+        std::array<Label, 2> labels;
+        for (int i = 0; i < 2; ++i) {
+            const InputLabel label = surface.labels[f][i];
+            if (label != surface.exterior_label) {
+                labels[i] = file.labels.dense(label);
+                continue;
+            }
+            if (!has_sides) {
+                labels[i] = exterior(0);
+                continue;
+            }
+            const int side = *side_of_face(surface, surface.faces[f], box);
+            labels[i] = exterior(side);
+            for (const std::uint32_t v : surface.faces[f]) model[VertexId{v}].sides |= static_cast<SideSet>(1u << side);
+        }
+        model.add_face(VertexId{a}, VertexId{b}, VertexId{c}, labels[0], labels[1]);
+    }
+    return file;
+}
+
+}  // namespace
+
+ModelFile read_model(const std::filesystem::path& path, const ReadModelOptions& options) {
+    FileSurface surface = read_surface(path);
+    if (options.weld || !surface.has_shared_points) weld_points(surface, options.weld.value_or(0));
+    if (options.weld || surface.is_by_region) join_back_to_back(surface);
+    if (options.orient) orient_faces(surface);
+    return assemble(surface);
+}
+
+}  // namespace regionmesh
