@@ -154,9 +154,9 @@ private:
         const Range inside = cell_range(cell, array_.file);
         Indices counts = array_.file;
         for (std::size_t axis = 0; axis < counts.size(); ++axis) counts[axis] /= array_.chunk[axis];
-        std::vector<std::byte> index(product(counts) * 16);
-        const std::uint64_t index_bytes = index.size() + 4 * array_.index_codecs.size();
+        const std::uint64_t index_bytes = product(counts) * 16 + 4 * array_.index_codecs.size();
         if (index_bytes > file.size()) refuse("the shard is shorter than its index");
+        std::vector<std::byte> index(product(counts) * 16);
         load(file, array_.index_is_first ? 0 : file.size() - index_bytes, index_bytes);
         if (const std::string problem = unpack(packed_, array_.index_codecs, index); !problem.empty())
             refuse("the index of the shard: " + problem);
