@@ -68,7 +68,9 @@ int info_command(const Arguments& arguments) {
 void add_info(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("info", "size, type, spacing, labels, and what a model will need");
-    command->add_option("input", arguments->inputs, "volume, directory of sections, or list of sections")->required();
+    command
+        ->add_option("input", arguments->inputs, "volume, file.h5:/dataset, directory of sections, or list of sections")
+        ->required();
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
     command->callback([arguments, &action] { action = [arguments] { return info_command(*arguments); }; });

@@ -73,7 +73,7 @@ void InputOptions::add_volume_options(CLI::App& command) {
     command.add_option("--sweep", sweep, "axis along which sections are read; auto: the one with the smallest section")
         ->check(CLI::IsMember({"x", "y", "z", "auto"}));
     command.add_option("--spacing", spacing, "distance of samples X,Y,Z instead of the file's own");
-    command.add_option("--layer", layer, "which one, from 0, of a file with several layers of labels (.seg.nrrd)");
+    command.add_option("--layer", layer, "which one, from 0, of several layers of labels, channels or times");
     command.add_option("--size", size, "raw files: samples X,Y,Z");
     command.add_option("--type", type, "raw files: uint8, int16, ... uint64, little endian");
 }

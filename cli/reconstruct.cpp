@@ -111,8 +111,10 @@ void add_reconstruct(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("reconstruct", "sections in, a conforming, simplified, checked model out");
     command
-        ->add_option("input", arguments->inputs,
-                     "volume (.npy .nii .nii.gz .tif .raw), directory of sections, or list of sections")
+        ->add_option(
+            "input", arguments->inputs,
+            "volume (.npy .nii.gz .nrrd .mha .vti .tif .h5:/dataset .dream3d .zarr ...), directory of sections, "
+            "or list of sections")
         ->required();
     arguments->output.add_options(*command);
     arguments->input.add_volume_options(*command);

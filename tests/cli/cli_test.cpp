@@ -203,6 +203,16 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 1, "--min-quality");
 }
 
+TEST_F(Cli, layer_chooses_among_layers_and_info_prints_names) {
+    const std::string layers = data("nrrd/layers_first_uint8.seg.nrrd");
+    expect_refusal("info " + layers, 1, "give --layer 0 to --layer 1");
+    const Ran ran = run("info " + layers + " --layer 1");
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_THAT(ran.out, HasSubstr("101  1 samples  high\n"));
+    EXPECT_THAT(ran.out, Not(HasSubstr("next")));
+    expect_refusal("info " + layers + " --layer x", 1, "--layer x");
+}
+
 TEST_F(Cli, info_prints_what_a_volume_is) {
     const Ran ran = run("info " + volume() + "--spacing 1,2,5");
     EXPECT_EQ(ran.code, 0) << ran.error;

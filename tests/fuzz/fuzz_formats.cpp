@@ -37,6 +37,24 @@ void read_volume(const fs::path& path, ReadOptions options, Random& random) {
 
 void volume(const fs::path& path, Random& random) { read_volume(path, {}, random); }
 
+/// One of the datasets of the seeds, which hold several.
+void hdf5(const fs::path& path, Random& random) {
+    constexpr std::array kDatasets{"",
+                                   "/contiguous/uint16",
+                                   "/big/gzip_int32",
+                                   "/packed/offset_uint16",
+                                   "/missing",
+                                   "/enum",
+                                   "/int24",
+                                   "/exported_data",
+                                   "/resolution",
+                                   "/one",
+                                   "/contiguous",
+                                   "/packed/sums_uint16"};
+    const std::string dataset = kDatasets[random.below(kDatasets.size())];
+    read_volume(dataset.empty() ? path : fs::path(path.string() + ":" + dataset), {}, random);
+}
+
 /// Bare samples: what may be wrong is what the options say.
 void raw(const fs::path& path, Random& random) {
     ReadOptions options;
@@ -81,6 +99,12 @@ std::span<const Format> formats() {
         Format{"vti", "vti", {".vti"}, volume},
         Format{"inr", "inr", {".inr", ".gz"}, volume},
         Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
+        Format{"hdf5", "chunked", {".h5"}, hdf5},
+        Format{"dream3d", "chunked", {".dream3d"}, volume},
+        Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
+        Format{"zarr3", "chunked/zarr3", {}, volume, ".zarr"},
+        Format{"ome", "chunked/ome", {}, volume, ".zarr"},
+        Format{"n5", "chunked/n5", {}, volume, ".n5"},
         Format{"vtp", "", {".vtp"}, model},
         Format{"vtu", "surfaces", {".vtu"}, model},
         Format{"ply", "ply", {".ply"}, model},

@@ -38,10 +38,46 @@ struct Arguments {
 
 struct Seeds {
     std::vector<std::string> extensions, texts;
+    std::vector<fs::path> stores, places;  // of a directory that is read whole, and of the file in it
 };
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// Every file of every store of a format.
+Seeds gather_stores(const Format& format) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(REGIONMESH_TEST_DATA) / format.folder))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    Seeds seeds;
+    for (const fs::path& file : files) {
+        fs::path store = file;
+        while (store.has_relative_path() && store.extension() != format.store) store = store.parent_path();
+        seeds.stores.push_back(store);
+        seeds.places.push_back(file.lexically_relative(store));
+        seeds.texts.push_back(text_of(file));
+        seeds.extensions.emplace_back(format.store);
+    }
+    return seeds;
+}
+
+/// The changed text in a file of that name, or in its place in a copy of its store.
+void put(const fs::path& path, const Seeds& seeds, std::size_t index, const std::string& text) {
+    fs::path file = path;
+    fs::remove_all(path);  // writing over a file may wait for the disk
+    if (!seeds.stores.empty()) {
+        fs::copy(seeds.stores[index], path, fs::copy_options::recursive);
+        file /= seeds.places[index];
+    }
+    std::ofstream(file, std::ios::binary) << text;
+}
 
 /// The seeds of a format; all files of its folder go into `work`, where headers may name them.
 Seeds gather(const Format& format, const fs::path& work) {
+    if (*format.store != '\0') return gather_stores(format);
     const fs::path folder = fs::path(REGIONMESH_TEST_DATA) / format.folder;
     std::vector<fs::path> files;
     if (*format.folder == '\0') {
@@ -56,8 +92,7 @@ Seeds gather(const Format& format, const fs::path& work) {
         fs::copy_file(file, work / file.filename(), fs::copy_options::overwrite_existing);
         if (std::find(format.extensions.begin(), format.extensions.end(), file.extension()) == format.extensions.end())
             continue;
-        std::ifstream stream(file, std::ios::binary);
-        seeds.texts.emplace_back(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+        seeds.texts.push_back(text_of(file));
         const bool is_packed = file.extension() == ".gz";
         seeds.extensions.push_back((is_packed ? file.stem().extension().string() : "") + file.extension().string());
     }
@@ -102,14 +137,14 @@ void fuzz(const Format& format, const Arguments& arguments) {
         const std::size_t index = random.below(seeds.texts.size());
         const std::string text = mutate(seeds.texts, index, random);
         const fs::path path = work / ("mutant" + seeds.extensions[index]);
-        std::ofstream(path, std::ios::binary) << text;
+        put(path, seeds, index, text);
         const std::string again = std::string(path) + ": again with --seed " + std::to_string(arguments.seed) +
                                   " --from " + std::to_string(number) + " --count 1 " + format.name;
         begin_watch(again, std::min(kMostBytes, kBaseBytes + kBytesPerByte * text.size()));
         read += read_one(format, path, again, random);
         most = std::max(most, end_watch());
     }
-    std::printf("%-6s %8llu files in %.0f s: %llu read, the others refused; at most %llu MB held\n", format.name,
+    std::printf("%-7s %8llu files in %.0f s: %llu read, the others refused; at most %llu MB held\n", format.name,
                 static_cast<unsigned long long>(number - arguments.from), elapsed(),
                 static_cast<unsigned long long>(read), static_cast<unsigned long long>(most >> 20));
     std::fflush(stdout);

@@ -18,6 +18,7 @@ int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std
                                               void (*)(const volatile void*));
 std::size_t __sanitizer_get_allocated_size(const volatile void*);
 void __sanitizer_set_death_callback(void (*)());
+const char* __ubsan_default_options() { return "abort_on_error=1:print_stacktrace=1"; }
 }
 #endif
 
@@ -25,7 +26,7 @@ namespace regionmesh::fuzz {
 namespace {
 
 constexpr int kMostSeconds = 10;  // of processor time: the machine may have other things to do
-constexpr int kMostWaiting = 120;
+constexpr int kMostWaiting = 600;
 
 char watched[4096];
 std::atomic<std::int64_t> held{0}, peak{0}, limit{INT64_MAX};
@@ -66,6 +67,7 @@ void watch_memory() {
                                                   if (place) note_given_back(__sanitizer_get_allocated_size(place));
                                               });
     __sanitizer_set_death_callback(say_watched);
+    std::signal(SIGABRT, on_signal);  // of undefined behaviour
 }
 #else
 void watch_memory() {

@@ -57,6 +57,11 @@ TEST_F(LabelNamesFile, numbers_that_tell_names_apart_are_part_of_them) {
                 ElementsAre(Pair(1, "Brodmann area 4"), Pair(2, "Brodmann area 6")));
 }
 
+TEST_F(LabelNamesFile, commas_in_names_separate_no_columns) {
+    EXPECT_THAT(names_of("1 Thalamus, left\n2 Thalamus, right\n"),
+                ElementsAre(Pair(1, "Thalamus, left"), Pair(2, "Thalamus, right")));
+}
+
 TEST_F(LabelNamesFile, comma_separated_tables_are_read_with_and_without_a_header) {
     const auto expected = ElementsAre(Pair(-1, "shell, outer"), Pair(7, "a \"b\""));
     EXPECT_THAT(names_of("label,name\n-1,\"shell, outer\"\n7,\"a \"\"b\"\"\"\n"), expected);
@@ -106,6 +111,7 @@ TEST_F(LabelNamesFile, errors_name_the_line) {
     EXPECT_THAT(failure_of("1,a,b\n2,\"c\n"), HasSubstr("line 2: a quote is not closed"));
     EXPECT_THAT(failure_of("x,y,label,name\n1,2\n"), HasSubstr("line 2: has 2 columns"));
     EXPECT_THAT(failure_of(std::string("1,a\0b\n", 6)), HasSubstr("is no text"));
+    EXPECT_THAT(failure_of(std::string(1000, ',') + "\n1,1\n"), HasSubstr("more than 1000 columns"));
     EXPECT_THAT(failure_of("<atlas>"), HasSubstr("is no whole XML"));
     EXPECT_THAT(failure_of("<atlas/>"), HasSubstr("holds no names"));
     EXPECT_THAT(failure_of("<atlas><data><label index=\"x\">a</label></data></atlas>"), HasSubstr("no whole number"));

@@ -119,6 +119,7 @@ TEST_F(ReadNrrdTest, bad_files_are_refused_and_say_why) {
     const std::pair<std::string, std::string> cases[] = {
         {"sizes: 5 4 0", "sizes is '5 4 0'"},
         {"sizes: 5 4", "one entry for each axis"},
+        {"sizes: 5 4 3 1", "one entry for each axis"},
         {"sizes: 5 4 -3", "sizes is"},
         {"sizes: 5 4 2147483648", "more than 2^31 - 1"},
         {"sizes: 2000000000 2000000000 2000000000", "more than any file holds"},
@@ -126,7 +127,8 @@ TEST_F(ReadNrrdTest, bad_files_are_refused_and_say_why) {
     };
     for (const auto& [line, message] : cases) EXPECT_THAT(refusal({nrrd("sizes: 5 4 3", line)}), HasSubstr(message));
     EXPECT_THAT(refusal({nrrd("dimension: 3", "dimension: 17")}), HasSubstr("dimension is '17'"));
-    EXPECT_THAT(refusal({nrrd("dimension: 3", "dimension: 1")}), HasSubstr("has 1 axes in space"));
+    EXPECT_THAT(refusal({nrrd("dimension: 3\nsizes: 5 4 3", "dimension: 1\nsizes: 60")}),
+                HasSubstr("has 1 axes in space"));
     EXPECT_THAT(refusal({nrrd("NRRD0004", "NRXD0004")}), HasSubstr("not a NRRD file"));
     EXPECT_THAT(refusal({nrrd("uint8", "block")}), HasSubstr("samples are 'block'"));
     EXPECT_THAT(refusal({nrrd("uint8", "int32")}), HasSubstr("'little' or 'big' is needed"));

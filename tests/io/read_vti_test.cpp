@@ -79,6 +79,7 @@ TEST_F(ReadVtiTest, bad_files_are_refused_and_say_why) {
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {extent, "Piece Extent=\"0 4 0 3 0 3\"", "array 'labels' has 120 bytes where its extent needs 160"},
         {extent, "Piece Extent=\"0 4 0 3 3 2\"", "Extent is '0 4 0 3 3 2'"},
+        {extent, "Piece Extent=\"-9223372036854775808 4 0 3 0 2\"", "Extent is '-9223372036854775808"},
         {extent, "Piece Extent=\"0 4 0 3\"", "Extent is '0 4 0 3'"},
         {extent, "Piece Extent=\"0 4 0 3 0 9999999999\"", "more than 2^31 - 1"},
         {extent, "Piece Extent=\"0 999999999 0 999999999 0 999999999\"", "more than any file holds"},

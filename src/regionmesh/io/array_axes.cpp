@@ -48,6 +48,12 @@ std::array<std::uint64_t, 3> ArrayAxes::along(const std::vector<std::uint64_t>& 
     return chosen;
 }
 
+ReadOptions ArrayAxes::without_layer(const ReadOptions& options) const {
+    ReadOptions rest = options;
+    if (has_layers) rest.layer.reset();
+    return rest;
+}
+
 ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std::uint64_t>& shape,
                       const std::vector<std::string>& names, const ReadOptions& options) {
     ArrayAxes axes;
@@ -60,18 +66,16 @@ ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std
     const bool is_named = axes.axis[0] >= 0 && axes.axis[1] >= 0;
     if (!is_named) axes = unnamed_axes(source, shape);
     axes.index.assign(shape.size(), 0);
-    bool has_layers = false;
     for (std::size_t i = 0; i < shape.size(); ++i) {
         if (std::ranges::count(axes.axis, static_cast<int>(i)) > 0 || shape[i] == 1) continue;
         const std::string what = "axis '" + names[i] + "' has " + std::to_string(shape[i]) + " samples";
-        if (has_layers) fail(source, what + ", and another axis beside x, y, z more than one, too; save one volume");
+        if (axes.has_layers)
+            fail(source, what + ", and another axis beside x, y, z more than one, too; save one volume");
         if (!options.layer) fail(source, what + "; choose one with --layer 0 to " + std::to_string(shape[i] - 1));
         if (*options.layer >= shape[i]) fail(source, what + "; there is no " + std::to_string(*options.layer));
         axes.index[i] = *options.layer;
-        has_layers = true;
+        axes.has_layers = true;
     }
-    if (options.layer && !has_layers && *options.layer > 0)
-        fail(source, "there is one volume only, and --layer is " + std::to_string(*options.layer) + "; leave it out");
     return axes;
 }
 

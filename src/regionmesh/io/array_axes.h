@@ -17,6 +17,10 @@ namespace regionmesh::io {
 struct ArrayAxes {
     std::array<int, 3> axis{-1, -1, -1};  // of the array that are x, y and z; -1: none, and one sample along it
     std::vector<std::uint64_t> index;     // along all others
+    bool has_layers = false;              // one of them was chosen by options.layer
+
+    /// What is left of the options when the layer is chosen.
+    ReadOptions without_layer(const ReadOptions& options) const;
 
     /// A number for each axis of the array, taken along x, y, z; `otherwise` where there is none.
     std::array<std::uint64_t, 3> along(const std::vector<std::uint64_t>& numbers, std::uint64_t otherwise = 1) const;

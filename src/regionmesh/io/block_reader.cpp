@@ -11,7 +11,6 @@ namespace regionmesh::io {
 namespace {
 
 constexpr std::uint64_t kFewBytes = std::uint64_t{1} << 20;      // a block is worth being read from here on
-constexpr std::uint64_t kManyBytes = std::uint64_t{1} << 30;     // more are not held, but for one section
 constexpr std::uint64_t kCrossBytes = std::uint64_t{256} << 20;  // the same for sweeps along x and y
 
 class BlockReader final : public SectionReader {
@@ -21,8 +20,8 @@ public:
         section_bytes_ = std::uint64_t{section_width()} * section_height() * sample_bytes(format_.type);
         chunk_ = std::clamp<std::uint64_t>(layout.chunk[info_.sweep.axes[2]], 1, section_count());
         depth_ = chunk_ * std::max<std::uint64_t>(1, kFewBytes / section_bytes_ / chunk_);
-        depth_ =
-            std::min({depth_, std::max<std::uint64_t>(1, kManyBytes / section_bytes_), std::uint64_t{section_count()}});
+        const std::uint64_t most = layout.is_backed ? kMaxBlockBytes : kMaxBareBytes;
+        depth_ = std::min({depth_, std::max<std::uint64_t>(1, most / section_bytes_), std::uint64_t{section_count()}});
         info_.held_bytes = depth_ * section_bytes_ + layout.source_bytes;
     }
 

@@ -32,11 +32,17 @@ struct BlockLayout {
     SampleFormat format;
     std::array<std::uint64_t, 3> chunk{1, 1, 1};  // samples along x, y, z that are best read together
     std::uint64_t source_bytes = 0;               // that the source holds beside the block
+    bool is_backed = true;                        // there is enough in the file to fill a block; else few are held
 };
+
+/// Most bytes of a block of more than one section, or of one that little stands behind.
+inline constexpr std::uint64_t kMaxBlockBytes = std::uint64_t{1} << 30;
+inline constexpr std::uint64_t kMaxBareBytes = std::uint64_t{64} << 20;
 
 /// Requires info.source, format, type and lattice; the options give the sweep and the spacing. Holds one block: as many
 /// sections as a chunk is deep, or a MiB of thin ones. Along z always; where a chunk's depth of sections is more than a
-/// GiB, fewer are held, and chunks read again for the next block. Along x and y where that depth takes 256 MiB or less.
+/// GiB (64 MiB where the file is too small for that), fewer are held, and chunks read again for the next block. Along x
+/// and y where that depth takes 256 MiB or less.
 std::unique_ptr<SectionReader> open_blocks(std::unique_ptr<BlockSource> source, VolumeInfo info,
                                            const BlockLayout& layout, const ReadOptions& options);
 

@@ -4,13 +4,14 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <utility>
 
@@ -19,10 +20,13 @@
 namespace regionmesh::io {
 namespace {
 
-// Both directions: a head, then `size` bytes. What an answer holds is told by `kind`.
-enum class Kind : std::uint64_t { kBytes, kError };
+constexpr std::uint64_t kMaxAnswer = std::uint64_t{2} << 30;  // more comes from a copy that has lost its wits
+
+// Both directions: a head, then `size` bytes.
+enum class Kind : std::uint32_t { kBytes, kError };
 struct Head {
-    Kind kind = Kind::kBytes;
+    Kind kind = Kind::kBytes;   // of an answer
+    std::uint32_t seconds = 0;  // for a request
     std::uint64_t size = 0;
 };
 
@@ -46,8 +50,8 @@ bool receive_all(int socket, std::span<std::byte> bytes) {
     return true;
 }
 
-bool send_message(int socket, Kind kind, std::span<const std::byte> bytes) {
-    const Head head{kind, bytes.size()};
+bool send_message(int socket, Head head, std::span<const std::byte> bytes) {
+    head.size = bytes.size();
     return send_all(socket, std::as_bytes(std::span(&head, 1))) && send_all(socket, bytes);
 }
 
@@ -75,16 +79,22 @@ void limit(int resource, rlim_t most) {
     ::setrlimit(resource, &now);
 }
 
+/// The first number there is the size of the process in pages.
 void limit_memory(std::uint64_t bytes) {
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    if (pages > 0) limit(RLIMIT_AS, pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + bytes);
+    char text[32] = {};
+    const int file = ::open("/proc/self/statm", O_RDONLY);
+    const bool is_known = file >= 0 && ::read(file, text, sizeof text - 1) > 0;
+    if (file >= 0) ::close(file);
+    const std::uint64_t page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    if (is_known) limit(RLIMIT_AS, std::strtoull(text, nullptr, 10) * page + bytes);
 }
 
+/// From now on. A limit of all that the process takes would have to be raised by what it has taken so far, which the
+/// system counts in two ways that drift apart.
 void limit_seconds(unsigned seconds) {
-    rusage used{};
-    ::getrusage(RUSAGE_SELF, &used);
-    limit(RLIMIT_CPU, static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1 + seconds);
+    itimerval timer{};
+    timer.it_value.tv_sec = static_cast<time_t>(seconds);
+    ::setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
 bool answer_one(int socket, const ChildProcess::Answer& answer) {
@@ -92,27 +102,27 @@ bool answer_one(int socket, const ChildProcess::Answer& answer) {
     if (!receive_all(socket, std::as_writable_bytes(std::span(&head, 1)))) return false;
     Bytes request(head.size);
     if (!receive_all(socket, request)) return false;
+    limit_seconds(head.seconds);
     std::string problem;
     try {
         const Bytes bytes = answer(request);
-        return send_message(socket, Kind::kBytes, bytes);
+        return send_message(socket, {.kind = Kind::kBytes}, bytes);
     } catch (const Error& error) {
         problem = error.what();
     } catch (const std::bad_alloc&) {
         return false;
     }
-    return send_message(socket, Kind::kError, std::as_bytes(std::span(problem)));
+    return send_message(socket, {.kind = Kind::kError}, std::as_bytes(std::span(problem)));
 }
 
 /// Ends without destructors and without what others asked to be done at the end: all that is the other process's.
-[[noreturn]] void serve(int socket, const ChildProcess::Answer& answer, const ChildLimits& limits) {
+[[noreturn]] void serve(int socket, const ChildProcess::Answer& answer, std::uint64_t memory_bytes) {
     reset_signals();
     drop_files(socket);
     limit(RLIMIT_CORE, 0);
     try {
-        limit_memory(limits.memory_bytes);
-        do limit_seconds(limits.seconds);
-        while (answer_one(socket, answer));
+        limit_memory(memory_bytes);
+        while (answer_one(socket, answer)) continue;
     } catch (...) {
     }
     ::_exit(0);
@@ -120,7 +130,7 @@ bool answer_one(int socket, const ChildProcess::Answer& answer) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(Answer answer, std::string complaint, const ChildLimits& limits)
+ChildProcess::ChildProcess(Answer answer, std::string complaint, std::uint64_t memory_bytes)
     : complaint_(std::move(complaint)) {
     int sockets[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) {
@@ -129,7 +139,7 @@ ChildProcess::ChildProcess(Answer answer, std::string complaint, const ChildLimi
     process_ = ::fork();
     if (process_ == 0) {
         ::close(sockets[0]);
-        serve(sockets[1], answer, limits);
+        serve(sockets[1], answer, memory_bytes);
     }
     const int problem = errno;
     ::close(sockets[1]);
@@ -156,13 +166,14 @@ void ChildProcess::complain() {
     throw Error(ErrorCode::kInput, complaint_);
 }
 
-Bytes ChildProcess::ask(std::span<const std::byte> request) {
+Bytes ChildProcess::ask(std::span<const std::byte> request, unsigned seconds) {
     if (socket_ < 0) complain();
     Head head;
-    if (!send_message(socket_, Kind::kBytes, request) ||
+    if (!send_message(socket_, {.seconds = seconds}, request) ||
         !receive_all(socket_, std::as_writable_bytes(std::span(&head, 1)))) {
         complain();
     }
+    if (head.size > kMaxAnswer) complain();
     Bytes bytes(head.size);
     if (!receive_all(socket_, bytes)) complain();
     if (head.kind == Kind::kBytes) return bytes;

@@ -14,12 +14,6 @@ namespace regionmesh::io {
 
 using Bytes = std::vector<std::byte>;
 
-/// What the copy may take, on top of what it has when it begins.
-struct ChildLimits {
-    std::uint64_t memory_bytes = std::uint64_t{4} << 30;  // address space
-    unsigned seconds = 120;                               // of computing, for one answer
-};
-
 /// A copy of this process, made by fork, that answers requests one after another with a function given beforehand.
 /// For libraries that a damaged file can make crash, loop or eat memory: that ends the copy only, and is told by
 /// Error(kInput). The copy holds no files or sockets of this process, prints nothing, and ends with this object.
@@ -31,14 +25,16 @@ class ChildProcess {
 public:
     using Answer = std::function<Bytes(std::span<const std::byte> request)>;
 
-    /// `complaint` is the text of the Error when the copy ends without an answer.
-    ChildProcess(Answer answer, std::string complaint, const ChildLimits& limits = {});
+    /// `complaint` is the text of the Error when the copy ends without an answer; `memory_bytes` of address space are
+    /// all that it gets on top of what there is when it begins.
+    ChildProcess(Answer answer, std::string complaint, std::uint64_t memory_bytes = std::uint64_t{4} << 30);
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
     ~ChildProcess();
 
-    /// What `answer` returns. An Error that it throws is thrown here; after that it can be asked again.
-    Bytes ask(std::span<const std::byte> request);
+    /// What `answer` returns within so many seconds of computing. An Error that it throws is thrown here; after that it
+    /// can be asked again.
+    Bytes ask(std::span<const std::byte> request, unsigned seconds = 10);
 
 private:
     void end();

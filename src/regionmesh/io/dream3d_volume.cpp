@@ -55,53 +55,64 @@ const ImageGeometry* geometry_of(const std::vector<ImageGeometry>& geometries, c
     return nearest;
 }
 
-/// The arrays of regions in image geometries, below `group`. Older files call a region a grain.
+/// Along x, y, z.
+std::optional<std::array<std::uint64_t, 3>> cell_counts(const ImageGeometry& geometry) {
+    std::array<std::uint64_t, 3> counts{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double cells = geometry.dimensions[axis];
+        if (!(cells >= 1 && cells <= static_cast<double>(kMaxAxisSamples))) return std::nullopt;
+        counts[axis] = static_cast<std::uint64_t>(cells);
+    }
+    return counts;
+}
+
+enum class Fit { kNone, kAxes, kFlat };
+
+/// An array of cells has their axes z, y, x or one for all, with or without one more for a single component.
+Fit fit_of(const Hdf5Entry& array, const ImageGeometry& geometry) {
+    const auto counts = cell_counts(geometry);
+    std::vector<std::uint64_t> shape = array.shape;
+    if ((shape.size() == 2 || shape.size() == 4) && shape.back() == 1) shape.pop_back();
+    if (!counts) return Fit::kNone;
+    const auto [x, y, z] = *counts;
+    if (shape == std::vector{z, y, x}) return Fit::kAxes;
+    return shape.size() == 1 && shape[0] / z == x * y && shape[0] % z == 0 ? Fit::kFlat : Fit::kNone;
+}
+
+/// The arrays of regions among the cells of image geometries, below `group`. Older files call a region a grain.
 std::vector<Hdf5Entry> region_arrays(const std::vector<Hdf5Entry>& entries,
                                      const std::vector<ImageGeometry>& geometries, const std::string& group) {
     std::vector<Hdf5Entry> arrays;
     for (const char* name : {"/FeatureIds", "/GrainIds"}) {
         for (const Hdf5Entry& entry : entries) {
-            if (entry.is_dataset && entry.path.ends_with(name) && is_below(entry.path, group) &&
-                geometry_of(geometries, entry.path)) {
-                arrays.push_back(entry);
-            }
+            if (!entry.is_dataset || !entry.path.ends_with(name) || !is_below(entry.path, group)) continue;
+            const ImageGeometry* geometry = geometry_of(geometries, entry.path);
+            if (geometry && fit_of(entry, *geometry) != Fit::kNone) arrays.push_back(entry);
         }
         if (!arrays.empty()) break;
     }
     return arrays;
 }
 
-Hdf5Entry choose_array(const std::filesystem::path& file, const std::string& source,
-                       const std::vector<Hdf5Entry>& arrays) {
+Hdf5Entry choose_array(const std::filesystem::path& file, const std::vector<Hdf5Entry>& arrays) {
     if (arrays.size() == 1) return arrays.front();
     if (arrays.empty()) {
-        fail(source, "no image geometry has a cell array FeatureIds; name another, as in " + file.string() +
-                         ":/DataContainers/NAME/CellData/NAME");
+        fail(file, "no image geometry has a cell array FeatureIds; name another, as in " + file.string() +
+                       ":/DataContainers/NAME/CellData/NAME");
     }
-    fail(source, "holds several arrays FeatureIds; name one: " + list_datasets(file, arrays));
+    fail(file, "holds several arrays FeatureIds; name one: " + list_datasets(file, arrays));
 }
 
-/// Cells along x, y, z, which the array must have, too: as axes z, y, x or as one, with or without one for components.
-Hdf5Volume volume_of(const std::string& source, const Hdf5Entry& array, const ImageGeometry& geometry) {
+Hdf5Volume volume_of(const std::filesystem::path& file, const Hdf5Entry& array, const ImageGeometry& geometry) {
+    const std::string source = file.string() + ":" + array.path;
     require_labels(source, array);
-    std::array<std::uint64_t, 3> size{};
-    for (int axis = 0; axis < 3; ++axis) {
-        const double cells = geometry.dimensions[axis];
-        if (!(cells >= 1 && cells <= static_cast<double>(kMaxAxisSamples))) {
-            fail(source, geometry.path + ": the image geometry has " + std::to_string(cells) + " cells along " +
-                             "xyz"[axis] + "; check the file");
-        }
-        size[axis] = static_cast<std::uint64_t>(cells);
+    const Fit fit = fit_of(array, geometry);
+    if (fit == Fit::kNone) {
+        fail(source, "the array does not fit the cells of its image geometry " + geometry.path +
+                         "; name an array of cells, one component each");
     }
-    std::vector<std::uint64_t> shape = array.shape;
-    if ((shape.size() == 2 || shape.size() == 4) && shape.back() == 1) shape.pop_back();
     Hdf5Volume volume{.format = "dream3d", .source = source, .dataset = array};
-    if (shape.size() == 1 && size[0] * size[1] <= shape[0] / size[2] && size[0] * size[1] * size[2] == shape[0]) {
-        volume.flat_size = size;
-    } else if (shape != std::vector<std::uint64_t>{size[2], size[1], size[0]}) {
-        fail(source, describe(array) + " does not fit the image geometry of " + size_text(size) +
-                         " cells; name an array of its cells, one component each");
-    }
+    if (fit == Fit::kFlat) volume.flat_size = cell_counts(geometry);
     volume.axis_names = array.shape.size() == 4 ? std::vector<std::string>{"z", "y", "x", "component"}
                                                 : std::vector<std::string>{"z", "y", "x"};
     for (int axis = 0; axis < 3; ++axis) {
@@ -114,19 +125,19 @@ Hdf5Volume volume_of(const std::string& source, const Hdf5Entry& array, const Im
 
 }  // namespace
 
-std::optional<Hdf5Volume> find_dream3d_volume(Hdf5Reader& file, const std::string& source, const std::string& inside) {
+std::optional<Hdf5Volume> find_dream3d_volume(Hdf5Reader& file, const std::string& inside) {
     if (!file.entry("/DataContainers") && !file.entry("/DataStructure")) return std::nullopt;
     const std::vector<Hdf5Entry> entries = file.entries();
     const std::vector<ImageGeometry> geometries = image_geometries(entries);
     const auto named = std::ranges::find(entries, inside, &Hdf5Entry::path);
     if (named != entries.end() && named->is_dataset) {
         const ImageGeometry* geometry = geometry_of(geometries, inside);
-        return geometry ? std::optional(volume_of(source, *named, *geometry)) : std::nullopt;
+        return geometry ? std::optional(volume_of(file.path(), *named, *geometry)) : std::nullopt;
     }
     if (!inside.empty() && inside != "/" && named == entries.end()) return std::nullopt;
     const Hdf5Entry array =
-        choose_array(file.path(), source, region_arrays(entries, geometries, inside.empty() ? "/" : inside));
-    return volume_of(source, array, *geometry_of(geometries, array.path));
+        choose_array(file.path(), region_arrays(entries, geometries, inside.empty() ? "/" : inside));
+    return volume_of(file.path(), array, *geometry_of(geometries, array.path));
 }
 
 }  // namespace regionmesh::io

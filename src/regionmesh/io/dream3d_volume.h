@@ -10,6 +10,6 @@ namespace regionmesh::io {
 /// /DataStructure with the attribute _DIMENSIONS (DREAM3D-NX, file version 8). Nothing where the file is not
 /// DREAM.3D's, or `inside` lies in none of its image geometries. The first sample lies in the middle of the first cell,
 /// half a spacing from the geometry's origin. Throws where there are several such arrays, naming them, or none.
-std::optional<Hdf5Volume> find_dream3d_volume(Hdf5Reader& file, const std::string& source, const std::string& inside);
+std::optional<Hdf5Volume> find_dream3d_volume(Hdf5Reader& file, const std::string& inside);
 
 }  // namespace regionmesh::io

@@ -7,7 +7,7 @@
 namespace regionmesh::io {
 namespace {
 
-constexpr std::array<std::pair<const char*, FileType>, 40> kTypes{{
+constexpr std::array<std::pair<const char*, FileType>, 43> kTypes{{
     {".npy", FileType::kNpy},          {".nii", FileType::kNifti},        {".nii.gz", FileType::kNifti},
     {".raw", FileType::kRaw},          {".png", FileType::kPng},          {".tif", FileType::kTiff},
     {".tiff", FileType::kTiff},        {".hdr", FileType::kNiftiPair},    {".img", FileType::kNiftiPair},
@@ -18,6 +18,7 @@ constexpr std::array<std::pair<const char*, FileType>, 40> kTypes{{
     {".webp", FileType::kOtherImage},  {".dcm", FileType::kOtherImage},   {".exr", FileType::kOtherImage},
     {".h5", FileType::kHdf5},          {".hdf5", FileType::kHdf5},        {".hdf", FileType::kHdf5},
     {".he5", FileType::kHdf5},         {".nxs", FileType::kHdf5},         {".dream3d", FileType::kHdf5},
+    {".zarr", FileType::kStore},       {".n5", FileType::kStore},         {".zip", FileType::kStore},
     {".pcx", FileType::kOtherImage},   {".pam", FileType::kOtherImage},   {".avif", FileType::kOtherImage},
     {".nrrd", FileType::kNrrd},        {".nhdr", FileType::kNrrd},        {".mha", FileType::kMetaImage},
     {".mhd", FileType::kMetaImage},    {".vti", FileType::kVti},          {".inr", FileType::kInr},

@@ -12,11 +12,12 @@ enum class FileType {
     kRaw,
     kPng,
     kTiff,
-    kHdf5,
     kNrrd,
     kMetaImage,
     kVti,
     kInr,
+    kHdf5,
+    kStore,       // .zarr or .n5 as one file, as .zip most often
     kNiftiPair,   // .hdr, .img
     kOtherImage,  // sections all the same, in a format that is not read: .pgm, .jpg and the like
     kOther,
@@ -29,7 +30,7 @@ FileType file_type(const std::filesystem::path& path);
 std::string extension(const std::filesystem::path& path);
 
 inline constexpr const char* kFormatsRead =
-    ".npy .nii .nii.gz .nrrd .nhdr .mha .mhd .vti .inr .inr.gz .tif .tiff .png .raw .h5 .hdf5 .dream3d and directories "
-    "of .png or .tif sections";
+    ".npy .nii .nii.gz .nrrd .nhdr .mha .mhd .vti .inr .inr.gz .tif .tiff .png .raw .h5 .hdf5 .dream3d .zarr .n5 and "
+    "directories of .png or .tif sections";
 
 }  // namespace regionmesh::io

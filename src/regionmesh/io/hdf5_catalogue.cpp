@@ -187,6 +187,7 @@ void describe_dataset(hid_t object, Hdf5Entry& entry) {
         const int count = H5Pget_chunk(layout.id(), kMaxAxes, chunk.data());
         if (count == static_cast<int>(entry.shape.size())) entry.chunk.assign(chunk.begin(), chunk.begin() + count);
     }
+    entry.stored_bytes = H5Dget_storage_size(object);
     entry.obstacle = obstacle_of(layout);
     const hssize_t count = H5Sget_simple_extent_npoints(space.id());
     if (is_number(type) && count > 0 && count <= kMaxNumbers && entry.obstacle.empty()) {

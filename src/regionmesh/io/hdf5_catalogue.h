@@ -23,6 +23,7 @@ struct Hdf5Entry {
     std::optional<SampleType> sample_type = {};  // where they are integers, enumerations or bit fields
     std::vector<std::uint64_t> shape = {};       // slowest axis first
     std::vector<std::uint64_t> chunk = {};       // shape of the parts stored together; empty where it is not chunked
+    std::uint64_t stored_bytes = 0;              // what its samples take in the file
     std::string obstacle = {};                   // why its samples cannot be read here, if so
     std::vector<double> values = {};             // of a dataset of at most 16 numbers
     std::map<std::string, std::vector<double>> numbers = {};  // attributes of at most 16 numbers

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "regionmesh/io/input_file.h"
+#include "regionmesh/io/metadata_file.h"
 #include "regionmesh/io/read_sections.h"
 
 namespace regionmesh::io {
@@ -14,6 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+// Of computing: a chunk of a GiB takes some to unpack, and so do 100,000 objects to look at.
+constexpr unsigned kFewSeconds = 10;
+constexpr unsigned kManySeconds = 30;
 constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
 
 /// The superblock stands at the start, or behind a block of the user's own of 512 bytes, 1024, 2048 and so on.
@@ -41,11 +45,17 @@ Json parse(std::span<const std::byte> bytes) {
 }
 
 Json to_json(const Hdf5Entry& entry) {
-    return {{"path", entry.path},         {"is_dataset", entry.is_dataset},
-            {"type", entry.type},         {"shape", entry.shape},
-            {"chunk", entry.chunk},       {"is_integer", entry.sample_type.has_value()},
-            {"obstacle", entry.obstacle}, {"values", entry.values},
-            {"numbers", entry.numbers},   {"words", entry.words}};
+    return {{"path", entry.path},
+            {"is_dataset", entry.is_dataset},
+            {"type", entry.type},
+            {"shape", entry.shape},
+            {"chunk", entry.chunk},
+            {"is_integer", entry.sample_type.has_value()},
+            {"stored_bytes", entry.stored_bytes},
+            {"obstacle", entry.obstacle},
+            {"values", entry.values},
+            {"numbers", entry.numbers},
+            {"words", entry.words}};
 }
 
 /// JSON has no number for what is not finite: it comes as null, and is no use as a length either.
@@ -60,6 +70,7 @@ Hdf5Entry from_json(const Json& json) {
     if (json.at("is_integer").get<bool>()) entry.sample_type = parse_sample_type(entry.type);
     json.at("shape").get_to(entry.shape);
     json.at("chunk").get_to(entry.chunk);
+    json.at("stored_bytes").get_to(entry.stored_bytes);
     json.at("obstacle").get_to(entry.obstacle);
     json.at("words").get_to(entry.words);
     entry.values = numbers_of(json.at("values"));
@@ -93,20 +104,23 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path)
              path.string() + ": the HDF5 library fails on this file (it crashed, or took more time or memory than it " +
                  "should); the file is damaged, fetch it again") {}
 
-std::optional<Hdf5Entry> Hdf5Reader::entry(const std::string& path) {
-    const Json entries = parse(child_.ask(to_bytes(dump({{"path", path}}))));
-    if (entries.empty()) return std::nullopt;
-    return from_json(entries.front());
+std::vector<Hdf5Entry> Hdf5Reader::ask(const std::string& request, unsigned seconds) {
+    return reading(path_, [&] {
+        std::vector<Hdf5Entry> entries;
+        for (const Json& entry : parse(child_.ask(to_bytes(request), seconds))) entries.push_back(from_json(entry));
+        return entries;
+    });
 }
 
-std::vector<Hdf5Entry> Hdf5Reader::entries() {
-    std::vector<Hdf5Entry> entries;
-    for (const Json& entry : parse(child_.ask(to_bytes("{}")))) entries.push_back(from_json(entry));
-    return entries;
+std::optional<Hdf5Entry> Hdf5Reader::entry(const std::string& path) {
+    std::vector<Hdf5Entry> entries = ask(dump({{"path", path}}), kFewSeconds);
+    return entries.empty() ? std::nullopt : std::optional(std::move(entries.front()));
 }
+
+std::vector<Hdf5Entry> Hdf5Reader::entries() { return ask("{}", kManySeconds); }
 
 Bytes Hdf5Reader::read(const std::string& path, const Hdf5Box& box) {
-    return child_.ask(to_bytes(dump({{"path", path}, {"start", box.start}, {"count", box.count}})));
+    return child_.ask(to_bytes(dump({{"path", path}, {"start", box.start}, {"count", box.count}})), kManySeconds);
 }
 
 }  // namespace regionmesh::io

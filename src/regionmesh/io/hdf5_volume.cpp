@@ -18,6 +18,7 @@ using Triple = std::array<std::uint64_t, 3>;
 constexpr std::uint64_t kBoxBytes = std::uint64_t{16} << 20;    // asked for at a time, where chunks are no larger
 constexpr std::uint64_t kCrossBytes = std::uint64_t{64} << 20;  // sections across the file's order, read together
 constexpr std::uint64_t kCrossSections = 64;
+constexpr std::uint64_t kMaxGrowth = std::uint64_t{1} << 15;  // of packed samples, whatever the filter
 
 class Hdf5Source final : public BlockSource {
 public:
@@ -124,12 +125,6 @@ Triple reading_chunk(const Hdf5Volume& volume, const ArrayAxes& axes, const std:
 
 }  // namespace
 
-bool may_be_volume(const Hdf5Entry& entry) {
-    if (!entry.is_dataset || !entry.sample_type) return false;
-    const auto more = std::ranges::count_if(entry.shape, [](std::uint64_t size) { return size > 1; });
-    return std::ranges::count(entry.shape, 0u) == 0 && more >= 2 && (more == 3 || entry.shape.size() > 1) && more <= 3;
-}
-
 std::string describe(const Hdf5Entry& dataset) {
     std::string text = dataset.path + " (" + dataset.type;
     for (std::size_t axis = 0; axis < dataset.shape.size(); ++axis)
@@ -147,14 +142,12 @@ std::string list_datasets(const std::filesystem::path& file, const std::vector<H
 }
 
 void require_labels(const std::string& source, const Hdf5Entry& dataset) {
-    if (!dataset.obstacle.empty())
-        fail(source, dataset.path + ": " + dataset.obstacle + "; write it again with gzip or uncompressed");
-    if (!dataset.sample_type)
-        fail(source, dataset.path + ": samples are " + dataset.type + "; labels must be integers");
+    if (!dataset.obstacle.empty()) fail(source, dataset.obstacle + "; write it again with gzip or uncompressed");
+    if (!dataset.sample_type) fail(source, "samples are " + dataset.type + "; labels must be integers");
     std::uint64_t bytes = sample_bytes(*dataset.sample_type);
     for (const std::uint64_t size : dataset.chunk) {
         if (size == 0 || bytes > kMaxChunkBytes / size)
-            fail(source, dataset.path + ": a chunk holds more than a GiB; store it in smaller ones (h5repack)");
+            fail(source, "a chunk holds more than a GiB; store it in smaller ones (h5repack)");
         bytes *= size;
     }
 }
@@ -171,16 +164,19 @@ std::unique_ptr<SectionReader> open_hdf5_volume(std::unique_ptr<Hdf5Reader> file
     const auto size = checked_size(volume.source, volume.flat_size ? *volume.flat_size : axes.along(dataset.shape));
     VolumeInfo info = volume_info(volume.source, volume.format, *dataset.sample_type, size);
     place(info, volume.placement, options);
-    const Triple chunk = reading_chunk(volume, axes, size);
     const std::uint64_t sample = sample_bytes(*dataset.sample_type);
+    Triple chunk = reading_chunk(volume, axes, size);
+    const bool is_backed = kMaxBlockBytes / kMaxGrowth <= dataset.stored_bytes;
+    if (!is_backed && chunk[0] * chunk[1] * chunk[2] * sample > kMaxBareBytes) chunk = {1, 1, 1};
     const std::uint64_t box_bytes =
         std::min(std::max(kBoxBytes, chunk[0] * chunk[1] * chunk[2] * sample), volume_bytes(info.source, size, sample));
     const BlockLayout layout{
         .format = {.type = *dataset.sample_type, .is_big_endian = std::endian::native == std::endian::big},
         .chunk = chunk,
-        .source_bytes = 3 * box_bytes};  // here, on the way, and unpacked in the library
+        .source_bytes = 3 * box_bytes,  // here, on the way, and unpacked in the library
+        .is_backed = is_backed};
     auto source = std::make_unique<Hdf5Source>(std::move(file), volume, axes, Triple{size[0], size[1], size[2]}, chunk);
-    return open_blocks(std::move(source), std::move(info), layout, options);
+    return open_blocks(std::move(source), std::move(info), layout, axes.without_layer(options));
 }
 
 }  // namespace regionmesh::io

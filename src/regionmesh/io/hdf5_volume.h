@@ -11,15 +11,12 @@ namespace regionmesh::io {
 /// The dataset that was chosen, and how it lies in space.
 struct Hdf5Volume {
     const char* format = "hdf5";
-    std::string source;  // as the user named it
-    Hdf5Entry dataset;
+    std::string source = {};  // FILE:DATASET
+    Hdf5Entry dataset = {};
     Placement placement = {};
     std::optional<std::array<std::uint64_t, 3>> flat_size = {};  // x, y, z of a dataset with one long axis, x fastest
     std::vector<std::string> axis_names = {};
 };
-
-/// Of integers, and of two axes or three with more than one sample, so that it may be a volume.
-bool may_be_volume(const Hdf5Entry& entry);
 
 /// "/cells (uint16, 4 x 5 x 6)"
 std::string describe(const Hdf5Entry& dataset);

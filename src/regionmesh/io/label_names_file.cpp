@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 using io::trim;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
+constexpr std::size_t kMostColumns = 1000;
 constexpr std::string_view kBlanks = " \t\r\v\f";
 constexpr char kAnyBlanks = ' ';  // the delimiter of tables without one
 
@@ -48,6 +49,8 @@ std::optional<InputLabel> parse_label(std::string_view text) {
         return static_cast<InputLabel>(bits);
     return std::nullopt;
 }
+
+bool is_label(std::string_view text) { return parse_label(text).has_value(); }
 
 bool is_number(std::string_view text) {
     if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return false;
@@ -110,7 +113,8 @@ Row TableReader::split(std::size_t number, std::string_view line) const {
     }
 }
 
-/// A delimiter stands on every line, or is none.
+/// A delimiter stands on every line, and on the last, which is no header, it sets a label apart no worse than blanks
+/// do.
 void TableReader::split_lines() {
     std::vector<std::pair<std::size_t, std::string_view>> lines;
     std::size_t number = 0;
@@ -122,14 +126,19 @@ void TableReader::split_lines() {
         const bool is_comment = words.empty() || words[0] == '#' || words[0] == '%' || words.starts_with("//");
         if (!is_comment) lines.emplace_back(number, line);
     }
-    for (const char delimiter : {'\t', ';', ','}) {
+    const auto separates = [&](char delimiter) {
+        delimiter_ = delimiter;
         const auto has_it = [&](const auto& line) { return line.second.find(delimiter) != std::string_view::npos; };
-        if (std::all_of(lines.begin(), lines.end(), has_it)) {
-            delimiter_ = delimiter;
-            break;
-        }
+        if (lines.empty() || !std::all_of(lines.begin(), lines.end(), has_it)) return false;
+        const auto& [at, line] = lines.back();
+        const Row last = split(at, line);
+        return std::any_of(last.fields.begin(), last.fields.end(), is_label) || !is_label(io::split_words(line)[0]);
+    };
+    if (!separates('\t') && !separates(';') && !separates(',')) delimiter_ = kAnyBlanks;
+    for (const auto& [at, line] : lines) {
+        rows_.push_back(split(at, line));
+        if (rows_.back().fields.size() > kMostColumns) refuse(at, "has more than 1000 columns: no table of names");
     }
-    for (const auto& [at, line] : lines) rows_.push_back(split(at, line));
 }
 
 /// In a table without delimiters a row becomes its label and its name: all words from the first that is no number.
@@ -163,8 +172,6 @@ void TableReader::join_words() {
         row.fields = {row.fields[0], name};
     }
 }
-
-bool is_label(std::string_view text) { return parse_label(text).has_value(); }
 
 /// Whether that holds for all rows; those with too few columns are reported later.
 bool TableReader::column_has(std::size_t column, bool (*is_wanted)(std::string_view)) const {

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostHeaderBytes = std::size_t{16} << 20;
+constexpr std::size_t kMostHeaderBytes = std::size_t{4} << 20;
 constexpr std::size_t kMostAxes = 16;
 
 struct Text {
@@ -37,7 +37,7 @@ struct Text {
 std::string header_bytes(const InputFile& file) {
     std::string text;
     for (std::size_t searched = 0; text.size() < file.size();) {
-        if (text.size() >= kMostHeaderBytes) fail(file.path(), "has a header of more than 16 MiB; check the file");
+        if (text.size() >= kMostHeaderBytes) fail(file.path(), "has a header of more than 4 MiB; check the file");
         const std::size_t held = text.size();
         text.resize(std::min<std::uint64_t>(file.size(), held + (std::size_t{64} << 10)));
         text.resize(held + file.read(held, std::as_writable_bytes(std::span(text).subspan(held))));
@@ -170,7 +170,7 @@ private:
     template <class Take>
     void for_words(std::string_view field, std::vector<Axis>& axes, Take&& take) const {
         const auto words = split_words(text_.field(field));
-        if (!words.empty() && words.size() < axes.size()) refuse(field, "one entry for each axis is needed");
+        if (!words.empty() && words.size() != axes.size()) refuse(field, "one entry for each axis is needed");
         for (std::size_t i = 0; i < axes.size() && i < words.size(); ++i) take(axes[i], words[i]);
     }
 

@@ -44,6 +44,16 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
 std::unique_ptr<SectionReader> open_hdf5(const std::filesystem::path& path, const std::string& inside,
                                          const ReadOptions& options);
 
+/// A folder of a Zarr store, version 2 or 3: an array, an OME-Zarr image (its finest resolution), or a group with one
+/// volume below it.
+std::unique_ptr<SectionReader> open_zarr(const std::filesystem::path& folder, const ReadOptions& options);
+
+/// A folder of an N5 store: an array, a group of resolutions s0, s1, ... (the finest), or one with one volume below it.
+std::unique_ptr<SectionReader> open_n5(const std::filesystem::path& folder, const ReadOptions& options);
+
+/// Whether a folder's own files say that it is an array of N5, a group of resolutions, or the root of a store.
+bool is_n5(const std::filesystem::path& folder);
+
 /// PNG and one-page TIFF files, a section each, in the order given.
 std::unique_ptr<SectionReader> open_image_list(const std::vector<std::filesystem::path>& files,
                                                const ReadOptions& options);

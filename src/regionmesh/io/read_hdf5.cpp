@@ -4,6 +4,7 @@
 #include "regionmesh/io/hdf5_volume.h"
 #include "regionmesh/io/input_file.h"
 #include "regionmesh/io/read_formats.h"
+#include "regionmesh/io/store_search.h"
 
 namespace regionmesh::io {
 namespace {
@@ -16,7 +17,8 @@ std::vector<std::string> axis_names(const Hdf5Entry& dataset) {
     if (found == dataset.words.end()) return {};
     std::vector<std::string> names;
     try {
-        for (const auto& axis : nlohmann::json::parse(found->second).at("axes")) names.push_back(axis.at("key"));
+        const auto tags = nlohmann::json::parse(found->second);
+        for (const auto& axis : tags.at("axes")) names.push_back(axis.at("key"));
     } catch (const nlohmann::json::exception&) {
         return {};
     }
@@ -31,11 +33,17 @@ void add_lab_dct_spacing(Hdf5Reader& file, Hdf5Volume& volume) {
     for (int axis = 0; axis < 3; ++axis) volume.placement.spacing[axis] = spacing->values[axis];
 }
 
+/// Datasets that may be volumes, of integers, below a group.
+std::vector<Hdf5Entry> find_candidates(Hdf5Reader& file, const std::string& below) {
+    std::vector<Hdf5Entry> entries = file.entries();
+    std::erase_if(entries, [&](const Hdf5Entry& entry) {
+        return !entry.sample_type || !may_be_volume(entry.shape) || !entry.path.starts_with(below);
+    });
+    return entries;
+}
+
 Hdf5Entry only_candidate(Hdf5Reader& file, const std::string& source, const std::string& below) {
-    std::vector<Hdf5Entry> candidates;
-    for (Hdf5Entry& entry : file.entries()) {
-        if (may_be_volume(entry) && entry.path.starts_with(below)) candidates.push_back(std::move(entry));
-    }
+    std::vector<Hdf5Entry> candidates = find_candidates(file, below);
     if (candidates.size() == 1) return std::move(candidates.front());
     if (candidates.empty())
         fail(source, "holds no dataset of integers with 2 or 3 dimensions; labels must be integers");
@@ -46,8 +54,7 @@ Hdf5Entry choose_dataset(Hdf5Reader& file, const std::string& source, const std:
     if (inside.empty()) return only_candidate(file, source, "/");
     const auto entry = file.entry(inside);
     if (!entry) {
-        std::vector<Hdf5Entry> candidates = file.entries();
-        std::erase_if(candidates, [](const Hdf5Entry& candidate) { return !may_be_volume(candidate); });
+        const std::vector<Hdf5Entry> candidates = find_candidates(file, "/");
         fail(source, "the file holds no " + inside +
                          (candidates.empty() ? std::string("; check the path")
                                              : "; name one of " + list_datasets(file.path(), candidates)));
@@ -60,13 +67,14 @@ Hdf5Entry choose_dataset(Hdf5Reader& file, const std::string& source, const std:
 std::unique_ptr<SectionReader> open_hdf5(const fs::path& path, const std::string& inside, const ReadOptions& options) {
     auto file = std::make_unique<Hdf5Reader>(path);
     const std::string source = inside.empty() ? path.string() : path.string() + ":" + inside;
-    if (auto volume = find_dream3d_volume(*file, source, inside)) {
+    if (auto volume = find_dream3d_volume(*file, inside)) {
         return open_hdf5_volume(std::move(file), *volume, options);
     }
-    Hdf5Volume volume{.source = source, .dataset = choose_dataset(*file, source, inside)};
-    require_labels(source, volume.dataset);
+    Hdf5Volume volume{.dataset = choose_dataset(*file, source, inside)};
+    volume.source = path.string() + ":" + volume.dataset.path;
+    require_labels(volume.source, volume.dataset);
     volume.axis_names = axis_names(volume.dataset);
-    const ArrayAxes axes = choose_axes(source, volume.dataset.shape, volume.axis_names, options);
+    const ArrayAxes axes = choose_axes(volume.source, volume.dataset.shape, volume.axis_names, options);
     volume.placement = common_placement(axes, volume.dataset.shape.size(), [&](const std::string& name) {
         const auto found = volume.dataset.numbers.find(name);
         return found == volume.dataset.numbers.end() ? std::vector<double>() : found->second;

@@ -1,6 +1,7 @@
 // The INRIMAGE-4 format of INRIA, which CGAL reads: a text header, most often of 256 bytes, then bare samples.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -111,7 +112,7 @@ InrHeader read_header(const fs::path& path, ByteStream& stream) {
         if (!text.starts_with(kMagic)) fail(path, "not an INRIMAGE-4 file (it does not begin as one); check the file");
         if (text.size() == held || text.size() > kMostHeaderBytes)
             fail(path, "has a header without an end ('##}'); the file is truncated, fetch it again");
-        end = text.find(kEnd);
+        end = text.find(kEnd, held - std::min(held, kEnd.size()));
     }
     return parse_header(path, std::string_view(text).substr(0, end + kEnd.size()));
 }

@@ -4,6 +4,7 @@
 #include "regionmesh/io/file_type.h"
 #include "regionmesh/io/input_file.h"
 #include "regionmesh/io/read_formats.h"
+#include "regionmesh/io/zarr_array.h"
 
 namespace regionmesh {
 namespace {
@@ -24,6 +25,20 @@ std::unique_ptr<SectionReader> open_inside(const fs::path& path, const ReadOptio
     return nullptr;
 }
 
+/// Groups of a store need no file of their own: then the name of the store must tell.
+std::unique_ptr<SectionReader> open_store(const fs::path& folder, const ReadOptions& options) {
+    std::error_code locked;
+    if (fs::directory_iterator(folder, locked); locked) return nullptr;  // for the reader of directories to say
+    if (io::is_zarr(folder)) return io::open_zarr(folder, options);
+    if (io::is_n5(folder)) return io::open_n5(folder, options);
+    for (const fs::path& part : fs::path(folder.lexically_normal())) {
+        const std::string name = io::extension(part);
+        if (name == ".zarr") return io::open_zarr(folder, options);
+        if (name == ".n5") return io::open_n5(folder, options);
+    }
+    return nullptr;
+}
+
 std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions& options) {
     std::error_code ignored;
     if (auto reader = open_inside(path, options)) return reader;
@@ -31,6 +46,7 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
     if (fs::is_directory(path, ignored)) {
         if (has_raw_option)
             io::fail(path, "--size and --type are for one raw file, and this is a directory; leave them out");
+        if (auto reader = open_store(path, options)) return reader;
         return io::open_image_directory(path, options);
     }
     const io::InputFile there(path);
@@ -48,6 +64,8 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
             return io::open_hdf5(path, "", options);
         case io::FileType::kPng:
             return io::open_image_list({path}, options);
+        case io::FileType::kStore:
+            io::fail(path, "stores in one file are not read; unpack it into a directory (unzip) and name that");
         case io::FileType::kNrrd:
             return io::open_nrrd(path, options);
         case io::FileType::kMetaImage:

@@ -24,9 +24,11 @@ struct ReadOptions {
 };
 
 /// Opens one volume file, one directory of sections, or a list of section files in the order given.
-/// `.npy .nii .nii.gz .nrrd .nhdr .mha .mhd .vti .inr .inr.gz .tif .tiff .png .raw`; directories take their images in
-/// natural order (s2 before s10). Throws Error(kInput) for a missing or unreadable file, unknown format, float or
-/// complex samples, an empty volume, sections of different size, or a sweep that the format cannot do.
+/// `.npy .nii .nii.gz .nrrd .nhdr .mha .mhd .vti .inr .inr.gz .tif .tiff .png .raw .h5 .hdf5 .dream3d .zarr .n5`; a
+/// dataset of an HDF5 file is named as `file.h5:/path`. Directories take their images in natural order (s2 before s10),
+/// unless they are Zarr or N5 stores. HDF5 files are read by a copy of the process, made by fork. Throws Error(kInput)
+/// for a missing or unreadable file, unknown format, float or complex samples, an empty volume, sections of different
+/// size, or a sweep that the format cannot do.
 std::unique_ptr<SectionReader> open_sections(const std::vector<std::filesystem::path>& inputs,
                                              const ReadOptions& options = {});
 

@@ -130,6 +130,7 @@ std::vector<fs::path> listed_files(const fs::path& header, std::string_view text
     while (!text.empty()) {
         const std::string_view name = trim(take_line(text));
         if (!name.empty()) files.push_back(file_beside(header, name));
+        if (files.size() > kMostFiles) fail(header, "lists more than a million files of samples; check the header");
     }
     if (files.empty()) fail(header, "lists no files of samples; name them below");
     return files;

@@ -154,8 +154,10 @@ Candidate choose_array(const InputFile& file, const std::vector<Candidate>& all)
         }
         if (count == 1) return *chosen;
     }
+    constexpr std::size_t kShown = 20;
     std::string names;
-    for (const Candidate& candidate : all) names += (names.empty() ? "" : "; ") + candidate.text();
+    for (std::size_t i = 0; i < std::min(all.size(), kShown); ++i) names += (i == 0 ? "" : "; ") + all[i].text();
+    if (all.size() > kShown) names += fmt::format("; and {} more", all.size() - kShown);
     if (!chosen) {
         fail(file.path(), "has no array of integers with one component, as labels need; it has " +
                               (names.empty() ? "none at all" : names));
@@ -184,7 +186,7 @@ void place_in_space(const InputFile& file, pugi::xml_node image, pugi::xml_node 
     std::array<std::uint64_t, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         constexpr std::int64_t kMost = std::int64_t{1} << 40;
-        if (extent.size() != 6 || std::abs(extent[2 * axis]) > kMost || std::abs(extent[2 * axis + 1]) > kMost ||
+        if (extent.size() != 6 || extent[2 * axis] < -kMost || extent[2 * axis + 1] > kMost ||
             extent[2 * axis + 1] < extent[2 * axis])
             fail(file.path(), fmt::format("Extent is '{}': first and last index on each axis are needed", shown(text)));
         const std::int64_t low = extent[2 * axis], parts = extent[2 * axis + 1] - low;
