@@ -68,6 +68,14 @@ TEST_F(ReadTiffTest, size_that_the_file_cannot_back_is_refused_before_anything_i
     EXPECT_THAT(refusal({path("big.tif")}), HasSubstr("the image is 16384 x 16384 uint16, more than a file of"));
 }
 
+TEST_F(ReadTiffTest, tile_that_the_file_cannot_back_is_refused_before_it_is_allocated) {
+    std::string bytes = text_of(data("tiff/tiles_uint16.tif"));
+    for (const char* tag : {"\x42\x01\x04", "\x43\x01\x04"})  // width and length of a tile
+        bytes.replace(bytes.find(tag) + 8, 2, std::string("\x00\x40", 2));
+    put_text(path("big.tif"), bytes);
+    EXPECT_THAT(refusal({path("big.tif")}), HasSubstr("a strip or tile is larger than the file can hold"));
+}
+
 TEST_F(ReadTiffTest, pages_of_another_size_are_named_with_both) {
     EXPECT_THAT(refusal({data("tiff/bad/page_sizes.tif")}),
                 HasSubstr("section 1: the image is 5 x 3 uint8 where section 0 is 5 x 4 uint8"));

@@ -118,15 +118,20 @@ void TiffFile::check_pixels(std::uint64_t section) const {
     }
 }
 
-/// A header must not claim more pixels than the file can unpack to. For the codecs not named here nothing is known.
-void TiffFile::check_backing(const ImageShape& shape, std::uint64_t section) const {
+/// Whether the file can unpack to so many bytes. For the codecs not named here nothing is known.
+bool TiffFile::can_hold(std::uint64_t bytes) const {
     std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     const auto compression = tag<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
     for (const auto& [code, expansion] : kExpansions) {
         if (code == compression) most = expansion;
     }
+    return bytes / most <= size_;
+}
+
+/// A header must not claim more pixels than the file can unpack to.
+void TiffFile::check_backing(const ImageShape& shape, std::uint64_t section) const {
     const std::uint64_t row_bytes = (std::uint64_t{shape.width} * shape.channels * shape.bits + 7) / 8;
-    if (row_bytes * shape.height / most <= size_) return;
+    if (can_hold(row_bytes * shape.height)) return;
     fail_section(path_, section,
                  "the image is " + describe(shape) + ", more than a file of " + std::to_string(size_) +
                      " bytes can hold; the file is truncated or damaged, fetch it again");
@@ -190,6 +195,7 @@ TiffFile::Blocks TiffFile::blocks(const ImageShape& shape, std::uint64_t section
         fail_section(path_, section, "one strip or tile takes more than 1 GiB; save it with smaller ones");
     }
     blocks.bytes = blocks.row_bytes * blocks.height;
+    if (!can_hold(blocks.bytes)) refuse(section, "a strip or tile is larger than the file can hold");
     return blocks;
 }
 

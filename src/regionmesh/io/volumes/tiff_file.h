@@ -59,6 +59,7 @@ private:
     void list_pages(std::uint64_t section);
     void select(std::uint32_t page, std::uint64_t section);
     void check_pixels(std::uint64_t section) const;
+    bool can_hold(std::uint64_t bytes) const;
     void check_backing(const ImageShape& shape, std::uint64_t section) const;
     Blocks blocks(const ImageShape& shape, std::uint64_t section) const;
     void decode(const Blocks& blocks, Block block, std::uint64_t section, std::span<std::byte> pixels);
