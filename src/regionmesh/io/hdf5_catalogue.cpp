@@ -138,7 +138,9 @@ herr_t collect_name(hid_t, const char* name, const H5A_info_t*, void* place) {
     return 0;
 }
 
-void add_attributes(hid_t object, Hdf5Entry& entry) {
+enum class Words { kAll, kShort };
+
+void add_attributes(hid_t object, Words words, Hdf5Entry& entry) {
     std::vector<std::string> names;
     H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names);
     for (const std::string& name : names) {
@@ -150,7 +152,8 @@ void add_attributes(hid_t object, Hdf5Entry& entry) {
         if (is_number(type) && count > 0 && count <= kMaxNumbers) {
             std::vector<double> numbers(static_cast<std::size_t>(count));
             if (H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, numbers.data()) >= 0) entry.numbers[name] = numbers;
-        } else if (H5Tget_class(type.id()) == H5T_STRING && count == 1) {
+        } else if (H5Tget_class(type.id()) == H5T_STRING && count == 1 &&
+                   (words == Words::kAll || H5Tis_variable_str(type.id()) == 0)) {
             entry.words[name] = read_text(attribute, type);
         }
     }
@@ -202,12 +205,12 @@ herr_t collect_hard_link(hid_t, const char* name, const H5L_info_t* link, void* 
     return 0;
 }
 
-std::optional<Hdf5Entry> describe(const Hdf5Object& object, std::string path) {
+std::optional<Hdf5Entry> describe(const Hdf5Object& object, std::string path, Words words) {
     Hdf5Entry entry{.path = std::move(path)};
     const H5I_type_t kind = H5Iget_type(object.id());
     if (kind != H5I_GROUP && kind != H5I_DATASET) return std::nullopt;
     if (kind == H5I_DATASET) describe_dataset(object.id(), entry);
-    add_attributes(object.id(), entry);
+    add_attributes(object.id(), words, entry);
     return entry;
 }
 
@@ -218,7 +221,7 @@ void walk(const std::filesystem::path& file, const Hdf5Object& group, const std:
     for (const std::string& name : names) {
         const Hdf5Object object(H5Oopen(group.id(), name.c_str(), H5P_DEFAULT));
         if (!object) continue;
-        auto entry = describe(object, path + "/" + name);
+        auto entry = describe(object, path + "/" + name, Words::kShort);
         if (!entry) continue;
         if (entries.size() == kMaxEntries) {
             fail(file, "holds more than " + std::to_string(kMaxEntries) + " objects; name the dataset, as in " +
@@ -235,7 +238,7 @@ Hdf5Catalogue::Hdf5Catalogue(const std::filesystem::path& path) : path_(path), f
 
 std::optional<Hdf5Entry> Hdf5Catalogue::entry(const std::string& path) {
     const Hdf5Object object(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT));
-    return object ? describe(object, path) : std::nullopt;
+    return object ? describe(object, path, Words::kAll) : std::nullopt;
 }
 
 std::vector<Hdf5Entry> Hdf5Catalogue::entries() {

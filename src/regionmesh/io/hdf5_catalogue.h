@@ -44,7 +44,8 @@ public:
 
     /// Nothing where there is no such object.
     std::optional<Hdf5Entry> entry(const std::string& path);
-    /// All groups and datasets below the root, in order of their names. Throws where there are more than 100,000.
+    /// All groups and datasets below the root, in order of their names, without words of variable length: in a damaged
+    /// file the library may look for those for ever. Throws where there are more than 100,000.
     std::vector<Hdf5Entry> entries();
     /// Samples in the byte order of this machine, last axis fastest; reals of any size as doubles. Requires a
     /// sample_type or reals, and a box inside the array.

@@ -44,7 +44,8 @@ std::vector<Hdf5Entry> find_candidates(Hdf5Reader& file, const std::string& belo
 
 Hdf5Entry only_candidate(Hdf5Reader& file, const std::string& source, const std::string& below) {
     std::vector<Hdf5Entry> candidates = find_candidates(file, below);
-    if (candidates.size() == 1) return std::move(candidates.front());
+    if (candidates.size() == 1)
+        return file.entry(candidates.front().path).value_or(candidates.front());  // with all words
     if (candidates.empty())
         fail(source, "holds no dataset of integers with 2 or 3 dimensions; labels must be integers");
     fail(source, "holds several datasets; name one: " + list_datasets(file.path(), candidates));
