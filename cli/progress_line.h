@@ -22,8 +22,8 @@ public:
         if (now - last_ < std::chrono::milliseconds(100)) return;
         last_ = now;
         const double elapsed = std::chrono::duration<double>(now - start_).count();
-        fmt::print(stderr, "\r\033[K{}: section {}/{}, {:.2f} M faces read ({:.0f} k/s), {:.2f} M held, {} MB",
-                   progress.stage, progress.sections_read, progress.section_count,
+        fmt::print(stderr, "\r\033[K{}: strip {}/{}, {:.2f} M faces read ({:.0f} k/s), {:.2f} M held, {} MB",
+                   progress.stage, progress.strips_read, progress.strip_count,
                    static_cast<double>(progress.faces_read) / 1e6,
                    static_cast<double>(progress.faces_read) / 1e3 / elapsed,
                    static_cast<double>(progress.faces_held) / 1e6, peak_resident_bytes() / 1000000);

@@ -30,6 +30,7 @@ const std::map<std::string, Names> kArrows{
     {"compare", {"base", "volume", "model", "check"}},
     {"stream", {"base", "volume", "tets", "model", "decimate", "smooth"}},
     {"tile", {"base", "volume", "tets", "model", "decimate", "smooth", "stream"}},
+    {"source", {"base", "volume", "tets", "model", "check", "stream", "census.h", "memory_plan.h"}},
     {"io", {"base", "volume", "tets", "model", "check", "compare", "report.h"}},
 };
 

@@ -20,7 +20,11 @@ using testing::HasSubstr;
 
 /// A volume of 100 x 100 samples a section and so many strips of 1000 faces each, to be decimated to a tenth.
 MemoryDemand even_demand(std::uint32_t strips, std::uint64_t faces = 1000) {
-    return {.volume = test::solid_volume({100, 100, strips + 1}).info(),
+    const VolumeInfo volume = test::solid_volume({100, 100, strips + 1}).info();
+    return {.source = volume.source,
+            .lattice = volume.lattice,
+            .sweep = volume.sweep,
+            .reading_bytes = reading_bytes(volume),
             .strip_faces = std::vector<std::uint64_t>(strips, faces),
             .window_strips = 32,
             .window_bytes_per_face = 100,

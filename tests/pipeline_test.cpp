@@ -169,11 +169,11 @@ TEST(Reconstruct, tells_its_progress) {
     test::ArrayVolume volume = test::grain_volume({10, 10, 10}, 6, 4);
     reconstruct(volume, reduced(0.5), [&](const Progress& progress) {
         ++stages[progress.stage];
-        EXPECT_GE(progress.sections_read, last);
-        EXPECT_EQ(progress.section_count, 10u);
-        last = progress.sections_read;
+        EXPECT_GE(progress.strips_read, last);
+        EXPECT_EQ(progress.strip_count, 9u);
+        last = progress.strips_read;
     });
-    EXPECT_EQ(last, 10u);
+    EXPECT_EQ(last, 9u);
     EXPECT_THAT(stages, testing::Contains(testing::Key("reconstruct")));
 }
 

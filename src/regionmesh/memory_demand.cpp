@@ -21,7 +21,10 @@ bool is_decimating(const ReconstructOptions& options) {
 }
 
 MemoryDemand memory_demand(const ReconstructOptions& options, const Target& target, RunSize size) {
-    MemoryDemand demand{.volume = size.volume,
+    MemoryDemand demand{.source = size.shape.name,
+                        .lattice = size.shape.lattice,
+                        .sweep = size.shape.sweep,
+                        .reading_bytes = size.shape.reading_bytes,
                         .strip_faces = std::move(size.strip_faces),
                         .window_strips = size.window_strips,
                         .run_strips = size.run_strips,
@@ -31,7 +34,7 @@ MemoryDemand memory_demand(const ReconstructOptions& options, const Target& targ
     demand.preserves_volume = options.preserve_volume;
     demand.asked_budget = options.face_budget;
     const bool is_counted = !demand.strip_faces.empty();
-    if (!is_counted) demand.strip_faces = guessed_strip_faces(size.volume);
+    if (!is_counted) demand.strip_faces = guessed_strip_faces(size.shape.lattice, size.shape.sweep);
     if (!demand.is_decimating) {
         // What the model will be is not asked of a guess: it may be far too much.
         demand.target_share = is_counted ? 1 : 0;

@@ -3,13 +3,14 @@
 
 #include "regionmesh/memory_plan.h"
 #include "regionmesh/pipeline.h"
+#include "regionmesh/source/face_source.h"
 #include "regionmesh/target.h"
 
 namespace regionmesh {
 
 /// What is known of a run before it begins.
 struct RunSize {
-    const VolumeInfo& volume;
+    const SourceShape& shape;
     std::vector<std::uint64_t> strip_faces;  // counted; empty: nobody has
     std::uint32_t window_strips;             // of smoothing
     std::uint32_t run_strips;                // of the tile plan; or welded at a time

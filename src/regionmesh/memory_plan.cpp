@@ -10,9 +10,6 @@
 namespace regionmesh {
 namespace {
 
-/// The program and its libraries, and buffers of reading and writing.
-constexpr std::uint64_t kProcessBytes = std::uint64_t{20} << 20;
-
 /// The model, a face, while it is sorted or decimated, with places that are free in between.
 constexpr std::uint64_t kWorkBytesPerFace = 100;
 
@@ -48,9 +45,9 @@ std::uint64_t share_of(std::uint64_t faces, double share) {
 std::uint64_t run_bytes_per_face(const MemoryDemand& demand, std::uint32_t tiles_in_flight) {
     if (demand.tile_share >= 1) return kRunBytesPerFace;
     std::uint64_t tiles = 1;
-    const TilePlan plan = plan_tiles(demand.volume.lattice, demand.volume.sweep);
+    const TilePlan plan = plan_tiles(demand.lattice, demand.sweep);
     for (int a = 0; a < 2; ++a)
-        tiles *= (demand.volume.lattice.size[demand.volume.sweep.axes[a]] + plan.tile_cells - 1) / plan.tile_cells;
+        tiles *= (demand.lattice.size[demand.sweep.axes[a]] + plan.tile_cells - 1) / plan.tile_cells;
     // Some have half as many faces again as the average.
     const std::uint64_t in_flight = std::min<std::uint64_t>(tiles, tiles_in_flight + tiles_in_flight / 2);
     return kRunBytesPerFace + kTilesBytesPerFace + kTileBytesPerFace * in_flight / tiles;
@@ -70,7 +67,7 @@ MemoryPlan plan_runs(std::uint64_t memory, const MemoryDemand& demand, std::uint
                     .least = {},
                     .asked_budget = demand.asked_budget};
     const StripSums faces(demand.strip_faces);
-    const std::uint64_t reading = reading_bytes(demand.volume), per_face = run_bytes_per_face(demand, in_flight);
+    const std::uint64_t reading = demand.reading_bytes, per_face = run_bytes_per_face(demand, in_flight);
     const std::uint64_t working = demand.is_decimating ? kWorkBytesPerFace : kModelBytesPerFace;
     const auto note = [&](const MemoryNeed& need) {
         if (need.sum() > plan.least.sum()) plan.least = need;
@@ -128,7 +125,7 @@ MemoryPlan plan_memory(std::uint64_t memory, const MemoryDemand& demand) {
 void require_memory(const MemoryPlan& plan, const MemoryDemand& demand) {
     if (plan.holds()) return;
     const MemoryNeed& need = plan.least;
-    std::string text = "--memory " + megabytes(plan.memory) + ": " + demand.volume.source + " needs at least " +
+    std::string text = "--memory " + megabytes(plan.memory) + ": " + demand.source + " needs at least " +
                        megabytes(need.sum()) + ": " + megabytes(need.reading) + " for reading, ";
     if (need.window > 0) text += megabytes(need.window) + " for smoothing, ";
     if (need.run > 0) text += megabytes(need.run) + " for a run of strips, ";
@@ -139,9 +136,9 @@ void require_memory(const MemoryPlan& plan, const MemoryDemand& demand) {
     throw Error(ErrorCode::kInput, text);
 }
 
-std::vector<std::uint64_t> guessed_strip_faces(const VolumeInfo& volume) {
-    const auto& size = volume.lattice.size;
-    const auto& axes = volume.sweep.axes;
+std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep) {
+    const auto& size = lattice.size;
+    const auto& axes = sweep.axes;
     const std::uint64_t strips = std::max(size[axes[2]], 1u) - 1;
     return std::vector<std::uint64_t>(strips, std::uint64_t{size[axes[0]]} * size[axes[1]]);
 }

@@ -18,7 +18,10 @@ inline constexpr std::uint64_t kModelBytesPerFace = 48, kBytesPerFace = 96;
 
 /// What the plan has to know of a run.
 struct MemoryDemand {
-    VolumeInfo volume;
+    std::string source;  // for messages
+    Lattice lattice;     // of which tiles are cut
+    Sweep sweep;
+    std::uint64_t reading_bytes = 0;          // that the process, reading and meshing take beside the model
     std::vector<std::uint64_t> strip_faces;   // by strip, unsimplified: counted, or a guess
     std::uint32_t window_strips = 0;          // that smoothing holds at most; 0: none
     std::uint64_t window_bytes_per_face = 0;  // that it takes for them
@@ -69,10 +72,13 @@ MemoryPlan plan_memory(std::uint64_t memory, const MemoryDemand& demand);
 /// Throws Error(kInput) where the plan does not hold: in one line, how much would, what for, and what to change.
 void require_memory(const MemoryPlan& plan, const MemoryDemand& demand);
 
-/// As many faces as samples in each strip, where nobody has counted.
-std::vector<std::uint64_t> guessed_strip_faces(const VolumeInfo& volume);
+/// The program and its libraries, and buffers of reading and writing.
+inline constexpr std::uint64_t kProcessBytes = std::uint64_t{20} << 20;
 
-/// Bytes that the process, reading and meshing take beside the model.
+/// As many faces as samples in each strip, where nobody has counted.
+std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep);
+
+/// Bytes that the process, reading and meshing of a volume take beside the model.
 std::uint64_t reading_bytes(const VolumeInfo& volume);
 
 }  // namespace regionmesh

@@ -9,16 +9,14 @@
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/memory_demand.h"
 #include "regionmesh/smooth/preserve_volume.h"
+#include "regionmesh/source/section_faces.h"
+#include "regionmesh/source/tetrahedron_faces.h"
 #include "regionmesh/stage_options.h"
 #include "regionmesh/stream/batch_volumes.h"
-#include "regionmesh/stream/place_in_space.h"
 #include "regionmesh/stream/read_ahead.h"
-#include "regionmesh/stream/section_window.h"
 #include "regionmesh/stream/smoothing.h"
 #include "regionmesh/stream/weld.h"
 #include "regionmesh/target.h"
-#include "regionmesh/tets/label_census.h"
-#include "regionmesh/tets/strip_mesher.h"
 #include "regionmesh/tile/raise_level.h"
 #include "regionmesh/tile/tiles.h"
 
@@ -32,21 +30,23 @@ constexpr double kTileCostLevel = 3e-2;
 /// Strips that smoothing holds beyond the usual, where the usual do not suffice.
 constexpr std::uint32_t kMoreHold = 8;
 
+/// Nothing is pinned in a model that is finished.
+void unpin(Model& model) {
+    for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
+        Vertex& vertex = model[VertexId{n}];
+        vertex.is_fixed = false;
+        vertex.sides &= static_cast<SideSet>(~kPinned);
+    }
+}
+
 /// One run: its state, and the steps in the order of reconstruct() below.
 class Run {
 public:
-    Run(SectionReader& reader, const ReconstructOptions& options,
-        const std::function<void(const Progress&)>& on_progress)
-        : reader_(reader),
+    Run(FaceSource& source, const ReconstructOptions& options, const std::function<void(const Progress&)>& on_progress)
+        : source_(source),
           options_(options),
           on_progress_(on_progress),
-          lattice_(reader.info().lattice),
-          target_{options.target_faces, options.reduce, {}},
-          plan_(plan_tiles(meshing_lattice(lattice_), reader.info().sweep)) {
-        result_.labels = table_for(reader.info());
-        result_.background = dense_background(options.background, result_.labels);
-        progress_.section_count = reader.section_count();
-    }
+          target_{options.target_faces, options.reduce, {}} {}
 
     void plan();
     void build();
@@ -57,17 +57,17 @@ public:
 
 private:
     bool is_decimating() const { return regionmesh::is_decimating(options_); }
-    bool read(SectionWindow& window);
-    void note_strip(const SectionWindow& window, const FaceBatch& batch);
-    SmoothOptions smooth_options() const { return regionmesh::smooth_options(options_, lattice_); }
-    int sweep_axis() const { return reader_.info().sweep.axes[2]; }
-    void smooth_strip(FaceBatch& batch, const SectionWindow& window);
+    bool read();
+    void note_strip(const FaceBatch& batch);
+    SmoothOptions smooth_options() const { return regionmesh::smooth_options(options_, source_.shape().scale); }
+    int sweep_axis() const { return source_.shape().axis(); }
+    void smooth_strip(FaceBatch& batch);
     void add_strip(const FaceBatch& batch);
     void end_run();
     void decimate_run();
-    double plane_of(std::uint32_t section) const;
-    double floor() const { return smoothing_ ? smoothing_->floor() : plane_of(strips_); }
-    DecimateOptions decimate_options() const { return regionmesh::decimate_options(options_, lattice_); }
+    bool is_at_end() const { return strips_ == source_.shape().strip_count; }
+    double floor() const { return smoothing_ ? smoothing_->floor() : source_.plane_of(strips_); }
+    DecimateOptions decimate_options() const { return regionmesh::decimate_options(options_, source_.shape().scale); }
     void add_verdicts(const VerdictCounts& counts);
     void keep_within_budget(std::uint64_t run_faces);
     void raise_to(std::uint64_t faces, double high);
@@ -76,10 +76,9 @@ private:
     void tell(const char* stage);
     double& seconds(const char* stage) { return result_.report.seconds[stage]; }
 
-    SectionReader& reader_;
+    FaceSource& source_;
     const ReconstructOptions& options_;
     const std::function<void(const Progress&)>& on_progress_;
-    Lattice lattice_;
     Reconstruction result_;
     Progress progress_;
     Target target_;
@@ -96,23 +95,32 @@ private:
     StopReason stopped_ = StopReason::kTarget;
 };
 
-/// A first pass over the sections, where they can be read twice; and what memory is for.
+/// A first pass over the input, where it can be read twice; and what memory is for.
 void Run::plan() {
-    if (options_.smooth.passes > 0)
-        smoothing_.emplace(smooth_options(),
-                           LayerOrder{.axis = sweep_axis(), .thickness = lattice_.spacing[sweep_axis()]});
-    RunSize size{.volume = reader_.info(),
-                 .strip_faces = {},
-                 .window_strips = smoothing_ ? smoothing_->most_strips() : 0,
-                 .run_strips = is_decimating() ? plan_.run_strips : options_.strips_per_batch};
-    if (reader_.info().can_rewind) {
+    std::optional<FaceCount> counted;
+    {
         tell("count");
         const Timer timer(seconds("count"));
-        Census census = count_labels(reader_, {.cap = options_.cap, .background = options_.background});
-        target_.total = census.face_count;
-        oracle_ = std::move(census.oracle);
-        size.strip_faces = std::move(census.strip_faces);
-        reader_.rewind();
+        counted = source_.count();
+    }
+    const SourceShape& shape = source_.shape();
+    progress_.strip_count = shape.strip_count;
+    result_.background = source_.background();
+    plan_ = plan_tiles(shape.lattice, shape.sweep);
+    if (options_.smooth.passes > 0)
+        smoothing_.emplace(
+            smooth_options(),
+            LayerOrder{.axis = shape.axis(), .thickness = shape.strip_thickness, .overlap = shape.strip_overlap});
+    const std::uint64_t cells = std::max(shape.lattice.size[shape.axis()], 2u) - 1;
+    const auto tile_strips = static_cast<std::uint32_t>(std::uint64_t{plan_.run_strips} * shape.strip_count / cells);
+    RunSize size{.shape = shape,
+                 .strip_faces = {},
+                 .window_strips = smoothing_ ? smoothing_->most_strips() : 0,
+                 .run_strips = is_decimating() ? std::max(tile_strips, 1u) : options_.strips_per_batch};
+    if (counted) {
+        target_.total = counted->face_count;
+        oracle_ = std::move(counted->oracle);
+        size.strip_faces = std::move(counted->strip_faces);
     }
     const MemoryDemand demand = memory_demand(options_, target_, std::move(size));
     memory_ = plan_memory(options_.memory, demand);
@@ -123,22 +131,15 @@ void Run::plan() {
 /// Strips become faces, which are smoothed some strips behind; runs of strips are decimated tile by tile up to a low
 /// cost level and welded to the model, which is kept within its budget (P 3.1-3.5).
 void Run::build() {
-    SectionWindow window(reader_, result_.labels);
-    const StripOptions strip_options{.cap = options_.cap, .background = result_.background};
-    StripMesher mesher(meshing_lattice(lattice_), reader_.info().sweep, strip_options);
-    std::optional<LabelCensus> census;
-    if (!oracle_) census.emplace(lattice_, reader_.info().sweep, strip_options);
     FaceBatch batch;
-    while (read(window)) {
+    while (read()) {
         {
             const Timer timer(seconds("reconstruct"));
-            if (census) census->add(window.low(), window.high(), window.is_last());
-            batch.clear();
-            mesher.mesh(window.low(), window.high(), batch);
+            source_.make_faces(batch);
         }
-        note_strip(window, batch);
+        note_strip(batch);
         if (smoothing_)
-            smooth_strip(batch, window);
+            smooth_strip(batch);
         else
             add_strip(batch);
     }
@@ -147,26 +148,27 @@ void Run::build() {
         result_.report.unsmoothed_volumes = smoothing_->report().volume_before;
     }
     smoothing_.reset();
-    if (census) oracle_ = census->oracle();
+    result_.labels = source_.labels();
+    if (!oracle_) oracle_ = source_.oracle();
 }
 
-bool Run::read(SectionWindow& window) {
+bool Run::read() {
     const Timer timer(seconds("read"));
-    return window.advance();
+    return source_.advance();
 }
 
-void Run::note_strip(const SectionWindow& window, const FaceBatch& batch) {
+void Run::note_strip(const FaceBatch& batch) {
     result_.report.initial_faces += batch.faces.size();
     result_.report.initial_vertices += batch.vertices.size();
-    progress_.sections_read = window.sections_read();
+    progress_.strips_read = source_.strips_read();
     progress_.faces_read = result_.report.initial_faces;
     tell("reconstruct");
 }
 
-void Run::smooth_strip(FaceBatch& batch, const SectionWindow& window) {
+void Run::smooth_strip(FaceBatch& batch) {
     {
         const Timer timer(seconds("smooth"));
-        smoothing_->add(batch, window.is_last(), plane_of(window.sections_read() - 1));
+        smoothing_->add(batch, source_.is_last(), source_.plane_of(source_.strips_read()));
     }
     for (;;) {
         {
@@ -177,18 +179,13 @@ void Run::smooth_strip(FaceBatch& batch, const SectionWindow& window) {
     }
 }
 
-/// Where a section lies along the sweep.
-double Run::plane_of(std::uint32_t section) const {
-    return meshing_lattice(lattice_).origin[sweep_axis()] + section * lattice_.spacing[sweep_axis()];
-}
-
 void Run::add_strip(const FaceBatch& batch) {
     {
         const Timer timer(seconds("reconstruct"));
         run_.append(batch);
     }
     ++strips_;
-    if (strips_ % plan_.run_strips == 0 || strips_ + 1 == reader_.section_count()) end_run();
+    if (strips_ % plan_.run_strips == 0 || is_at_end()) end_run();
 }
 
 void Run::end_run() {
@@ -206,7 +203,7 @@ void Run::end_run() {
     run_ = {};
     give_back_freed_memory();
     note_bytes(result_.model.face_count(), result_.model.bytes());
-    if (strips_ + 1 < reader_.section_count()) keep_within_budget(run_faces);
+    if (!is_at_end()) keep_within_budget(run_faces);
 }
 
 /// First stage: in tiles, up to the cost level, and never below what the target will leave.
@@ -222,7 +219,7 @@ void Run::decimate_run() {
                              .decimate = decimate_options()};
     const std::uint32_t first = (strips_ - 1) / plan_.run_strips * plan_.run_strips;
     // Faces of earlier runs may reach up to the ceiling, those of later ones down to the floor.
-    const RunExtent extent{std::max(plane_of(first), ceiling_), std::min(plane_of(strips_), floor())};
+    const RunExtent extent{std::max(source_.plane_of(first), ceiling_), std::min(source_.plane_of(strips_), floor())};
     add_verdicts(decimate_tiles(run_, weld_.front(), extent, plan_, tile_options));
 }
 
@@ -276,7 +273,7 @@ void Run::decimate_to(std::uint64_t faces, bool is_last) {
     own.target_faces = static_cast<std::uint32_t>(std::min(faces, kMostFaces));
     own.refresh = is_last;
     if (!is_last) {
-        // What comes later lies at or beyond the last section read, or as far back as smoothing took it.
+        // What comes later lies at or beyond the end of the last strip, or as far back as smoothing took it.
         own.limits.high[sweep_axis()] = floor();
     }
     const char* stage = is_last ? "decimate" : "reconstruct";
@@ -318,7 +315,8 @@ void Run::preserve_volumes() {
 /// Checks what will be written, where it will lie.
 void Run::prove() {
     give_back_freed_memory();
-    place_in_space(result_.model, lattice_);
+    unpin(result_.model);
+    source_.place(result_.model);
     tell("check");
     const Timer timer(seconds("check"));
     CheckOptions check_options;
@@ -353,11 +351,9 @@ void Run::tell(const char* stage) {
     on_progress_(progress_);
 }
 
-Reconstruction run_once(SectionReader& reader, const ReconstructOptions& options,
+Reconstruction run_once(FaceSource& source, const ReconstructOptions& options,
                         const std::function<void(const Progress&)>& on_progress) {
-    std::optional<ReadAhead> ahead;
-    if (options.threads != 1) ahead.emplace(reader);
-    Run run(ahead ? *ahead : reader, options, on_progress);
+    Run run(source, options, on_progress);
     run.plan();
     run.build();
     run.bring_to_target();
@@ -367,32 +363,53 @@ Reconstruction run_once(SectionReader& reader, const ReconstructOptions& options
 }
 
 /// Where the guard finds that it let go of strips too early, which takes labels that no instrument gives, all begins
-/// again and holds more; in the end all is in core, where the guard cannot fail.
-Reconstruction run_until_held(SectionReader& reader, ReconstructOptions options,
-                              const std::function<void(const Progress&)>& on_progress) {
-    for (;;) {
+/// again and holds more; in the end all is in core, where the guard cannot fail. `once` runs, `begin_again` returns
+/// false where that cannot be.
+template <class Once, class BeginAgain>
+Reconstruction run_until_held(ReconstructOptions options, Once&& once, BeginAgain&& begin_again) {
+    double total = 0;
+    std::optional<Reconstruction> result;
+    while (!result) {
+        const Timer timer(total);
         try {
-            return run_once(reader, options, on_progress);
+            result = once(options);
         } catch (const HeldTooFew&) {
-            if (!reader.info().can_rewind) throw;
-            reader.rewind();
+            if (!begin_again()) throw;
             options.smooth.more_hold = 2 * options.smooth.more_hold + kMoreHold;
         }
     }
+    result->report.seconds["total"] = total;
+    return std::move(*result);
 }
 
 }  // namespace
 
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options,
                            const std::function<void(const Progress&)>& on_progress) {
-    double total = 0;
-    Reconstruction result;
-    {
-        const Timer timer(total);
-        result = run_until_held(reader, options, on_progress);
-    }
-    result.report.seconds["total"] = total;
-    return result;
+    const auto once = [&](const ReconstructOptions& own) {
+        std::optional<ReadAhead> ahead;
+        if (own.threads != 1) ahead.emplace(reader);
+        SectionFaces source(ahead ? *ahead : reader, {.cap = own.cap, .background = own.background});
+        return run_once(source, own, on_progress);
+    };
+    return run_until_held(options, once, [&] {
+        if (reader.info().can_rewind) reader.rewind();
+        return reader.info().can_rewind;
+    });
+}
+
+Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& options,
+                           const std::function<void(const Progress&)>& on_progress) {
+    TetrahedronFaces source(reader, {.cap = options.cap,
+                                     .background = options.background,
+                                     .sweep = options.sweep,
+                                     .in_layers = options.smooth.passes > 0,
+                                     .memory = options.memory});
+    const auto once = [&](const ReconstructOptions& own) { return run_once(source, own, on_progress); };
+    return run_until_held(options, once, [&] {
+        source.rewind();
+        return true;
+    });
 }
 
 }  // namespace regionmesh

@@ -12,6 +12,7 @@
 #include "regionmesh/smooth/smooth_options.h"
 #include "regionmesh/volume/label_table.h"
 #include "regionmesh/volume/section_reader.h"
+#include "regionmesh/volume/tetrahedron_reader.h"
 
 namespace regionmesh {
 
@@ -32,12 +33,13 @@ struct ReconstructOptions {
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of one derived from memory
     std::uint32_t threads = 0;                      // at work at a time; 0: one per core. The result is the same
     std::uint32_t strips_per_batch = 1;  // strips meshed before they are welded; tiles set it where there are any
+    std::optional<Sweep> sweep = {};     // of tetrahedra, along the longest side if not given; sections have their own
 };
 
 /// Where a run is; for a progress line.
 struct Progress {
     const char* stage = "";
-    std::uint32_t sections_read = 0, section_count = 0;
+    std::uint32_t strips_read = 0, strip_count = 0;
     std::uint64_t faces_read = 0, faces_held = 0;
 };
 
@@ -53,6 +55,13 @@ struct Reconstruction {
 /// its own, one call at a time. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what
 /// the reader throws; after the first pass Error(kInput) for a target beyond what memory allows. Deterministic.
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},
+                           const std::function<void(const Progress&)>& on_progress = {});
+
+/// The same from labelled tetrahedra (P 3.9): they are sorted along the sweep, their faces put aside on disk (in
+/// TMPDIR) and read back in order, so that memory holds the points, but no more of the tetrahedra than of sections.
+/// Lengths and qualities are those of the space in which z is scaled; the model is checked as it is written, without
+/// that. Throws what rank_tetrahedra() and the reader throw, and Error(kOutput) for a full disk.
+Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& options = {},
                            const std::function<void(const Progress&)>& on_progress = {});
 
 }  // namespace regionmesh

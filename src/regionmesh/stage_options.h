@@ -7,9 +7,9 @@
 
 namespace regionmesh {
 
-SmoothOptions smooth_options(const ReconstructOptions& options, const Lattice& lattice);
+SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 
 /// Without target and limits.
-DecimateOptions decimate_options(const ReconstructOptions& options, const Lattice& lattice);
+DecimateOptions decimate_options(const ReconstructOptions& options, double scale);
 
 }  // namespace regionmesh

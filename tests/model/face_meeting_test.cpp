@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 #include "support/random.h"
 
 namespace regionmesh {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "regionmesh/model/crossing.h"
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 
 namespace regionmesh::test {
 

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/base/hash.h"
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/triangle.h"
 #include "regionmesh/check/findings.h"
 #include "regionmesh/check/quality_sum.h"
 #include "regionmesh/check/region_sums.h"
-#include "regionmesh/model/exact_predicates.h"
 #include "regionmesh/model/extent.h"
 
 namespace regionmesh {

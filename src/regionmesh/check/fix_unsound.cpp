@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/check/findings.h"
 #include "regionmesh/check/generic_star.h"
 #include "regionmesh/model/crossing.h"
-#include "regionmesh/model/exact_predicates.h"
 
 namespace regionmesh {
 namespace {

@@ -76,7 +76,7 @@ private:
             }
         });
         if (pages_.empty()) return;
-        if (model_[v].sides == 0 && labels_.size() == 4) ++quadruple_points_inside_;
+        if (model_[v].sides == 0 && !has_exterior && labels_.size() == 4) ++quadruple_points_inside_;
         const bool is_small = labels_.size() < LabelSet::kCapacity && pages_.size() <= kMostOrdered;
         if (!is_odd && is_small && look_at_closed_fans(v, has_exterior)) {
             // Faces on the same vertices are in no closed fan, unless they have no label in common.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/base/triangle.h"
-#include "regionmesh/model/exact_predicates.h"
 #include "regionmesh/model/strata.h"
 
 namespace regionmesh {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/model/face_meeting.h"
 
 namespace regionmesh {

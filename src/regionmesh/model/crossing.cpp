@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/base/parallel_for.h"
 #include "regionmesh/base/radix_sort.h"
-#include "regionmesh/model/exact_predicates.h"
 
 namespace regionmesh {
 namespace {

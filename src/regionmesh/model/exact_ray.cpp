@@ -1,7 +1,7 @@
 #include "regionmesh/model/exact_ray.h"
 
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/base/hash.h"
-#include "regionmesh/model/exact_predicates.h"
 #include "regionmesh/model/extent.h"
 
 namespace regionmesh {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 
 namespace regionmesh {
 namespace {

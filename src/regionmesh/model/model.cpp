@@ -6,6 +6,22 @@
 #include "regionmesh/model/morton_curve.h"
 
 namespace regionmesh {
+namespace {
+
+/// Puts items of one key in the order of what `rank` says of their index: in none that they came in.
+template <class Rank>
+void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
+    for (auto first = items.begin(); first != items.end();) {
+        auto end = first + 1;
+        while (end != items.end() && end->key == first->key) ++end;
+        if (end - first > 1)
+            std::stable_sort(first, end,
+                             [&](const KeyedIndex& a, const KeyedIndex& b) { return rank(a.index) < rank(b.index); });
+        first = end;
+    }
+}
+
+}  // namespace
 
 VertexId Model::add_vertex(Vec3 position, SideSet sides, bool is_fixed) {
     const Vertex vertex{.position = position, .star = kNoCorner, .sides = sides, .is_fixed = is_fixed};
@@ -116,10 +132,14 @@ std::vector<KeyedIndex> Model::vertices_along_curve() const {
     for (std::uint32_t v = 0; v < vertices_.size(); ++v)
         if (vertices_[v].is_alive) order.push_back({curve(vertices_[v].position), v});
     radix_sort(order);
+    sort_runs(order, [&](std::uint32_t v) {
+        const Vec3 p = vertices_[v].position;
+        return std::array{p.x, p.y, p.z};
+    });
     return order;
 }
 
-/// By the place of the first of its vertices, which lie along the curve already.
+/// By the place of the first of its vertices, which lie along the curve already; then of the others.
 std::vector<KeyedIndex> Model::faces_along_curve() const {
     std::vector<KeyedIndex> order;
     order.reserve(face_count_);
@@ -127,6 +147,11 @@ std::vector<KeyedIndex> Model::faces_along_curve() const {
         if (is_alive(FaceId{f}))
             order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
     radix_sort(order);
+    sort_runs(order, [&](std::uint32_t f) {
+        std::array<VertexId, 3> corners = faces_[f].vertices;
+        std::sort(corners.begin(), corners.end());
+        return std::pair(corners, faces_[f].labels);
+    });
     return order;
 }
 

@@ -81,8 +81,8 @@ public:
     }
 
     /// Renumbers vertices and faces along a Morton curve, without free places: what is near in space is near in memory,
-    /// and in FaceTree. Returns the new id of each old vertex (kNoVertex for free places). Holds a second copy
-    /// meanwhile.
+    /// and in FaceTree. The order does not depend on what it was before. Returns the new id of each old vertex
+    /// (kNoVertex for free places). Holds a second copy meanwhile.
     std::vector<VertexId> sort_spatially();
     /// Renumbers faces only, in their order, without free places.
     void compact_faces();

@@ -4,7 +4,7 @@ namespace regionmesh {
 namespace {
 
 void add_sides(LabelSet& set, SideSet sides) {
-    for (int side = 0; side < 6; ++side)
+    for (int side = 0; side < kSideCount; ++side)
         if (sides >> side & 1) set.add(exterior(side));
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 
 namespace regionmesh {
 namespace {

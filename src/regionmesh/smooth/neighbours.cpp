@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kChunk = 2048;  // vertices
 
 void add_sides(LabelSet& set, SideSet sides) {
-    for (int side = 0; side < 6; ++side)
+    for (int side = 0; side < kSideCount; ++side)
         if (sides >> side & 1) set.add(exterior(side));
 }
 

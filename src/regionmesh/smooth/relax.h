@@ -14,8 +14,9 @@ double relax_factor(const SmoothOptions& options, std::uint32_t pass);
 void relax(const SurfaceWindow& window, const Neighbours& neighbours, NumberRange vertices, double factor,
            const SlidingArray<Vec3>& from, SlidingArray<Vec3>& to, std::uint32_t threads);
 
-/// Puts back the coordinates that a vertex on sides of the box keeps.
+/// Puts back the coordinates that a vertex on sides of the box keeps: all, on a hull of any shape.
 inline void keep_on_sides(SideSet sides, Vec3 before, Vec3& p) {
+    if (sides & (kOnHull | kPinned)) p = before;
     for (int axis = 0; axis < 3; ++axis)
         if (sides >> (2 * axis) & 3) p[axis] = before[axis];
 }

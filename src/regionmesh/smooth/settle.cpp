@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/base/parallel_for.h"
-#include "regionmesh/model/exact_predicates.h"
 
 namespace regionmesh {
 namespace {

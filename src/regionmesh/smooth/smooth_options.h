@@ -33,6 +33,7 @@ struct SmoothOptions {
 struct LayerOrder {
     int axis = 2;
     double thickness = std::numeric_limits<double>::infinity();
+    std::uint32_t overlap = 0;  // so many layers that follow begin before the end of one
 };
 
 }  // namespace regionmesh

@@ -38,7 +38,7 @@ Smoother::Smoother(const SmoothOptions& options, const LayerOrder& order)
       nifpms_(window_, neighbours_, options_),
       rounds_(window_, stand_, options_),
       settling_(window_, stand_, options_) {
-    if (std::isfinite(order.thickness)) held_ = 2 * layers_within(most_, order) + 2 + options.more_hold;
+    if (std::isfinite(order.thickness)) held_ = 2 * layers_within(most_, order) + 2 + order.overlap + options.more_hold;
     plan_stages();
 }
 

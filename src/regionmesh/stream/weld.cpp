@@ -7,8 +7,10 @@ namespace regionmesh {
 void Weld::add(const FaceBatch& batch) {
     assert(batch.carried == front_.size());
     ids_ = front_;
-    for (VertexId v : front_) model_[v].is_fixed = false;
-    for (const BatchVertex& vertex : batch.vertices) ids_.push_back(model_.add_vertex(vertex.position, vertex.sides));
+    const auto is_pinned = [](SideSet sides) { return (sides & kPinned) != 0; };
+    for (VertexId v : front_) model_[v].is_fixed = is_pinned(model_[v].sides);
+    for (const BatchVertex& vertex : batch.vertices)
+        ids_.push_back(model_.add_vertex(vertex.position, vertex.sides, is_pinned(vertex.sides)));
     for (const BatchFace& face : batch.faces)
         model_.add_face(ids_[face.vertices[0]], ids_[face.vertices[1]], ids_[face.vertices[2]], face.labels[0],
                         face.labels[1]);

@@ -88,7 +88,7 @@ void LabelCensus::count_node(const Corners& labels, Step available) {
         if (!inside) continue;
         bool same = true;
         for (int n = 1; n < kind.node_count; ++n) same &= labels[kind.steps[n]] == own;
-        if (kind.node_count == 2 && !same) add_pair(own, labels[kind.steps[1]]);
+        if (kind.node_count == 2 && !same) pairs_.add(own, labels[kind.steps[1]]);
         if (same) sum += kind.node_count % 2 == 1 ? 2 : -2;
     }
     if (own >= euler_.size()) euler_.resize(own + 1, 0);
@@ -127,13 +127,6 @@ void LabelCensus::count_triangle(Label a, Label b, Label c) {
     const Label tip = a == b ? c : a == c ? b : a;
     count(twin, 2);
     count(tip, 1);
-}
-
-void LabelCensus::add_pair(Label a, Label b) {
-    const std::uint64_t pair = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-    if (pair == last_pair_) return;
-    last_pair_ = pair;
-    pairs_.insert(pair);
 }
 
 LabelOracle LabelCensus::oracle() const { return {euler_, quadruple_points_, pairs_.size()}; }

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_set>
 #include <vector>
 
 #include "regionmesh/base/label.h"
 #include "regionmesh/base/label_oracle.h"
+#include "regionmesh/tets/label_pairs.h"
 #include "regionmesh/tets/mixed_cells.h"
 #include "regionmesh/tets/strip_mesher.h"
 
@@ -36,7 +36,6 @@ private:
     void count_node(const Corners& labels, Step available);
     void count_caps(const Corners& labels, unsigned sides);
     void count_triangle(Label a, Label b, Label c);
-    void add_pair(Label a, Label b);
 
     std::uint32_t width_, height_;
     StripOptions options_;
@@ -45,8 +44,7 @@ private:
     std::uint64_t faces_ = 0;
     std::uint64_t quadruple_points_ = 0;
     std::vector<std::int64_t> euler_;
-    std::unordered_set<std::uint64_t> pairs_;
-    std::uint64_t last_pair_ = 0;
+    LabelPairs pairs_;
 };
 
 }  // namespace regionmesh

@@ -24,6 +24,8 @@ BoxedFaces::BoxedFaces(const FaceBatch& batch, std::span<const BatchVertex> carr
     place_.assign(batch.carried + batch.vertices.size(), kNone);
     std::fill(place_.begin(), place_.begin() + batch.carried, kRim);
     for (std::uint32_t local : batch.open) place_[local] = kRim;
+    for (std::uint32_t n = 0; n < batch.vertices.size(); ++n)
+        if (batch.vertices[n].sides & kPinned) place_[batch.carried + n] = kRim;
     chunk_faces_ = std::max(kChunkFaces, face_count / kMostChunks + 1);
     std::vector<Chunk> chunks(face_count / chunk_faces_ + 1);
     box_of_face_.resize(face_count);

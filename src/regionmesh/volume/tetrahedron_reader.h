@@ -31,6 +31,7 @@ struct TetrahedraInfo {
     std::string format;            // "csv", "vtu", "msh"
     bool has_cell_labels = false;  // the tetrahedra have the labels, not the points
     bool is_unsigned = false;      // labels are unsigned numbers of 64 bits
+    bool hull_is_convex = false;   // there are no gaps between the tetrahedra, nor do they touch themselves
     double scale_z = 1;            // z was multiplied by this
     LabelNames names = {};         // of labels, where the file has any
 };

@@ -2,11 +2,11 @@
 #include <bit>
 #include <vector>
 
+#include "regionmesh/base/exact_predicates.h"
 #include "regionmesh/io/models/file_regions.h"
 #include "regionmesh/io/models/model_formats.h"
 #include "regionmesh/io/models/region_seeds.h"
 #include "regionmesh/io/models/text_writer.h"
-#include "regionmesh/model/exact_predicates.h"
 
 namespace regionmesh {
 namespace {

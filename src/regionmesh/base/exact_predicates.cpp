@@ -1,5 +1,5 @@
 // The only file that includes CGAL: its exact kernel and intersection tests, LGPL part.
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>

@@ -1,4 +1,4 @@
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,67 @@
+// The faces of labelled tetrahedra (P 3.9).
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "regionmesh/source/face_source.h"
+#include "regionmesh/source/spilled_strips.h"
+#include "regionmesh/tets/ranked_tetrahedra.h"
+
+namespace regionmesh {
+
+/// What is asked of the way from tetrahedra to strips of faces.
+struct TetrahedronOptions {
+    bool cap = true;
+    std::vector<InputLabel> background{0};
+    std::optional<Sweep> sweep = {};  // along the longest side if not given
+    bool in_layers = false;           // strips so wide that no vertex has faces in more than two, as smoothing needs
+    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes to stay within
+};
+
+/// Ranks the tetrahedra, meshes all of them, and keeps the faces on disk; then gives them strip by strip, as often as
+/// one likes. Strips are as thick as a cube that six tetrahedra fill.
+class TetrahedronFaces final : public FaceSource {
+public:
+    TetrahedronFaces(TetrahedronReader& reader, const TetrahedronOptions& options);
+
+    /// Makes all faces, the first time.
+    std::optional<FaceCount> count() override;
+    const SourceShape& shape() const override { return shape_; }
+    double plane_of(std::uint32_t strip) const override;
+    bool advance() override;
+    void make_faces(FaceBatch& batch) override;
+    std::uint32_t strips_read() const override { return strips_read_; }
+    const LabelTable& labels() const override { return labels_; }
+    const std::vector<Label>& background() const override { return background_; }
+    LabelOracle oracle() const override { return oracle_; }
+    void place(Model& model) const override;
+
+    /// Back to the first strip.
+    void rewind();
+    std::uint64_t tetrahedron_count() const { return tetrahedron_count_; }
+    std::uint64_t point_count() const { return point_count_; }
+
+private:
+    void make_all();
+    void shape_strips(const RankedTetrahedra& tetrahedra);
+    void mesh(RankedTetrahedra& tetrahedra);
+    void gather_layers();
+
+    TetrahedronReader& reader_;
+    TetrahedronOptions options_;
+    LabelTable labels_;
+    std::vector<Label> background_;
+    SourceShape shape_;
+    LabelOracle oracle_;
+    std::uint64_t point_count_ = 0, tetrahedron_count_ = 0;
+    double low_ = 0, thickness_ = 1;  // of the thin strips along the sweep
+    double high_ = HUGE_VAL;          // where the last one ends, if there is a side of a box
+    std::uint32_t thin_strips_ = 0;
+    SpilledStrips spilled_;
+    std::vector<StripRange> layers_;  // of thin strips: what a strip is to others
+    std::uint32_t strips_read_ = 0;
+    bool is_made_ = false;
+};
+
+}  // namespace regionmesh
