@@ -16,10 +16,9 @@
 #include <CGAL/spatial_sort.h>
 #include <unistd.h>
 
-#include <boost/property_map/property_map.hpp>
-
 #include <algorithm>
 #include <array>
+#include <boost/property_map/property_map.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -148,10 +147,14 @@ void demand_tetrahedra(const Triangulation& triangulation, std::size_t point_cou
     const std::string all = "all " + std::to_string(point_count) + " points lie ";
     const std::string rest = "; tetrahedra need four that do not lie in one plane";
     switch (triangulation.dimension()) {
-        case 3: return;
-        case 2: throw Failure{kOnePlane, all + "in one plane" + rest};
-        case 1: throw Failure{kOneLine, all + "on one line" + rest};
-        default: throw Failure{kOnePlace, all + "at one place" + rest};
+        case 3:
+            return;
+        case 2:
+            throw Failure{kOnePlane, all + "in one plane" + rest};
+        case 1:
+            throw Failure{kOneLine, all + "on one line" + rest};
+        default:
+            throw Failure{kOnePlace, all + "at one place" + rest};
     }
 }
 
@@ -165,8 +168,8 @@ void write_tetrahedra(const Triangulation& triangulation) {
         piece.clear();
     };
     for (const auto cell : triangulation.finite_cell_handles()) {
-        piece.push_back({cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(),
-                         cell->vertex(3)->info()});
+        piece.push_back(
+            {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
         if (piece.size() == kPiece) flush();
     }
     flush();
@@ -193,10 +196,9 @@ int complain(ExitCode code, std::string_view text) {
 
 int main(int argument_count, char**) {
     if (argument_count > 1) {
-        std::puts(
-            "regionmesh-delaunay " REGIONMESH_VERSION
-            ": reads points from standard input, writes their Delaunay tetrahedra to standard output,\n"
-            "both binary. regionmesh runs it. GPL-3.0-or-later, without any warranty.");
+        std::puts("regionmesh-delaunay " REGIONMESH_VERSION
+                  ": reads points from standard input, writes their Delaunay tetrahedra to standard output,\n"
+                  "both binary. regionmesh runs it. GPL-3.0-or-later, without any warranty.");
         return kBadInput;
     }
     try {
