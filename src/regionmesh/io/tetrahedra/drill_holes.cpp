@@ -14,7 +14,6 @@ namespace regionmesh::io {
 namespace {
 
 constexpr double kMostOverlap = 0.05;  // of the longer interval
-constexpr double kSlack = 1e-6;        // of a step: 0.4 are two steps of 0.2
 
 /// Intervals of one label that overlap, joined.
 struct Run {
@@ -67,7 +66,7 @@ private:
 
 /// How many parts an interval is cut into.
 double part_count(const Interval& interval, std::optional<double> step) {
-    return step ? std::max(1.0, std::ceil((interval.top - interval.bottom) / *step * (1 - kSlack))) : 1;
+    return step ? std::max(1.0, std::ceil(interval.length / *step)) : 1;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace regionmesh::io {
 struct Interval {
     double x = 0, y = 0;
     double top = 0, bottom = 0;  // elevations, top > bottom
+    double length = 0;           // from the numbers of the table: elevations may be rounded once more
     std::uint32_t label = 0;     // of TableLabels
     std::uint32_t hole = 0;      // of DrillHoles::holes
     std::uint32_t row = 0;
@@ -31,9 +32,9 @@ struct DrillHoles {
 /// in the list with next to no thickness. Holes of one name at two places are two holes.
 void refuse_overlaps(const DrillHoles& holes, const TableLabels& labels);
 
-/// Appends the points that stand for the intervals, in their order: the centres of equal parts that are no longer than
-/// `step` (by more than a millionth), or the middle of each without one. Each gets its interval's row, and as label the
-/// number that TableLabels gave it. Throws before it appends any where there would be more points than 32 bits count.
+/// Appends the points that stand for the intervals, in their order: the centres of as few equal parts as are no longer
+/// than `step`, or the middle of each without one. Each gets its interval's row, and as label the number that
+/// TableLabels gave it. Throws before it appends any where there would be more points than kMostPoints.
 void append_points(const DrillHoles& holes, std::optional<double> step, PointTable& table);
 
 /// No table may have more points: the core counts them in 32 bits, and keeps the highest number for itself.

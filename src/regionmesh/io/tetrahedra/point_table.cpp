@@ -103,6 +103,7 @@ void PointTableReader::add_interval(double x, double y, std::uint32_t row) {
     Interval interval{.x = x, .y = y, .top = number(Role::kTop), .bottom = number(Role::kBottom), .row = row};
     if (interval.top == interval.bottom) return;
     const bool is_depth = interval.top < interval.bottom;
+    interval.length = std::abs(interval.top - interval.bottom);
     std::uint32_t& first = is_depth ? first_depth_ : first_elevation_;
     if (first == 0) first = row;
     if (first_depth_ != 0 && first_elevation_ != 0)
@@ -114,7 +115,8 @@ void PointTableReader::add_interval(double x, double y, std::uint32_t row) {
         interval.top = surface - interval.top;
         interval.bottom = surface - interval.bottom;
     }
-    if (!std::isfinite(interval.top - interval.bottom)) rows_.refuse("top and bottom are out of range; mend them");
+    if (!std::isfinite(interval.length) || !std::isfinite(interval.top) || !std::isfinite(interval.bottom))
+        rows_.refuse("top and bottom are out of range; mend them");
     interval.label = add_label(row);
     if (columns_.has(Role::kHole)) interval.hole = holes_.holes.number_of(words(Role::kHole));
     holes_.intervals.push_back(interval);
