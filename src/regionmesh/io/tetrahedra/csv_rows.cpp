@@ -35,7 +35,7 @@ char find_separator(std::string_view header) {
 }  // namespace
 
 CsvRows::CsvRows(const std::filesystem::path& path) : file_(path) {
-    csv_init(&parser_, CSV_REPALL_NL | CSV_STRICT_FINI);
+    csv_init(&parser_, CSV_REPALL_NL);
     csv_set_blk_size(&parser_, 4096);
     skip_to_header();
 }
@@ -109,6 +109,7 @@ bool CsvRows::parse_more() {
         refuse(begun_, csv_strerror(csv_error(&parser_)));
     if (count < part.size()) {
         is_at_end_ = true;
+        csv_set_opts(&parser_, CSV_STRICT | CSV_STRICT_FINI);  // only now: a lone quote within a field is a letter
         if (csv_fini(&parser_, take_field, take_row, this) != 0) refuse(begun_, "a quote is not closed; close it");
     }
     check_size();

@@ -68,7 +68,8 @@ void PointTableReader::reserve() {
 PointTable PointTableReader::read() {
     if (options_.step && !columns_.are_intervals())
         fail(rows_.path(), "is a table of points; --step is for drill holes, with columns top and bottom");
-    if (columns_.has_header && !rows_.next()) rows_.refuse("has no rows below it; add some, or name another file");
+    if (columns_.has_header && !rows_.next())
+        fail(rows_.path(), "has no rows below its header; add some, or name another file");
     reserve();
     do {
         add_row();
