@@ -127,12 +127,12 @@ void CsvRows::drop_used() {
     next_ = 0;
 }
 
-void CsvRows::check_size() const {
+void CsvRows::check_size() {
     const std::size_t fields = rows_.empty() ? 0 : rows_.back().field_end;
     const std::size_t bytes = fields == 0 ? 0 : field_ends_[fields - 1];
     if (field_ends_.size() - fields > kMostFields)
         refuse(begun_, fmt::format("has more than {} fields: no table of points", kMostFields));
-    if (text_.size() - bytes > kMostRowBytes || csv_get_buffer_size(const_cast<csv_parser*>(&parser_)) > kMostRowBytes)
+    if (text_.size() - bytes > kMostRowBytes || csv_get_buffer_size(&parser_) > kMostRowBytes)
         refuse(begun_, "is longer than 1 MiB; is a quote not closed?");
 }
 

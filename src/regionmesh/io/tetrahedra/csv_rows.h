@@ -50,7 +50,7 @@ private:
     void skip_to_header();
     bool parse_more();
     void drop_used();
-    void check_size() const;
+    void check_size();
     void add_field(std::string_view text);
     void end_row(int letter);
 
