@@ -10,7 +10,7 @@ install(TARGETS regionmesh EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE
 install(DIRECTORY src/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT regionmesh-targets NAMESPACE regionmesh:: DESTINATION ${package_folder})
 install(FILES ${PROJECT_BINARY_DIR}/regionmesh-config.cmake ${PROJECT_BINARY_DIR}/regionmesh-config-version.cmake
-    cmake/exact_numbers.cmake cmake/storage_libraries.cmake DESTINATION ${package_folder})
+    cmake/csv_library.cmake cmake/exact_numbers.cmake cmake/storage_libraries.cmake DESTINATION ${package_folder})
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A program linked with sanitizers would have to be built with them, too.

@@ -1,6 +1,8 @@
 #include "fuzz/fuzz_formats.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "regionmesh/check/fix_unsound.h"
@@ -8,6 +10,7 @@
 #include "regionmesh/io/label_names_file.h"
 #include "regionmesh/io/model_file.h"
 #include "regionmesh/io/read_sections.h"
+#include "regionmesh/io/tetrahedra/read_formats.h"
 
 namespace regionmesh::fuzz {
 namespace {
@@ -85,6 +88,20 @@ void model(const fs::path& path, Random& random) {
 
 void names(const fs::path& path, Random&) { read_label_names(path); }
 
+/// Drill holes are cut by a step that makes few points of them.
+void points(const fs::path& path, Random& random) {
+    constexpr std::array kColumns{"1,2,3,4", "x=1,y=2,label=4",         "z=1,x=4", "hole=1,top=5,bottom=6",
+                                  "name=5",  "label=lith,hole=Hole_ID", "x"};
+    TetrahedraOptions options;
+    if (random.one_in(2)) options.columns = kColumns[random.below(kColumns.size())];
+    const io::PointTable table = io::read_point_table(path, options);
+    if (random.one_in(2)) return;
+    double farthest = 0;
+    for (const Vec3& position : table.points.positions) farthest = std::max(farthest, std::abs(position.z));
+    options.step = farthest / 20;
+    io::read_point_table(path, options);
+}
+
 }  // namespace
 
 std::span<const Format> formats() {
@@ -99,6 +116,7 @@ std::span<const Format> formats() {
         Format{"vti", "vti", {".vti"}, volume},
         Format{"inr", "inr", {".inr", ".gz"}, volume},
         Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
+        Format{"points", "points", {".csv", ".tsv"}, points},
         Format{"hdf5", "chunked", {".h5"}, hdf5},
         Format{"dream3d", "chunked", {".dream3d"}, volume},
         Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
