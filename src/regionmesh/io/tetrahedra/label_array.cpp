@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 #include <vector>
 
@@ -37,6 +38,12 @@ std::optional<std::size_t> region_rank(std::string_view name) {
     const auto found = std::find(kRegionNames.begin(), kRegionNames.end(), lower(name));
     if (found == kRegionNames.end()) return std::nullopt;
     return static_cast<std::size_t>(found - kRegionNames.begin());
+}
+
+std::optional<std::int64_t> whole_number(double real) {
+    constexpr double kLimit = 9007199254740992;  // 2^53
+    if (!(std::abs(real) < kLimit) || std::trunc(real) != real) return std::nullopt;
+    return static_cast<std::int64_t>(real);
 }
 
 std::string list_of(std::span<const MeshArray> arrays) {

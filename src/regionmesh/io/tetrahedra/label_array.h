@@ -32,4 +32,7 @@ std::size_t choose_label_array(const std::filesystem::path& path, std::span<cons
 /// "label (cells, Int32); u (points, Float64, 3 components)", of the first twenty.
 std::string list_of(std::span<const MeshArray> arrays);
 
+/// A real as the integer it is; none for others, and from 2^53 on.
+std::optional<std::int64_t> whole_number(double real);
+
 }  // namespace regionmesh::io

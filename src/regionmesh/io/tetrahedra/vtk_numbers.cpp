@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "regionmesh/io/ascii_stream.h"
 #include "regionmesh/io/header_text.h"
+#include "regionmesh/io/tetrahedra/label_array.h"
 #include "regionmesh/io/vtk_blocks.h"
 
 namespace regionmesh::io {
@@ -44,12 +44,6 @@ void decode_reals(std::span<const std::byte> bytes, bool is_big_endian, std::spa
 
 bool is_vtk_integer(std::string_view type) { return integer_type(type).has_value(); }
 bool is_vtk_real(std::string_view type) { return type == "Float32" || type == "Float64"; }
-
-std::optional<std::int64_t> whole_number(double real) {
-    constexpr double kLimit = 9007199254740992;  // 2^53
-    if (!(std::abs(real) < kLimit) || std::trunc(real) != real) return std::nullopt;
-    return static_cast<std::int64_t>(real);
-}
 
 VtkNumbers::VtkNumbers(const std::filesystem::path& path, const VtkXmlTags& tags, pugi::xml_node array,
                        std::optional<std::uint64_t> count)

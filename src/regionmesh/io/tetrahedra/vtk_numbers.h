@@ -50,7 +50,4 @@ private:
     std::size_t next_ = 0, held_ = 0;
 };
 
-/// A real as the integer it is; none for others, and from 2^53 on.
-std::optional<std::int64_t> whole_number(double real);
-
 }  // namespace regionmesh::io
