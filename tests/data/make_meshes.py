@@ -97,7 +97,8 @@ def write_vtu(name, data, mode, compressed, words, big_endian=False):
     cells = [i for i in range(found.GetNumberOfCells()) if found.GetCellType(i) == 10]
     corners = [[found.GetCell(i).GetPointId(k) for k in range(4)] for i in cells]
     region = found.GetCellData().GetArray("region")
-    write_truth("vtk" if region else name, vtk_to_numpy(found.GetPoints().GetData()), corners, vtk_to_numpy(region)[cells] if region else [0] * len(cells))
+    if region:
+        write_truth("vtk", vtk_to_numpy(found.GetPoints().GetData()), corners, vtk_to_numpy(region)[cells])
 
 
 by_cells = grid(labels_of_points=False)

@@ -18,15 +18,15 @@ std::string array(const std::string& attributes, const std::string& text) {
 /// Two tetrahedra on one face, in a piece.
 std::string piece(const std::string& labels = array("type=\"Int32\" Name=\"region\"", "3 5")) {
     return "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\"><Points>" +
-           array("type=\"Float32\" NumberOfComponents=\"3\"", "0 0 0  1 0 0  0 1 0  0 0 1  0 0 -1") + "</Points><Cells>" +
-           array("type=\"Int32\" Name=\"connectivity\"", "0 1 2 3  0 2 1 4") +
+           array("type=\"Float32\" NumberOfComponents=\"3\"", "0 0 0  1 0 0  0 1 0  0 0 1  0 0 -1") +
+           "</Points><Cells>" + array("type=\"Int32\" Name=\"connectivity\"", "0 1 2 3  0 2 1 4") +
            array("type=\"Int32\" Name=\"offsets\"", "4 8") + array("type=\"UInt8\" Name=\"types\"", "10 10") +
            "</Cells><CellData>" + labels + "</CellData></Piece>\n";
 }
 
 std::string grid(const std::string& pieces) {
-    return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n" + pieces +
-           "</UnstructuredGrid></VTKFile>\n";
+    return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n" +
+           pieces + "</UnstructuredGrid></VTKFile>\n";
 }
 
 TEST_F(ReadVtuMesh, all_encodings_hold_what_vtk_and_meshio_find_in_them) {
@@ -83,18 +83,21 @@ TEST_F(ReadVtuMesh, the_array_whose_name_means_regions_has_the_labels) {
     EXPECT_TRUE(open_text(grid(piece(region)))->info().is_unsigned);
     EXPECT_THAT(labels_of(*open_text(grid(piece(ids + real)))), ElementsAre(4, 1000));
     EXPECT_THAT(labels_of(*open_text(grid(piece(ids + other + region)), {.array = "GlobalIds"})), ElementsAre(0, 1));
-    EXPECT_EQ(failure(grid(piece(other + array("type=\"Int8\" Name=\"part\"", "1 2")))),
-              "has several arrays of integers, and no name that means regions; say which with --array NAME; its arrays: "
-              "rank (cells, Int64); part (cells, Int8)");
-    EXPECT_EQ(failure(grid(piece(ids))),
-              "has no array of integers that could be labels; say which with --array NAME; its arrays: GlobalIds (cells, "
-              "Int64)");
+    EXPECT_EQ(
+        failure(grid(piece(other + array("type=\"Int8\" Name=\"part\"", "1 2")))),
+        "has several arrays of integers, and no name that means regions; say which with --array NAME; its arrays: "
+        "rank (cells, Int64); part (cells, Int8)");
+    EXPECT_EQ(
+        failure(grid(piece(ids))),
+        "has no array of integers that could be labels; say which with --array NAME; its arrays: GlobalIds (cells, "
+        "Int64)");
     EXPECT_EQ(failure(grid(piece(other)), {.array = "lobe"}), "has no array 'lobe'; its arrays: rank (cells, Int64)");
     EXPECT_THAT(failure(grid(piece(colour)), {.array = "colour"}), HasSubstr("has 3 components"));
 }
 
 TEST_F(ReadVtuMesh, ids_that_the_grid_declares_are_no_labels) {
-    const std::string text = piece(array("type=\"Int64\" Name=\"a\"", "0 1") + array("type=\"Int64\" Name=\"b\"", "4 6"));
+    const std::string text =
+        piece(array("type=\"Int64\" Name=\"a\"", "0 1") + array("type=\"Int64\" Name=\"b\"", "4 6"));
     EXPECT_THAT(labels_of(*open_text(grid(replaced(text, "<CellData>", "<CellData GlobalIds=\"a\">")))),
                 ElementsAre(4, 6));
 }
@@ -146,13 +149,15 @@ TEST_F(ReadVtuMesh, arrays_that_are_missing_or_short_are_named) {
 }
 
 TEST_F(ReadVtuMesh, a_surface_model_is_told_from_a_mesh) {
-    const std::string text = replaced(replaced(replaced(grid(piece()), "10 10", "5 5"), "4 8", "3 6"), "3  0 2 1 4", "0 2 1");
+    const std::string text =
+        replaced(replaced(replaced(grid(piece()), "10 10", "5 5"), "4 8", "3 6"), "3  0 2 1 4", "0 2 1");
     EXPECT_EQ(failure(text), "has no tetrahedra: a surface model? `regionmesh check` reads those");
 }
 
 TEST_F(ReadVtuMesh, damaged_files_are_read_or_refused) {
-    for (const char* name : {"vtk_ascii.vtu", "vtk_binary_zlib_32.vtu", "vtk_raw_plain_64.vtu", "vtk_base64_zlib_64.vtu"})
-        damage(kMeshes / name, 7);
+    for (const char* name :
+         {"vtk_ascii.vtu", "vtk_binary_zlib_32.vtu", "vtk_raw_plain_64.vtu", "vtk_base64_zlib_64.vtu"})
+        damage(kMeshes / name, 61);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ constexpr ElementType kTypes[] = {
 MshElements::MshElements(const std::filesystem::path& path, const MshLayout& layout) : stream_(path), layout_(layout) {
     stream_.go_to(layout.elements);
     if (!stream_.is_version_4()) {
-        elements_ = stream_.size();
+        elements_ = stream_.count_line();
         return;
     }
     blocks_ = stream_.size();

@@ -87,7 +87,7 @@ void add_tag(const MshStream& stream, MshTags& tags, std::uint64_t tag) {
 }
 
 void read_nodes_2(MshStream& stream, bool has_parameters, double scale_z, MshNodes& nodes) {
-    for (std::uint64_t left = stream.size(); left > 0; --left) {
+    for (std::uint64_t left = stream.count_line(); left > 0; --left) {
         add_tag(stream, nodes.tags, stream.size());
         add_position(stream, nodes, read_place(stream), scale_z);
         if (!has_parameters) continue;
@@ -132,7 +132,7 @@ MshLayout read_layout(MshStream& stream) {
         } else if (name == "Entities") {
             read_entities(stream, layout.physical_tags);
         } else if (name == "PartitionedEntities") {
-            stream.fail("the mesh is partitioned: write it unpartitioned, gmsh -part 0");
+            stream.fail("the mesh is partitioned: write it as MSH 2.2, gmsh old.msh -save -format msh22 -o new.msh");
         } else if (name == "Nodes" || name == "ParametricNodes") {
             note_place(stream, name, layout.nodes);
             layout.has_parameters = name == "ParametricNodes";

@@ -46,7 +46,7 @@ MshStream::MshStream(const std::filesystem::path& path) : reader_(path) {
 
 void MshStream::fail(const std::string& text) const {
     if (is_binary_) io::fail(path(), fmt::format("byte {}: {}", reader_.place(), text));
-    reader_.fail_line(text);
+    io::fail(path(), fmt::format("line {}: {}", reader_.lines() + (is_in_line_ ? 1 : 0), text));
 }
 
 std::optional<std::string> MshStream::next_section() {
@@ -79,12 +79,14 @@ Number MshStream::binary() {
 
 std::string_view MshStream::text_word() {
     const auto word = reader_.take_word();
+    is_in_line_ = word.has_value();
     if (!word) fail("ends too early: it was cut short");
     return *word;
 }
 
 std::string_view MshStream::line() {
     const auto found = reader_.take_line();
+    is_in_line_ = false;
     if (!found) fail("ends too early: it was cut short");
     return *found;
 }
@@ -97,6 +99,13 @@ std::int64_t MshStream::text_integer() {
 }
 
 std::int64_t MshStream::integer() { return is_binary_ ? binary<std::int32_t>() : text_integer(); }
+
+std::uint64_t MshStream::count_line() {
+    const std::int64_t count = text_integer();
+    if (is_binary_) line();
+    if (count < 0) fail(fmt::format("{} stands where a count is needed", count));
+    return static_cast<std::uint64_t>(count);
+}
 
 std::uint64_t MshStream::size() {
     const auto number = is_binary_ && is_version_4_ ? static_cast<std::int64_t>(binary<std::uint64_t>()) : integer();

@@ -41,6 +41,8 @@ public:
     /// A count, or the number of a node or an element.
     std::uint64_t size();
     double real();
+    /// How many nodes or elements follow in MSH 2, a line of text in binary files, too.
+    std::uint64_t count_line();
 
     /// What is text in binary files, too.
     std::int64_t text_integer();
@@ -54,6 +56,7 @@ private:
     Number binary();
 
     ByteReader reader_;
+    bool is_in_line_ = false;  // a word was taken, but not the end of its line
     bool is_version_4_ = false;
     bool is_binary_ = false;
     bool is_big_endian_ = false;
