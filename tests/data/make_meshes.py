@@ -115,6 +115,10 @@ for binary in (False, True):
     mesh.write(place(name + ".vtu"), binary=binary)
     write_truth("meshio", points, tetrahedra, labels)
 
+views = meshio.Mesh(points, [("tetra", tetrahedra)], cell_data={"label": [labels.astype(float)]}, point_data={"tissue": 10 + points[:, 0]})
+views.write(place("views_22_ascii.msh"), file_format="gmsh22", binary=False)
+views.write(place("views_41_binary.msh"), file_format="gmsh", binary=True)
+
 GEO = """
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};

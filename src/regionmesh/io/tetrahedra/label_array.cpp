@@ -67,7 +67,7 @@ std::size_t choose_label_array(const std::filesystem::path& path, std::span<cons
     };
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         if (!wanted.empty()) {
-            if (arrays[i].name == wanted && (!best || arrays[i].is_cell)) best = i;
+            if (arrays[i].name == wanted && (!best || arrays[i].is_cell > arrays[*best].is_cell)) best = i;
         } else if (arrays[i].components == 1 && !is_of_other_use(lower(arrays[i].name))) {
             if (arrays[i].is_integer) integers.push_back(i);
             if (better(i)) best = i;

@@ -16,7 +16,8 @@ namespace {
 constexpr const char* kPhysical = "gmsh:physical";
 constexpr const char* kGeometrical = "gmsh:geometrical";
 
-/// The elements are gone through when a file is opened, so that one of another kind is found before long work.
+/// The elements are gone through when a file is opened, so that one of another kind is found before long work,
+/// and again for the name of a tetrahedron: names are for messages.
 class MshReader final : public TetrahedronReader {
 public:
     MshReader(const std::filesystem::path& path, const TetrahedraOptions& options);

@@ -9,7 +9,8 @@
 namespace regionmesh::io {
 namespace {
 
-/// The types of all cells are looked at when a file is opened, so that one of another kind is found before long work.
+/// The types of all cells are looked at when a file is opened, so that one of another kind is found before long work,
+/// and again for the name of a tetrahedron that is not the only kind of cell: names are for messages.
 class VtuReader final : public TetrahedronReader {
 public:
     VtuReader(const std::filesystem::path& path, const TetrahedraOptions& options);
