@@ -85,7 +85,7 @@ std::string TagScanner::scan() {
         const std::string tag = take_tag();
         if (tag.starts_with("<!--")) continue;
         tags += tag;
-        if (tags.size() > kMostTagBytes) fail(file_.path(), "has more than 4 MiB of tags; it is none of VTK's files");
+        if (tags.size() > kMostTagBytes) fail(file_.path(), "has more than 4 MiB of tags; write it as fewer pieces");
         const bool is_empty = tag.ends_with("/>");
         if (tag.starts_with("<AppendedData") && !is_empty) {
             find_underscore();
