@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 #include "regionmesh/check/fix_unsound.h"
 #include "regionmesh/decimate/decimate.h"
@@ -86,6 +87,28 @@ void model(const fs::path& path, Random& random) {
     decimate(file.model, {.target_faces = file.model.face_count() / 4});
 }
 
+constexpr std::size_t kMostTetrahedra = std::size_t{1} << 22;
+
+/// Labels by the reader's choice, or by a name that some seeds have.
+void tetrahedra(const fs::path& path, Random& random) {
+    constexpr std::array kArrays{"region", "tissue", "gmsh:geometrical", "label", "temperature"};
+    TetrahedraOptions options;
+    if (random.one_in(3)) options.array = kArrays[random.below(kArrays.size())];
+    if (random.one_in(4)) options.scale_z = 1e300;
+    const auto reader = path.extension() == ".msh" ? io::open_msh(path, options) : io::open_vtu(path, options);
+    const LabelledPoints points = reader->take_points();
+    if (!points.positions.empty()) reader->name_of_point(static_cast<std::uint32_t>(points.positions.size() - 1));
+    std::vector<LabelledTetrahedron> some(1 + random.below(1000));
+    std::size_t count = 0;
+    while (const std::size_t got = count < kMostTetrahedra ? reader->next(some) : 0) {
+        for (std::size_t i = 0; i < got; ++i)
+            for (const std::uint32_t corner : some[i].corners)
+                if (corner >= points.positions.size()) std::abort();
+        count += got;
+    }
+    if (count > 0) reader->name_of_tetrahedron(count - 1);
+}
+
 void names(const fs::path& path, Random&) { read_label_names(path); }
 
 /// Drill holes are cut by a step that makes few points of them.
@@ -125,6 +148,8 @@ std::span<const Format> formats() {
         Format{"n5", "chunked/n5", {}, volume, ".n5"},
         Format{"vtp", "", {".vtp"}, model},
         Format{"vtu", "surfaces", {".vtu"}, model},
+        Format{"vtu_mesh", "meshes", {".vtu"}, tetrahedra},
+        Format{"msh_mesh", "meshes", {".msh"}, tetrahedra},
         Format{"ply", "ply", {".ply"}, model},
         Format{"plies", "surfaces", {".ply"}, model},
         Format{"stl", "surfaces", {".stl"}, model},

@@ -1,8 +1,10 @@
 #include "regionmesh/io/ascii_stream.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
+#include "regionmesh/io/byte_reader.h"
 #include "regionmesh/io/header_text.h"
 
 namespace regionmesh::io {
@@ -15,8 +17,8 @@ bool is_separator(char c) { return c == ' ' || (c >= '\t' && c <= '\r') || c == 
 
 }  // namespace
 
-AsciiStream::AsciiStream(InputFile file, std::uint64_t begin, std::uint64_t end)
-    : file_(std::move(file)), begin_(begin), end_(end), place_(begin) {}
+AsciiStream::AsciiStream(InputFile file, std::uint64_t begin, std::uint64_t end, AsciiNumbers numbers)
+    : file_(std::move(file)), numbers_(numbers), begin_(begin), end_(end), place_(begin) {}
 
 bool AsciiStream::refill() {
     text_.resize(std::min<std::uint64_t>(kTextBytes, end_ - place_));
@@ -40,6 +42,24 @@ bool AsciiStream::next_word() {
     return !word_.empty();
 }
 
+bool AsciiStream::parse_word() {
+    std::uint64_t bits = 0;
+    if (numbers_ == AsciiNumbers::kReals) {
+        auto real = to_real(word_);
+        if (!real) real = parse_real(word_);  // NaN
+        if (!real || word_.size() == kLongestWord)
+            problem_ = "'" + shown(word_) + "' is no number; numbers must be finite";
+        bits = std::bit_cast<std::uint64_t>(real.value_or(0));
+    } else {
+        const auto is_signed = parse_integer(word_);
+        const auto is_unsigned = is_signed ? std::nullopt : parse_size(word_);
+        if (!is_signed && !is_unsigned) problem_ = "'" + shown(word_) + "' is no label; labels must be whole numbers";
+        bits = is_signed ? static_cast<std::uint64_t>(*is_signed) : is_unsigned.value_or(0);
+    }
+    for (std::size_t i = 0; i < sizeof number_; ++i) number_[i] = static_cast<std::byte>(bits >> (8 * i));
+    return problem_.empty();
+}
+
 std::size_t AsciiStream::read(std::span<std::byte> bytes) {
     std::size_t done = 0;
     while (done < bytes.size()) {
@@ -48,14 +68,7 @@ std::size_t AsciiStream::read(std::span<std::byte> bytes) {
                 problem_ = "the numbers end early; the file is truncated, fetch it again";
                 break;
             }
-            const auto is_signed = parse_integer(word_);
-            const auto is_unsigned = is_signed ? std::nullopt : parse_size(word_);
-            if (!is_signed && !is_unsigned) {
-                problem_ = "'" + shown(word_) + "' is no label; labels must be whole numbers";
-                break;
-            }
-            const std::uint64_t bits = is_signed ? static_cast<std::uint64_t>(*is_signed) : *is_unsigned;
-            for (std::size_t i = 0; i < sizeof number_; ++i) number_[i] = static_cast<std::byte>(bits >> (8 * i));
+            if (!parse_word()) break;
             number_place_ = 0;
         }
         const std::size_t count = std::min(bytes.size() - done, sizeof number_ - number_place_);

@@ -16,11 +16,14 @@ inline constexpr SampleFormat kAsciiFormat{.type = SampleType::kI64};
 /// A number takes two letters at least, with the blank behind it, but for the last.
 constexpr std::uint64_t most_ascii_samples(std::uint64_t letters) { return letters / 2 + 1; }
 
-/// The whole numbers in a text between blanks (or commas), each as the eight bytes of a little-endian integer; beyond
-/// the signed ones, the bits of an unsigned one.
+enum class AsciiNumbers { kIntegers, kReals };
+
+/// The numbers in a text between blanks (or commas), each as the eight bytes of a little-endian integer, and beyond the
+/// signed ones the bits of an unsigned one; or each as those of a real, which may be NaN.
 class AsciiStream final : public ByteStream {
 public:
-    explicit AsciiStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX);
+    explicit AsciiStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX,
+                         AsciiNumbers numbers = AsciiNumbers::kIntegers);
 
     std::size_t read(std::span<std::byte> bytes) override;
     void rewind() override;
@@ -29,8 +32,10 @@ public:
 private:
     bool next_word();
     bool refill();
+    bool parse_word();
 
     InputFile file_;
+    AsciiNumbers numbers_;
     std::uint64_t begin_, end_, place_;
     std::vector<char> text_;
     std::size_t text_place_ = 0;

@@ -89,6 +89,26 @@ std::optional<std::string_view> ByteReader::take_word() {
     return word;
 }
 
+bool ByteReader::skip_past(std::string_view text) {
+    for (;;) {
+        const std::string_view bytes = held();
+        const std::size_t found = bytes.find(text);
+        const bool is_found = found != std::string_view::npos;
+        const std::size_t kept = std::min(bytes.size(), text.size() - 1);  // the text may begin here and go on
+        const std::size_t passed = is_found ? found + text.size() : bytes.size() - kept;
+        lines_ += static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.begin() + passed, '\n'));
+        drop(passed);
+        if (is_found) return true;
+        if (!fill()) return false;
+    }
+}
+
+void ByteReader::go_to(std::uint64_t place, std::uint64_t lines) {
+    begin_ = end_ = 0;
+    offset_ = taken_ = place;
+    lines_ = lines;
+}
+
 void ByteReader::fail(const std::string& text) const { io::fail(path(), text); }
 
 void ByteReader::fail_line(const std::string& text) const {

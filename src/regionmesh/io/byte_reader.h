@@ -33,6 +33,13 @@ public:
     /// The next run of bytes between spaces and ends of lines; none at the end of the file.
     std::optional<std::string_view> take_word();
 
+    /// Goes behind the next place where `text` stands; false, and to the end of the file, where it stands nowhere.
+    bool skip_past(std::string_view text);
+
+    /// The byte that is taken next, and back or on to one, with the ends of lines before it.
+    std::uint64_t place() const { return taken_; }
+    void go_to(std::uint64_t place, std::uint64_t lines);
+
     /// Ends of lines taken so far.
     std::uint64_t lines() const { return lines_; }
     /// Throws Error(kInput) "path: text", and with "line 7: " before the text where lines or words were taken.

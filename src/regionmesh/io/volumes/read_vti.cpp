@@ -3,25 +3,19 @@
 #include <utility>
 
 #include "regionmesh/io/ascii_stream.h"
-#include "regionmesh/io/base64_stream.h"
 #include "regionmesh/io/label_names_file.h"
 #include "regionmesh/io/volumes/flat_reader.h"
 #include "regionmesh/io/volumes/read_formats.h"
 #include "regionmesh/io/volumes/stream_reader.h"
 #include "regionmesh/io/volumes/volume_size.h"
-#include "regionmesh/io/volumes/vti_blocks.h"
 #include "regionmesh/io/volumes/vti_header.h"
+#include "regionmesh/io/vtk_blocks.h"
 
 namespace regionmesh::io {
 namespace {
 
 namespace fs = std::filesystem;
 using Form = VtiArray::Form;
-
-std::unique_ptr<ByteStream> stored_bytes(const fs::path& path, const VtiArray& array) {
-    if (array.form == Form::kRaw) return std::make_unique<PlainStream>(InputFile(path), array.begin);
-    return std::make_unique<Base64Stream>(InputFile(path), array.begin, array.end);
-}
 
 [[noreturn]] void refuse_length(const fs::path& path, const VtiHeader& header, std::uint64_t found,
                                 std::uint64_t needed) {
@@ -32,25 +26,24 @@ std::unique_ptr<ByteStream> stored_bytes(const fs::path& path, const VtiArray& a
 std::unique_ptr<SectionReader> open_compressed(const fs::path& path, const VtiHeader& header, VolumeInfo info,
                                                const ReadOptions& options, std::uint64_t needed) {
     check_inflated(path, header.array.end - header.array.begin, needed);
-    auto blocks = std::make_unique<VtiBlocks>(stored_bytes(path, header.array), stored_bytes(path, header.array),
-                                              VtiBlocks::Words{header.word_bytes, header.is_big_endian});
+    auto blocks =
+        std::make_unique<VtkBlocks>(open_stored(path, header.array), open_stored(path, header.array), header.encoding);
     const auto bytes = blocks->inflated_bytes();
     if (!bytes) fail(path, fmt::format("array '{}': {}", header.array.name, blocks->problem()));
     if (*bytes != needed) refuse_length(path, header, *bytes, needed);
-    return open_stream(std::move(blocks), std::move(info), {.format = {header.array.type, header.is_big_endian}},
-                       options, "give --sweep z, or write the file without compression and with raw appended data");
+    return open_stream(std::move(blocks), std::move(info),
+                       {.format = {header.array.type, header.encoding.is_big_endian}}, options,
+                       "give --sweep z, or write the file without compression and with raw appended data");
 }
 
 /// The word in front of an array that is not compressed: its length in bytes.
 void check_word(const fs::path& path, const VtiHeader& header, std::uint64_t needed) {
     std::array<std::byte, 8> bytes{};
-    const auto stream = stored_bytes(path, header.array);
-    const std::size_t size = header.word_bytes;
+    const auto stream = open_stored(path, header.array);
+    const std::size_t size = header.encoding.word_bytes;
     if (stream->read(std::span(bytes).first(size)) < size)
         fail(path, fmt::format("array '{}': {}", header.array.name, stream->problem()));
-    std::uint64_t word = 0;
-    for (std::size_t i = 0; i < size; ++i)
-        word |= std::to_integer<std::uint64_t>(bytes[header.is_big_endian ? size - 1 - i : i]) << (8 * i);
+    const std::uint64_t word = decode_word(std::span(bytes).first(size), header.encoding.is_big_endian);
     if (word != needed) refuse_length(path, header, word, needed);
 }
 
@@ -60,7 +53,7 @@ std::unique_ptr<SectionReader> open_vti(const fs::path& path, const ReadOptions&
     InputFile file(path);
     const VtiHeader header = read_vti_header(file);
     const VtiArray& array = header.array;
-    const SampleFormat format{array.type, header.is_big_endian};
+    const SampleFormat format{array.type, header.encoding.is_big_endian};
     VolumeInfo info = volume_info(path, "vti", array.type, header.lattice.size);
     info.lattice = header.lattice;
     info.names = names_beside(path);
@@ -72,16 +65,17 @@ std::unique_ptr<SectionReader> open_vti(const fs::path& path, const ReadOptions&
         return open_stream(std::make_unique<AsciiStream>(std::move(file), array.begin, array.end), std::move(info),
                            {.format = kAsciiFormat}, options);
     }
-    if (header.is_compressed) return open_compressed(path, header, std::move(info), options, needed);
+    if (header.encoding.is_compressed) return open_compressed(path, header, std::move(info), options, needed);
     check_word(path, header, needed);
     if (array.form == Form::kRaw) {
         info.can_sweep = {true, true, true};
         return open_flat(std::move(file), std::move(info),
-                         {.offset = array.begin + header.word_bytes, .format = format}, options);
+                         {.offset = array.begin + header.encoding.word_bytes, .format = format}, options);
     }
     if (needed > letters / 4 * 3 + 3) refuse_length(path, header, letters / 4 * 3, needed);
-    return open_stream(stored_bytes(path, array), std::move(info), {.offset = header.word_bytes, .format = format},
-                       options, "give --sweep z, or write the file with raw appended data");
+    return open_stream(open_stored(path, array), std::move(info),
+                       {.offset = header.encoding.word_bytes, .format = format}, options,
+                       "give --sweep z, or write the file with raw appended data");
 }
 
 }  // namespace regionmesh::io

@@ -6,16 +6,14 @@
 #include <string>
 
 #include "regionmesh/io/input_file.h"
+#include "regionmesh/io/vtk_xml_tags.h"
 #include "regionmesh/volume/lattice.h"
 #include "regionmesh/volume/section_reader.h"
 
 namespace regionmesh::io {
 
 /// An array of integers, one a sample, and where its bytes lie.
-struct VtiArray {
-    enum class Form { kAscii, kBase64, kRaw };
-    Form form = Form::kRaw;
-    std::uint64_t begin = 0, end = 0;  // in the file; text may go on behind it
+struct VtiArray : VtkArrayPlace {
     SampleType type = SampleType::kU8;
     std::string name;
 };
@@ -23,9 +21,7 @@ struct VtiArray {
 struct VtiHeader {
     Lattice lattice;  // of the samples: points, or centres of cells
     VtiArray array;
-    bool is_compressed = false;
-    bool is_big_endian = false;
-    std::size_t word_bytes = 4;  // of the counts in front of arrays
+    VtkEncoding encoding;
 };
 
 /// Reads the file once up to its appended data, but holds the tags only. Throws Error(kInput) naming the file: more

@@ -9,24 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "regionmesh/io/byte_stream.h"
+#include "regionmesh/io/vtk_xml_tags.h"
 
 namespace regionmesh::io {
 
 /// Layout: number of blocks, bytes of a block, bytes of the last one where it is smaller (else 0), compressed bytes of
 /// each block; then the blocks, each a zlib stream. Holds neither a block nor the table.
-class VtiBlocks final : public ByteStream {
+class VtkBlocks final : public ByteStream {
 public:
-    struct Words {
-        std::size_t bytes = 4;
-        bool is_big_endian = false;
-    };
-
     /// Both streams begin at the array: one reads the table while the other reads blocks.
-    VtiBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, Words words);
-    VtiBlocks(const VtiBlocks&) = delete;
-    VtiBlocks& operator=(const VtiBlocks&) = delete;
-    ~VtiBlocks() override;
+    VtkBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, const VtkEncoding& encoding);
+    VtkBlocks(const VtkBlocks&) = delete;
+    VtkBlocks& operator=(const VtkBlocks&) = delete;
+    ~VtkBlocks() override;
 
     /// How many bytes the array says it inflates to; nothing where it does not say it, or that is more than 63 bits.
     std::optional<std::uint64_t> inflated_bytes();
@@ -44,7 +39,7 @@ private:
     bool refill();
 
     std::unique_ptr<ByteStream> table_, blocks_;
-    Words words_;
+    VtkEncoding encoding_;
     std::uint64_t count_ = 0, full_bytes_ = 0, last_bytes_ = 0;
     bool has_begun_ = false;
     std::uint64_t next_ = 0;         // block

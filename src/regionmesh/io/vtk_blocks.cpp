@@ -1,4 +1,4 @@
-#include "regionmesh/io/volumes/vti_blocks.h"
+#include "regionmesh/io/vtk_blocks.h"
 
 #include <algorithm>
 #include <array>
@@ -15,33 +15,31 @@ constexpr std::uint64_t kMostBytes = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-VtiBlocks::VtiBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, Words words)
-    : table_(std::move(table)), blocks_(std::move(blocks)), words_(words), packed_(kPackedBytes) {
+VtkBlocks::VtkBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, const VtkEncoding& encoding)
+    : table_(std::move(table)), blocks_(std::move(blocks)), encoding_(encoding), packed_(kPackedBytes) {
     if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
 }
 
-VtiBlocks::~VtiBlocks() { inflateEnd(&stream_); }
+VtkBlocks::~VtkBlocks() { inflateEnd(&stream_); }
 
-bool VtiBlocks::read_words(std::span<std::uint64_t> words) {
+bool VtkBlocks::read_words(std::span<std::uint64_t> words) {
     for (std::uint64_t& word : words) {
         std::array<std::byte, 8> bytes{};
-        if (table_->read(std::span(bytes).first(words_.bytes)) < words_.bytes) {
+        if (table_->read(std::span(bytes).first(encoding_.word_bytes)) < encoding_.word_bytes) {
             problem_ = kCutTable;
             return false;
         }
-        word = 0;
-        for (std::size_t i = 0; i < words_.bytes; ++i)
-            word |= std::to_integer<std::uint64_t>(bytes[words_.is_big_endian ? words_.bytes - 1 - i : i]) << (8 * i);
+        word = decode_word(std::span(bytes).first(encoding_.word_bytes), encoding_.is_big_endian);
     }
     return true;
 }
 
-bool VtiBlocks::begin() {
+bool VtkBlocks::begin() {
     std::array<std::uint64_t, 3> head{};
     if (has_begun_ || !read_words(head)) return has_begun_;
     count_ = head[0], full_bytes_ = head[1];
     last_bytes_ = head[2] == 0 ? full_bytes_ : head[2];
-    if (count_ > kMostBytes / words_.bytes - 3 || !blocks_->skip((3 + count_) * words_.bytes)) {
+    if (count_ > kMostBytes / encoding_.word_bytes - 3 || !blocks_->skip((3 + count_) * encoding_.word_bytes)) {
         problem_ = kCutTable;
         return false;
     }
@@ -49,7 +47,7 @@ bool VtiBlocks::begin() {
     return true;
 }
 
-std::optional<std::uint64_t> VtiBlocks::inflated_bytes() {
+std::optional<std::uint64_t> VtkBlocks::inflated_bytes() {
     if (!begin()) return std::nullopt;
     if (count_ == 0) return 0;
     const std::uint64_t most = std::max<std::uint64_t>({full_bytes_, last_bytes_, 1});
@@ -61,7 +59,7 @@ std::optional<std::uint64_t> VtiBlocks::inflated_bytes() {
 }
 
 /// To the check sum; what is left behind it is passed over.
-bool VtiBlocks::end_block() {
+bool VtkBlocks::end_block() {
     Bytef nothing = 0;
     while (is_open_) {
         if (stream_.avail_in == 0 && !refill()) return false;
@@ -78,7 +76,7 @@ bool VtiBlocks::end_block() {
     return false;
 }
 
-bool VtiBlocks::begin_block() {
+bool VtkBlocks::begin_block() {
     std::uint64_t size = 0;
     if (next_ == count_) {
         problem_ = "the compressed blocks end before what the header says; write the file again";
@@ -93,7 +91,7 @@ bool VtiBlocks::begin_block() {
     return true;
 }
 
-bool VtiBlocks::refill() {
+bool VtkBlocks::refill() {
     const std::size_t wanted = std::min<std::uint64_t>(packed_.size(), packed_left_);
     if (wanted == 0 || blocks_->read(std::span(packed_).first(wanted)) < wanted) {
         problem_ = wanted == 0 ? "a compressed block ends early; write the file again" : blocks_->problem();
@@ -105,7 +103,7 @@ bool VtiBlocks::refill() {
     return true;
 }
 
-std::size_t VtiBlocks::read(std::span<std::byte> bytes) {
+std::size_t VtkBlocks::read(std::span<std::byte> bytes) {
     std::size_t done = 0;
     if (!begin()) return done;
     while (done < bytes.size() && problem_.empty()) {
@@ -127,7 +125,7 @@ std::size_t VtiBlocks::read(std::span<std::byte> bytes) {
     return done;
 }
 
-void VtiBlocks::rewind() {
+void VtkBlocks::rewind() {
     table_->rewind();
     blocks_->rewind();
     has_begun_ = is_open_ = false;
