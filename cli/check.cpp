@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input_options.h"
 #include "model_options.h"
+#include "tetrahedra_options.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -13,11 +14,13 @@ struct Arguments {
     std::uint32_t threads = 0;
     bool quiet = false;
     InputOptions input;
+    TetrahedraArguments tetrahedra;
     ModelOptions reading;
 };
 
 /// The oracle in the dense labels of the model's table; labels that the model does not know get numbers of their own.
-LabelOracle translate(const Census& census, LabelTable& labels) {
+template <class AnyCensus>
+LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
     LabelOracle oracle = census.oracle;
     std::vector<std::int64_t> euler;
     for (Label dense = 0; dense < oracle.euler.size(); ++dense) {
@@ -51,10 +54,14 @@ int check_command(const Arguments& arguments) {
     CheckOptions options = arguments.input.check_options(file.labels);
     options.threads = arguments.threads;
     if (!arguments.sections.empty()) {
-        const auto reader = arguments.input.open(arguments.sections);
-        options.oracle = translate(
-            count_labels(*reader, {.cap = arguments.input.cap(), .background = arguments.input.background_labels()}),
-            file.labels);
+        const CensusOptions census{.cap = arguments.input.cap(), .background = arguments.input.background_labels()};
+        const auto compare_with = [&](auto reader) {
+            options.oracle = translate(count_labels(*reader, census), file.labels);
+        };
+        if (arguments.tetrahedra.is_meant(arguments.sections, arguments.input))
+            compare_with(arguments.tetrahedra.open(arguments.sections));
+        else
+            compare_with(arguments.input.open(arguments.sections));
     }
     const CheckReport report = check(file.model, options);
     if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels, file.names));
@@ -71,9 +78,10 @@ void add_check(CLI::App& app, Action& action) {
     command->add_option("model", arguments->model, kModelRead)->required();
     arguments->reading.add_options(*command);
     command->add_option("--sections", arguments->sections,
-                        "the volume that the model was made from: compare with its labels");
+                        "the volume, points or mesh that the model was made from: compare with its labels");
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
+    arguments->tetrahedra.add_options(*command);
     command->add_option("--json", arguments->json, "findings to write as JSON");
     command->add_option("--threads", arguments->threads,
                         "threads at work; one per core if not given. The findings are the same");

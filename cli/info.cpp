@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "input_options.h"
+#include "tetrahedra_options.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -12,9 +13,12 @@ namespace {
 struct Arguments {
     std::vector<std::string> inputs;
     InputOptions input;
+    TetrahedraArguments tetrahedra;
 };
 
-void print_labels(const Census& census, const LabelNames& names) {
+/// `unit` is what has the labels.
+template <class AnyCensus>
+void print_labels(const AnyCensus& census, const LabelNames& names, const char* unit) {
     std::vector<Label> order;
     for (Label label = 0; label < census.labels.size(); ++label)
         if (label < census.samples.size() && census.samples[label] > 0) order.push_back(label);
@@ -25,13 +29,29 @@ void print_labels(const Census& census, const LabelNames& names) {
     for (std::size_t n = 0; n < std::min(order.size(), kShown); ++n) {
         const InputLabel label = census.labels.input(order[n]);
         const auto name = names.find(label);
-        fmt::print("  {:>12}  {} samples{}{}\n", census.labels.text(label), census.samples[order[n]],
+        fmt::print("  {:>12}  {} {}{}{}\n", census.labels.text(label), census.samples[order[n]], unit,
                    name == names.end() ? "" : "  ", name == names.end() ? "" : name->second);
     }
     if (order.size() > kShown) fmt::print("  and {} more\n", order.size() - kShown);
 }
 
+int info_of_tetrahedra(TetrahedronReader& reader, const CensusOptions& options) {
+    const TetrahedraInfo& info = reader.info();
+    const TetrahedronCensus census = count_labels(reader, options);
+    fmt::print("file       {} ({})\n", info.source, info.format);
+    fmt::print("size       {} points, {} tetrahedra\n", census.point_count, census.tetrahedron_count);
+    fmt::print("spacing    {:.6g} on average{}\n", census.spacing, info.scale_z == 1 ? "" : ", z scaled");
+    fmt::print("sweep      along {}\n", "xyz"[census.sweep.axes[2]]);
+    print_labels(census, info.names, info.has_cell_labels ? "tetrahedra" : "points");
+    fmt::print("model      {} faces unsimplified; {} pairs of regions with an interface\n", census.face_count,
+               census.oracle.region_pairs);
+    return 0;
+}
+
 int info_command(const Arguments& arguments) {
+    if (arguments.tetrahedra.is_meant(arguments.inputs, arguments.input))
+        return info_of_tetrahedra(*arguments.tetrahedra.open(arguments.inputs),
+                                  {.cap = arguments.input.cap(), .background = arguments.input.background_labels()});
     const auto reader = arguments.input.open(arguments.inputs);
     const VolumeInfo info = reader->info();
     const Lattice& lattice = info.lattice;
@@ -50,7 +70,7 @@ int info_command(const Arguments& arguments) {
     const char axis = std::string("xyz")[info.sweep.axes[2]];
     fmt::print("sweep      along {}, {} sections of {} x {}\n", axis, reader->section_count(), reader->section_width(),
                reader->section_height());
-    print_labels(census, info.names);
+    print_labels(census, info.names, "samples");
     const auto megabytes = [&](double share) {
         return (static_cast<double>(reading_bytes(info)) +
                 share * static_cast<double>(census.face_count * kBytesPerFace)) /
@@ -69,10 +89,12 @@ void add_info(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("info", "size, type, spacing, labels, and what a model will need");
     command
-        ->add_option("input", arguments->inputs, "volume, file.h5:/dataset, directory of sections, or list of sections")
+        ->add_option("input", arguments->inputs,
+                     "volume, file.h5:/dataset, directory or list of sections, table of points, or mesh of tetrahedra")
         ->required();
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
+    arguments->tetrahedra.add_options(*command);
     command->callback([arguments, &action] { action = [arguments] { return info_command(*arguments); }; });
 }
 

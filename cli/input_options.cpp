@@ -89,6 +89,11 @@ void InputOptions::add_label_options(CLI::App& command) {
         ->check(CLI::IsMember({"cap", "open"}));
 }
 
+std::optional<Sweep> InputOptions::sweep_of_tetrahedra() const {
+    if (sweep == "auto") return {};
+    return sweep == "x" ? kSweepX : sweep == "y" ? kSweepY : kSweepZ;
+}
+
 std::unique_ptr<SectionReader> InputOptions::open(const std::vector<std::string>& inputs) const {
     ReadOptions options;
     options.sweep = sweep == "x"   ? SweepChoice::kX

@@ -23,6 +23,8 @@ struct InputOptions {
     void add_background_options(CLI::App& command);
     /// Adds these and --boundary.
     void add_label_options(CLI::App& command);
+    /// That of --sweep for points and meshes; none for auto.
+    std::optional<Sweep> sweep_of_tetrahedra() const;
     /// Throws Error(kInput) for a word that is no number.
     std::unique_ptr<SectionReader> open(const std::vector<std::string>& inputs) const;
     std::vector<InputLabel> background_labels() const;

@@ -5,6 +5,7 @@
 #include "output_options.h"
 #include "progress_line.h"
 #include "smooth_arguments.h"
+#include "tetrahedra_options.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -18,6 +19,7 @@ struct Arguments {
     bool preserve_volume = false, no_decimate = false, no_intersect_check = false, quiet = false;
     SmoothArguments smooth;
     InputOptions input;
+    TetrahedraArguments tetrahedra;
     OutputOptions output;
 };
 
@@ -37,6 +39,7 @@ ReconstructOptions to_options(const Arguments& arguments) {
     options.intersect_check = !arguments.no_intersect_check;
     options.background = arguments.input.background_labels();
     options.cap = arguments.input.cap();
+    options.sweep = arguments.input.sweep_of_tetrahedra();
     if (options.preserve_volume && !options.cap)
         throw Error(ErrorCode::kInput,
                     "--preserve-volume: regions without caps have no volume; leave out --boundary open");
@@ -82,15 +85,26 @@ void print_summary(const Arguments& arguments, const Report& report) {
             fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.check.counts[kind]);
 }
 
+/// From whatever the input is; `names` become those of its labels.
+Reconstruction reconstruct_input(const Arguments& arguments, const ReconstructOptions& options, LabelNames& names) {
+    ProgressLine line(arguments.quiet);
+    const auto from = [&](auto reader) {
+        names = arguments.output.names_or(reader->info().names);
+        Reconstruction made = reconstruct(*reader, options, [&](const Progress& progress) { line.show(progress); });
+        line.clear();
+        return made;
+    };
+    if (arguments.tetrahedra.is_meant(arguments.inputs, arguments.input))
+        return from(arguments.tetrahedra.open(arguments.inputs));
+    return from(arguments.input.open(arguments.inputs));
+}
+
 int reconstruct_command(const Arguments& arguments) {
     const ReconstructOptions options = to_options(arguments);
     arguments.output.require_writable(!options.cap);
     if (!arguments.report.empty()) require_writable(arguments.report);
-    const auto reader = arguments.input.open(arguments.inputs);
-    const LabelNames names = arguments.output.names_or(reader->info().names);
-    ProgressLine line(arguments.quiet);
-    Reconstruction made = reconstruct(*reader, options, [&](const Progress& progress) { line.show(progress); });
-    line.clear();
+    LabelNames names;
+    Reconstruction made = reconstruct_input(arguments, options, names);
     double writing = 0;
     {
         const Timer timer(writing);
@@ -109,16 +123,18 @@ int reconstruct_command(const Arguments& arguments) {
 
 void add_reconstruct(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("reconstruct", "sections in, a conforming, simplified, checked model out");
+    CLI::App* command = app.add_subcommand(
+        "reconstruct", "sections, points or tetrahedra in, a conforming, simplified, checked model out");
     command
         ->add_option(
             "input", arguments->inputs,
             "volume (.npy .nii.gz .nrrd .mha .vti .tif .h5:/dataset .dream3d .zarr ...), directory of sections, "
-            "or list of sections")
+            "list of sections, table of labelled points (.csv .tsv), or mesh of tetrahedra (.vtu .msh)")
         ->required();
     arguments->output.add_options(*command);
     arguments->input.add_volume_options(*command);
     arguments->input.add_label_options(*command);
+    arguments->tetrahedra.add_options(*command);
     command->add_option("--target-faces", arguments->target_faces, "decimate to at most so many faces");
     command->add_option("--reduce", arguments->reduce, "remove this share of the faces, such as 90%");
     command->add_option("--max-error", arguments->max_error,

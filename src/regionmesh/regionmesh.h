@@ -11,6 +11,7 @@
 #include "regionmesh/io/model_file.h"
 #include "regionmesh/io/output_file.h"
 #include "regionmesh/io/read_sections.h"
+#include "regionmesh/io/read_tetrahedra.h"
 #include "regionmesh/io/write_compare.h"
 #include "regionmesh/io/write_report.h"
 #include "regionmesh/memory_plan.h"
@@ -20,3 +21,4 @@
 #include "regionmesh/report.h"
 #include "regionmesh/smooth/preserve_volume.h"
 #include "regionmesh/smooth/smooth.h"
+#include "regionmesh/tetrahedron_census.h"

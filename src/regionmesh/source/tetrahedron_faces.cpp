@@ -62,6 +62,8 @@ void TetrahedronFaces::make_all() {
         {.sweep = options_.sweep, .sort_bytes = sort_bytes(options_.memory), .memory = options_.memory});
     point_count_ = tetrahedra.points.size();
     tetrahedron_count_ = tetrahedra.sorted.size();
+    samples_.assign(labels_.size(), 0);
+    for (Label label : tetrahedra.points.labels) ++samples_[label];
     shape_strips(tetrahedra);
     mesh(tetrahedra);
     gather_layers();
@@ -106,6 +108,7 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
         const auto own = std::min(static_cast<std::uint32_t>(std::floor(along + 1e-9)), thin_strips_ - 1);
         while (strip < own) end_strip();
         mesher.add(tetrahedron);
+        if (reader_.info().has_cell_labels) ++samples_[tetrahedron.label];
     }
     mesher.close_all();
     while (strip < thin_strips_) end_strip();

@@ -41,6 +41,8 @@ public:
     void rewind();
     std::uint64_t tetrahedron_count() const { return tetrahedron_count_; }
     std::uint64_t point_count() const { return point_count_; }
+    /// Points by dense label, or tetrahedra where they have the labels.
+    const std::vector<std::uint64_t>& samples() const { return samples_; }
 
 private:
     void make_all();
@@ -55,6 +57,7 @@ private:
     SourceShape shape_;
     LabelOracle oracle_;
     std::uint64_t point_count_ = 0, tetrahedron_count_ = 0;
+    std::vector<std::uint64_t> samples_;
     double low_ = 0, thickness_ = 1;  // of the thin strips along the sweep
     double high_ = HUGE_VAL;          // where the last one ends, if there is a side of a box
     std::uint32_t thin_strips_ = 0;

@@ -15,7 +15,7 @@
 
 #include "io/fake_program.h"
 #include "regionmesh/base/error.h"
-#include "regionmesh/model/exact_predicates.h"
+#include "regionmesh/base/exact_predicates.h"
 #include "support/random.h"
 
 namespace regionmesh::io {

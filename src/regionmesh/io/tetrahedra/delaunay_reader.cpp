@@ -40,7 +40,9 @@ constexpr int kKilled = 9;  // the signal with which the system ends what takes 
 }  // namespace
 
 DelaunayReader::DelaunayReader(PointTable table, std::filesystem::path program)
-    : table_(std::move(table)), path_(std::move(program)), point_count_(table_.points.positions.size()) {}
+    : table_(std::move(table)), path_(std::move(program)), point_count_(table_.points.positions.size()) {
+    table_.info.hull_is_convex = true;
+}
 
 LabelledPoints DelaunayReader::take_points() {
     assert(!program_ && !left_);

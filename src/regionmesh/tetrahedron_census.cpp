@@ -1,0 +1,20 @@
+#include "regionmesh/tetrahedron_census.h"
+
+#include "regionmesh/source/tetrahedron_faces.h"
+
+namespace regionmesh {
+
+TetrahedronCensus count_labels(TetrahedronReader& reader, const CensusOptions& options) {
+    TetrahedronFaces source(reader, {.cap = options.cap, .background = options.background});
+    FaceCount counted = *source.count();
+    return {.labels = source.labels(),
+            .point_count = source.point_count(),
+            .tetrahedron_count = source.tetrahedron_count(),
+            .samples = source.samples(),
+            .spacing = source.shape().scale,
+            .sweep = source.shape().sweep,
+            .face_count = counted.face_count,
+            .oracle = std::move(counted.oracle)};
+}
+
+}  // namespace regionmesh
