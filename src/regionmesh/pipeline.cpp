@@ -8,6 +8,7 @@
 #include "regionmesh/census.h"
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/memory_demand.h"
+#include "regionmesh/run_until_held.h"
 #include "regionmesh/smooth/preserve_volume.h"
 #include "regionmesh/source/section_faces.h"
 #include "regionmesh/source/tetrahedron_faces.h"
@@ -26,18 +27,6 @@ namespace {
 /// Collapses that cost less than this, in units of spacing^4, are made in tiles already (docs/tiles.md says why this
 /// much).
 constexpr double kTileCostLevel = 3e-2;
-
-/// Strips that smoothing holds beyond the usual, where the usual do not suffice.
-constexpr std::uint32_t kMoreHold = 8;
-
-/// Nothing is pinned in a model that is finished.
-void unpin(Model& model) {
-    for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
-        Vertex& vertex = model[VertexId{n}];
-        vertex.is_fixed = false;
-        vertex.sides &= static_cast<SideSet>(~kPinned);
-    }
-}
 
 /// One run: its state, and the steps in the order of reconstruct() below.
 class Run {
@@ -99,6 +88,7 @@ private:
 void Run::plan() {
     std::optional<FaceCount> counted;
     {
+        progress_.strip_count = source_.shape().strip_count;
         tell("count");
         const Timer timer(seconds("count"));
         counted = source_.count();
@@ -315,7 +305,7 @@ void Run::preserve_volumes() {
 /// Checks what will be written, where it will lie.
 void Run::prove() {
     give_back_freed_memory();
-    unpin(result_.model);
+    weld_.release_all();
     source_.place(result_.model);
     tell("check");
     const Timer timer(seconds("check"));
@@ -360,26 +350,6 @@ Reconstruction run_once(FaceSource& source, const ReconstructOptions& options,
     run.preserve_volumes();
     run.prove();
     return run.finish();
-}
-
-/// Where the guard finds that it let go of strips too early, which takes labels that no instrument gives, all begins
-/// again and holds more; in the end all is in core, where the guard cannot fail. `once` runs, `begin_again` returns
-/// false where that cannot be.
-template <class Once, class BeginAgain>
-Reconstruction run_until_held(ReconstructOptions options, Once&& once, BeginAgain&& begin_again) {
-    double total = 0;
-    std::optional<Reconstruction> result;
-    while (!result) {
-        const Timer timer(total);
-        try {
-            result = once(options);
-        } catch (const HeldTooFew&) {
-            if (!begin_again()) throw;
-            options.smooth.more_hold = 2 * options.smooth.more_hold + kMoreHold;
-        }
-    }
-    result->report.seconds["total"] = total;
-    return std::move(*result);
 }
 
 }  // namespace

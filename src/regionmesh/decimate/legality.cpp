@@ -133,6 +133,24 @@ Double2 quality3(const StarPair& pair, const Lanes3<Double2>& to_a, const Lanes3
     return area * area * area / (product * product);
 }
 
+/// The least quality of the faces of a star, to the third power, and how many are below the bound.
+struct LowQuality {
+    double worst3;
+    int below;
+};
+
+/// Where faces came in below the bound, a collapse may leave some: no more, and none worse than the worst.
+bool was_worse(const EdgeStar& star, const LowQuality& after, double bound3) {
+    LowQuality before{1, 0};
+    const auto look_at = [&](Vec3 a, Vec3 b, Vec3 c) {
+        const double own3 = quality_terms(a, b, c).cube();
+        before.worst3 = std::min(before.worst3, own3);
+        before.below += own3 < bound3;
+    };
+    for (int face = 0; face < star.face_count(); ++face) look_at(star.at_apex(face), star.at_a(face), star.at_b(face));
+    return after.below <= before.below && after.worst3 >= before.worst3;
+}
+
 }  // namespace
 
 Verdict topology_verdict(const Model& model, const EdgeStar& star) {
@@ -171,17 +189,16 @@ ShapeResult shape_verdict(EdgeStar& star, Vec3 position, const ShapeBounds& boun
     const double bound3 = cube_of_bound(bounds);
     const Lanes3<Double2> merged = both(position);
     double worst3 = 1;
+    int below = 0;
     for (std::size_t n = 0; n < star.pairs.size(); ++n) {
         const StarPair& pair = star.pairs[n];
         const Double2 own3 = quality3(pair, pair.a - merged, pair.b - merged, pair.new_length2);
         for (int lane = 0; lane < 2; ++lane) {
             if (own3[lane] < worst3) worst3 = own3[lane];
-            const int face = std::min(2 * static_cast<int>(n) + lane, star.face_count() - 1);
-            if (own3[lane] >= bound3) continue;
-            if (!(own3[lane] > quality_terms(star.at_apex(face), star.at_a(face), star.at_b(face)).cube()))
-                return {Verdict::kQuality, own3[lane]};
+            below += own3[lane] < bound3 && 2 * static_cast<int>(n) + lane < star.face_count();
         }
     }
+    if (below > 0 && !was_worse(star, {worst3, below}, bound3)) return {Verdict::kQuality, worst3};
     if (pinches_at_spokes(star, bounds.min_dihedral_cosine)) return {Verdict::kPinch, 0};
     return {Verdict::kAccepted, worst3};
 }

@@ -48,6 +48,13 @@ FaceBatch Weld::take_apart() {
     return batch;
 }
 
+void Weld::release_all() {
+    for (std::uint32_t v = 0; v < model_.vertex_end(); ++v) {
+        model_[VertexId{v}].is_fixed = false;
+        model_[VertexId{v}].sides &= static_cast<SideSet>(~kPinned);
+    }
+}
+
 void Weld::renumber(const std::vector<VertexId>& new_ids) {
     for (VertexId& v : front_) v = new_ids[index(v)];
 }

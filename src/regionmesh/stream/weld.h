@@ -26,6 +26,9 @@ public:
     /// The vertices of the model have new ids (Model::sort_spatially).
     void renumber(const std::vector<VertexId>& new_ids);
 
+    /// When all is welded: nothing is pinned any more.
+    void release_all();
+
 private:
     Model& model_;
     std::vector<VertexId> front_;
