@@ -8,17 +8,14 @@
 namespace regionmesh {
 namespace {
 
-/// Puts items of one key in the order of what `rank` says of their index: in none that they came in.
+/// Puts items of one key in the order of what `rank` says of their index, whatever order they came in. They are few.
 template <class Rank>
 void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
-    for (auto first = items.begin(); first != items.end();) {
-        auto end = first + 1;
-        while (end != items.end() && end->key == first->key) ++end;
-        if (end - first > 1)
-            std::stable_sort(first, end,
-                             [&](const KeyedIndex& a, const KeyedIndex& b) { return rank(a.index) < rank(b.index); });
-        first = end;
-    }
+    for (auto next = items.begin(); next != items.end(); ++next)
+        for (auto at = next; at != items.begin() && (at - 1)->key == at->key; --at) {
+            if (!(rank(at->index) < rank((at - 1)->index))) break;
+            std::swap(*at, *(at - 1));
+        }
 }
 
 }  // namespace
