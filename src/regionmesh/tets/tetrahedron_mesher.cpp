@@ -1,6 +1,7 @@
 #include "regionmesh/tets/tetrahedron_mesher.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <string>
 
@@ -10,6 +11,7 @@ namespace regionmesh {
 namespace {
 
 constexpr CornerSet kWhole = 0b1111;
+constexpr std::array<std::uint8_t, 16> kSizes{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // of sets of corners
 constexpr std::uint8_t kManyLabels = 5;
 constexpr std::uint32_t kMostVertices = kNoRank - 1;
 
@@ -59,7 +61,7 @@ void TetrahedronMesher::add(const RankedTetrahedron& tetrahedron) {
 TetrahedronMesher::Places TetrahedronMesher::open_simplices(const RankedTetrahedron& tetrahedron) {
     Places places;
     for (CornerSet set = 1; set < kWhole; ++set) {
-        const int size = std::popcount(set);
+        const int size = kSizes[set];
         if (size == 1) {
             const std::uint32_t rank = tetrahedron.corners[std::countr_zero(set)];
             if (has_cell_labels_) places[set] = place_of({rank, kNoRank, kNoRank});
@@ -155,7 +157,7 @@ void TetrahedronMesher::mesh(const RankedTetrahedron& tetrahedron, const Places&
 /// Notes the label at nodes and edges.
 void TetrahedronMesher::count_cell(const RankedTetrahedron& tetrahedron, const Places& places) {
     for (CornerSet set = 1; set < kWhole; ++set) {
-        if (std::popcount(set) == 3) continue;
+        if (kSizes[set] == 3) continue;
         SimplexKey use = key_of(tetrahedron.corners, set);
         use[2] = tetrahedron.label;
         bool is_new = false;
