@@ -12,7 +12,7 @@ namespace {
 
 constexpr CornerSet kWhole = 0b1111;
 constexpr std::array<std::uint8_t, 16> kSizes{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // of sets of corners
-constexpr std::uint8_t kManyLabels = 5;
+constexpr std::uint8_t kMostLabels = 4, kManyLabels = 5;  // that meet at a vertex of a generic model; any more
 constexpr std::uint32_t kMostVertices = kNoRank - 1;
 
 /// The corners of a set, as a key.
@@ -238,8 +238,11 @@ void TetrahedronMesher::count_boundary(std::uint32_t rank) {
         if (note.labels > 1 || note.is_on_hull) euler(label) += high == kNoRank ? 1 : -1;
     });
     label_uses_.drop(rank);
-    const Note& node = simplices_[place_of({rank, kNoRank, kNoRank})].note;
+    const SimplexKey key{rank, kNoRank, kNoRank};
+    const Note& node = simplices_[place_of(key)].note;
     if (node.labels == 4 && !node.is_on_hull) ++quadruple_points_;
+    const int sides = std::popcount(sides_of(corners_of(key)));
+    if (sides > 1 && node.labels + sides > kMostLabels) hull_is_box_ = false;
 }
 
 void TetrahedronMesher::finish(std::uint32_t place) {

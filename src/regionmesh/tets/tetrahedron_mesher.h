@@ -58,7 +58,8 @@ public:
     /// Vertices that were finished since this was cleared.
     std::vector<VertexEnd>& ended() { return ended_; }
 
-    /// Whether all faces on the hull lie on the sides of the box round the points.
+    /// Whether all faces on the hull lie on the sides of the box round the points, and no more than four labels meet
+    /// on an edge or corner of it, with those of the sides.
     bool hull_is_box() const { return hull_is_box_; }
     /// When all are closed.
     LabelOracle oracle() const { return {euler_, quadruple_points_, pairs_.size()}; }
