@@ -168,7 +168,6 @@ void TetrahedronMesher::count_cell(const RankedTetrahedron& tetrahedron, const P
 }
 
 void TetrahedronMesher::close_before(std::uint32_t rank) {
-    if (closed_ < rank) peak_bytes_ = std::max<std::uint64_t>(peak_bytes_, simplices_.bytes() + label_uses_.bytes());
     for (; closed_ < rank; ++closed_) {
         // Caps need the vertices of edges and nodes, which end then.
         simplices_.for_lowest(closed_, [&](std::uint32_t place) {
