@@ -22,7 +22,7 @@ void TetrahedraArguments::add_options(CLI::App& command) {
     command.add_option("--columns", columns,
                        "tables: which columns are what, as X,Y,Z,LABEL or hole=nr,label=lith ...");
     command.add_option("--step", step, "drill holes: points no farther apart than this stand for an interval");
-    command.add_option("--scale-z", scale_z, "points and meshes: work with z times this; the model is not scaled");
+    command.add_option("--scale-z", scale_z, "points and meshes: work with z times about this (a power of two); the model is not scaled");
     command.add_option("--array", array, "meshes: name of the array of labels");
     command.add_flag("--hull", hull, "points and meshes: close regions on the hull, as --boundary cap does");
 }

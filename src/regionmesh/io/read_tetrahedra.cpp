@@ -3,6 +3,7 @@
 #include "regionmesh/io/file_type.h"
 #include "regionmesh/io/input_file.h"
 #include "regionmesh/io/tetrahedra/read_formats.h"
+#include "regionmesh/volume/exact_grid.h"
 
 namespace regionmesh {
 
@@ -11,13 +12,18 @@ bool holds_tetrahedra(const std::filesystem::path& path) {
     return name == ".csv" || name == ".tsv" || name == ".vtu" || name == ".msh";
 }
 
-std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& path,
-                                                   const TetrahedraOptions& options) {
+std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& path, const TetrahedraOptions& given) {
     const io::InputFile there(path);
+    TetrahedraOptions options = given;
+    options.scale_z = nearest_power_of_two(given.scale_z);
     const std::string name = io::extension(path);
     if (name == ".vtu") return io::open_vtu(path, options);
     if (name == ".msh") return io::open_msh(path, options);
-    if (name == ".csv" || name == ".tsv") return io::open_points(io::read_point_table(path, options), options);
+    if (name == ".csv" || name == ".tsv") {
+        io::PointTable table = io::read_point_table(path, options);
+        move_to_exact_grid(table.points.positions);
+        return io::open_points(std::move(table), options);
+    }
     io::fail(path, "not a table of points (.csv .tsv) or a mesh of tetrahedra (.vtu .msh)");
 }
 

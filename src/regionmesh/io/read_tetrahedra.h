@@ -14,7 +14,7 @@ namespace regionmesh {
 struct TetrahedraOptions {
     std::string columns = {};             // which columns of a table are what (docs/files.md)
     std::optional<double> step = {};      // drill holes: distance of the points that stand for an interval, at most
-    double scale_z = 1;                   // z is multiplied by this
+    double scale_z = 1;                   // z is multiplied by the power of two nearest to this: nothing is lost
     std::string array = {};               // name of the array of labels in a mesh
     std::filesystem::path delaunay = {};  // the program regionmesh-delaunay, if it is not where it is looked for
 };
