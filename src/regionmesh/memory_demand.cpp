@@ -14,6 +14,9 @@ constexpr std::uint32_t kFewestStrips = 4;
 /// Tiles may leave so much of a run, whatever the target. Mostly it is a seventh to a third; of noise it is more.
 constexpr double kLeftByTiles = 0.5;
 
+/// Where faces reach far ahead, tiles may find little to do beside those of the run before.
+constexpr double kLeftBesideLongFaces = 0.99;
+
 }  // namespace
 
 bool is_decimating(const ReconstructOptions& options) {
@@ -42,7 +45,8 @@ MemoryDemand memory_demand(const ReconstructOptions& options, const Target& targ
     }
     demand.fewest_run_strips = std::min(size.run_strips, kFewestStrips);
     demand.target_share = is_counted ? std::min(target.share(), 1.0) : 0;
-    if (const double share = target.share() * kTileMargin; share < 1) demand.tile_share = std::max(share, kLeftByTiles);
+    const double left = size.shape.strip_overlap > 0 ? kLeftBesideLongFaces : kLeftByTiles;
+    if (const double share = target.share() * kTileMargin; share < 1) demand.tile_share = std::max(share, left);
     return demand;
 }
 
