@@ -8,8 +8,8 @@ from page import Page  # noqa: E402: of the other pages
 
 SITE = {"utrecht": "Utrecht", "kim": "Kim"}
 MODEL = {"utrecht steps": "Utrecht, `--step 0.5`", "utrecht middles": "Utrecht, one an interval", "kim steps": "Kim, `--step 25`",
-         "kim middles": "Kim, one an interval", "strata 0": "strata, `--smooth 0`", "strata 20": "strata", "grains 0":
-         "60 grains, `--smooth 0`", "grains 20": "60 grains"}
+         "kim middles": "Kim, one an interval", "strata 0": "strata, `--smooth 0`", "strata 20": "strata",
+         "boxed_strata 20": "strata, points on the box", "grains 0": "60 grains, `--smooth 0`", "grains 20": "60 grains"}
 
 
 def percent(share):
@@ -61,7 +61,7 @@ def of(results):
     """Each with the name that the page marks it by."""
     texts = {}
     for name, rows in (("spacing", spacing(results["spacing"])), ("choices", choices(results["choices"])),
-                       ("models", models(results["models"])), ("memory", memory(results["memory"]))):
+                       ("models", models(results["sites"] | results["worlds"])), ("memory", memory(results["memory"]))):
         page = Page(io.StringIO(), None)
         page.table(rows)
         texts[name] = page.file.getvalue().rstrip() + "\n"

@@ -17,7 +17,7 @@ import picture
 import synthetic
 
 ROUNDS, COUNT, PROBES = 3, 1_000_000, 20_000
-DRAWN = "75%"  # of the faces of drill holes are removed
+DRAWN = "50%"  # of the faces of drill holes are removed
 
 SITES = {
     "utrecht": {
@@ -136,23 +136,25 @@ def readings(site):
     return {"steps": ("--step", given["step"], "--scale-z", given["scale"]), "middles": ("--scale-z", given["scale_middle"])}
 
 
-def models(bench):
+def sites(bench):
+    return {f"{site} {how}": case(bench, bench.source(site), reading, ("--reduce", DRAWN)) | bench.agreement(site)
+            for site in SITES for how, reading in readings(site).items()}
+
+
+def worlds(bench):
+    return {f"{world} {passes}": case(bench, bench.scattered(world), (), ("--reduce", "90%", "--smooth", passes)) |
+            bench.agreement_of_points(world) for world, passes in
+            (("strata", 0), ("strata", 20), ("boxed_strata", 20), ("grains", 0), ("grains", 20))}
+
+
+def spacing(bench):
     results = {}
     for site in SITES:
-        for how, reading in readings(site).items():
-            results[f"{site} {how}"] = case(bench, bench.source(site), reading, ("--reduce", DRAWN)) | bench.agreement(site)
-    for world in ("strata", "grains"):
-        for passes in (0, 20):
-            results[f"{world} {passes}"] = case(bench, bench.scattered(world), (), ("--reduce", "90%", "--smooth", passes)) | \
-                bench.agreement_of_points(world)
+        rows, _ = bench.logged(site)
+        results[site] = {"holes": len(holes.shafts(rows)), "distance": float(holes.distances(rows).mean()),
+                         "thickness": float((rows[:, 2] - rows[:, 3]).mean()), "steps": readings(site)["steps"][1::2],
+                         "middles": readings(site)["middles"][1]}
     return results
-
-
-def spacing(bench, site):
-    rows, _ = bench.logged(site)
-    thick = rows[:, 2] - rows[:, 3]
-    return {"holes": len(holes.shafts(rows)), "distance": float(holes.distances(rows).mean()), "thickness": float(thick.mean()),
-            "steps": readings(site)["steps"][1::2], "middles": readings(site)["middles"][1]}
 
 
 def choices(bench):
@@ -161,7 +163,7 @@ def choices(bench):
     usual = ("--step", given["step"], "--scale-z", given["scale"])
     trials = {"step": [("--step", step, "--scale-z", f"{given['scale'] * given['step'] / step:.3g}") for step in (200, 100, 50)],
               "scale": [("--step", given["step"], "--scale-z", f"{given['scale'] * f:.3g}") for f in (1 / given["scale"], 0.1, 0.3, 3, 10)],
-              "reduce": [(*usual, "--reduce", share) for share in ("50%", "75%", "80%", "90%")],
+              "reduce": [(*usual, "--reduce", share) for share in ("50%", "70%", "80%", "90%")],
               "smooth": [(*usual, "--smooth", passes) for passes in (20, 100)]}
     for kind, all_words in {"none": [("--scale-z", given["scale_middle"]), usual], **trials}.items():
         for words in all_words:
@@ -196,11 +198,13 @@ def memory(bench):
             "same_bytes": digests[1] == digests[2] and smoothed == digest(bench.at("model.vtp"))}
 
 
-def all_of(bench):
+def machine(_):
     with open("/proc/cpuinfo") as file:
         name = next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
-    return {"machine": f"{len(os.sched_getaffinity(0))} cores of an {name}", "spacing": {site: spacing(bench, site) for site in SITES},
-            "choices": choices(bench), "models": models(bench), "memory": memory(bench)}
+    return f"{len(os.sched_getaffinity(0))} cores of an {name}"
+
+
+PARTS = {"machine": machine, "spacing": spacing, "choices": choices, "sites": sites, "worlds": worlds, "memory": memory}
 
 
 def rgb(code):
@@ -222,20 +226,26 @@ def draw_all(bench, folder):
     picture.sheet(folder / "boreholes-kim.png", [
         (text, panel(bench, "kim", (*given["kim"][how], "--reduce", DRAWN), KIM, shafts["kim"], **cut_open))
         for how, text in (("middles", "one point an interval"), ("steps", "--step 25"))], entries, (610, 520), (1.35, 1.35))
-    picture.sheet(folder / "boreholes-decimated.png", [
-        (text, panel(bench, "kim", (*given["kim"]["steps"], *options), KIM, (), with_edges=True, **cut_open))
-        for text, options in (("all faces", ["--no-decimate"]), ("a quarter of them", ["--reduce", "75%"]),
-                              ("a tenth of them", ["--reduce", "90%"]))], entries, (460, 400), (1.35,) * 3)
+
+    panels, above = [], list(KIM)[:list(KIM).index("vedder")]
+    for text, options in (("all faces", ["--no-decimate"]), ("half of them", ["--reduce", "50%"])):
+        bench.reconstruct(bench.source("kim"), "--step", 100, "--scale-z", 22, *options)
+        colours = {label: rgb(KIM[name]) for label, name in picture.names_of(picture.draw.read(bench.at("model.vtp"))).items()}
+        panels.append((text, picture.boundary_actors(bench.at("model.vtp"), picture.Scene(colours, 8, 195), above)))
+    picture.sheet(folder / "boreholes-decimated.png", panels, entries[:len(above)], (610, 400), (1.5, 1.5))
+
     colours = {name: code for name, (code, _) in UTRECHT.items()}
     options = (*given["utrecht"]["steps"], "--reduce", DRAWN)
     picture.sheet(folder / "boreholes-utrecht.png", [
         ("all, heights 4 times", panel(bench, "utrecht", options, colours, shafts["utrecht"], exaggeration=4, turn=180)),
-        ("above -8 m, heights 50 times",
-         panel(bench, "utrecht", options, colours, shafts["utrecht"], exaggeration=50, turn=180, floor=-8))],
+        ("above -6 m, heights 60 times",
+         panel(bench, "utrecht", options, colours, shafts["utrecht"], exaggeration=60, turn=0, floor=-6))],
         [(rgb(code), text) for code, text in UTRECHT.values()], (610, 520), (1.15, 1.15))
-    bench.reconstruct(bench.scattered("strata"), "--reduce", "90%")
-    scene = picture.Scene({n + 1: rgb(code) for n, code in enumerate(STRATA)}, turn=160)
-    plain = picture.Scene(scene.colours, turn=160, with_edges=True)
-    picture.sheet(folder / "boreholes-strata.png", [("", picture.actors_of(bench.at("model.vtp"), one)) for one in (scene, plain)],
-                  [(rgb(code), text) for code, text in zip(STRATA, [f"layer {n}" for n in range(1, 9)] + ["lens", "intrusion"])],
-                  (610, 480), (1.5, 1.5))
+
+    panels = []
+    for world, text in (("strata", "points at random"), ("boxed_strata", "a tenth of them on the sides of the box")):
+        bench.reconstruct(bench.scattered(world), "--reduce", "90%")
+        scene = picture.Scene({n + 1: rgb(code) for n, code in enumerate(STRATA)}, turn=160)
+        panels.append((text, picture.actors_of(bench.at("model.vtp"), scene)))
+    words = [f"layer {n}" for n in range(1, 9)] + ["lens", "intrusion"]
+    picture.sheet(folder / "boreholes-strata.png", panels, list(zip(map(rgb, STRATA), words)), (610, 440), (1.5, 1.5))

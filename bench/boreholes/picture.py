@@ -69,6 +69,26 @@ def flat(actor):
     return actor
 
 
+def beyond(data, corner, axis, side):
+    """What lies above a corner along an axis, or with side -1 what lies below."""
+    plane = vtk.vtkPlane()
+    plane.SetOrigin(corner)
+    plane.SetNormal(*(side * float(a == axis) for a in range(3)))
+    return cutaway.clipped(data, plane)
+
+
+def opened(data, corner):
+    """Without what lies beyond the corner along both x and y, and what lies below it. Faces are as large as the cut, so
+    that plane by plane it must be."""
+    data, parts, whole = beyond(data, corner, 2, 1), vtk.vtkAppendPolyData(), vtk.vtkCleanPolyData()
+    parts.AddInputData(beyond(data, corner, 0, -1))
+    parts.AddInputData(beyond(beyond(data, corner, 0, 1), corner, 1, -1))
+    whole.SetInputConnection(parts.GetOutputPort())
+    whole.SetTolerance(1e-7)
+    whole.Update()
+    return whole.GetOutput()
+
+
 def actors_of(path, scene, holes=()):
     """What is shown of a model, and the box that holds it."""
     model = draw.read(path)
@@ -81,23 +101,31 @@ def actors_of(path, scene, holes=()):
     corner = [bounds[2 * axis] + scene.cut[axis] * (bounds[2 * axis + 1] - bounds[2 * axis]) for axis in (0, 1)] + [floor]
     if not scene.with_cut:
         corner[:2] = bounds[1] + 1, bounds[3] + 1
-    wedge = vtk.vtkBox()
-    wedge.SetBounds(corner[0], FAR, corner[1], FAR, -FAR, FAR)
-    above = vtk.vtkPlane()
-    above.SetOrigin(0, 0, floor)
-    above.SetNormal(0, 0, 1)
     colours = {label: [round(255 * c) for c in rgb] for label, rgb in scene.colours.items()} | {-1: [205] * 3}
-    front, back = (cutaway.clipped(cutaway.clipped(cutaway.coloured(placed, column, colours), wedge), above) for column in (0, 1))
+    front, back = (opened(cutaway.coloured(placed, column, colours), corner) for column in (0, 1))
     actors = [cutaway.surface_actor(front, "back", scene.with_edges), cutaway.surface_actor(back, "front", scene.with_edges)]
     if scene.with_cut:
         cut = cutaway.caps(placed, corner[:2] + [floor + FAR * 1e-9], colours)  # its floor above the plane that ends all
-        actors.append(flat(cutaway.surface_actor(cutaway.clipped(cut, above), "none", False)))
+        actors.append(flat(cutaway.surface_actor(cut, "none", False)))
     if not scene.with_edges:
         actors.append(draw.line_actor(cutaway.edges_of(front, True, False), 1))
         actors.append(draw.line_actor(cutaway.edges_of(front, False, True), 1))
     if len(holes):
         actors.append(draw.line_actor(hole_lines(holes, middle, scene), 1.6))
     return actors, bounds[:4] + (floor, bounds[5])
+
+
+def boundary_actors(path, scene, faced):
+    """The boundary of the union of regions towards others that are `faced`, in their colours, with edges."""
+    model = draw.read(path)
+    placed = vtk.vtkPolyData()
+    placed.ShallowCopy(model)
+    placed.SetPoints(points_at(scene.placed(draw.points_of(model), middle_of(model))))
+    surface, other = draw.boundary_of(placed, [label for label, name in names_of(model).items() if name not in faced])
+    kept = numpy.isin(other, [label for label, name in names_of(model).items() if name in faced])
+    lid = draw.surface(draw.points_of(surface), draw.faces_of(surface)[kept])
+    colours = numpy.array([scene.colours[label] for label in other[kept].tolist()])
+    return [draw.coloured_actor(lid, colours, edges=True)], lid.GetBounds()
 
 
 def legend(entries, renderer, height):

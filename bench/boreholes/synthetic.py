@@ -13,8 +13,22 @@ def scattered(count, seed):
 
 
 def strata(count, seed=20):
-    """Eight folded layers, thrown by a fault, with lenses in one of them; and a stock that goes through all."""
     _, points = scattered(count, seed)
+    return points, labels_of_strata(points)
+
+
+def boxed_strata(count, seed=20):
+    """The same, a tenth of the points moved to the sides of the box, and eight to its corners."""
+    generator, points = scattered(count, seed)
+    moved = numpy.arange(count // 10)
+    axis = generator.integers(0, 3, len(moved))
+    points[moved, axis] = generator.integers(0, 2, len(moved)) * SIZE[axis]
+    points[-8:] = SIZE * [[n >> a & 1 for a in range(3)] for n in range(8)]
+    return points, labels_of_strata(points)
+
+
+def labels_of_strata(points):
+    """Eight folded layers, thrown by a fault, with lenses in one of them; and a stock that goes through most."""
     x, y, z = points.T
     throw = numpy.where(x + 0.35 * y - 0.5 * z > 640, 55.0, 0.0)  # an oblique plane; what is beyond it has sunk
     height = z + throw - 28 * numpy.sin(x / 140 + y / 420) - 16 * numpy.cos(y / 95) - 0.06 * (x - 500)
@@ -24,7 +38,7 @@ def strata(count, seed=20):
         labels[inside] = LENS
     radius = 70 + 0.25 * (400 - z) + 12 * numpy.sin(4 * numpy.arctan2(y - 430, x - 520))
     labels[(numpy.hypot(x - 520, y - 430) < radius) & (z < 330)] = INTRUSION
-    return points, labels
+    return labels
 
 
 def grains(count, seed=60):
