@@ -170,7 +170,7 @@ def choices(bench):
             options = words if "--smooth" in words else (*words, "--smooth", "0")
             options = options if "--reduce" in options else (*options, "--no-decimate")
             if kind == "scale":
-                reduced = bench.reconstruct(source, *words, "--smooth", "0", "--reduce", DRAWN)["final_faces"]
+                reduced = bench.reconstruct(source, *words, "--smooth", "0", "--reduce", "90%")["final_faces"]
             report = kept(bench.reconstruct(source, *options)) | bench.agreement("kim")
             rows[" ".join(map(str, words))] = report | ({"reduced": reduced} if kind == "scale" else {})
     return rows
@@ -228,11 +228,11 @@ def draw_all(bench, folder):
         for how, text in (("middles", "one point an interval"), ("steps", "--step 25"))], entries, (610, 520), (1.35, 1.35))
 
     panels, above = [], list(KIM)[:list(KIM).index("vedder")]
-    for text, options in (("all faces", ["--no-decimate"]), ("half of them", ["--reduce", "50%"])):
+    for text, options in (("all faces", ["--no-decimate"]), ("--reduce 70%", ["--reduce", "70%"])):
         bench.reconstruct(bench.source("kim"), "--step", 100, "--scale-z", 22, *options)
         colours = {label: rgb(KIM[name]) for label, name in picture.names_of(picture.draw.read(bench.at("model.vtp"))).items()}
         panels.append((text, picture.boundary_actors(bench.at("model.vtp"), picture.Scene(colours, 8, 195), above)))
-    picture.sheet(folder / "boreholes-decimated.png", panels, entries[:len(above)], (610, 400), (1.5, 1.5))
+    picture.sheet(folder / "boreholes-decimated.png", panels, entries[:len(above)], (610, 440), (2.9, 2.9))
 
     colours = {name: code for name, (code, _) in UTRECHT.items()}
     options = (*given["utrecht"]["steps"], "--reduce", DRAWN)

@@ -78,11 +78,12 @@ def beyond(data, corner, axis, side):
 
 
 def opened(data, corner):
-    """Without what lies beyond the corner along both x and y, and what lies below it. Faces are as large as the cut, so
-    that plane by plane it must be."""
+    """Without what lies beyond the corner along both x and y, and what lies below it. Faces are as large as the cut: plane
+    by plane it must be, and each plane through all that is kept, so that the parts fit."""
     data, parts, whole = beyond(data, corner, 2, 1), vtk.vtkAppendPolyData(), vtk.vtkCleanPolyData()
-    parts.AddInputData(beyond(data, corner, 0, -1))
-    parts.AddInputData(beyond(beyond(data, corner, 0, 1), corner, 1, -1))
+    low, high = (beyond(data, corner, 1, side) for side in (-1, 1))
+    for part in (beyond(low, corner, 0, -1), beyond(low, corner, 0, 1), beyond(high, corner, 0, -1)):
+        parts.AddInputData(part)
     whole.SetInputConnection(parts.GetOutputPort())
     whole.SetTolerance(1e-7)
     whole.Update()
