@@ -40,7 +40,7 @@ def choices(results):
 
 def models(results):
     rows = [("Model", "points", "tetrahedra", "regions", "faces", "after", "pairs", "quadruple points", "violations", "as logged", "s",
-             "of these Delaunay", "MB", "Delaunay MB")]
+             "of it to make tetrahedra", "peak MB", "of the other program")]
     for name, one in results.items():
         rows.append((MODEL[name], str(one["points"]), str(one["tetrahedra"]), str(one["regions"]), str(one["initial_faces"]),
                      str(one["final_faces"]), str(one["region_pairs"]), str(one["quadruple_points_inside"]),
@@ -50,7 +50,7 @@ def models(results):
 
 
 def memory(results):
-    rows = [("`--memory`", "faces after", "violations", "s", "MB", "Delaunay MB")]
+    rows = [("`--memory`", "faces after", "violations", "s", "peak MB", "of the other program")]
     for budget, one in results["rows"].items():
         rows.append((budget, str(one["final_faces"]), str(one["violations"]), f"{one['whole']:.1f}", megabytes(one["peak_bytes"]),
                      megabytes(one["delaunay_bytes"])))

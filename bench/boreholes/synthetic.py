@@ -23,7 +23,7 @@ def boxed_strata(count, seed=20):
     moved = numpy.arange(count // 10)
     axis = generator.integers(0, 3, len(moved))
     points[moved, axis] = generator.integers(0, 2, len(moved)) * SIZE[axis]
-    points[-8:] = SIZE * [[n >> a & 1 for a in range(3)] for n in range(8)]
+    points[:8] = SIZE * [[n >> a & 1 for a in range(3)] for n in range(8)]
     return points, labels_of_strata(points)
 
 
