@@ -245,7 +245,7 @@ def draw_all(bench, folder):
     panels = []
     for world, text in (("strata", "points at random"), ("boxed_strata", "a tenth of them on the sides of the box")):
         bench.reconstruct(bench.scattered(world), "--reduce", "90%")
-        scene = picture.Scene({n + 1: rgb(code) for n, code in enumerate(STRATA)}, turn=160)
+        scene = picture.Scene({n + 1: rgb(code) for n, code in enumerate(STRATA)}, turn=160, cut=(0.5, 0.58))  # through a lens
         panels.append((text, picture.actors_of(bench.at("model.vtp"), scene)))
     words = [f"layer {n}" for n in range(1, 9)] + ["lens", "intrusion"]
     picture.sheet(folder / "boreholes-strata.png", panels, list(zip(map(rgb, STRATA), words)), (610, 440), (1.5, 1.5))
