@@ -9,6 +9,10 @@ namespace {
 /// Weight of the planes along lines, against that of faces with an edge of the same length.
 constexpr double kLineWeight = 1;
 
+/// Weight of the faces on a hull that is no box, against others: points are where they are, interfaces between them are
+/// not so sure.
+constexpr double kHullWeight = 10;
+
 }  // namespace
 
 VertexQuadrics::VertexQuadrics(const Model& model) {
@@ -21,7 +25,8 @@ VertexQuadrics::VertexQuadrics(const Model& model) {
         const double twice = length(area);
         if (!(twice > 0)) continue;
         const Vec3 normal = area / twice;
-        for (VertexId v : face.vertices) add_plane(v, normal, twice / 6);
+        const double weight = face.labels[1] == exterior(kHull) ? kHullWeight : 1;
+        for (VertexId v : face.vertices) add_plane(v, normal, weight * twice / 6);
         add_lines(model, face, normal);
     }
 }

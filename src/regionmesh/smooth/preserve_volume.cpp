@@ -130,9 +130,12 @@ private:
         }
     }
 
+    /// A hull that is no box was moved by decimation, and may move back.
+    SideSet kept_sides(VertexId v) const { return model_[v].sides & static_cast<SideSet>(~kOnHull); }
+
     Gradient gradient(VertexId v) const {
         Gradient gradient;
-        const SideSet sides = model_[v].sides;
+        const SideSet sides = kept_sides(v);
         model_.for_star(v, [&](FaceId f, int) {
             const auto [a, b, c] = model_.corners(f);
             const Vec3 normal = area_vector(a, b, c);
@@ -176,7 +179,7 @@ private:
         if (size > longest) step = longest / size * step;
         report_.largest_displacement = std::max(report_.largest_displacement, std::min(size, longest));
         Vec3 to = from + step;
-        keep_on_sides(model_[v].sides, from, to);
+        keep_on_sides(kept_sides(v), from, to);
         return to;
     }
 

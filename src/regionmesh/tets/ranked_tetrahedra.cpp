@@ -16,14 +16,22 @@ constexpr std::size_t kPiece = 1 << 14;  // tetrahedra asked for at a time
 constexpr Label kMostLabels = 0x7FFFFFFF;
 
 /// That a point takes while it is ranked: its place, its label as it came and dense, its number and rank.
-constexpr std::uint64_t kRankingBytesPerPoint = 48;
+constexpr double kRankingBytesPerPoint = 48;
+
+/// And while faces are made; and of the front, which grows as a section of the points does: as measured.
+constexpr double kMeshingBytesPerPoint = 32, kFrontBytes = 4000;
+
+/// The program, and what it sorts with at the least.
+constexpr std::uint64_t kProcessBytes = std::uint64_t{24} << 20;
 
 [[noreturn]] void fail(const TetrahedronReader& reader, const std::string& text) {
     throw Error(ErrorCode::kInput, reader.info().source + ": " + text);
 }
 
 void require_memory(const TetrahedronReader& reader, std::uint64_t points, std::uint64_t memory) {
-    const std::uint64_t needed = points * kRankingBytesPerPoint;
+    const auto count = static_cast<double>(points);
+    const double meshing = kMeshingBytesPerPoint * count + kFrontBytes * std::pow(count, 2.0 / 3);
+    const auto needed = kProcessBytes + static_cast<std::uint64_t>(std::max(kRankingBytesPerPoint * count, meshing));
     if (needed <= memory) return;
     const auto megabytes = [](std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; };
     throw Error(ErrorCode::kInput, "--memory " + megabytes(memory) + ": " + reader.info().source + " needs at least " +
