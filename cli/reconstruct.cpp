@@ -75,6 +75,9 @@ void print_summary(const Arguments& arguments, const Report& report) {
             "stopped before the target: no further edge can be collapsed without changing topology, folding, crossing "
             "or bad faces\n");
     if (report.stopped == "max_error") fmt::print("stopped at the largest error allowed\n");
+    if (report.pinned_vertices > 0)
+        fmt::print("{} vertices left as they came: the mesh touches itself there, or more than four regions meet\n",
+                   report.pinned_vertices);
     print_volumes(report);
     fmt::print("{:.2f} s, {:.0f} k faces/s, {} MB at most\n", report.seconds.at("total"),
                static_cast<double>(report.initial_faces) / 1e3 / std::max(report.seconds.at("total"), 1e-9),

@@ -305,7 +305,7 @@ void Run::preserve_volumes() {
 /// Checks what will be written, where it will lie.
 void Run::prove() {
     give_back_freed_memory();
-    weld_.release_all();
+    result_.report.pinned_vertices = weld_.release_all();
     source_.place(result_.model);
     tell("check");
     const Timer timer(seconds("check"));

@@ -25,6 +25,7 @@ struct Report {
     SmoothReport smoothing;
     std::vector<double> unsmoothed_volumes;  // by dense label, length^3; empty where nobody asked
     PreserveReport preserved;
+    std::uint64_t pinned_vertices = 0;  // of tetrahedra that touch themselves: left as they came
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
     std::string stopped;  // why decimation ended: "target", "max_error", "topology", "none asked"

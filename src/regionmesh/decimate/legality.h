@@ -8,7 +8,7 @@ namespace regionmesh {
 
 /// Bounds of the shape tests.
 struct ShapeBounds {
-    double min_quality = 0.1;                          // of modified faces; a face that was below may only get better
+    double min_quality = 0.1;                          // of modified faces; a star with faces below may keep as many
     double min_turn_cosine = 0.2;                      // between the normals of a face before and after
     double min_dihedral_cosine = 0.99619469809174555;  // cosine of 5 degrees: faces at an edge are not closer
 };

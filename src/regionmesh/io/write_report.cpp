@@ -106,6 +106,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     json["refreshes"] = report.refreshes;
     json["stopped"] = report.stopped;
     json["smoothing"] = smoothing_json(report);
+    json["pinned_vertices"] = report.pinned_vertices;
     json["volumes_preserved"] = {{"rounds", report.preserved.rounds},
                                  {"drift_before", report.preserved.drift_before},
                                  {"drift", report.preserved.drift},

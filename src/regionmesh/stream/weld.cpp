@@ -48,11 +48,15 @@ FaceBatch Weld::take_apart() {
     return batch;
 }
 
-void Weld::release_all() {
+std::uint64_t Weld::release_all() {
+    std::uint64_t pinned = 0;
     for (std::uint32_t v = 0; v < model_.vertex_end(); ++v) {
-        model_[VertexId{v}].is_fixed = false;
-        model_[VertexId{v}].sides &= static_cast<SideSet>(~kPinned);
+        Vertex& vertex = model_[VertexId{v}];
+        pinned += vertex.is_alive && (vertex.sides & kPinned) != 0;
+        vertex.is_fixed = false;
+        vertex.sides &= static_cast<SideSet>(~kPinned);
     }
+    return pinned;
 }
 
 void Weld::renumber(const std::vector<VertexId>& new_ids) {

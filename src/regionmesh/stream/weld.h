@@ -26,8 +26,8 @@ public:
     /// The vertices of the model have new ids (Model::sort_spatially).
     void renumber(const std::vector<VertexId>& new_ids);
 
-    /// When all is welded: nothing is pinned any more.
-    void release_all();
+    /// When all is welded: nothing is pinned any more. Returns how many vertices were.
+    std::uint64_t release_all();
 
 private:
     Model& model_;

@@ -31,7 +31,7 @@ public:
         if (2 * (used_ + 1) > table_.size()) grow();
         std::size_t at = first_slot(corners);
         while (table_[at] != kNone) {
-            if (simplices_[table_[at]].corners == corners) {
+            if (is_same(simplices_[table_[at]].corners, corners)) {
                 if (is_new) *is_new = false;
                 return table_[at];
             }
@@ -74,6 +74,11 @@ public:
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    /// Faster than the comparison of arrays, which calls the C library.
+    static bool is_same(const SimplexKey& a, const SimplexKey& b) {
+        return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+    }
 
     std::size_t mask() const { return table_.size() - 1; }
     std::size_t first_slot(const SimplexKey& k) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <numeric>
 
 #include "regionmesh/base/error.h"
@@ -14,8 +15,8 @@ namespace {
 constexpr std::size_t kPiece = 1 << 14;  // tetrahedra asked for at a time
 constexpr Label kMostLabels = 0x7FFFFFFF;
 
-/// That a point takes while it is ranked: its place twice, labels, and numbers.
-constexpr std::uint64_t kRankingBytesPerPoint = 80;
+/// That a point takes while it is ranked: its place, its label as it came and dense, its number and rank.
+constexpr std::uint64_t kRankingBytesPerPoint = 48;
 
 [[noreturn]] void fail(const TetrahedronReader& reader, const std::string& text) {
     throw Error(ErrorCode::kInput, reader.info().source + ": " + text);
@@ -39,41 +40,49 @@ Sweep longest(const Box& box) {
     return best;
 }
 
-/// The reader's numbers of points in the order of ranks.
-std::vector<std::uint32_t> order_of(const std::vector<Vec3>& positions, const Sweep& sweep) {
-    const auto [fast, slow, along] = sweep.axes;
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(),
-              [&, fast = fast, slow = slow, along = along](std::uint32_t a, std::uint32_t b) {
-                  const Vec3 &p = positions[a], &q = positions[b];
-                  if (p[along] != q[along]) return p[along] < q[along];
-                  if (p[slow] != q[slow]) return p[slow] < q[slow];
-                  return p[fast] != q[fast] ? p[fast] < q[fast] : a < b;
-              });
-    return order;
-}
+/// By place along the sweep, then of the other coordinates.
+struct SweepOrder {
+    Sweep sweep;
+    std::weak_ordering operator()(const Vec3& p, const Vec3& q) const {
+        const auto [fast, slow, along] = sweep.axes;
+        for (int axis : {along, slow, fast})
+            if (p[axis] != q[axis]) return p[axis] < q[axis] ? std::weak_ordering::less : std::weak_ordering::greater;
+        return std::weak_ordering::equivalent;
+    }
+};
 
-/// Gives points their ranks; returns those by the reader's numbers.
+/// Gives points their ranks; returns those by the reader's numbers. Places are sorted where they are: with as many again
+/// all would take half as much more.
 std::vector<std::uint32_t> rank_points(const TetrahedronReader& reader, LabelledPoints given, LabelTable& labels,
                                        RankedPoints& ranked) {
     const bool has_labels = !given.labels.empty();
-    std::vector<std::uint32_t> rank_of(given.positions.size());
-    ranked.positions.reserve(given.positions.size());
-    for (std::uint32_t p : order_of(given.positions, ranked.sweep)) {
-        if (ranked.size() > 0 && given.positions[p] == ranked.positions.back()) {
-            const std::uint32_t before = ranked.points.back();
-            if (has_labels && given.labels[p] != given.labels[before])
-                fail(reader, reader.name_of_point(before) + " and " + reader.name_of_point(p) +
-                                 " lie at one place and have the labels " + labels.text(given.labels[before]) +
-                                 " and " + labels.text(given.labels[p]) + ": leave one of them out");
-        } else {
-            ranked.positions.push_back(given.positions[p]);
-            ranked.points.push_back(p);
+    std::vector<Vec3>& positions = given.positions;
+    const SweepOrder order{ranked.sweep};
+    std::vector<std::uint32_t>& points = ranked.points;
+    points.resize(positions.size());
+    std::iota(points.begin(), points.end(), 0u);
+    std::sort(points.begin(), points.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const auto compared = order(positions[a], positions[b]);
+        return compared != 0 ? compared < 0 : a < b;
+    });
+    std::vector<std::uint32_t> rank_of(positions.size());
+    std::uint32_t count = 0;
+    for (std::uint32_t p : points) {
+        const std::uint32_t before = count > 0 ? points[count - 1] : p;
+        if (count == 0 || positions[p] != positions[before]) {
+            points[count++] = p;
             if (has_labels) ranked.labels.push_back(labels.dense(given.labels[p]));
+        } else if (has_labels && given.labels[p] != given.labels[before]) {
+            fail(reader, reader.name_of_point(before) + " and " + reader.name_of_point(p) +
+                             " lie at one place and have the labels " + labels.text(given.labels[before]) + " and " +
+                             labels.text(given.labels[p]) + ": leave one of them out");
         }
-        rank_of[p] = ranked.size() - 1;
+        rank_of[p] = count - 1;
     }
+    points.resize(count);
+    std::sort(positions.begin(), positions.end(), [&](const Vec3& p, const Vec3& q) { return order(p, q) < 0; });
+    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    ranked.positions = std::move(positions);
     return rank_of;
 }
 

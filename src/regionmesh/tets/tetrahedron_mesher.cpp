@@ -1,6 +1,7 @@
 #include "regionmesh/tets/tetrahedron_mesher.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <string>
 
@@ -10,7 +11,8 @@ namespace regionmesh {
 namespace {
 
 constexpr CornerSet kWhole = 0b1111;
-constexpr std::uint8_t kManyLabels = 5;
+constexpr std::array<std::uint8_t, 16> kSizes{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // of sets of corners
+constexpr std::uint8_t kMostLabels = 4, kManyLabels = 5;  // that meet at a vertex of a generic model; any more
 constexpr std::uint32_t kMostVertices = kNoRank - 1;
 
 /// The corners of a set, as a key.
@@ -59,7 +61,7 @@ void TetrahedronMesher::add(const RankedTetrahedron& tetrahedron) {
 TetrahedronMesher::Places TetrahedronMesher::open_simplices(const RankedTetrahedron& tetrahedron) {
     Places places;
     for (CornerSet set = 1; set < kWhole; ++set) {
-        const int size = std::popcount(set);
+        const int size = kSizes[set];
         if (size == 1) {
             const std::uint32_t rank = tetrahedron.corners[std::countr_zero(set)];
             if (has_cell_labels_) places[set] = place_of({rank, kNoRank, kNoRank});
@@ -155,7 +157,7 @@ void TetrahedronMesher::mesh(const RankedTetrahedron& tetrahedron, const Places&
 /// Notes the label at nodes and edges.
 void TetrahedronMesher::count_cell(const RankedTetrahedron& tetrahedron, const Places& places) {
     for (CornerSet set = 1; set < kWhole; ++set) {
-        if (std::popcount(set) == 3) continue;
+        if (kSizes[set] == 3) continue;
         SimplexKey use = key_of(tetrahedron.corners, set);
         use[2] = tetrahedron.label;
         bool is_new = false;
@@ -166,7 +168,6 @@ void TetrahedronMesher::count_cell(const RankedTetrahedron& tetrahedron, const P
 }
 
 void TetrahedronMesher::close_before(std::uint32_t rank) {
-    if (closed_ < rank) peak_bytes_ = std::max<std::uint64_t>(peak_bytes_, simplices_.bytes() + label_uses_.bytes());
     for (; closed_ < rank; ++closed_) {
         // Caps need the vertices of edges and nodes, which end then.
         simplices_.for_lowest(closed_, [&](std::uint32_t place) {
@@ -236,8 +237,11 @@ void TetrahedronMesher::count_boundary(std::uint32_t rank) {
         if (note.labels > 1 || note.is_on_hull) euler(label) += high == kNoRank ? 1 : -1;
     });
     label_uses_.drop(rank);
-    const Note& node = simplices_[place_of({rank, kNoRank, kNoRank})].note;
+    const SimplexKey key{rank, kNoRank, kNoRank};
+    const Note& node = simplices_[place_of(key)].note;
     if (node.labels == 4 && !node.is_on_hull) ++quadruple_points_;
+    const int sides = std::popcount(sides_of(corners_of(key)));
+    if (sides > 1 && node.labels + sides > kMostLabels) hull_is_box_ = false;
 }
 
 void TetrahedronMesher::finish(std::uint32_t place) {

@@ -58,11 +58,11 @@ public:
     /// Vertices that were finished since this was cleared.
     std::vector<VertexEnd>& ended() { return ended_; }
 
-    /// Whether all faces on the hull lie on the sides of the box round the points.
+    /// Whether all faces on the hull lie on the sides of the box round the points, and no more than four labels meet
+    /// on an edge or corner of it, with those of the sides.
     bool hull_is_box() const { return hull_is_box_; }
     /// When all are closed.
     LabelOracle oracle() const { return {euler_, quadruple_points_, pairs_.size()}; }
-    std::uint64_t peak_bytes() const { return peak_bytes_; }
 
 private:
     struct Note {
@@ -109,7 +109,6 @@ private:
     OpenSimplices<Nothing> label_uses_;  // corners of a node or edge, and a label of a tetrahedron there, behind them
     std::vector<bool> is_used_;          // points, by rank
     bool hull_is_box_ = true;
-    std::uint64_t peak_bytes_ = 0;
     std::uint64_t quadruple_points_ = 0;
     std::vector<std::int64_t> euler_;
     LabelPairs pairs_;

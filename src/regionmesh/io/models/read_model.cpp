@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -93,14 +96,30 @@ std::optional<int> side_of_face(const FileSurface& surface, const std::array<std
     return std::nullopt;
 }
 
-// Whether all faces with the exterior lie in the planes of the box. Where one does not (the lattice was turned), the
-// exterior is taken as a whole: side 0, and no vertex is on a side.
+// Whether all faces with the exterior lie in the planes of the box, and no more than four labels meet on an edge
+// or corner of it, with those of sides. Else (the lattice was turned, or cells of a mesh had the labels) the exterior
+// is taken as a whole: side 0, and no vertex is on a side.
 bool exterior_is_box(const FileSurface& surface, const Box& box) {
+    std::vector<SideSet> sides(surface.points.size());
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        if (std::ranges::count(surface.labels[f], surface.exterior_label) == 0) continue;
+        const auto side = side_of_face(surface, surface.faces[f], box);
+        if (!side) return false;
+        for (const std::uint32_t v : surface.faces[f]) sides[v] |= static_cast<SideSet>(1u << *side);
+    }
+    // Corners of the box are few.
+    constexpr int kMostLabels = 4;
+    std::map<std::uint32_t, std::set<InputLabel>> labels_of;
+    for (std::uint32_t v = 0; v < sides.size(); ++v)
+        if (std::popcount(sides[v]) > 1) labels_of[v];
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
-        if (std::ranges::count(surface.labels[f], surface.exterior_label) > 0 &&
-            !side_of_face(surface, surface.faces[f], box))
-            return false;
-    return true;
+        for (const std::uint32_t v : surface.faces[f])
+            if (std::popcount(sides[v]) > 1)
+                for (const InputLabel label : surface.labels[f])
+                    if (label != surface.exterior_label) labels_of[v].insert(label);
+    return std::ranges::all_of(labels_of, [&](const auto& item) {
+        return static_cast<int>(item.second.size()) + std::popcount(sides[item.first]) <= kMostLabels;
+    });
 }
 
 ModelFile assemble(const FileSurface& surface) {
