@@ -102,7 +102,8 @@ std::vector<std::set<std::size_t>> batches_of_vertices(const std::vector<FaceBat
 
 std::vector<test::ArrayMesh> meshes() {
     return {test::bent_mesh({6, 5, 9}, 6, 1), test::mesh_of(test::noise_volume({5, 4, 8}, 3, 2)),
-            test::cell_mesh_of(test::noise_volume({5, 4, 8}, 3, 3)), test::cell_mesh_of(test::grain_volume({5, 6, 8}, 4, 4))};
+            test::cell_mesh_of(test::noise_volume({5, 4, 8}, 3, 3)),
+            test::cell_mesh_of(test::grain_volume({5, 6, 8}, 4, 4))};
 }
 
 TEST(SpilledStrips, batches_finalize_each_vertex_with_the_last_of_its_faces) {
@@ -198,7 +199,8 @@ TEST(SpilledStrips, strips_without_faces_give_batches_without_faces) {
     strips.add(strip_of(1, 0, {}), 0);
     strips.finish(true);
     const std::vector<FaceBatch> batches = read_all(strips, one_by_one(strips));
-    EXPECT_THAT(std::vector({batches[0].faces.size(), batches[1].faces.size(), batches[2].faces.size()}), testing::ElementsAre(0, 1, 0));
+    EXPECT_THAT(std::vector({batches[0].faces.size(), batches[1].faces.size(), batches[2].faces.size()}),
+                testing::ElementsAre(0, 1, 0));
     SpilledStrips none(0);
     none.finish(true);
     EXPECT_TRUE(none.layers().empty());

@@ -15,7 +15,7 @@ using test::ArrayMesh;
 using testing::UnorderedElementsAre;
 
 struct Watched {
-    Model whole;                    // vertices have the ids of the strips
+    Model whole;  // vertices have the ids of the strips
     std::set<std::uint32_t> pinned;
     std::vector<Vec3> places() const {
         std::vector<Vec3> at;
@@ -75,15 +75,18 @@ const std::vector<Vec3> kPoints{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1,
 
 TEST(StarWatch, two_tetrahedra_that_share_an_edge_are_pinned_at_it) {
     for (const std::vector<InputLabel>& labels : {std::vector<InputLabel>(7, 1), {}})
-        EXPECT_THAT(watched({{kPoints, labels}, {{{0, 1, 2, 3}, 1}, {{0, 1, 4, 5}, 1}}}).places(), UnorderedElementsAre(kPoints[0], kPoints[1]));
+        EXPECT_THAT(watched({{kPoints, labels}, {{{0, 1, 2, 3}, 1}, {{0, 1, 4, 5}, 1}}}).places(),
+                    UnorderedElementsAre(kPoints[0], kPoints[1]));
     // As two regions they are two fans of the exterior all the same.
-    EXPECT_THAT(watched({{kPoints, {}}, {{{0, 1, 2, 3}, 1}, {{0, 1, 4, 5}, 2}}}).places(), UnorderedElementsAre(kPoints[0], kPoints[1]));
+    EXPECT_THAT(watched({{kPoints, {}}, {{{0, 1, 2, 3}, 1}, {{0, 1, 4, 5}, 2}}}).places(),
+                UnorderedElementsAre(kPoints[0], kPoints[1]));
 }
 
 TEST(StarWatch, two_tetrahedra_that_share_a_node_are_pinned_there) {
     for (const std::vector<InputLabel>& labels : {std::vector<InputLabel>(7, 1), {}})
         for (std::uint32_t per_strip : {1u, 2u, 20u})
-            EXPECT_THAT(watched({{kPoints, labels}, {{{0, 1, 2, 3}, 1}, {{0, 4, 5, 6}, 1}}}, {}, per_strip).places(), UnorderedElementsAre(kPoints[0]));
+            EXPECT_THAT(watched({{kPoints, labels}, {{{0, 1, 2, 3}, 1}, {{0, 4, 5, 6}, 1}}}, {}, per_strip).places(),
+                        UnorderedElementsAre(kPoints[0]));
 }
 
 TEST(StarWatch, meshes_that_touch_themselves_nowhere_are_pinned_nowhere) {
@@ -98,7 +101,8 @@ TEST(StarWatch, meshes_that_touch_themselves_nowhere_are_pinned_nowhere) {
 TEST(StarWatch, pins_what_is_not_generic_in_the_model_as_a_whole) {
     for (std::uint64_t seed : {1, 2, 3}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        for (const ArrayMesh& mesh : {test::cell_mesh_of(test::noise_volume({5, 5, 6}, 3, seed)), test::cell_mesh_of(test::grain_volume({6, 5, 6}, 8, seed)),
+        for (const ArrayMesh& mesh : {test::cell_mesh_of(test::noise_volume({5, 5, 6}, 3, seed)),
+                                      test::cell_mesh_of(test::grain_volume({6, 5, 6}, 8, seed)),
                                       test::mesh_of(test::noise_volume({4, 4, 6}, 3, seed))})
             for (const StripOptions& options : {StripOptions{}, {.cap = false}, {.background = {0}}})
                 for (std::uint32_t per_strip : {1u, 20u, 100000u}) {

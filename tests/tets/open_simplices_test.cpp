@@ -45,7 +45,8 @@ TEST(OpenSimplices, notes_are_found_as_in_a_map_while_the_front_moves) {
                 simplices[place].note = at->second = random.below(1u << 30);
             }
             std::set<SimplexKey> expected;
-            for (auto at = map.begin(); at != map.end() && at->first[0] == rank; at = map.erase(at)) expected.insert(at->first);
+            for (auto at = map.begin(); at != map.end() && at->first[0] == rank; at = map.erase(at))
+                expected.insert(at->first);
             ASSERT_EQ(keys_of_lowest(simplices, rank), expected);
             simplices.drop(rank);
         }

@@ -103,7 +103,8 @@ TEST(RankedTetrahedra, orientation_is_that_of_the_corners_in_the_order_of_ranks)
         int mirrored = 0;
         for (const RankedTetrahedron& t : ranked.tetrahedra) {
             const auto& p = ranked.all.points.positions;
-            EXPECT_EQ(bool(t.is_mirrored), orientation(p[t.corners[0]], p[t.corners[1]], p[t.corners[2]], p[t.corners[3]]) < 0);
+            EXPECT_EQ(bool(t.is_mirrored),
+                      orientation(p[t.corners[0]], p[t.corners[1]], p[t.corners[2]], p[t.corners[3]]) < 0);
             mirrored += t.is_mirrored;
         }
         EXPECT_GT(mirrored, 0);
@@ -165,7 +166,8 @@ TEST(RankedTetrahedra, minus_zero_is_zero) {
     points.push_back({1, 1, 1});
     const Ranked ranked = rank({{points, {4, 5, 6, 7, 7, 8}}, {{{0, 1, 2, 3}}, {{1, 4, 2, 5}}}});
     EXPECT_EQ(ranked.all.points.size(), 5u);
-    for (Vec3 p : rank({{{{-0.0, 0, 0}, {1, -0.0, 0}, {0, 1, -0.0}, {0, -0.0, 1}}, {0, 0, 0, 0}}, {{{0, 1, 2, 3}}}}).all.points.positions)
+    for (Vec3 p : rank({{{{-0.0, 0, 0}, {1, -0.0, 0}, {0, 1, -0.0}, {0, -0.0, 1}}, {0, 0, 0, 0}}, {{{0, 1, 2, 3}}}})
+                      .all.points.positions)
         for (int axis = 0; axis < 3; ++axis) EXPECT_FALSE(std::signbit(p[axis]));
 }
 
@@ -193,8 +195,11 @@ TEST(RankedTetrahedra, what_is_no_tetrahedron_is_named) {
     const auto said = [&](std::array<std::uint32_t, 4> corners) {
         return refusal({{points, {1, 1, 1, 1, 1, 1}}, {{{0, 1, 2, 3}}, {corners}}});
     };
-    for (const std::array<std::uint32_t, 4>& corners :
-         {std::array{0u, 1u, 2u, 4u}, {0u, 1u, 2u, 6u}, {0u, 1u, 2u, 0xFFFFFFFFu}, {0u, 1u, 1u, 2u}, {0u, 1u, 5u, 2u}}) {
+    for (const std::array<std::uint32_t, 4>& corners : {std::array{0u, 1u, 2u, 4u},
+                                                        {0u, 1u, 2u, 6u},
+                                                        {0u, 1u, 2u, 0xFFFFFFFFu},
+                                                        {0u, 1u, 1u, 2u},
+                                                        {0u, 1u, 5u, 2u}}) {
         EXPECT_THAT(said(corners), HasSubstr("mesh: cell 1"));
         EXPECT_THAT(said(corners), HasSubstr("mend the mesh"));
     }
@@ -225,7 +230,8 @@ TEST(RankedTetrahedra, memory_for_sorting_does_not_matter) {
     const ArrayMesh mesh = test::bent_mesh({12, 11, 10}, 4, 7).shuffled(8);
     const Ranked small = rank(mesh, {.sweep = kSweepZ, .sort_bytes = 0}), large = rank(mesh);
     ASSERT_EQ(small.tetrahedra.size(), large.tetrahedra.size());
-    for (std::size_t n = 0; n < small.tetrahedra.size(); ++n) EXPECT_EQ(small.tetrahedra[n].corners, large.tetrahedra[n].corners);
+    for (std::size_t n = 0; n < small.tetrahedra.size(); ++n)
+        EXPECT_EQ(small.tetrahedra[n].corners, large.tetrahedra[n].corners);
 }
 
 }  // namespace

@@ -56,8 +56,9 @@ Model model_of(const Meshed& made) {
     for (const VertexEnd& end : made.ended) is_on_hull[end.vertex] = end.is_on_hull;
     Model model;
     for (std::size_t n = 0; n < made.strip.vertices.size(); ++n)
-        model.add_vertex(made.strip.vertices[n].position,
-                         made.hull_is_box ? made.strip.vertices[n].sides : is_on_hull[n] ? kOnHull : SideSet{0});
+        model.add_vertex(made.strip.vertices[n].position, made.hull_is_box ? made.strip.vertices[n].sides
+                                                          : is_on_hull[n]  ? kOnHull
+                                                                           : SideSet{0});
     for (const BatchFace& face : made.strip.faces) {
         std::array<Label, 2> labels = face.labels;
         for (Label& label : labels)
@@ -84,7 +85,9 @@ double volume_of(const CheckReport& report) {
 }
 
 const std::vector<Vec3> kCorners{{0.1, 0, 0}, {1, 0.2, 0}, {0, 1, 0.3}, {0.2, 0.1, 1}};
-double corner_volume() { return dot(cross(kCorners[1] - kCorners[0], kCorners[2] - kCorners[0]), kCorners[3] - kCorners[0]) / 6; }
+double corner_volume() {
+    return dot(cross(kCorners[1] - kCorners[0], kCorners[2] - kCorners[0]), kCorners[3] - kCorners[0]) / 6;
+}
 
 std::vector<std::vector<InputLabel>> all_labels_of_four() {
     std::vector<std::vector<InputLabel>> all;
@@ -161,7 +164,8 @@ Counts counts_by_cells(const ArrayMesh& mesh) {
         }
         if (sides.size() == 1) continue;
         if (!sides.contains(kOutside)) pairs.insert(sides);
-        for (InputLabel label : sides) boundary[label].push_back({{triangle[0], triangle[1], triangle[2], triangle[2]}, 0});
+        for (InputLabel label : sides)
+            boundary[label].push_back({{triangle[0], triangle[1], triangle[2], triangle[2]}, 0});
     }
     boundary.erase(kOutside);
     for (const auto& [label, faces] : boundary) {
@@ -239,7 +243,9 @@ TEST(TetrahedronMesher, labels_at_points_give_sound_models_whatever_the_tetrahed
         double sum = 0;
         for (const LabelledTetrahedron& t : mesh.tetrahedra()) {
             const auto& p = mesh.points().positions;
-            sum += std::abs(dot(cross(p[t.corners[1]] - p[t.corners[0]], p[t.corners[2]] - p[t.corners[0]]), p[t.corners[3]] - p[t.corners[0]])) / 6;
+            sum += std::abs(dot(cross(p[t.corners[1]] - p[t.corners[0]], p[t.corners[2]] - p[t.corners[0]]),
+                                p[t.corners[3]] - p[t.corners[0]])) /
+                   6;
         }
         EXPECT_NEAR(volume_of(report), sum, 1e-9 * sum);
     }
@@ -248,8 +254,9 @@ TEST(TetrahedronMesher, labels_at_points_give_sound_models_whatever_the_tetrahed
 TEST(TetrahedronMesher, counts_of_labels_at_points_are_those_of_all_simplices) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        for (const ArrayMesh& mesh : {test::bent_mesh({5, 4, 5}, 6, seed), test::mesh_of(test::noise_volume({4, 4, 4}, 4, seed)),
-                                      part_of(test::mesh_of(test::noise_volume({4, 4, 4}, 3, seed)), seed)}) {
+        for (const ArrayMesh& mesh :
+             {test::bent_mesh({5, 4, 5}, 6, seed), test::mesh_of(test::noise_volume({4, 4, 4}, 4, seed)),
+              part_of(test::mesh_of(test::noise_volume({4, 4, 4}, 3, seed)), seed)}) {
             const Counts expected = counts_by_points(mesh);
             EXPECT_EQ(counts_of(meshed(mesh)), expected);
             EXPECT_EQ(counts_of(meshed(mesh.shuffled(seed))), expected);
@@ -261,9 +268,9 @@ TEST(TetrahedronMesher, counts_of_labels_at_points_are_those_of_all_simplices) {
 TEST(TetrahedronMesher, counts_of_labels_of_tetrahedra_are_those_of_all_simplices) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        for (const ArrayMesh& mesh :
-             {test::cell_mesh_of(test::grain_volume({5, 6, 5}, 6, seed)), test::cell_mesh_of(test::noise_volume({5, 4, 5}, 3, seed)),
-              part_of(test::cell_mesh_of(test::noise_volume({4, 4, 4}, 6, seed)), seed)}) {
+        for (const ArrayMesh& mesh : {test::cell_mesh_of(test::grain_volume({5, 6, 5}, 6, seed)),
+                                      test::cell_mesh_of(test::noise_volume({5, 4, 5}, 3, seed)),
+                                      part_of(test::cell_mesh_of(test::noise_volume({4, 4, 4}, 6, seed)), seed)}) {
             const Counts expected = counts_by_cells(mesh);
             EXPECT_EQ(counts_of(meshed(mesh)), expected);
             EXPECT_EQ(counts_of(meshed(mesh.shuffled(seed))), expected);
@@ -278,8 +285,10 @@ TEST(TetrahedronMesher, check_counts_of_the_model_what_the_labels_of_tetrahedra_
         for (const ArrayMesh& mesh : {test::cell_mesh_of(test::noise_volume({5, 4, 5}, 5, seed)),
                                       part_of(test::cell_mesh_of(test::noise_volume({4, 4, 4}, 6, seed)), seed)}) {
             const CheckReport report = checked(meshed(mesh));
-            for (ViolationKind kind : {ViolationKind::kEuler, ViolationKind::kQuadruplePoints, ViolationKind::kRegionPairs,
-                                       ViolationKind::kOpenEdge, ViolationKind::kOrientation, ViolationKind::kDuplicateFace, ViolationKind::kCrossingFaces})
+            for (ViolationKind kind :
+                 {ViolationKind::kEuler, ViolationKind::kQuadruplePoints, ViolationKind::kRegionPairs,
+                  ViolationKind::kOpenEdge, ViolationKind::kOrientation, ViolationKind::kDuplicateFace,
+                  ViolationKind::kCrossingFaces})
                 EXPECT_EQ(report.counts[static_cast<int>(kind)], 0u) << to_string(kind);
         }
     }
@@ -308,13 +317,13 @@ TEST(TetrahedronMesher, faces_on_the_hull_are_made_of_caps_only) {
 TEST(TetrahedronMesher, background_has_no_faces_with_the_exterior) {
     const Meshed made = meshed(test::bent_mesh({5, 5, 5}, 3, 2), {.background = {0, 2}});
     EXPECT_TRUE(std::ranges::any_of(made.strip.faces, [](const BatchFace& f) { return is_exterior(f.labels[1]); }));
-    for (const BatchFace& face : made.strip.faces)
-        EXPECT_TRUE(!is_exterior(face.labels[1]) || face.labels[0] == 1);
+    for (const BatchFace& face : made.strip.faces) EXPECT_TRUE(!is_exterior(face.labels[1]) || face.labels[0] == 1);
     test::expect_sound(checked(made, {.background = {0, 2}}));
 }
 
 TEST(TetrahedronMesher, every_vertex_ends_once_and_knows_whether_it_is_on_the_hull) {
-    for (const ArrayMesh& mesh : {test::bent_mesh({6, 5, 7}, 6, 1), test::cell_mesh_of(test::noise_volume({5, 4, 5}, 3, 1))}) {
+    for (const ArrayMesh& mesh :
+         {test::bent_mesh({6, 5, 7}, 6, 1), test::cell_mesh_of(test::noise_volume({5, 4, 5}, 3, 1))}) {
         const Meshed made = meshed(mesh);
         std::vector<bool> is_outer(made.strip.vertices.size());
         for (const BatchFace& face : made.strip.faces)
@@ -331,22 +340,6 @@ TEST(TetrahedronMesher, every_vertex_ends_once_and_knows_whether_it_is_on_the_hu
     }
 }
 
-TEST(TetrahedronMesher, no_more_than_the_front_is_held) {
-    const auto peak = [](std::uint32_t length) {
-        ArrayMesh mesh = test::mesh_of(test::noise_volume({5, 5, length}, 3, 1));
-        LabelTable labels;
-        RankedTetrahedra ranked = rank_tetrahedra(mesh, labels, {.sweep = kSweepZ});
-        TetrahedronMesher mesher(ranked.points, mesh, {});
-        for (RankedTetrahedron t; ranked.sorted.next(t);) {
-            mesher.close_before(t.corners[0]);
-            mesher.add(t);
-        }
-        mesher.close_all();
-        return mesher.peak_bytes();
-    };
-    EXPECT_LE(peak(80), peak(20) * 5 / 4);
-}
-
 TEST(TetrahedronMesher, three_tetrahedra_at_a_triangle_are_refused) {
     std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {0.1, 0.1, 2}};
     for (const std::vector<InputLabel>& labels : {std::vector<InputLabel>(6, 1), {}}) {
@@ -360,8 +353,10 @@ TEST(TetrahedronMesher, two_tetrahedra_on_one_side_of_a_triangle_are_refused) {
     std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0.1, 2}};
     for (const std::vector<InputLabel>& labels : {std::vector<InputLabel>(5, 1), {}}) {
         const std::string said = refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{2, 1, 4, 0}, 1}}});
-        for (const char* part : {"mesh: two tetrahedra", "same side", "node 0", "node 1", "node 2"}) EXPECT_THAT(said, HasSubstr(part));
-        EXPECT_THAT(refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{3, 1, 2, 0}, 1}}}), HasSubstr("same side")) << "the same one twice";
+        for (const char* part : {"mesh: two tetrahedra", "same side", "node 0", "node 1", "node 2"})
+            EXPECT_THAT(said, HasSubstr(part));
+        EXPECT_THAT(refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{3, 1, 2, 0}, 1}}}), HasSubstr("same side"))
+            << "the same one twice";
     }
 }
 
