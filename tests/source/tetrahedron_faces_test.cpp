@@ -95,7 +95,7 @@ std::vector<ReconstructOptions> stages() {
 
 TEST(TetrahedronFaces, bent_meshes_stay_sound_in_all_stages) {
     for (std::uint64_t seed : {1, 2}) {
-        const test::ArrayMesh mesh = test::bent_mesh({14, 12, 16}, 8, seed);
+        const test::ArrayMesh mesh = test::bent_mesh({12, 10, 14}, 8, seed);
         for (std::size_t n = 0; n < stages().size(); ++n) {
             SCOPED_TRACE("seed " + std::to_string(seed) + ", options " + std::to_string(n));
             const Reconstruction made = run(mesh, stages()[n]);
@@ -198,10 +198,8 @@ TEST(TetrahedronFaces, a_cavity_and_two_pieces_are_regions_as_they_are) {
     EXPECT_NEAR(parted.report.check.regions[0].volume, 7 * 6 * 6, 1e-9);
     for (const test::ArrayMesh& mesh : {carved(solid, size, has_cavity), carved(solid, size, has_gap),
                                         carved(grains, size, has_cavity), carved(grains, size, has_gap)})
-        for (const ReconstructOptions& options : stages()) {
-            expect_sound(run(mesh, options).report.check);
-            expect_sound(run(by_cells(carved(solid, size, has_cavity)), options).report.check);
-        }
+        for (const ReconstructOptions& options : stages()) expect_sound(run(mesh, options).report.check);
+    expect_sound(run(by_cells(carved(solid, size, has_cavity)), {.reduce = 0.9, .background = {}}).report.check);
 }
 
 TEST(TetrahedronFaces, one_tetrahedron_with_one_to_four_labels_goes_all_the_way) {
@@ -254,7 +252,7 @@ void expect_as_many_violations(const test::ArrayMesh& mesh) {
 }
 
 TEST(TetrahedronFaces, noise_of_cells_gets_no_worse) {
-    for (std::uint64_t seed : {1, 2, 3})
+    for (std::uint64_t seed : {1, 2})
         expect_as_many_violations(test::cell_mesh_of(test::noise_volume({7, 8, 9}, 3, seed)));
 }
 
