@@ -1,12 +1,10 @@
 // The program as a user runs it: exit codes, one line on stderr, no file left behind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <set>
 
-#include "io/temporary_folder.h"
+#include "cli/program.h"
 #include "regionmesh/regionmesh.h"
 #include "support/digest.h"
 #include "support/runs.h"
@@ -18,43 +16,19 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-struct Ran {
-    int code = -1;
-    std::string out, error;
-};
+using Ran = Program::Ran;
 
 std::string data(const std::string& name) { return std::string(REGIONMESH_TEST_DATA) + "/" + name; }
 
-class Cli : public TemporaryFolder {
+class Cli : public Program {
 protected:
     void SetUp() override {
-        std::filesystem::create_directory(path("out"));
+        Program::SetUp();
         put_text(path("volume.raw"), raw_text());
-    }
-
-    Ran run(const std::string& arguments) const {
-        const std::string command = std::string("'") + REGIONMESH_PROGRAM + "' " + arguments + " >'" + path("stdout").string() + "' 2>'" +
-                                    path("stderr").string() + "' </dev/null";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(path("stdout")), text_of(path("stderr"))};
     }
 
     /// Arguments that read the volume of this test, a ball of 1 in 0.
     std::string volume() const { return path("volume.raw").string() + " --size 9,9,9 --type uint8 "; }
-    std::string out(const std::string& name) const { return path("out/" + name).string(); }
-    std::ptrdiff_t files_left() const {
-        return std::distance(std::filesystem::directory_iterator(path("out")), std::filesystem::directory_iterator());
-    }
-
-    void expect_refusal(const std::string& arguments, int code, const std::string& said) const {
-        SCOPED_TRACE(arguments);
-        const Ran ran = run(arguments);
-        EXPECT_EQ(ran.code, code);
-        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
-        EXPECT_THAT(ran.error, HasSubstr(said));
-        EXPECT_EQ(ran.out, "");
-        EXPECT_EQ(files_left(), 0) << "something was left behind";
-    }
 
 private:
     static std::string raw_text() {

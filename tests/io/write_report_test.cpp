@@ -46,7 +46,7 @@ TEST(ReportJson, has_all_keys_and_no_others) {
                 testing::UnorderedElementsAre("initial_faces", "initial_vertices", "final_faces", "final_vertices",
                                               "seconds", "peak_bytes", "peak_faces", "bytes_per_face", "verdicts",
                                               "refreshes", "stopped", "smoothing", "volumes_preserved", "quality",
-                                              "regions", "triple_lines", "region_pairs",
+                                              "regions", "triple_lines", "region_pairs", "pinned_vertices",
                                               "quadruple_points_inside", "violations", "violation_counts"));
     EXPECT_THAT(keys_of(json["quality"]),
                 testing::ElementsAre("min", "mean", "histogram", "min_angle", "max_angle", "angles"));

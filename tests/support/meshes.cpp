@@ -96,4 +96,19 @@ ArrayMesh bent_mesh(Size size, std::uint32_t label_count, std::uint64_t seed) {
     return {{std::move(points), volume.labels()}, lattice_tetrahedra(volume)};
 }
 
+ArrayMesh by_cells(const ArrayMesh& mesh) {
+    std::vector<LabelledTetrahedron> tetrahedra = mesh.tetrahedra();
+    for (LabelledTetrahedron& t : tetrahedra) t.label = mesh.points().labels[t.corners[0]];
+    return {{mesh.points().positions, {}}, std::move(tetrahedra)};
+}
+
+ArrayMesh carved(const ArrayMesh& mesh, Size size, const KeepsCell& keeps) {
+    std::vector<LabelledTetrahedron> kept;
+    for (std::size_t n = 0; n < mesh.tetrahedra().size(); ++n) {
+        const auto cell = static_cast<std::uint32_t>(n / 6), width = size[0] - 1, height = size[1] - 1;
+        if (keeps(cell % width, cell / width % height, cell / width / height)) kept.push_back(mesh.tetrahedra()[n]);
+    }
+    return {mesh.points(), std::move(kept)};
+}
+
 }  // namespace regionmesh::test

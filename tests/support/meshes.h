@@ -1,6 +1,7 @@
 // Small meshes of labelled tetrahedra in memory.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "regionmesh/volume/tetrahedron_reader.h"
@@ -45,5 +46,12 @@ ArrayMesh cell_mesh_of(const ArrayVolume& volume);
 /// Points here and there in a box, with the labels of the nearest of `label_count` others, and the tetrahedra of a
 /// lattice whose points were moved: slivers among them, and a hull that is no box.
 ArrayMesh bent_mesh(Size size, std::uint32_t label_count, std::uint64_t seed);
+
+/// The same tetrahedra with the label of their first corner.
+ArrayMesh by_cells(const ArrayMesh& mesh);
+
+/// The tetrahedra of those cells of a lattice that the test keeps.
+using KeepsCell = std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>;
+ArrayMesh carved(const ArrayMesh& mesh, Size size, const KeepsCell& keeps);
 
 }  // namespace regionmesh::test

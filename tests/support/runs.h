@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "regionmesh/pipeline.h"
+#include "support/meshes.h"
 #include "support/volumes.h"
 
 namespace regionmesh::test {
@@ -27,6 +28,12 @@ inline Reconstruction run(ArrayVolume& volume, const ReconstructOptions& options
     return reconstruct(volume, options);
 }
 inline Reconstruction run(ArrayVolume&& volume, const ReconstructOptions& options = plain()) { return run(volume, options); }
+
+/// Along z unless the options say another sweep.
+inline Reconstruction run(ArrayMesh mesh, ReconstructOptions options = plain()) {
+    if (!options.sweep) options.sweep = kSweepZ;
+    return reconstruct(mesh, options);
+}
 
 /// The faces and vertices that are there, in order.
 template <class Visit>
