@@ -22,7 +22,8 @@ void TetrahedraArguments::add_options(CLI::App& command) {
     command.add_option("--columns", columns,
                        "tables: which columns are what, as X,Y,Z,LABEL or hole=nr,label=lith ...");
     command.add_option("--step", step, "drill holes: points no farther apart than this stand for an interval");
-    command.add_option("--scale-z", scale_z, "points and meshes: work with z times about this (a power of two); the model is not scaled");
+    command.add_option("--scale-z", scale_z,
+                       "points and meshes: work with z times about this (a power of two); the model is not scaled");
     command.add_option("--array", array, "meshes: name of the array of labels");
     command.add_flag("--hull", hull, "points and meshes: close regions on the hull, as --boundary cap does");
 }
@@ -46,6 +47,13 @@ bool TetrahedraArguments::is_meant(const std::vector<std::string>& inputs, const
                                       {"--size", volume.size},
                                       {"--type", volume.type}})
         refuse_given(flag, value, inputs[0], "no volume of samples");
+    const std::string name = std::filesystem::path(inputs[0]).extension().string();
+    if (name == ".vtu" || name == ".msh") {
+        refuse_given("--columns", columns, inputs[0], "a mesh, no table");
+        refuse_given("--step", step, inputs[0], "a mesh, no table");
+    } else {
+        refuse_given("--array", array, inputs[0], "a table, no mesh");
+    }
     if (hull && !volume.cap())
         throw Error(ErrorCode::kInput, "--hull closes what --boundary open leaves open; give one");
     return true;

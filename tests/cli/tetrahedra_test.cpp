@@ -95,9 +95,7 @@ TEST_F(CliTetrahedra, meshes_become_models_that_pass_check_against_them) {
         expect_sound_way(data("meshes/" + name), " --no-background");
 }
 
-/// What is on the hull is not known of a model that was read, unless its hull is a box: a background or an open
-/// boundary leaves open edges there.
-TEST_F(CliPoints, DISABLED_models_with_background_or_open_boundary_pass_check_when_read_again) {
+TEST_F(CliPoints, models_with_background_or_open_boundary_pass_check_when_read_again) {
     expect_sound_way(layers(0));
     expect_sound_way(layers(), " --boundary open");
 }
@@ -189,7 +187,7 @@ TEST_F(CliTetrahedra, options_of_the_other_kind_of_input_are_refused) {
 }
 
 /// Passed over in silence now.
-TEST_F(CliTetrahedra, DISABLED_options_of_tables_are_refused_for_meshes_and_of_meshes_for_tables) {
+TEST_F(CliTetrahedra, options_of_tables_are_refused_for_meshes_and_of_meshes_for_tables) {
     const std::string mesh = data("meshes/meshio_ascii.vtu"), to = " -o " + out("m.vtp");
     expect_refusal("reconstruct " + mesh + to + " --columns 1,2,3,4", 1, "--columns");
     expect_refusal("reconstruct " + mesh + to + " --step 1", 1, "--step");

@@ -212,15 +212,15 @@ TEST_P(BothFormats, exterior_gives_way_to_negative_labels) {
     EXPECT_EQ(surface_of(two_boxes(), labels, GetParam()).exterior_label, -5);
 }
 
-TEST_P(BothFormats, exterior_beside_the_planes_of_the_box_is_one_whole_without_sides) {
+TEST_P(BothFormats, exterior_beside_the_planes_of_the_box_is_one_hull) {
     Model model = two_boxes();
     model[VertexId{0}].position.x = -1;
     const LabelTable labels = labels_of({3, 5});
     const ModelFile file = round_trip(model, labels, GetParam());
     EXPECT_EQ(file.labels.size(), 2u);
-    for (std::uint32_t v = 0; v < file.model.vertex_end(); ++v) EXPECT_EQ(file.model[VertexId{v}].sides, 0);
+    for (std::uint32_t v = 0; v < file.model.vertex_end(); ++v) EXPECT_EQ(file.model[VertexId{v}].sides, kOnHull);
     for (std::uint32_t f = 0; f < file.model.face_end(); ++f)
-        for (const Label label : file.model[FaceId{f}].labels) EXPECT_TRUE(!is_exterior(label) || label == exterior(0));
+        for (const Label label : file.model[FaceId{f}].labels) EXPECT_TRUE(!is_exterior(label) || label == exterior(kHull));
 }
 
 TEST_P(BothFormats, empty_model_comes_back) {

@@ -70,7 +70,7 @@ TEST(Determinism, order_of_points_and_tetrahedra_does_not_matter) {
 }
 
 /// Their labels are numbered as they are read, and decimation breaks ties by those numbers.
-TEST(Determinism, DISABLED_order_of_labelled_tetrahedra_does_not_matter_to_decimation) {
+TEST(Determinism, order_of_labelled_tetrahedra_does_not_matter_to_decimation) {
     for (const test::ArrayMesh& mesh :
          {by_cells(test::bent_mesh({12, 11, 13}, 8, 2)), test::cell_mesh_of(test::noise_volume({6, 7, 8}, 3, 3))})
         expect_the_same_in_any_order(mesh, {reduced(0.9), kSmoothedAndReduced});
@@ -162,7 +162,7 @@ TEST(Equivalence, smoothing_of_tetrahedra_on_the_fly_is_smoothing_in_core) {
 }
 
 /// Layers of tetrahedra overlap: faces within the reach of the filter may lie in layers further ahead than it looks.
-TEST(Equivalence, DISABLED_nifpms_of_tetrahedra_on_the_fly_is_nifpms_in_core) {
+TEST(Equivalence, nifpms_of_tetrahedra_on_the_fly_is_nifpms_in_core) {
     for (std::uint64_t seed : {1, 2, 4, 5})
         for (const test::ArrayMesh& mesh :
              {test::bent_mesh({5, 6, 20}, 3, seed), by_cells(test::bent_mesh({5, 6, 20}, 3, seed))}) {

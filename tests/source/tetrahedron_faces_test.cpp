@@ -160,7 +160,7 @@ TEST(TetrahedronFaces, volumes_are_preserved_in_a_box) {
 }
 
 /// Decimation changes what the hull holds; as long as its vertices stay, regions cannot have their volumes back.
-TEST(TetrahedronFaces, DISABLED_volumes_are_preserved_in_a_hull_that_is_no_box) {
+TEST(TetrahedronFaces, volumes_are_preserved_in_a_hull_that_is_no_box) {
     expect_volumes_preserved(test::bent_mesh({14, 12, 16}, 8, 3));
 }
 
@@ -302,9 +302,11 @@ test::ArrayMesh thinner_than_numbers() {
     return {{{{0, 0, 0}, {1, 1 + e, 0}, {1 + e, 1 + 2 * e, 0}, {0, 0, 1}}, {1, 1, 1, 1}}, {{{0, 1, 2, 3}}}};
 }
 
-TEST(TetrahedronFaces, DISABLED_a_tetrahedron_thinner_than_numbers_does_not_hang) { run(thinner_than_numbers()); }
+TEST(TetrahedronFaces, a_tetrahedron_thinner_than_numbers_is_refused) {
+    EXPECT_THAT(refusal(thinner_than_numbers()), HasSubstr("too thin"));
+}
 
-TEST(TetrahedronFaces, DISABLED_coordinates_whose_products_are_beyond_numbers_are_refused_or_sound) {
+TEST(TetrahedronFaces, coordinates_whose_products_are_beyond_numbers_are_refused_or_sound) {
     for (double scale : {1e110, 1e160, 1e300, 1e-110, 1e-160, 1e-300}) {
         test::ArrayMesh mesh = test::bent_mesh({4, 4, 4}, 2, 1);
         LabelledPoints points = mesh.points();

@@ -182,12 +182,6 @@ TEST(RankedTetrahedra, box_and_spacing_are_those_of_points_that_are_used) {
     EXPECT_DOUBLE_EQ(rank(test::mesh_of(test::solid_volume({4, 5, 3}))).all.spacing(), 1);
 }
 
-/// A point that no tetrahedron has lies nowhere; it must not turn the sweep.
-TEST(RankedTetrahedra, DISABLED_sweep_is_chosen_by_points_that_are_used) {
-    std::vector<Vec3> points{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 100, 0}};
-    EXPECT_EQ(rank({{points, {1, 1, 1, 1, 9}}, {{{0, 1, 2, 3}}}}, {}).all.points.sweep.axes, kSweepX.axes);
-}
-
 TEST(RankedTetrahedra, what_is_no_tetrahedron_is_named) {
     std::vector<Vec3> points = kCorners;
     points.push_back({0.25, 0.5, 0});

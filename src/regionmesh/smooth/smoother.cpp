@@ -45,8 +45,8 @@ Smoother::Smoother(const SmoothOptions& options, const LayerOrder& order)
 void Smoother::plan_stages() {
     stages_.push_back({Stage::kNeighbours, 0, 1});
     if (options_.filter == SmoothFilter::kNifpms) {
-        stages_.push_back({Stage::kMollify, 0, layers_within(nifpms_.mollifying_reach(), order_) + 1});
-        stages_.push_back({Stage::kPredict, 1, layers_within(nifpms_.predicting_reach(), order_) + 1});
+        stages_.push_back({Stage::kMollify, 0, layers_within(nifpms_.mollifying_reach(), order_) + 1 + order_.overlap});
+        stages_.push_back({Stage::kPredict, 1, layers_within(nifpms_.predicting_reach(), order_) + 1 + order_.overlap});
         smooth_at_ = 0;
     } else {
         for (std::uint32_t pass = 0; pass < options_.passes; ++pass) stages_.push_back({Stage::kRelax, pass, 1});

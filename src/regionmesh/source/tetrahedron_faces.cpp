@@ -88,6 +88,7 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
     TetrahedronMesher mesher(points, reader_, options);
     StarWatch watch(options);
     std::uint32_t strip = 0;
+    std::uint64_t pinned = 0;
     const auto end_strip = [&] {
         double top = -HUGE_VAL;
         for (const BatchVertex& vertex : mesher.strip().vertices) top = std::max(top, vertex.position[shape_.axis()]);
@@ -96,25 +97,36 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
             watch.add(mesher.strip());
             watch.judge(mesher.ended());
         }
-        for (const VertexEnd& end : mesher.ended()) spilled_.add_end(end);
+        for (const VertexEnd& end : mesher.ended()) {
+            spilled_.add_end(end);
+            pinned += end.is_pinned;
+        }
         mesher.ended().clear();
         mesher.begin_strip(++strip);
     };
+    // Labels of tetrahedra get their numbers in the order of ranks, too.
+    const bool has_cell_labels = reader_.info().has_cell_labels;
+    LabelTable in_order(labels_.is_unsigned());
+    dense_background(options_.background, in_order);
     RankedTetrahedron tetrahedron;
     while (tetrahedra.sorted.next(tetrahedron)) {
+        if (has_cell_labels) tetrahedron.label = in_order.dense(labels_.input(tetrahedron.label));
         const std::uint32_t lowest = tetrahedron.corners[0];
         mesher.close_before(lowest);
         const double along = (points.along(lowest) - low_) / thickness_;
         const auto own = std::min(static_cast<std::uint32_t>(std::floor(along + 1e-9)), thin_strips_ - 1);
         while (strip < own) end_strip();
         mesher.add(tetrahedron);
-        if (reader_.info().has_cell_labels) ++samples_[tetrahedron.label];
+        if (has_cell_labels) ++samples_[tetrahedron.label];
     }
+    if (has_cell_labels) labels_ = std::move(in_order);
     mesher.close_all();
     while (strip < thin_strips_) end_strip();
     spilled_.finish(mesher.hull_is_box());
     if (mesher.hull_is_box()) high_ = points.box.high[shape_.axis()];
     oracle_ = mesher.oracle();
+    // Where the hull touches itself, the boundary of a region is not twice the region.
+    if (!has_cell_labels && pinned > 0) oracle_.euler.clear();
 }
 
 /// What a strip is to others: thin strips, or as many of them as smoothing needs at a time.

@@ -59,8 +59,8 @@ struct SweepOrder {
     }
 };
 
-/// Gives points their ranks; returns those by the reader's numbers. Places are sorted where they are: with as many again
-/// all would take half as much more.
+/// Gives points their ranks; returns those by the reader's numbers. Places are sorted where they are: with as many
+/// again all would take half as much more.
 std::vector<std::uint32_t> rank_points(const TetrahedronReader& reader, LabelledPoints given, LabelTable& labels,
                                        RankedPoints& ranked) {
     const bool has_labels = !given.labels.empty();
@@ -153,6 +153,8 @@ RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, 
             ranker.add(piece[n], reader.info().has_cell_labels ? labels.dense(piece[n].label) : 0);
     if (labels.size() > kMostLabels) fail(reader, "more than 2^31 labels");
     if (ranked.sorted.size() == 0) fail(reader, "has no tetrahedra");
+    if (!std::isnormal(ranked.six_volumes))
+        fail(reader, "its tetrahedra are too thin, too small or too large for numbers; scale the coordinates");
     ranked.sorted.finish();
     return ranked;
 }

@@ -49,14 +49,14 @@ struct RankedTetrahedra {
 };
 
 struct RankOptions {
-    std::optional<Sweep> sweep = {};                     // along the longest side of the box if not given
+    std::optional<Sweep> sweep = {};  // along the longest side of the box round all points if not given
     std::uint64_t sort_bytes = std::uint64_t{64} << 20;  // held beside the points
     std::uint64_t memory = std::uint64_t{2} << 30;       // that points may take
 };
 
-/// Takes all that a reader has; labels get their numbers in the order of ranks. Throws Error(kInput): naming both
-/// points of two labels at one place, a tetrahedron that is flat or has corners that are not there; for more points
-/// than memory can hold; or where there are no tetrahedra.
+/// Takes all that a reader has; labels of points get their numbers in the order of ranks. Throws Error(kInput): naming
+/// both points of two labels at one place, a tetrahedron that is flat or has corners that are not there; for more
+/// points than memory can hold; where there are no tetrahedra, or none that has a volume in numbers.
 RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, const RankOptions& options = {});
 
 }  // namespace regionmesh

@@ -23,6 +23,7 @@ void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners,
 
 void append(FileSurface& surface, const FileSurface& other) {
     const auto first = static_cast<std::uint32_t>(surface.points.size());
+    surface.is_on_hull.clear();
     surface.points.insert(surface.points.end(), other.points.begin(), other.points.end());
     surface.labels.insert(surface.labels.end(), other.labels.begin(), other.labels.end());
     for (const auto& [a, b, c] : other.faces) surface.faces.push_back({first + a, first + b, first + c});

@@ -19,11 +19,15 @@ struct FileSurface {
     std::vector<Vec3> points = {};
     std::vector<std::array<std::uint32_t, 3>> faces = {};
     std::vector<std::array<InputLabel, 2>> labels = {};  // by face; the normal points from the first to the second
+    std::vector<bool> is_on_hull = {};  // by point, as node types say: on the box, or another hull; empty: unknown
     InputLabel exterior_label = -1;
     LabelNames names = {};
     bool is_by_region = false;      // faces came region by region, each with the exterior on its other side
     bool has_shared_points = true;  // false: each face, or region, has points of its own
 };
+
+/// Node types (DREAM.3D's) of what lies on the box or hull begin here.
+inline constexpr std::int64_t kFirstHullType = 10;
 
 /// Most faces and vertices of a Model: a corner packs a face id and a place into 32 bits.
 inline constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) - 1;

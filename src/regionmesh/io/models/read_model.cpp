@@ -98,7 +98,7 @@ std::optional<int> side_of_face(const FileSurface& surface, const std::array<std
 
 // Whether all faces with the exterior lie in the planes of the box, and no more than four labels meet on an edge
 // or corner of it, with those of sides. Else (the lattice was turned, or cells of a mesh had the labels) the exterior
-// is taken as a whole: side 0, and no vertex is on a side.
+// is taken as a whole: side 0, and no vertex is on a side; or kHull, where node types say what lies on it.
 bool exterior_is_box(const FileSurface& surface, const Box& box) {
     std::vector<SideSet> sides(surface.points.size());
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
@@ -139,7 +139,7 @@ ModelFile assemble(const FileSurface& surface) {
                 continue;
             }
             if (!has_sides) {
-                labels[i] = exterior(0);
+                labels[i] = exterior(surface.is_on_hull.empty() ? 0 : kHull);
                 continue;
             }
             const int side = *side_of_face(surface, surface.faces[f], box);
@@ -148,6 +148,9 @@ ModelFile assemble(const FileSurface& surface) {
         }
         model.add_face(VertexId{a}, VertexId{b}, VertexId{c}, labels[0], labels[1]);
     }
+    // Where no face tells on which side of the box a vertex is, it may be on an open one, or a hull of another shape.
+    for (std::uint32_t v = 0; v < surface.is_on_hull.size(); ++v)
+        if (surface.is_on_hull[v] && model[VertexId{v}].sides == 0) model[VertexId{v}].sides = kOnHull;
     return file;
 }
 
@@ -155,7 +158,10 @@ ModelFile assemble(const FileSurface& surface) {
 
 ModelFile read_model(const std::filesystem::path& path, const ReadModelOptions& options) {
     FileSurface surface = read_surface(path);
-    if (options.weld || !surface.has_shared_points) weld_points(surface, options.weld.value_or(0));
+    if (options.weld || !surface.has_shared_points) {
+        surface.is_on_hull.clear();  // points get other numbers
+        weld_points(surface, options.weld.value_or(0));
+    }
     if (options.weld || surface.is_by_region) join_back_to_back(surface);
     if (options.orient) orient_faces(surface);
     return assemble(surface);

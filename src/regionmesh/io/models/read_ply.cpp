@@ -140,6 +140,8 @@ void PlyReader::read_points(const PlyElement& element, PlyNumbers& numbers) {
         if (!place || element.properties[*place].count_type) file_.fail("has vertices without x, y and z");
         places[axis] = *place;
     }
+    auto type = element.find("node_type");
+    if (type && element.properties[*type].count_type) type.reset();
     if (element.count > kMostVertices) file_.fail("has more vertices than a model can hold");
     for (std::uint64_t n = 0; n < element.count; ++n) {
         take_element(element, std::nullopt, numbers);
@@ -147,6 +149,7 @@ void PlyReader::read_points(const PlyElement& element, PlyNumbers& numbers) {
         if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
             file_.fail("vertex " + std::to_string(n) + " has a coordinate that is not finite");
         surface_.points.push_back(point);
+        if (type) surface_.is_on_hull.push_back(values_[*type] >= kFirstHullType);
     }
 }
 

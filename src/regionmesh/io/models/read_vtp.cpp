@@ -43,6 +43,7 @@ private:
     void read_names();
     void refuse_other_cells(pugi::xml_node piece) const;
     void read_points(pugi::xml_node piece, std::uint64_t count);
+    void read_node_types(pugi::xml_node piece, std::uint64_t count);
     void read_types(pugi::xml_node cells, std::uint64_t count) const;
     std::uint64_t read_offsets(pugi::xml_node cells, std::uint64_t count);
     void read_faces(pugi::xml_node cells, std::uint64_t corner_count);
@@ -84,6 +85,7 @@ FileSurface VtkSurfaceReader::read(bool is_grid) {
             file_.fail(fmt::format("{} points and {} faces are more than a model can hold", points, cells));
         first_point_ = surface_.points.size();
         read_points(piece, points);
+        read_node_types(piece, points);
         if (cells == 0) continue;
         const pugi::xml_node node = piece.child(is_grid ? "Cells" : "Polys");
         if (is_grid) read_types(node, cells);
@@ -111,6 +113,15 @@ void VtkSurfaceReader::read_points(pugi::xml_node piece, std::uint64_t count) {
                 file_.fail(fmt::format("point {} has a coordinate that is not finite", surface_.points.size()));
             surface_.points.push_back({p[0], p[1], p[2]});
         }));
+}
+
+void VtkSurfaceReader::read_node_types(pugi::xml_node piece, std::uint64_t count) {
+    const pugi::xml_node array = array_named(piece.child("PointData"), "NodeType");
+    if (!array || count == 0 || file_.number(array, "NumberOfComponents", 1) != 1) return;
+    surface_.is_on_hull.resize(first_point_);
+    file_.read_integers(array, count, [&](std::span<const std::int64_t> types) {
+        for (const std::int64_t type : types) surface_.is_on_hull.push_back(type >= kFirstHullType);
+    });
 }
 
 void VtkSurfaceReader::read_types(pugi::xml_node cells, std::uint64_t count) const {
