@@ -28,6 +28,7 @@ public:
         boxes_.search(box, [&](std::uint32_t place, const GridTree::GridBox&) { return visit(face(place)); });
     }
 
+    std::size_t bytes() const { return boxes_.bytes() + faces_.capacity() * sizeof(FaceId); }
     /// By place: every two faces that meet are among its pairs.
     const GridTree& boxes() const { return boxes_; }
     FaceId face(std::uint32_t place) const { return faces_.empty() ? FaceId{place} : faces_[place]; }

@@ -55,7 +55,8 @@ void Settling::build_tree(std::uint32_t layer) {
         bounds.add(boxes[n].low);
         bounds.add(boxes[n].high);
     }
-    trees_.push_back({layer, faces.first, bounds, FaceTree(boxes)});
+    const auto box_of = [&](FaceId f) { return boxes[index(f)]; };
+    trees_.push_back({layer, faces.first, bounds, SortedFaceTree(faces.size(), bounds, box_of, options_.threads)});
 }
 
 PlacedFace Settling::placed(std::uint32_t f) const {
@@ -73,7 +74,7 @@ template <class Visit>
 void Settling::for_near(const Box& box, Visit&& visit) const {
     for (const LayerTree& layer : trees_) {
         if (!do_overlap(box, layer.bounds)) continue;
-        layer.tree.search(box, [&](FaceId f, const FaceTree::GridBox&) {
+        layer.tree.search(box, [&](FaceId f) {
             visit(layer.first_face + index(f));
             return true;
         });

@@ -7,7 +7,7 @@
 
 #include "regionmesh/base/error.h"
 #include "regionmesh/model/face_meeting.h"
-#include "regionmesh/model/face_tree.h"
+#include "regionmesh/model/sorted_face_tree.h"
 #include "regionmesh/smooth/islands.h"
 #include "regionmesh/smooth/step_back.h"
 
@@ -52,7 +52,7 @@ private:
     struct LayerTree {
         std::uint32_t layer, first_face;
         Box bounds;
-        FaceTree tree;  // over the boxes of each face, from where it came to where smoothing took it
+        SortedFaceTree tree;  // over the boxes of each face, from where it came to where smoothing took it
     };
     struct Pair {
         std::uint32_t f, g;
