@@ -66,8 +66,6 @@ public:
         heads_.drop_before(rank + 1);
     }
 
-    /// One more than the highest rank that is the lowest corner of any, now or before.
-    std::uint32_t rank_end() const { return heads_.end(); }
     std::size_t bytes() const {
         return table_.size() * sizeof(std::uint32_t) + simplices_.capacity() * sizeof(Simplex) + heads_.bytes();
     }
