@@ -18,7 +18,7 @@ constexpr Label kMostLabels = 0x7FFFFFFF;
 /// That a point takes while it is ranked: its place, its label as it came and dense, its number and rank.
 constexpr double kRankingBytesPerPoint = 48;
 
-/// And while faces are made; and of the front, which grows as a section of the points does: as measured.
+/// And while faces are made; and the front, for each point across the sweep: as measured.
 constexpr double kMeshingBytesPerPoint = 32, kFrontBytes = 4000;
 
 /// The program, and what it sorts with at the least.
@@ -28,17 +28,6 @@ constexpr std::uint64_t kProcessBytes = std::uint64_t{24} << 20;
     throw Error(ErrorCode::kInput, reader.info().source + ": " + text);
 }
 
-void require_memory(const TetrahedronReader& reader, std::uint64_t points, std::uint64_t memory) {
-    const auto count = static_cast<double>(points);
-    const double meshing = kMeshingBytesPerPoint * count + kFrontBytes * std::pow(count, 2.0 / 3);
-    const auto needed = kProcessBytes + static_cast<std::uint64_t>(std::max(kRankingBytesPerPoint * count, meshing));
-    if (needed <= memory) return;
-    const auto megabytes = [](std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; };
-    throw Error(ErrorCode::kInput, "--memory " + megabytes(memory) + ": " + reader.info().source + " needs at least " +
-                                       megabytes(needed) + " for its " + std::to_string(points) +
-                                       " points; give so much");
-}
-
 Sweep longest(const Box& box) {
     Sweep best = kSweepZ;
     for (const Sweep& sweep : {kSweepY, kSweepX}) {
@@ -46,6 +35,24 @@ Sweep longest(const Box& box) {
         if (box.high[axis] - box.low[axis] > box.high[so_far] - box.low[so_far]) best = sweep;
     }
     return best;
+}
+
+/// Points in a layer across the sweep, as thick as they are apart, if they fill the box evenly.
+double points_across(const Box& box, const Sweep& sweep, double points) {
+    const Vec3 size = box.high - box.low;
+    const double length = size[sweep.axes[2]], apart = std::cbrt(size.x * size.y * size.z / points);
+    return length > 0 ? std::min(points * apart / length, points) : points;
+}
+
+void require_memory(const TetrahedronReader& reader, std::uint64_t points, double across, std::uint64_t memory) {
+    const auto count = static_cast<double>(points);
+    const double meshing = kMeshingBytesPerPoint * count + kFrontBytes * across;
+    const auto needed = kProcessBytes + static_cast<std::uint64_t>(std::max(kRankingBytesPerPoint * count, meshing));
+    if (needed <= memory) return;
+    const auto megabytes = [](std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; };
+    throw Error(ErrorCode::kInput, "--memory " + megabytes(memory) + ": " + reader.info().source + " needs at least " +
+                                       megabytes(needed) + " for its " + std::to_string(points) +
+                                       " points; give so much");
 }
 
 /// By place along the sweep, then of the other coordinates.
@@ -138,18 +145,19 @@ double RankedTetrahedra::spacing() const { return std::cbrt(six_volumes / static
 RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, const RankOptions& options) {
     RankedTetrahedra ranked{.points = {}, .sorted = ExternalSort<RankedTetrahedron>(options.sort_bytes)};
     LabelledPoints given = reader.take_points();
-    require_memory(reader, given.positions.size(), options.memory);
     Box all;
     for (Vec3& p : given.positions) {
         p += Vec3{0, 0, 0};  // -0 becomes 0
         all.add(p);
     }
     ranked.points.sweep = options.sweep ? *options.sweep : longest(all);
+    const std::uint64_t count = given.positions.size();
+    require_memory(reader, count, points_across(all, ranked.points.sweep, static_cast<double>(count)), options.memory);
     const std::vector<std::uint32_t> rank_of = rank_points(reader, std::move(given), labels, ranked.points);
     Ranker ranker(reader, rank_of, ranked);
     std::vector<LabelledTetrahedron> piece(kPiece);
-    while (const std::size_t count = reader.next(piece))
-        for (std::size_t n = 0; n < count; ++n)
+    while (const std::size_t got = reader.next(piece))
+        for (std::size_t n = 0; n < got; ++n)
             ranker.add(piece[n], reader.info().has_cell_labels ? labels.dense(piece[n].label) : 0);
     if (labels.size() > kMostLabels) fail(reader, "more than 2^31 labels");
     if (ranked.sorted.size() == 0) fail(reader, "has no tetrahedra");
