@@ -54,7 +54,9 @@ int check_command(const Arguments& arguments) {
     CheckOptions options = arguments.input.check_options(file.labels);
     options.threads = arguments.threads;
     if (!arguments.sections.empty()) {
-        const CensusOptions census{.cap = arguments.input.cap(), .background = arguments.input.background_labels()};
+        const CensusOptions census{.cap = arguments.input.cap(),
+                                   .background = arguments.input.background_labels(),
+                                   .sweep = arguments.input.sweep_of_tetrahedra()};
         const auto compare_with = [&](auto reader) {
             options.oracle = translate(count_labels(*reader, census), file.labels);
         };

@@ -51,7 +51,9 @@ int info_of_tetrahedra(TetrahedronReader& reader, const CensusOptions& options) 
 int info_command(const Arguments& arguments) {
     if (arguments.tetrahedra.is_meant(arguments.inputs, arguments.input))
         return info_of_tetrahedra(*arguments.tetrahedra.open(arguments.inputs),
-                                  {.cap = arguments.input.cap(), .background = arguments.input.background_labels()});
+                                  {.cap = arguments.input.cap(),
+                                   .background = arguments.input.background_labels(),
+                                   .sweep = arguments.input.sweep_of_tetrahedra()});
     const auto reader = arguments.input.open(arguments.inputs);
     const VolumeInfo info = reader->info();
     const Lattice& lattice = info.lattice;

@@ -1,5 +1,7 @@
 #include "tetrahedra_options.h"
 
+#include <algorithm>
+
 #include "input_options.h"
 
 namespace regionmesh::cli {
@@ -12,8 +14,12 @@ double parse_factor(const std::string& flag, const std::string& text) {
     return value;
 }
 
+/// Stands for a flag that has no value.
+constexpr const char* kGiven = "given";
+
 void refuse_given(const std::string& flag, const std::string& value, const std::string& input, const char* kind) {
-    if (!value.empty()) throw Error(ErrorCode::kInput, flag + " " + value + ": " + input + " is " + kind);
+    if (!value.empty())
+        throw Error(ErrorCode::kInput, flag + (value == kGiven ? "" : ' ' + value) + ": " + input + " is " + kind);
 }
 
 }  // namespace
@@ -30,14 +36,14 @@ void TetrahedraArguments::add_options(CLI::App& command) {
 
 bool TetrahedraArguments::is_meant(const std::vector<std::string>& inputs, const InputOptions& volume) const {
     if (inputs.empty()) return false;
-    const auto is_mesh = [](const std::string& input) { return holds_tetrahedra(input); };
-    const bool any = std::any_of(inputs.begin(), inputs.end(), is_mesh);
+    const bool any =
+        std::any_of(inputs.begin(), inputs.end(), [](const auto& input) { return holds_tetrahedra(input); });
     if (!any) {
         for (const auto& [flag, value] : {std::pair("--columns", columns),
                                           {"--step", step},
                                           {"--scale-z", scale_z},
                                           {"--array", array},
-                                          {"--hull", hull ? "given" : ""}})
+                                          {"--hull", hull ? kGiven : ""}})
             refuse_given(flag, value, inputs[0], "neither a table of points nor a mesh");
         return false;
     }
@@ -47,8 +53,7 @@ bool TetrahedraArguments::is_meant(const std::vector<std::string>& inputs, const
                                       {"--size", volume.size},
                                       {"--type", volume.type}})
         refuse_given(flag, value, inputs[0], "no volume of samples");
-    const std::string name = std::filesystem::path(inputs[0]).extension().string();
-    if (name == ".vtu" || name == ".msh") {
+    if (is_mesh(inputs[0])) {
         refuse_given("--columns", columns, inputs[0], "a mesh, no table");
         refuse_given("--step", step, inputs[0], "a mesh, no table");
     } else {

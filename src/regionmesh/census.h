@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "regionmesh/base/label_oracle.h"
@@ -21,6 +22,7 @@ struct Census {
 struct CensusOptions {
     bool cap = true;                        // as ReconstructOptions has it
     std::vector<InputLabel> background{0};  // the same
+    std::optional<Sweep> sweep = {};        // of tetrahedra
 };
 
 /// Reads all sections and counts.

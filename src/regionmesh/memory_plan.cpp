@@ -5,6 +5,7 @@
 #include <string>
 
 #include "regionmesh/base/error.h"
+#include "regionmesh/base/megabytes.h"
 #include "regionmesh/tile/tiles.h"
 
 namespace regionmesh {
@@ -89,9 +90,6 @@ MemoryPlan plan_runs(std::uint64_t memory, const MemoryDemand& demand, std::uint
     note({kProcessBytes, 0, 0, share_of(faces(0, faces.size()), demand.target_share) * last});
     return plan;
 }
-
-/// Bytes in the unit in which people name them, rounded up.
-std::string megabytes(std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; }
 
 }  // namespace
 

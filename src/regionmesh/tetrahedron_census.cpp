@@ -5,7 +5,9 @@
 namespace regionmesh {
 
 TetrahedronCensus count_labels(TetrahedronReader& reader, const CensusOptions& options) {
-    TetrahedronFaces source(reader, {.cap = options.cap, .background = options.background});
+    constexpr std::uint64_t kAnyMemory = std::uint64_t{1} << 62;  // no model is held
+    TetrahedronFaces source(
+        reader, {.cap = options.cap, .background = options.background, .sweep = options.sweep, .memory = kAnyMemory});
     FaceCount counted = *source.count();
     return {.labels = source.labels(),
             .point_count = source.point_count(),

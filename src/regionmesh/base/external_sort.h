@@ -18,6 +18,11 @@ public:
     explicit ExternalSort(std::uint64_t bytes) : room_(std::max<std::uint64_t>(bytes / sizeof(Item), 1024)) {}
 
     std::uint64_t size() const { return size_; }
+    std::uint64_t bytes() const {
+        std::uint64_t sum = buffer_.capacity() * sizeof(Item);
+        for (const Run& run : runs_) sum += run.piece.capacity() * sizeof(Item);
+        return sum;
+    }
 
     void add(const Item& item) {
         if (buffer_.size() == room_) put_aside();

@@ -27,6 +27,11 @@ std::string folder() {
 }  // namespace
 
 TemporaryFile::TemporaryFile() {
+#ifdef O_TMPFILE
+    // Has no name from the first; not all file systems can do that.
+    descriptor_ = open(folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (descriptor_ >= 0) return;
+#endif
     std::string path = folder() + "/regionmesh-XXXXXX";
     descriptor_ = mkostemp(path.data(), O_CLOEXEC);
     if (descriptor_ < 0) fail("made");

@@ -6,14 +6,26 @@
 #include "regionmesh/volume/exact_grid.h"
 
 namespace regionmesh {
+namespace {
+
+constexpr double kLeastScale = 0x1p-300;
+
+}  // namespace
+
+bool is_mesh(const std::filesystem::path& path) {
+    const std::string name = io::extension(path);
+    return name == ".vtu" || name == ".msh";
+}
 
 bool holds_tetrahedra(const std::filesystem::path& path) {
     const std::string name = io::extension(path);
-    return name == ".csv" || name == ".tsv" || name == ".vtu" || name == ".msh";
+    return name == ".csv" || name == ".tsv" || is_mesh(path);
 }
 
 std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& path, const TetrahedraOptions& given) {
     const io::InputFile there(path);
+    if (!(given.scale_z >= kLeastScale && given.scale_z <= 1 / kLeastScale))
+        io::fail(path, "--scale-z must be a number above 0, and within bounds; take one such as 100");
     TetrahedraOptions options = given;
     options.scale_z = nearest_power_of_two(given.scale_z);
     const std::string name = io::extension(path);

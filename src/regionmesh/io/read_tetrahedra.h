@@ -22,6 +22,9 @@ struct TetrahedraOptions {
 /// Whether the extension is that of points or of a mesh: `.csv .tsv .vtu .msh`.
 bool holds_tetrahedra(const std::filesystem::path& path);
 
+/// Whether it is that of a mesh, among these.
+bool is_mesh(const std::filesystem::path& path);
+
 /// Opens a table of labelled points (`.csv .tsv`), whose tetrahedra regionmesh-delaunay makes in a process of its own,
 /// or a mesh of labelled tetrahedra (`.vtu .msh`). Throws Error(kInput) naming file, row or place, and what to do.
 std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& path,

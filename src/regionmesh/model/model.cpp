@@ -8,14 +8,19 @@
 namespace regionmesh {
 namespace {
 
-/// Puts items of one key in the order of what `rank` says of their index, whatever order they came in. They are few.
+/// Puts items of one key in the order of what `rank` says of their index, whatever order they came in.
 template <class Rank>
 void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
-    for (auto next = items.begin(); next != items.end(); ++next)
-        for (auto at = next; at != items.begin() && (at - 1)->key == at->key; --at) {
-            if (!(rank(at->index) < rank((at - 1)->index))) break;
-            std::swap(*at, *(at - 1));
-        }
+    for (auto first = items.begin(); first != items.end();) {
+        auto end = first + 1;
+        while (end != items.end() && end->key == first->key) ++end;
+        if (end - first > 1)
+            std::sort(first, end, [&](const KeyedIndex& a, const KeyedIndex& b) {
+                const auto of_a = rank(a.index), of_b = rank(b.index);
+                return of_a != of_b ? of_a < of_b : a.index < b.index;
+            });
+        first = end;
+    }
 }
 
 }  // namespace

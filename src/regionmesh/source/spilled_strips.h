@@ -40,7 +40,9 @@ public:
     void rewind();
     /// The faces of the strips that come next, as a batch.
     void read(StripRange strips, FaceBatch& batch);
-    std::uint64_t bytes() const { return strips_.size() * sizeof(Strip) + open_.capacity() * sizeof(Open); }
+    std::uint64_t bytes() const {
+        return strips_.capacity() * sizeof(Strip) + open_.capacity() * sizeof(Open) + ends_.bytes();
+    }
 
 private:
     struct Strip {

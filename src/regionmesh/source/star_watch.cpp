@@ -13,14 +13,9 @@ StarWatch::StarWatch(const StripOptions& options) {
 void StarWatch::add(const MeshedStrip& strip) {
     std::uint32_t number = strip.first_vertex;
     for (const BatchVertex& vertex : strip.vertices) {
-        const VertexId v = model_.add_vertex(vertex.position, kOnHull);
-        if (index(v) >= numbers_.size()) {
-            numbers_.resize(index(v) + 1);
-            is_judged_.resize(index(v) + 1);
-        }
-        numbers_[index(v)] = number;
-        is_judged_[index(v)] = false;
-        ids_.emplace(number++, v);
+        ids_.emplace(number, model_.add_vertex(vertex.position, kOnHull));
+        numbers_.push_back(number++);
+        is_judged_.push_back(false);
     }
     for (const BatchFace& face : strip.faces) {
         std::array<VertexId, 3> corner;
@@ -40,28 +35,35 @@ void StarWatch::judge(std::span<VertexEnd> ended) {
         end.is_pinned = generic.fault(v) != StarFault::kNone;
         is_judged_[index(v)] = true;
     }
-    for (const VertexEnd& end : ended)
-        if (const auto found = ids_.find(end.vertex); found != ids_.end()) forget(found->second);
+    judged_ += static_cast<std::uint32_t>(ended.size());
+    if (2 * judged_ > model_.vertex_count()) pack();
 }
 
-/// Takes out the faces of which no vertex needs any more, and the vertex if it has none then.
-void StarWatch::forget(VertexId v) {
-    std::vector<FaceId> done;
-    std::vector<VertexId> corners{v};
-    model_.for_star(v, [&](FaceId f, int) {
-        const auto& vertices = model_[f].vertices;
-        if (!std::ranges::all_of(vertices, [&](VertexId n) { return is_judged_[index(n)]; })) return;
-        done.push_back(f);
-        corners.insert(corners.end(), vertices.begin(), vertices.end());
-    });
-    for (FaceId f : done) model_.remove_face(f);
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    for (VertexId n : corners) {
-        if (model_[n].star != kNoCorner || !is_judged_[index(n)]) continue;
-        ids_.erase(numbers_[index(n)]);
-        model_.remove_vertex(n);
+void StarWatch::pack() {
+    const Model before = std::move(model_);
+    const std::vector<std::uint32_t> numbers = std::move(numbers_);
+    const std::vector<bool> was_judged = std::move(is_judged_);
+    model_ = {};
+    numbers_.clear();
+    is_judged_.clear();
+    ids_.clear();
+    judged_ = 0;
+    const auto keep = [&](VertexId v) {
+        const std::uint32_t number = numbers[index(v)];
+        if (const auto found = ids_.find(number); found != ids_.end()) return found->second;
+        numbers_.push_back(number);
+        is_judged_.push_back(was_judged[index(v)]);
+        judged_ += was_judged[index(v)];
+        return ids_.emplace(number, model_.add_vertex(before.position(v), before[v].sides)).first->second;
+    };
+    for (std::uint32_t f = 0; f < before.face_end(); ++f) {
+        const auto& [corners, next, labels] = before[FaceId{f}];
+        if (std::ranges::all_of(corners, [&](VertexId v) { return was_judged[index(v)]; })) continue;
+        const VertexId a = keep(corners[0]), b = keep(corners[1]), c = keep(corners[2]);
+        model_.add_face(a, b, c, labels[0], labels[1]);
     }
+    for (std::uint32_t v = 0; v < before.vertex_end(); ++v)
+        if (!was_judged[v]) keep(VertexId{v});
 }
 
 }  // namespace regionmesh

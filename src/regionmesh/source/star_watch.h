@@ -24,13 +24,15 @@ public:
     void judge(std::span<VertexEnd> ended);
 
 private:
-    void forget(VertexId v);
+    /// Begins anew with the faces that somebody still needs, once most are not.
+    void pack();
 
     CheckOptions options_;
     Model model_;
     std::unordered_map<std::uint32_t, VertexId> ids_;  // of vertices that have not been forgotten
     std::vector<std::uint32_t> numbers_;               // by id
     std::vector<bool> is_judged_;                      // by id
+    std::uint32_t judged_ = 0;
 };
 
 }  // namespace regionmesh

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "regionmesh/base/error.h"
+#include "regionmesh/base/megabytes.h"
 #include "regionmesh/census.h"
 #include "regionmesh/memory_plan.h"
 #include "regionmesh/source/star_watch.h"
@@ -17,6 +18,12 @@ constexpr std::uint64_t kSortShare = 8, kMostSortBytes = std::uint64_t{256} << 2
 
 /// Cells of the lattice for each tetrahedron at most, where most of the box is empty.
 constexpr double kMostCells = 8;
+
+/// Of points while their faces are made: place, label, number, and whether it is used.
+constexpr std::uint64_t kBytesPerPoint = 33;
+
+/// Along one axis, since each strip takes some bytes.
+constexpr double kMostStrips = 1 << 16;
 
 std::uint64_t sort_bytes(std::uint64_t memory) { return std::min(memory / kSortShare, kMostSortBytes); }
 
@@ -32,7 +39,8 @@ Lattice lattice_round(const Box& box, double spacing, double tetrahedra) {
         for (int axis = 0; axis < 3; ++axis) product *= std::max(size[axis] / spacing, 1.0);
         return product;
     };
-    while (cells() > kMostCells * tetrahedra) spacing *= 1.25;
+    while (cells() > kMostCells * tetrahedra || std::max({size.x, size.y, size.z}) > kMostStrips * spacing)
+        spacing *= 1.25;
     Lattice lattice{.size = {}, .spacing = {spacing, spacing, spacing}, .origin = box.low};
     for (int axis = 0; axis < 3; ++axis) lattice.size[axis] = cells_along(size[axis], spacing) + 1;
     return lattice;
@@ -90,6 +98,7 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
     std::uint32_t strip = 0;
     std::uint64_t pinned = 0;
     const auto end_strip = [&] {
+        require_memory(points.size() * kBytesPerPoint + tetrahedra.sorted.bytes() + mesher.bytes() + spilled_.bytes());
         double top = -HUGE_VAL;
         for (const BatchVertex& vertex : mesher.strip().vertices) top = std::max(top, vertex.position[shape_.axis()]);
         spilled_.add(mesher.strip(), top);
@@ -127,6 +136,13 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
     oracle_ = mesher.oracle();
     // Where the hull touches itself, the boundary of a region is not twice the region.
     if (!has_cell_labels && pinned > 0) oracle_.euler.clear();
+}
+
+void TetrahedronFaces::require_memory(std::uint64_t held) const {
+    if (kProcessBytes + held <= options_.memory) return;
+    throw Error(ErrorCode::kInput, "--memory " + megabytes(options_.memory) + ": " + shape_.name + " needs more than " +
+                                       megabytes(kProcessBytes + held) +
+                                       " while its faces are made; give more, or another --sweep");
 }
 
 /// What a strip is to others: thin strips, or as many of them as smoothing needs at a time.

@@ -46,6 +46,7 @@ public:
 
 private:
     void make_all();
+    void require_memory(std::uint64_t held) const;
     void shape_strips(const RankedTetrahedra& tetrahedra);
     void mesh(RankedTetrahedra& tetrahedra);
     void gather_layers();

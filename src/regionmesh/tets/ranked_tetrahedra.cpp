@@ -7,6 +7,7 @@
 
 #include "regionmesh/base/error.h"
 #include "regionmesh/base/exact_predicates.h"
+#include "regionmesh/base/megabytes.h"
 #include "regionmesh/base/triangle.h"
 
 namespace regionmesh {
@@ -22,7 +23,7 @@ constexpr double kRankingBytesPerPoint = 48;
 constexpr double kMeshingBytesPerPoint = 32, kFrontBytes = 4000;
 
 /// The program, and what it sorts with at the least.
-constexpr std::uint64_t kProcessBytes = std::uint64_t{24} << 20;
+constexpr std::uint64_t kLeastBytes = std::uint64_t{24} << 20;
 
 [[noreturn]] void fail(const TetrahedronReader& reader, const std::string& text) {
     throw Error(ErrorCode::kInput, reader.info().source + ": " + text);
@@ -40,16 +41,16 @@ Sweep longest(const Box& box) {
 /// Points in a layer across the sweep, as thick as they are apart, if they fill the box evenly.
 double points_across(const Box& box, const Sweep& sweep, double points) {
     const Vec3 size = box.high - box.low;
-    const double length = size[sweep.axes[2]], apart = std::cbrt(size.x * size.y * size.z / points);
+    const double length = size[sweep.axes[2]],
+                 apart = std::cbrt(size.x) * std::cbrt(size.y) * std::cbrt(size.z) / std::cbrt(points);
     return length > 0 ? std::min(points * apart / length, points) : points;
 }
 
 void require_memory(const TetrahedronReader& reader, std::uint64_t points, double across, std::uint64_t memory) {
     const auto count = static_cast<double>(points);
     const double meshing = kMeshingBytesPerPoint * count + kFrontBytes * across;
-    const auto needed = kProcessBytes + static_cast<std::uint64_t>(std::max(kRankingBytesPerPoint * count, meshing));
+    const auto needed = kLeastBytes + static_cast<std::uint64_t>(std::max(kRankingBytesPerPoint * count, meshing));
     if (needed <= memory) return;
-    const auto megabytes = [](std::uint64_t bytes) { return std::to_string((bytes + 999'999) / 1'000'000) + " MB"; };
     throw Error(ErrorCode::kInput, "--memory " + megabytes(memory) + ": " + reader.info().source + " needs at least " +
                                        megabytes(needed) + " for its " + std::to_string(points) +
                                        " points; give so much");
@@ -161,7 +162,8 @@ RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, 
             ranker.add(piece[n], reader.info().has_cell_labels ? labels.dense(piece[n].label) : 0);
     if (labels.size() > kMostLabels) fail(reader, "more than 2^31 labels");
     if (ranked.sorted.size() == 0) fail(reader, "has no tetrahedra");
-    if (!std::isnormal(ranked.six_volumes))
+    const Vec3 size = ranked.points.box.high - ranked.points.box.low;
+    if (!std::isnormal(ranked.six_volumes) || !std::isfinite(length(size)))
         fail(reader, "its tetrahedra are too thin, too small or too large for numbers; scale the coordinates");
     ranked.sorted.finish();
     return ranked;

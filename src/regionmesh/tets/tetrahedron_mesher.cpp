@@ -49,6 +49,11 @@ void TetrahedronMesher::begin_strip(std::uint32_t strip) {
     made_.faces.clear();
 }
 
+std::uint64_t TetrahedronMesher::bytes() const {
+    return simplices_.bytes() + label_uses_.bytes() + made_.vertices.capacity() * sizeof(BatchVertex) +
+           made_.faces.capacity() * sizeof(BatchFace) + ended_.capacity() * sizeof(VertexEnd);
+}
+
 void TetrahedronMesher::add(const RankedTetrahedron& tetrahedron) {
     const Places places = open_simplices(tetrahedron);
     if (has_cell_labels_)

@@ -58,6 +58,8 @@ public:
     /// Vertices that were finished since this was cleared.
     std::vector<VertexEnd>& ended() { return ended_; }
 
+    /// Of the front, and of what the strip has made.
+    std::uint64_t bytes() const;
     /// Whether all faces on the hull lie on the sides of the box round the points, and no more than four labels meet
     /// on an edge or corner of it, with those of the sides.
     bool hull_is_box() const { return hull_is_box_; }

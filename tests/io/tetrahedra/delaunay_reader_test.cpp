@@ -293,10 +293,10 @@ protected:
 TEST_F(FakeDelaunay, that_fails_is_told_with_code_and_words) {
     EXPECT_THAT(
         problem_with("cat >/dev/null; echo oops >&2; exit 9"),
-        AllOf(StartsWith("points.csv: /"), EndsWith("program failed with exit code 9 (oops); it was given 8 points")));
+        AllOf(StartsWith("points.csv: /"), EndsWith("program failed with exit code 9 (oops); it was given 8 points: leave some out, or take a larger --step")));
     EXPECT_THAT(problem_with("exit 1", lattice(50, 50, 50)),
-                EndsWith("failed with exit code 1; it was given 125000 points"));
-    EXPECT_THAT(problem_with("cat >/dev/null; exit 6"), HasSubstr("program ran out of memory; it was given 8 points"));
+                EndsWith("failed with exit code 1; it was given 125000 points: leave some out, or take a larger --step"));
+    EXPECT_THAT(problem_with("cat >/dev/null; exit 6"), HasSubstr("program ran out of memory; it was given 8 points: leave some out, or take a larger --step"));
 }
 
 TEST_F(FakeDelaunay, that_is_killed_is_told_with_its_signal) {

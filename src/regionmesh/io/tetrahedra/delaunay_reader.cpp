@@ -90,7 +90,7 @@ void DelaunayReader::tell_why() {
     } else {
         what += " stopped before it had written all tetrahedra";
     }
-    refuse(what + "; it was given " + points);
+    refuse(what + "; it was given " + points + ": leave some out, or take a larger --step");
 }
 
 void DelaunayReader::read_header() {

@@ -1,6 +1,7 @@
 #include "regionmesh/io/tetrahedra/drill_holes.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,17 @@ void refuse_overlaps(const DrillHoles& holes, const TableLabels& labels) {
     for (const std::uint32_t i : order) sweep.add(intervals[i]);
 }
 
+namespace {
+
+/// Of a point: its place, label and row.
+constexpr double kBytesPerPoint = 36;
+
+double physical_bytes() {
+    return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
 void append_points(const DrillHoles& holes, std::optional<double> step, PointTable& table) {
     double total = 0;
     for (const Interval& interval : holes.intervals) {
@@ -93,6 +105,9 @@ void append_points(const DrillHoles& holes, std::optional<double> step, PointTab
                                          interval.row, step.value_or(0), kMostPoints));
     }
     const std::size_t count = table.rows.size() + static_cast<std::size_t>(total);
+    if (total * kBytesPerPoint > physical_bytes())
+        fail(holes.path, fmt::format("with --step {} there are {} points, more than memory holds; give a larger one",
+                                     step.value_or(0), count));
     table.points.positions.reserve(count);
     table.points.labels.reserve(count);
     table.rows.reserve(count);

@@ -117,6 +117,7 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
 }
 
 void ColumnFinder::look_for(Role role, const Words& words) {
+    if (!found_.has_header) return;  // the first row is data, whatever words stand in it
     for (std::size_t i = 0; !place(role) && i < words.size(); ++i) place(role) = column_like(words[i], plain_title);
 }
 
