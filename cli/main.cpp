@@ -29,7 +29,7 @@ int run(const regionmesh::cli::Action& action) {
 
 int main(int argc, char** argv) {
     regionmesh::keep_large_arrays_apart();
-    CLI::App app("Certified multi-region surface models from labelled planar sections");
+    CLI::App app("Certified multi-region surface models from labelled sections, points and tetrahedra");
     app.name("regionmesh");
     app.set_version_flag("--version", REGIONMESH_VERSION);
     app.require_subcommand(1);

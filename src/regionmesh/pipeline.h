@@ -1,4 +1,4 @@
-// The whole way from sections to a checked model.
+// The whole way from sections, or tetrahedra, to a checked model.
 #pragma once
 
 #include <cstdint>

@@ -89,9 +89,7 @@ std::vector<std::uint32_t> rank_points(const TetrahedronReader& reader, Labelled
             points[count++] = p;
             if (has_labels) ranked.labels.push_back(labels.dense(given.labels[p]));
         } else if (has_labels && given.labels[p] != given.labels[before]) {
-            fail(reader, reader.name_of_point(before) + " and " + reader.name_of_point(p) +
-                             " lie at one place and have the labels " + labels.text(given.labels[before]) + " and " +
-                             labels.text(given.labels[p]) + ": leave one of them out");
+            ranked.others.try_emplace(count - 1, RankedPoints::Other{p, given.labels[p]});
         }
         rank_of[p] = count - 1;
     }
@@ -105,8 +103,9 @@ std::vector<std::uint32_t> rank_points(const TetrahedronReader& reader, Labelled
 /// Puts corners in the order of ranks.
 class Ranker {
 public:
-    Ranker(const TetrahedronReader& reader, const std::vector<std::uint32_t>& rank_of, RankedTetrahedra& ranked)
-        : reader_(reader), rank_of_(rank_of), ranked_(ranked) {}
+    Ranker(const TetrahedronReader& reader, const LabelTable& labels, const std::vector<std::uint32_t>& rank_of,
+           RankedTetrahedra& ranked)
+        : reader_(reader), labels_(labels), rank_of_(rank_of), ranked_(ranked) {}
 
     void add(const LabelledTetrahedron& given, Label label) {
         RankedTetrahedron made{{}, label, 0};
@@ -115,6 +114,7 @@ public:
             made.corners[n] = rank_of_[given.corners[n]];
         }
         std::sort(made.corners.begin(), made.corners.end());
+        if (!ranked_.points.others.empty()) refuse_two_labels(made.corners);
         if (std::adjacent_find(made.corners.begin(), made.corners.end()) != made.corners.end())
             fail_here("has two corners at one place");
         std::array<Vec3, 4> at;
@@ -129,11 +129,26 @@ public:
     }
 
 private:
+    /// Points that no tetrahedron has may have any label.
+    void refuse_two_labels(const std::array<std::uint32_t, 4>& corners) const {
+        const RankedPoints& points = ranked_.points;
+        for (std::uint32_t rank : corners) {
+            const auto other = points.others.find(rank);
+            if (other == points.others.end()) continue;
+            const auto& [point, label] = other->second;
+            fail(reader_, reader_.name_of_point(points.points[rank]) + " and " + reader_.name_of_point(point) +
+                              " lie at one place and have the labels " +
+                              labels_.text(labels_.input(points.labels[rank])) + " and " + labels_.text(label) +
+                              ": leave one of them out");
+        }
+    }
+
     [[noreturn]] void fail_here(const char* text) const {
         fail(reader_, reader_.name_of_tetrahedron(count_) + " " + text + "; mend the mesh");
     }
 
     const TetrahedronReader& reader_;
+    const LabelTable& labels_;
     const std::vector<std::uint32_t>& rank_of_;
     RankedTetrahedra& ranked_;
     std::uint64_t count_ = 0;
@@ -155,7 +170,7 @@ RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, 
     const std::uint64_t count = given.positions.size();
     require_memory(reader, count, points_across(all, ranked.points.sweep, static_cast<double>(count)), options.memory);
     const std::vector<std::uint32_t> rank_of = rank_points(reader, std::move(given), labels, ranked.points);
-    Ranker ranker(reader, rank_of, ranked);
+    Ranker ranker(reader, labels, rank_of, ranked);
     std::vector<LabelledTetrahedron> piece(kPiece);
     while (const std::size_t got = reader.next(piece))
         for (std::size_t n = 0; n < got; ++n)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "regionmesh/base/external_sort.h"
@@ -20,11 +21,17 @@ namespace regionmesh {
 /// Points by rank: in order of their places along the sweep, then of the other coordinates. All that lie at one place
 /// are one.
 struct RankedPoints {
+    struct Other {
+        std::uint32_t point;
+        InputLabel label;
+    };
+
     Sweep sweep;
     std::vector<Vec3> positions;
-    std::vector<Label> labels;          // dense; none where the tetrahedra have them
-    std::vector<std::uint32_t> points;  // the reader's numbers; of several at one place the first
-    Box box;                            // round those that tetrahedra have
+    std::vector<Label> labels;                        // dense; none where the tetrahedra have them
+    std::vector<std::uint32_t> points;                // the reader's numbers; of several at one place the first
+    std::unordered_map<std::uint32_t, Other> others;  // by rank: a point there with another label
+    Box box;                                          // round those that tetrahedra have
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(positions.size()); }
     double along(std::uint32_t rank) const { return positions[rank][sweep.axes[2]]; }
@@ -55,8 +62,8 @@ struct RankOptions {
 };
 
 /// Takes all that a reader has; labels of points get their numbers in the order of ranks. Throws Error(kInput): naming
-/// both points of two labels at one place, a tetrahedron that is flat or has corners that are not there; for more
-/// points than memory can hold; where there are no tetrahedra, or none that has a volume in numbers.
+/// both points of two labels at one place of a tetrahedron, a tetrahedron that is flat or has corners that are not
+/// there; for more points than memory can hold; where there are no tetrahedra, or none that has a volume in numbers.
 RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, const RankOptions& options = {});
 
 }  // namespace regionmesh
