@@ -8,17 +8,23 @@
 namespace regionmesh {
 namespace {
 
-/// Puts items of one key in the order of what `rank` says of their index, whatever order they came in.
+/// Puts items of one key in the order of what `rank` says of their index, whatever order they came in. Mostly they are
+/// two or three.
 template <class Rank>
 void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
+    constexpr std::ptrdiff_t kFew = 16;
+    const auto is_before = [&](const KeyedIndex& a, const KeyedIndex& b) {
+        const auto of_a = rank(a.index), of_b = rank(b.index);
+        return of_a != of_b ? of_a < of_b : a.index < b.index;
+    };
     for (auto first = items.begin(); first != items.end();) {
         auto end = first + 1;
         while (end != items.end() && end->key == first->key) ++end;
-        if (end - first > 1)
-            std::sort(first, end, [&](const KeyedIndex& a, const KeyedIndex& b) {
-                const auto of_a = rank(a.index), of_b = rank(b.index);
-                return of_a != of_b ? of_a < of_b : a.index < b.index;
-            });
+        if (end - first > kFew)
+            std::sort(first, end, is_before);
+        else
+            for (auto next = first + 1; next < end; ++next)
+                for (auto at = next; at != first && is_before(*at, *(at - 1)); --at) std::swap(*at, *(at - 1));
         first = end;
     }
 }
