@@ -54,16 +54,9 @@ int check_command(const Arguments& arguments) {
     CheckOptions options = arguments.input.check_options(file.labels);
     options.threads = arguments.threads;
     if (!arguments.sections.empty()) {
-        const CensusOptions census{.cap = arguments.input.cap(),
-                                   .background = arguments.input.background_labels(),
-                                   .sweep = arguments.input.sweep_of_tetrahedra()};
-        const auto compare_with = [&](auto reader) {
-            options.oracle = translate(count_labels(*reader, census), file.labels);
-        };
-        if (arguments.tetrahedra.is_meant(arguments.sections, arguments.input))
-            compare_with(arguments.tetrahedra.open(arguments.sections));
-        else
-            compare_with(arguments.input.open(arguments.sections));
+        options.oracle = with_reader(arguments.sections, arguments.input, arguments.tetrahedra, [&](auto& reader) {
+            return translate(count_labels(reader, arguments.input.census_options()), file.labels);
+        });
     }
     const CheckReport report = check(file.model, options);
     if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels, file.names));

@@ -35,7 +35,7 @@ void print_labels(const AnyCensus& census, const LabelNames& names, const char* 
     if (order.size() > kShown) fmt::print("  and {} more\n", order.size() - kShown);
 }
 
-int info_of_tetrahedra(TetrahedronReader& reader, const CensusOptions& options) {
+int print_info(TetrahedronReader& reader, const CensusOptions& options) {
     const TetrahedraInfo& info = reader.info();
     const TetrahedronCensus census = count_labels(reader, options);
     fmt::print("file       {} ({})\n", info.source, info.format);
@@ -48,17 +48,10 @@ int info_of_tetrahedra(TetrahedronReader& reader, const CensusOptions& options) 
     return 0;
 }
 
-int info_command(const Arguments& arguments) {
-    if (arguments.tetrahedra.is_meant(arguments.inputs, arguments.input))
-        return info_of_tetrahedra(*arguments.tetrahedra.open(arguments.inputs),
-                                  {.cap = arguments.input.cap(),
-                                   .background = arguments.input.background_labels(),
-                                   .sweep = arguments.input.sweep_of_tetrahedra()});
-    const auto reader = arguments.input.open(arguments.inputs);
-    const VolumeInfo info = reader->info();
+int print_info(SectionReader& reader, const CensusOptions& options) {
+    const VolumeInfo info = reader.info();
     const Lattice& lattice = info.lattice;
-    const CensusOptions options{.cap = arguments.input.cap(), .background = arguments.input.background_labels()};
-    const Census census = count_labels(*reader, options);
+    const Census census = count_labels(reader, options);
     fmt::print("file       {} ({})\n", info.source, info.format);
     fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2],
                to_string(info.type));
@@ -70,8 +63,8 @@ int info_command(const Arguments& arguments) {
                    d[5], d[6], d[7], d[8]);
     }
     const char axis = std::string("xyz")[info.sweep.axes[2]];
-    fmt::print("sweep      along {}, {} sections of {} x {}\n", axis, reader->section_count(), reader->section_width(),
-               reader->section_height());
+    fmt::print("sweep      along {}, {} sections of {} x {}\n", axis, reader.section_count(), reader.section_width(),
+               reader.section_height());
     print_labels(census, info.names, "samples");
     const auto megabytes = [&](double share) {
         return (static_cast<double>(reading_bytes(info)) +
@@ -83,6 +76,11 @@ int info_command(const Arguments& arguments) {
     fmt::print("memory     {:.0f} MB to hold the whole model; {:.0f} MB with a budget of a fifth of it\n", megabytes(1),
                megabytes(0.2));
     return 0;
+}
+
+int info_command(const Arguments& arguments) {
+    return with_reader(arguments.inputs, arguments.input, arguments.tetrahedra,
+                       [&](auto& reader) { return print_info(reader, arguments.input.census_options()); });
 }
 
 }  // namespace

@@ -94,6 +94,10 @@ std::optional<Sweep> InputOptions::sweep_of_tetrahedra() const {
     return sweep == "x" ? kSweepX : sweep == "y" ? kSweepY : kSweepZ;
 }
 
+CensusOptions InputOptions::census_options() const {
+    return {.cap = cap(), .background = background_labels(), .sweep = sweep_of_tetrahedra()};
+}
+
 std::unique_ptr<SectionReader> InputOptions::open(const std::vector<std::string>& inputs) const {
     ReadOptions options;
     options.sweep = sweep == "x"   ? SweepChoice::kX

@@ -25,6 +25,8 @@ struct InputOptions {
     void add_label_options(CLI::App& command);
     /// That of --sweep for points and meshes; none for auto.
     std::optional<Sweep> sweep_of_tetrahedra() const;
+    /// What is counted of an input of any kind.
+    CensusOptions census_options() const;
     /// Throws Error(kInput) for a word that is no number.
     std::unique_ptr<SectionReader> open(const std::vector<std::string>& inputs) const;
     std::vector<InputLabel> background_labels() const;

@@ -91,15 +91,12 @@ void print_summary(const Arguments& arguments, const Report& report) {
 /// From whatever the input is; `names` become those of its labels.
 Reconstruction reconstruct_input(const Arguments& arguments, const ReconstructOptions& options, LabelNames& names) {
     ProgressLine line(arguments.quiet);
-    const auto from = [&](auto reader) {
-        names = arguments.output.names_or(reader->info().names);
-        Reconstruction made = reconstruct(*reader, options, [&](const Progress& progress) { line.show(progress); });
+    return with_reader(arguments.inputs, arguments.input, arguments.tetrahedra, [&](auto& reader) {
+        names = arguments.output.names_or(reader.info().names);
+        Reconstruction made = reconstruct(reader, options, [&](const Progress& progress) { line.show(progress); });
         line.clear();
         return made;
-    };
-    if (arguments.tetrahedra.is_meant(arguments.inputs, arguments.input))
-        return from(arguments.tetrahedra.open(arguments.inputs));
-    return from(arguments.input.open(arguments.inputs));
+    });
 }
 
 int reconstruct_command(const Arguments& arguments) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "input_options.h"
-
 namespace regionmesh::cli {
 namespace {
 

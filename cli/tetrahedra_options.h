@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "input_options.h"
 #include "regionmesh/regionmesh.h"
 
 namespace regionmesh::cli {
-
-struct InputOptions;
 
 struct TetrahedraArguments {
     std::string columns, step, scale_z, array;
@@ -22,5 +21,13 @@ struct TetrahedraArguments {
     bool is_meant(const std::vector<std::string>& inputs, const InputOptions& volume) const;
     std::unique_ptr<TetrahedronReader> open(const std::vector<std::string>& inputs) const;
 };
+
+/// Calls visit(reader) for the reader of the input, whichever kind it is of, and returns what that does.
+template <class Visit>
+auto with_reader(const std::vector<std::string>& inputs, const InputOptions& volume,
+                 const TetrahedraArguments& tetrahedra, Visit&& visit) {
+    if (tetrahedra.is_meant(inputs, volume)) return visit(*tetrahedra.open(inputs));
+    return visit(*volume.open(inputs));
+}
 
 }  // namespace regionmesh::cli

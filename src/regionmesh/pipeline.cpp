@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "regionmesh/base/error.h"
 #include "regionmesh/base/process.h"
-#include "regionmesh/census.h"
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/memory_demand.h"
 #include "regionmesh/run_until_held.h"

@@ -3,7 +3,6 @@
 
 #include "regionmesh/decimate/decimate.h"
 #include "regionmesh/pipeline.h"
-#include "regionmesh/volume/lattice.h"
 
 namespace regionmesh {
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "io/models/surfaces.h"
 #include "io/temporary_folder.h"
 #include "regionmesh/base/error.h"
 #include "regionmesh/io/models/model_formats.h"
@@ -62,32 +63,11 @@ Model two_boxes() {
     return model;
 }
 
-// A face in words that do not depend on ids: corner positions, the least first, and labels as text, the smaller text
-// first.
-using Words = std::pair<std::array<std::array<double, 3>, 3>, std::array<std::string, 2>>;
-
-std::multiset<Words> faces_of(const Model& model, const LabelTable& labels) {
-    std::multiset<Words> faces;
-    for (std::uint32_t i = 0; i < model.face_end(); ++i) {
-        if (!model.is_alive(FaceId{i})) continue;
-        Words words;
-        for (int place = 0; place < 3; ++place) {
-            const Vec3 p = model.corners(FaceId{i})[place];
-            words.first[place] = {p.x, p.y, p.z};
-        }
-        for (int k = 0; k < 2; ++k) {
-            const Label label = model[FaceId{i}].labels[k];
-            words.second[k] =
-                is_exterior(label) ? "side " + std::to_string(side_of(label)) : std::to_string(labels.input(label));
-        }
-        if (words.second[0] > words.second[1]) {
-            std::swap(words.second[0], words.second[1]);
-            std::swap(words.first[1], words.first[2]);
-        }
-        std::rotate(words.first.begin(), std::ranges::min_element(words.first), words.first.end());
-        faces.insert(words);
-    }
-    return faces;
+/// With the sides of the box told apart.
+std::multiset<FaceWords> faces_of(const Model& model, const LabelTable& labels) {
+    return faces_in_words(model, [&](Label label) {
+        return is_exterior(label) ? "side " + std::to_string(side_of(label)) : std::to_string(labels.input(label));
+    });
 }
 
 std::map<std::array<double, 3>, SideSet> sides_of(const Model& model) {

@@ -21,20 +21,10 @@ void spill(SpilledStrips& strips, test::ArrayMesh mesh, std::uint32_t per_strip 
     LabelTable labels;
     RankedTetrahedra ranked = rank_tetrahedra(mesh, labels, {.sweep = kSweepZ});
     TetrahedronMesher mesher(ranked.points, mesh, {});
-    std::uint32_t count = 0, strip = 0;
-    const auto end_strip = [&] {
+    test::mesh_in_strips(ranked, mesher, per_strip, [&] {
         strips.add(mesher.strip(), 0);
         for (const VertexEnd& end : mesher.ended()) strips.add_end(end);
-        mesher.ended().clear();
-        mesher.begin_strip(++strip);
-    };
-    for (RankedTetrahedron t; ranked.sorted.next(t);) {
-        mesher.close_before(t.corners[0]);
-        if (++count % per_strip == 0) end_strip();
-        mesher.add(t);
-    }
-    mesher.close_all();
-    end_strip();
+    });
     strips.finish(mesher.hull_is_box());
 }
 

@@ -31,9 +31,8 @@ Watched watched(ArrayMesh mesh, const StripOptions& options = {}, std::uint32_t 
     TetrahedronMesher mesher(ranked.points, mesh, options);
     StarWatch watch(options);
     Watched result;
-    std::uint32_t count = 0, strip = 0, ended = 0;
-    std::vector<bool> is_on_hull;
-    const auto end_strip = [&] {
+    std::uint32_t ended = 0;
+    test::mesh_in_strips(ranked, mesher, per_strip, [&] {
         watch.add(mesher.strip());
         watch.judge(mesher.ended());
         for (const BatchVertex& vertex : mesher.strip().vertices) result.whole.add_vertex(vertex.position);
@@ -47,16 +46,7 @@ Watched watched(ArrayMesh mesh, const StripOptions& options = {}, std::uint32_t 
             if (end.is_on_hull) result.whole[VertexId{end.vertex}].sides = kOnHull;
             ++ended;
         }
-        mesher.ended().clear();
-        mesher.begin_strip(++strip);
-    };
-    for (RankedTetrahedron t; ranked.sorted.next(t);) {
-        mesher.close_before(t.corners[0]);
-        if (++count % per_strip == 0) end_strip();
-        mesher.add(t);
-    }
-    mesher.close_all();
-    end_strip();
+    });
     EXPECT_EQ(ended, result.whole.vertex_end());
     return result;
 }

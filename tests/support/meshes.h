@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "regionmesh/tets/tetrahedron_mesher.h"
 #include "regionmesh/volume/tetrahedron_reader.h"
 #include "support/volumes.h"
 
@@ -53,5 +54,23 @@ ArrayMesh by_cells(const ArrayMesh& mesh);
 /// The tetrahedra of those cells of a lattice that the test keeps.
 using KeepsCell = std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>;
 ArrayMesh carved(const ArrayMesh& mesh, Size size, const KeepsCell& keeps);
+
+/// Meshes them in strips of so many tetrahedra each; end_strip() takes what the mesher has made of one.
+template <class EndStrip>
+void mesh_in_strips(RankedTetrahedra& ranked, TetrahedronMesher& mesher, std::uint32_t per_strip, EndStrip&& end_strip) {
+    std::uint32_t count = 0, strip = 0;
+    const auto end = [&] {
+        end_strip();
+        mesher.ended().clear();
+        mesher.begin_strip(++strip);
+    };
+    for (RankedTetrahedron t; ranked.sorted.next(t);) {
+        mesher.close_before(t.corners[0]);
+        if (++count % per_strip == 0) end();
+        mesher.add(t);
+    }
+    mesher.close_all();
+    end();
+}
 
 }  // namespace regionmesh::test

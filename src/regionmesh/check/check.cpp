@@ -13,13 +13,9 @@ constexpr std::array<const char*, kViolationKindCount> kKindNames{
     "duplicate_face", "degenerate_face",  "coincident_vertices", "unused_vertex",  "crossing_faces",
     "euler",          "quadruple_points", "region_pairs",        "nesting",        "non_generic_vertex"};
 
-bool is_background(const CheckOptions& options, Label label) {
-    return std::find(options.background.begin(), options.background.end(), label) != options.background.end();
-}
-
 void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report) {
     for (Label label = 0; label < regions.size(); ++label) {
-        if (!(regions[label].area > 0) || is_background(options, label)) continue;
+        if (!(regions[label].area > 0) || options.is_background(label)) continue;
         report.regions.push_back(regions[label]);
         report.regions.back().label = label;
     }
@@ -61,7 +57,7 @@ void check_against_labels(const CheckOptions& options, CheckReport& report, Find
     for (const RegionReport& region : report.regions)
         if (region.label < euler.size()) euler[region.label] = region.euler;
     for (Label label = 0; label < euler.size(); ++label) {
-        if (is_background(options, label)) continue;
+        if (options.is_background(label)) continue;
         if (!options.boundary_is_open && euler[label] != oracle.euler[label])
             findings.add(ViolationKind::kEuler, {}, {}, [&] {
                 return region_name(options, label) + ": Euler characteristic " + std::to_string(euler[label]) +

@@ -1,6 +1,7 @@
 // The invariant test of a labelled surface: what is wrong with it, as data, and what it measures (DESIGN: check).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -70,6 +71,10 @@ struct CheckOptions {
     std::optional<LabelOracle> oracle = {};  // compare with the labels
     bool crossing = true;                    // look for crossing faces
     std::uint32_t threads = 0;               // at work; 0: one per core. The report is the same for any number
+    bool is_background(Label label) const {
+        return std::find(background.begin(), background.end(), label) != background.end();
+    }
+
     /// For sentences, from any thread; the dense number without it.
     std::function<std::string(Label)> label_text = {};
     std::uint32_t listed = 1000;  // at most so many findings a kind are listed; all are counted

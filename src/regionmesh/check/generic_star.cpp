@@ -49,9 +49,7 @@ bool GenericStar::has_one_fan(VertexId v, Label label) {
 }
 
 bool GenericStar::may_be_open(Label label, VertexId v, VertexId end) const {
-    const auto& background = options_.background;
-    return (model_[v].sides & model_[end].sides) != 0 &&
-           (options_.boundary_is_open || std::find(background.begin(), background.end(), label) != background.end());
+    return (model_[v].sides & model_[end].sides) != 0 && (options_.boundary_is_open || options_.is_background(label));
 }
 
 StarFault GenericStar::look_at_lines(VertexId v, const LabelSet& labels) {

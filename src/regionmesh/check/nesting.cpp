@@ -153,9 +153,7 @@ private:
             return true;
         });
         const bool leaves = nearest.distance == HUGE_VAL;
-        const bool may_leave = options_.boundary_is_open ||
-                               std::find(options_.background.begin(), options_.background.end(), outer->first) !=
-                                   options_.background.end();
+        const bool may_leave = options_.boundary_is_open || options_.is_background(outer->first);
         if (leaves ? may_leave || is_exterior(outer->first) : nearest.label == outer->first) return;
         findings.add(ViolationKind::kNesting, {index(part.farthest)}, {}, [&] {
             return "the part with vertex " + std::to_string(index(part.farthest)) + " says it lies in " +

@@ -52,9 +52,6 @@ private:
     static constexpr std::size_t kMostOrdered = 1024;
 
     static std::uint32_t sheet(FaceId f, int side) { return 2 * index(f) + static_cast<std::uint32_t>(side); }
-    bool is_background(Label label) const {
-        return std::find(options_.background.begin(), options_.background.end(), label) != options_.background.end();
-    }
 
     void look_at_vertex(VertexId v) {
         if (model_[v].star == kNoCorner)
@@ -151,10 +148,10 @@ private:
         const auto ends = [&](const Use& a, const Use& b) { return a.end != b.end; };
         std::size_t edges = uses_.empty() ? 0 : 1;
         for (std::size_t n = 1; n < uses_.size(); ++n) edges += ends(uses_[n - 1], uses_[n]);
-        const bool may_be_rim =
-            model_[v].sides != 0 &&
-            (options_.boundary_is_open ||
-             std::any_of(uses_.begin(), uses_.end(), [&](const Use& use) { return is_background(use.label); }));
+        const bool may_be_rim = model_[v].sides != 0 && (options_.boundary_is_open ||
+                                                         std::any_of(uses_.begin(), uses_.end(), [&](const Use& use) {
+                                                             return options_.is_background(use.label);
+                                                         }));
         if (edges < 3 && !may_be_rim)
             findings_.add(ViolationKind::kFewEdges, {index(v)}, {},
                           [&] { return name(v) + " has fewer than three edges"; });
@@ -196,7 +193,7 @@ private:
         if (w < v) return;  // told from there
         regions_[label].euler -= 1;
         const bool may_be_open =
-            (options_.boundary_is_open || is_background(label)) && (model_[v].sides & model_[w].sides) != 0;
+            (options_.boundary_is_open || options_.is_background(label)) && (model_[v].sides & model_[w].sides) != 0;
         const auto say = [&, w = w, label = label](ViolationKind kind, const std::string& what) {
             findings_.add(kind, {index(v), index(w)}, {},
                           [&] { return name(v, w) + ", " + region_name(options_, label) + ": " + what; });

@@ -4,12 +4,6 @@
 
 namespace regionmesh {
 
-FaceTree::FaceTree(std::span<const Box> boxes) {
-    Box extent;
-    for (const Box& box : boxes) extent.join(box);
-    boxes_.build(static_cast<std::uint32_t>(boxes.size()), extent, 1, [&](std::uint32_t f) { return boxes[f]; });
-}
-
 void FaceTree::build(const Model& model) {
     boxes_.build(model.face_end(), extent_of(model, 1), 1, [&](std::uint32_t f) {
         Box box;

@@ -16,8 +16,6 @@ public:
     using GridBox = GridTree::GridBox;
 
     explicit FaceTree(const Model& model) { build(model); }
-    /// Over the boxes given, for faces numbered as they are.
-    explicit FaceTree(std::span<const Box> boxes);
 
     /// Begins again with the faces that are alive now; the old boxes are let go first.
     void build(const Model& model);

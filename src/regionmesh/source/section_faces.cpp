@@ -30,7 +30,7 @@ SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options)
 
 std::optional<FaceCount> SectionFaces::count() {
     if (!reader_.info().can_rewind) {
-        const SectionWindow refuses_flat(reader_, labels_);
+        begin();
         census_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
         return {};
     }
@@ -43,11 +43,14 @@ double SectionFaces::plane_of(std::uint32_t strip) const {
     return shape_.lattice.origin[shape_.axis()] + strip * shape_.lattice.spacing[shape_.axis()];
 }
 
+/// Not before sections were counted: counting takes as much memory again. Refuses volumes without a cell.
+void SectionFaces::begin() {
+    window_.emplace(reader_, labels_);
+    mesher_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
+}
+
 bool SectionFaces::advance() {
-    if (!window_) {
-        window_.emplace(reader_, labels_);
-        mesher_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
-    }
+    if (!window_) begin();
     return window_->advance();
 }
 

@@ -28,12 +28,14 @@ public:
     void place(Model& model) const override;
 
 private:
+    void begin();
+
     SectionReader& reader_;
     CensusOptions options_;
     SourceShape shape_;
     LabelTable labels_;
     std::vector<Label> background_;
-    std::optional<SectionWindow> window_;  // from the first strip on
+    std::optional<SectionWindow> window_;  // from begin() on
     std::optional<StripMesher> mesher_;
     std::optional<LabelCensus> census_;  // where nothing was counted before
 };

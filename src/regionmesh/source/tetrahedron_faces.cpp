@@ -58,7 +58,7 @@ TetrahedronFaces::TetrahedronFaces(TetrahedronReader& reader, const TetrahedronO
 }
 
 std::optional<FaceCount> TetrahedronFaces::count() {
-    if (!is_made_) make_all();
+    if (layers_.empty()) make_all();
     FaceCount count{.strip_faces = {}, .face_count = spilled_.face_count(), .oracle = oracle_};
     for (StripRange layer : layers_) count.strip_faces.push_back(spilled_.faces_of(layer));
     return count;
@@ -75,7 +75,6 @@ void TetrahedronFaces::make_all() {
     shape_strips(tetrahedra);
     mesh(tetrahedra);
     gather_layers();
-    is_made_ = true;
 }
 
 void TetrahedronFaces::shape_strips(const RankedTetrahedra& tetrahedra) {
@@ -84,9 +83,6 @@ void TetrahedronFaces::shape_strips(const RankedTetrahedra& tetrahedra) {
     shape_.sweep = tetrahedra.points.sweep;
     shape_.scale = spacing;
     shape_.lattice = lattice_round(box, spacing, static_cast<double>(tetrahedron_count_));
-    low_ = box.low[shape_.axis()];
-    thickness_ = shape_.lattice.spacing[shape_.axis()];
-    thin_strips_ = shape_.lattice.size[shape_.axis()] - 1;
 }
 
 /// One pass over the tetrahedra in the order of the sweep; each strip goes to disk when it is made.
@@ -95,6 +91,8 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
     const StripOptions options{.cap = options_.cap, .background = background_};
     TetrahedronMesher mesher(points, reader_, options);
     StarWatch watch(options);
+    const double low = shape_.lattice.origin[shape_.axis()], thickness = shape_.lattice.spacing[shape_.axis()];
+    const std::uint32_t thin_strips = shape_.lattice.size[shape_.axis()] - 1;
     std::uint32_t strip = 0;
     std::uint64_t pinned = 0;
     const auto end_strip = [&] {
@@ -122,15 +120,15 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
         if (has_cell_labels) tetrahedron.label = in_order.dense(labels_.input(tetrahedron.label));
         const std::uint32_t lowest = tetrahedron.corners[0];
         mesher.close_before(lowest);
-        const double along = (points.along(lowest) - low_) / thickness_;
-        const auto own = std::min(static_cast<std::uint32_t>(std::floor(along + 1e-9)), thin_strips_ - 1);
+        const double along = (points.along(lowest) - low) / thickness;
+        const auto own = std::min(static_cast<std::uint32_t>(std::floor(along + 1e-9)), thin_strips - 1);
         while (strip < own) end_strip();
         mesher.add(tetrahedron);
         if (has_cell_labels) ++samples_[tetrahedron.label];
     }
     if (has_cell_labels) labels_ = std::move(in_order);
     mesher.close_all();
-    while (strip < thin_strips_) end_strip();
+    while (strip < thin_strips) end_strip();
     spilled_.finish(mesher.hull_is_box());
     if (mesher.hull_is_box()) high_ = points.box.high[shape_.axis()];
     oracle_ = mesher.oracle();
@@ -150,10 +148,10 @@ void TetrahedronFaces::gather_layers() {
     if (options_.in_layers) {
         layers_ = spilled_.layers();
     } else {
-        for (std::uint32_t strip = 0; strip < thin_strips_; ++strip) layers_.push_back({strip, strip + 1});
+        for (std::uint32_t strip = 0; strip < spilled_.strip_count(); ++strip) layers_.push_back({strip, strip + 1});
     }
     shape_.strip_count = static_cast<std::uint32_t>(layers_.size());
-    std::uint32_t thinnest = thin_strips_;
+    std::uint32_t thinnest = spilled_.strip_count();
     double top = -HUGE_VAL;
     std::uint64_t most_faces = 0;
     for (std::uint32_t n = 0; n < layers_.size(); ++n) {
@@ -166,13 +164,14 @@ void TetrahedronFaces::gather_layers() {
         top = own_top;
         most_faces = std::max(most_faces, spilled_.faces_of(layers_[n]));
     }
-    shape_.strip_thickness = thinnest * thickness_;
+    shape_.strip_thickness = thinnest * shape_.lattice.spacing[shape_.axis()];
     constexpr std::uint64_t kBytesPerFaceRead = 80;  // twice: as read, and as a batch
     shape_.reading_bytes = kProcessBytes + most_faces * kBytesPerFaceRead + spilled_.bytes();
 }
 
 double TetrahedronFaces::plane_of(std::uint32_t strip) const {
-    return strip < layers_.size() ? low_ + layers_[strip].first * thickness_ : high_;
+    if (strip == layers_.size()) return high_;
+    return shape_.lattice.origin[shape_.axis()] + layers_[strip].first * shape_.lattice.spacing[shape_.axis()];
 }
 
 bool TetrahedronFaces::advance() {

@@ -59,13 +59,10 @@ private:
     LabelOracle oracle_;
     std::uint64_t point_count_ = 0, tetrahedron_count_ = 0;
     std::vector<std::uint64_t> samples_;
-    double low_ = 0, thickness_ = 1;  // of the thin strips along the sweep
-    double high_ = HUGE_VAL;          // where the last one ends, if there is a side of a box
-    std::uint32_t thin_strips_ = 0;
+    double high_ = HUGE_VAL;  // where the last strip ends, if there is a side of a box
     SpilledStrips spilled_;
-    std::vector<StripRange> layers_;  // of thin strips: what a strip is to others
+    std::vector<StripRange> layers_;  // of thin strips, one a cell of the lattice: what a strip is to others
     std::uint32_t strips_read_ = 0;
-    bool is_made_ = false;
 };
 
 }  // namespace regionmesh

@@ -118,8 +118,7 @@ void LabelCensus::count_caps(const Corners& labels, unsigned sides) {
 /// A corner alone has one face of its label, two of a label that two corners have make two, three make one.
 void LabelCensus::count_triangle(Label a, Label b, Label c) {
     const auto count = [&](Label label, std::uint64_t faces) {
-        if (std::find(options_.background.begin(), options_.background.end(), label) == options_.background.end())
-            faces_ += faces;
+        if (!options_.is_background(label)) faces_ += faces;
     };
     if (a == b && b == c) return count(a, 1);
     if (a != b && b != c && a != c) return count(a, 2), count(b, 2), count(c, 2);

@@ -167,8 +167,7 @@ void StripMesher::cap_side(std::uint32_t i, std::uint32_t j, int side) {
         const std::array<Label, 3> corner{labels[plan.corners[0]], labels[plan.corners[1]], labels[plan.corners[2]]};
         for (const CaseFace& face : plan.cases[triangle_pattern(corner[0], corner[1], corner[2])]) {
             const Label inside = corner[face.first];
-            if (std::find(options_.background.begin(), options_.background.end(), inside) != options_.background.end())
-                continue;
+            if (options_.is_background(inside)) continue;
             BatchFace made;
             for (int n = 0; n < 3; ++n) made.vertices[n] = vertex(plan.simplices[face.vertices[n]], i, j);
             made.labels = {inside, outside};

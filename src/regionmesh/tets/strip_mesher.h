@@ -1,6 +1,7 @@
 // Sections in, faces out: the strip between two consecutive sections at a time (P 3.1-3.3).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,10 @@ namespace regionmesh {
 struct StripOptions {
     bool cap = true;  // split the lattice triangles on the six sides of the box into faces (DESIGN 4)
     std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
+
+    bool is_background(Label label) const {
+        return std::find(background.begin(), background.end(), label) != background.end();
+    }
 };
 
 /// Meshes strips. Vertices are welded by lattice key: a base node and one of 26 kinds, looked up in flat tables that

@@ -126,6 +126,25 @@ void TetrahedronMesher::add_face(const SimplexKey& corners, Label first, Label s
     made_.faces.push_back(face);
 }
 
+/// The faces of a patch; `vertex_of` and `middle_of` are the number and the place of the vertex of a set of corners.
+template <class VertexOf, class MiddleOf>
+void TetrahedronMesher::add_patch(const CasePatch& patch, bool turn, const std::array<Label, 2>& labels,
+                                  VertexOf&& vertex_of, MiddleOf&& middle_of) {
+    int start = 0;
+    if (patch.vertex_count == 4) {
+        std::array<Vec3, 4> quad;
+        for (int n = 0; n < 4; ++n) quad[n] = middle_of(patch.vertices[n]);
+        start = better_cut(quad);
+    }
+    std::array<CaseFace, 2> faces;
+    const int count = patch.cut(start, turn, faces);
+    for (int f = 0; f < count; ++f) {
+        BatchFace made{{}, labels};
+        for (int n = 0; n < 3; ++n) made.vertices[n] = vertex_of(faces[f].vertices[n]);
+        made_.faces.push_back(made);
+    }
+}
+
 void TetrahedronMesher::mesh(const RankedTetrahedron& tetrahedron, const Places& places) {
     const auto& corners = tetrahedron.corners;
     std::array<Label, 4> label;
@@ -141,22 +160,12 @@ void TetrahedronMesher::mesh(const RankedTetrahedron& tetrahedron, const Places&
         return number[set] - 1;
     };
     if (pattern == 63) ++quadruple_points_;
-    for (const CasePatch& patch : tetrahedron_patches_[pattern]) {
-        std::array<Vec3, 4> at;
-        if (patch.vertex_count == 4)
-            for (int n = 0; n < 4; ++n) {
-                const CornerSet set = patch.vertices[n];
-                at[n] = set == kWhole ? centroid(corners) : centroid(corners_of(key_of(corners, set)));
-            }
-        std::array<CaseFace, 2> faces;
-        const int count = patch.cut(patch.vertex_count == 4 ? better_cut(at) : 0,
-                                    patch.turns != bool(tetrahedron.is_mirrored), faces);
-        for (int f = 0; f < count; ++f) {
-            BatchFace made{{}, {label[faces[f].first], label[faces[f].second]}};
-            for (int n = 0; n < 3; ++n) made.vertices[n] = vertex_at(faces[f].vertices[n]);
-            made_.faces.push_back(made);
-        }
-    }
+    const auto middle_of = [&](CornerSet set) {
+        return set == kWhole ? centroid(corners) : centroid(corners_of(key_of(corners, set)));
+    };
+    for (const CasePatch& patch : tetrahedron_patches_[pattern])
+        add_patch(patch, patch.turns != bool(tetrahedron.is_mirrored), {label[patch.first], label[patch.second]},
+                  vertex_at, middle_of);
 }
 
 /// Notes the label at nodes and edges.
@@ -204,12 +213,9 @@ void TetrahedronMesher::cap(std::uint32_t place, const SimplexKey& key) {
     const std::array<std::uint32_t, 4> corners{key[0], key[turn ? 2 : 1], key[turn ? 1 : 2], kNoRank};
     const SideSet sides = sides_of(key);
     const Label outside = sides ? exterior(std::countr_zero(sides)) : exterior(kHull);
-    const auto is_background = [&](Label label) {
-        return std::find(options_.background.begin(), options_.background.end(), label) != options_.background.end();
-    };
     if (has_cell_labels_) {
         const Label inside = simplices_[place].note.label;
-        if (!is_background(inside)) add_face({corners[0], corners[1], corners[2]}, inside, outside);
+        if (!options_.is_background(inside)) add_face({corners[0], corners[1], corners[2]}, inside, outside);
         return;
     }
     const auto sorted_key = [&](CornerSet set) {
@@ -217,21 +223,13 @@ void TetrahedronMesher::cap(std::uint32_t place, const SimplexKey& key) {
         std::sort(sorted.begin(), sorted.end());
         return sorted;
     };
+    const auto vertex_at = [&](CornerSet set) { return vertex(place_of(sorted_key(set))); };
+    const auto middle_of = [&](CornerSet set) { return centroid(corners_of(sorted_key(set))); };
     std::array<Label, 3> label;
     for (int n = 0; n < 3; ++n) label[n] = points_.labels[corners[n]];
-    for (const CasePatch& patch : triangle_patches_[triangle_pattern(label[0], label[1], label[2])]) {
-        if (is_background(label[patch.first])) continue;
-        std::array<Vec3, 4> at;
-        if (patch.vertex_count == 4)
-            for (int n = 0; n < 4; ++n) at[n] = centroid(corners_of(sorted_key(patch.vertices[n])));
-        std::array<CaseFace, 2> faces;
-        const int count = patch.cut(patch.vertex_count == 4 ? better_cut(at) : 0, false, faces);
-        for (int f = 0; f < count; ++f) {
-            BatchFace made{{}, {label[patch.first], outside}};
-            for (int n = 0; n < 3; ++n) made.vertices[n] = vertex(place_of(sorted_key(faces[f].vertices[n])));
-            made_.faces.push_back(made);
-        }
-    }
+    for (const CasePatch& patch : triangle_patches_[triangle_pattern(label[0], label[1], label[2])])
+        if (!options_.is_background(label[patch.first]))
+            add_patch(patch, false, {label[patch.first], outside}, vertex_at, middle_of);
 }
 
 /// Nodes and edges that a label shares with others, or that lie on the hull, are on its boundary.

@@ -84,6 +84,9 @@ private:
     void count_cell(const RankedTetrahedron& tetrahedron, const Places& places);
     void meet_triangle(const RankedTetrahedron& tetrahedron, int opposite, std::uint32_t place);
     [[noreturn]] void fail_at(const SimplexKey& triangle, const char* text) const;
+    template <class VertexOf, class MiddleOf>
+    void add_patch(const CasePatch& patch, bool turn, const std::array<Label, 2>& labels, VertexOf&& vertex_of,
+                   MiddleOf&& middle_of);
     void close_triangle(std::uint32_t place);
     void finish(std::uint32_t place);
     void cap(std::uint32_t place, const SimplexKey& corners);

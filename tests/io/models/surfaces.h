@@ -15,16 +15,15 @@ namespace regionmesh {
 /// them from the lower text to the higher.
 using FaceWords = std::pair<std::array<std::array<double, 3>, 3>, std::array<std::string, 2>>;
 
-inline std::multiset<FaceWords> faces_of(const ModelFile& file) {
+template <class TextOf>
+std::multiset<FaceWords> faces_in_words(const Model& model, TextOf&& text_of) {
     std::multiset<FaceWords> faces;
-    for (std::uint32_t f = 0; f < file.model.face_end(); ++f) {
+    for (std::uint32_t f = 0; f < model.face_end(); ++f) {
+        if (!model.is_alive(FaceId{f})) continue;
         FaceWords words;
-        const auto corners = file.model.corners(FaceId{f});
+        const auto corners = model.corners(FaceId{f});
         for (int n = 0; n < 3; ++n) words.first[n] = {corners[n].x, corners[n].y, corners[n].z};
-        for (int side = 0; side < 2; ++side) {
-            const Label label = file.model[FaceId{f}].labels[side];
-            words.second[side] = is_exterior(label) ? "exterior" : file.labels.text(file.labels.input(label));
-        }
+        for (int side = 0; side < 2; ++side) words.second[side] = text_of(model[FaceId{f}].labels[side]);
         if (words.second[0] > words.second[1]) {
             std::swap(words.second[0], words.second[1]);
             std::swap(words.first[1], words.first[2]);
@@ -33,6 +32,13 @@ inline std::multiset<FaceWords> faces_of(const ModelFile& file) {
         faces.insert(words);
     }
     return faces;
+}
+
+/// Labels are those of the file; all of the exterior is one.
+inline std::multiset<FaceWords> faces_of(const ModelFile& file) {
+    return faces_in_words(file.model, [&](Label label) {
+        return is_exterior(label) ? "exterior" : file.labels.text(file.labels.input(label));
+    });
 }
 
 /// The region's volume, positive where its faces look outward.

@@ -5,14 +5,13 @@
 
 #include "regionmesh/io/header_text.h"
 #include "regionmesh/io/models/model_formats.h"
+#include "regionmesh/io/vtk_arrays.h"
 #include "regionmesh/io/vtk_xml_file.h"
 
 namespace regionmesh {
 namespace {
 
-pugi::xml_node array_named(pugi::xml_node parent, const char* name) {
-    return parent.find_child_by_attribute("DataArray", "Name", name);
-}
+using io::array_named;
 
 // Reads components in groups of N, which may be spread over two spans.
 template <std::size_t N, class T, class Visit>

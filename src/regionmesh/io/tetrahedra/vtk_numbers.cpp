@@ -11,27 +11,13 @@
 #include "regionmesh/io/ascii_stream.h"
 #include "regionmesh/io/header_text.h"
 #include "regionmesh/io/tetrahedra/label_array.h"
+#include "regionmesh/io/vtk_arrays.h"
 #include "regionmesh/io/vtk_blocks.h"
 
 namespace regionmesh::io {
 namespace {
 
 constexpr std::size_t kNumbersHeld = std::size_t{8} << 10;
-
-constexpr std::array<std::pair<std::string_view, SampleType>, 8> kIntegers{{{"Int8", SampleType::kI8},
-                                                                            {"UInt8", SampleType::kU8},
-                                                                            {"Int16", SampleType::kI16},
-                                                                            {"UInt16", SampleType::kU16},
-                                                                            {"Int32", SampleType::kI32},
-                                                                            {"UInt32", SampleType::kU32},
-                                                                            {"Int64", SampleType::kI64},
-                                                                            {"UInt64", SampleType::kU64}}};
-
-std::optional<SampleType> integer_type(std::string_view type) {
-    for (const auto& [word, known] : kIntegers)
-        if (word == type) return known;
-    return std::nullopt;
-}
 
 template <class Bits, class Real>
 void decode_reals(std::span<const std::byte> bytes, bool is_big_endian, std::span<double> reals) {
@@ -42,7 +28,7 @@ void decode_reals(std::span<const std::byte> bytes, bool is_big_endian, std::spa
 
 }  // namespace
 
-bool is_vtk_integer(std::string_view type) { return integer_type(type).has_value(); }
+bool is_vtk_integer(std::string_view type) { return vtk_integer_type(type).has_value(); }
 bool is_vtk_real(std::string_view type) { return type == "Float32" || type == "Float64"; }
 
 VtkNumbers::VtkNumbers(const std::filesystem::path& path, const VtkXmlTags& tags, pugi::xml_node array,
@@ -52,7 +38,7 @@ VtkNumbers::VtkNumbers(const std::filesystem::path& path, const VtkXmlTags& tags
     is_real_ = is_vtk_real(type);
     if (!is_real_ && !is_vtk_integer(type)) fail(fmt::format("has type '{}': numbers are needed", shown(type)));
     const VtkArrayPlace place = tags.place_of(array);
-    format_ = {integer_type(type).value_or(SampleType::kI64), tags.encoding().is_big_endian};
+    format_ = {vtk_integer_type(type).value_or(SampleType::kI64), tags.encoding().is_big_endian};
     bytes_each_ = !is_real_ ? sample_bytes(format_.type) : type == "Float32" ? sizeof(float) : sizeof(double);
     if (place.form == VtkArrayPlace::Form::kAscii) {
         format_ = kAsciiFormat;

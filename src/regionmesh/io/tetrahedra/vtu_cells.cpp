@@ -9,6 +9,7 @@
 
 #include "regionmesh/io/header_text.h"
 #include "regionmesh/io/tetrahedra/corners.h"
+#include "regionmesh/io/vtk_arrays.h"
 
 namespace regionmesh::io {
 namespace {
@@ -29,10 +30,6 @@ constexpr std::array<std::pair<std::int64_t, const char*>, 8> kSolids{{{11, "a v
                                                                        {71, "a Lagrange tetrahedron"},
                                                                        {78, "a Bezier tetrahedron"}}};
 constexpr std::array<std::int64_t, 3> kCurvedTetrahedra{24, 71, 78};
-
-pugi::xml_node array_named(pugi::xml_node parent, const char* name) {
-    return parent.find_child_by_attribute("DataArray", "Name", name);
-}
 
 std::uint64_t components(pugi::xml_node array) {
     const std::string_view text = array.attribute("NumberOfComponents").value();

@@ -12,18 +12,10 @@
 #include "regionmesh/io/header_text.h"
 #include "regionmesh/io/volumes/affine.h"
 #include "regionmesh/io/volumes/volume_size.h"
+#include "regionmesh/io/vtk_arrays.h"
 
 namespace regionmesh::io {
 namespace {
-
-constexpr std::array<std::pair<std::string_view, SampleType>, 8> kTypes{{{"Int8", SampleType::kI8},
-                                                                         {"UInt8", SampleType::kU8},
-                                                                         {"Int16", SampleType::kI16},
-                                                                         {"UInt16", SampleType::kU16},
-                                                                         {"Int32", SampleType::kI32},
-                                                                         {"UInt32", SampleType::kU32},
-                                                                         {"Int64", SampleType::kI64},
-                                                                         {"UInt64", SampleType::kU64}}};
 
 /// What one DataArray is, before one is chosen.
 struct Candidate {
@@ -46,8 +38,7 @@ std::vector<Candidate> find_candidates(pugi::xml_node piece) {
         for (const pugi::xml_node node : data.children("DataArray")) {
             Candidate candidate{node, is_cell, !active.empty() && active == node.attribute("Name").value(), {}};
             const std::string_view type = node.attribute("type").value();
-            for (const auto& [word, known] : kTypes)
-                if (word == type && node.attribute("NumberOfComponents").as_int(1) == 1) candidate.type = known;
+            if (node.attribute("NumberOfComponents").as_int(1) == 1) candidate.type = vtk_integer_type(type);
             found.push_back(candidate);
         }
     }
