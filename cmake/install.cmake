@@ -6,8 +6,8 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/regionmesh)
 configure_package_config_file(cmake/regionmesh-config.cmake.in regionmesh-config.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(regionmesh-config-version.cmake COMPATIBILITY SameMinorVersion)
 
-install(TARGETS regionmesh EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY src/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(TARGETS regionmesh_core regionmesh_formats EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT regionmesh-targets NAMESPACE regionmesh:: DESTINATION ${package_folder})
 install(FILES ${PROJECT_BINARY_DIR}/regionmesh-config.cmake ${PROJECT_BINARY_DIR}/regionmesh-config-version.cmake
     cmake/csv_library.cmake cmake/exact_numbers.cmake cmake/storage_libraries.cmake DESTINATION ${package_folder})

@@ -1,6 +1,8 @@
 // Sections in, a model of a tenth of the faces out: reconstruct VOLUME MODEL
-#include <cstdio>
+#include <regionmesh/formats.h>
 #include <regionmesh/regionmesh.h>
+
+#include <cstdio>
 
 int main(int argc, char** argv) {
     if (argc != 3) {
@@ -10,9 +12,10 @@ int main(int argc, char** argv) {
     try {
         const auto reader = regionmesh::open_sections({argv[1]});
         const auto made = regionmesh::reconstruct(*reader, {.reduce = 0.9});
-        regionmesh::write_model(made.model, made.labels, argv[2], {.background = made.background});
+        regionmesh::write_mesh(made.mesh, made.labels, argv[2], {.background = made.background});
         for (const auto& region : made.report.check.regions)
-            std::printf("region %s: volume %g, area %g\n", made.labels.text(made.labels.input(region.label)).c_str(), region.volume, region.area);
+            std::printf("region %s: volume %g, area %g\n", made.labels.text(made.labels.input(region.label)).c_str(),
+                        region.volume, region.area);
         return made.report.check.violation_count() == 0 ? 0 : 3;
     } catch (const regionmesh::Error& error) {
         std::fprintf(stderr, "%s\n", error.what());

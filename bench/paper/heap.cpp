@@ -1,6 +1,6 @@
 // What a heap of edges does with equal costs: heap COUNT KIND fills it with COUNT edges, empties it, and prints the
-// nanoseconds an edge. KIND is random, few (seven different costs), equal, perturbed (equal, and up to 1e-7 at random), or
-// list: equal costs in a list that is searched from its head, as the worst that a heap can become.
+// nanoseconds an edge. KIND is random, few (seven different costs), equal, perturbed (equal, and up to 1e-7 at random),
+// or list: equal costs in a list that is searched from its head, as the worst that a heap can become.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "regionmesh/decimate/edge_heap.h"
+#include "simplify/edge_heap.h"
 
 using namespace regionmesh;
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "regionmesh/base/flat_array.h"
-#include "regionmesh/base/hash.h"
-#include "regionmesh/base/radix_sort.h"
-#include "regionmesh/base/union_find.h"
+#include "base/hash.h"
+#include "base/radix_sort.h"
+#include "base/union_find.h"
+#include "regionmesh/flat_array.h"
 
 namespace regionmesh {
 namespace {

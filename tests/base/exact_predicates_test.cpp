@@ -1,11 +1,11 @@
-#include "regionmesh/base/exact_predicates.h"
+#include "base/exact_predicates.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "regionmesh/base/hash.h"
+#include "base/hash.h"
 
 namespace regionmesh {
 namespace {
@@ -68,19 +68,19 @@ TEST(Meet, crossing_and_apart) {
 }
 
 TEST(Meet, touching_counts) {
-    expect_meet(kBase, {{1, 1, 0}, {1, 1, 1}, {2, 2, 1}}, true);    // a corner on the face
-    expect_meet(kBase, {{2, 0, 0}, {2, -1, 1}, {2, -1, -1}}, true); // a corner on an edge
-    expect_meet(kBase, {{4, 0, 0}, {5, 0, 1}, {5, 1, 1}}, true);    // a corner on a corner
-    expect_meet(kBase, {{2, -1, -1}, {2, 1, 1}, {9, -9, 0}}, true); // an edge through an edge
+    expect_meet(kBase, {{1, 1, 0}, {1, 1, 1}, {2, 2, 1}}, true);     // a corner on the face
+    expect_meet(kBase, {{2, 0, 0}, {2, -1, 1}, {2, -1, -1}}, true);  // a corner on an edge
+    expect_meet(kBase, {{4, 0, 0}, {5, 0, 1}, {5, 1, 1}}, true);     // a corner on a corner
+    expect_meet(kBase, {{2, -1, -1}, {2, 1, 1}, {9, -9, 0}}, true);  // an edge through an edge
     expect_meet(kBase, {{std::nextafter(4, 5), 0, 0}, {5, 0, 1}, {5, 1, 1}}, false);
 }
 
 TEST(Meet, in_one_plane) {
     expect_meet(kBase, moved(kBase, {1, 1, 0}), true);
     expect_meet(kBase, moved(kBase, {5, 0, 0}), false);
-    expect_meet(kBase, {{1, 1, 0}, {1.5, 1, 0}, {1, 1.5, 0}}, true);          // one inside the other
-    expect_meet(kBase, moved(kBase, {4, 0, 0}), true);                        // corner to corner
-    expect_meet(kBase, {{2, 2, 0}, {4, 4, 0}, {4, 2, 0}}, true);              // a corner on the slanted edge
+    expect_meet(kBase, {{1, 1, 0}, {1.5, 1, 0}, {1, 1.5, 0}}, true);  // one inside the other
+    expect_meet(kBase, moved(kBase, {4, 0, 0}), true);                // corner to corner
+    expect_meet(kBase, {{2, 2, 0}, {4, 4, 0}, {4, 2, 0}}, true);      // a corner on the slanted edge
     expect_meet(kBase, {{2, std::nextafter(2, 3), 0}, {4, 4, 0}, {4, 2.5, 0}}, false);
     expect_meet(kBase, moved(kBase, {0, 0, std::nextafter(0, 1)}), false);
 }
@@ -96,7 +96,8 @@ TEST(MeetBeyondVertex, pages_that_cross_or_overlap_do) {
     const Vec3 p{0, 0, 0};
     EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}, {1, 1, -1}));
     EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {9, 9, 1}, {9, 9, -1})) << "the other page is larger";
-    EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {2, 1, 0}, {1, 2, 0})) << "coplanar, one within the angle of the other";
+    EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {2, 1, 0}, {1, 2, 0}))
+        << "coplanar, one within the angle of the other";
     EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {-1, 1, 0})) << "coplanar, the angles overlap";
 }
 
@@ -104,7 +105,8 @@ TEST(MeetBeyondVertex, touching_along_a_ray_does) {
     const Vec3 p{0, 0, 0};
     EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {1, 0, 1})) << "along an edge";
     EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 1, 1})) << "an edge within the page";
-    EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {1, -1, 0})) << "coplanar side by side, a common ray";
+    EXPECT_TRUE(meet_beyond_vertex(p, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}, {1, -1, 0}))
+        << "coplanar side by side, a common ray";
 }
 
 TEST(MeetBeyondVertex, coplanar_pages_apart_do_not) {

@@ -1,11 +1,11 @@
-#include "regionmesh/base/external_sort.h"
+#include "base/external_sort.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "regionmesh/base/error.h"
+#include "regionmesh/error.h"
 #include "support/random.h"
 
 namespace regionmesh {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "regionmesh/base/parallel_for.h"
-#include "regionmesh/base/parallel_in_order.h"
-#include "regionmesh/base/union_find.h"
+#include "base/parallel_for.h"
+#include "base/parallel_in_order.h"
+#include "base/union_find.h"
 #include "support/random.h"
 
 namespace regionmesh {
@@ -22,7 +22,9 @@ TEST(ForChunks, covers_all_once_and_appends_in_order) {
                     EXPECT_LE(numbers.size(), 10u);
                     return numbers;
                 },
-                [&](const std::vector<std::uint32_t>& numbers) { all.insert(all.end(), numbers.begin(), numbers.end()); });
+                [&](const std::vector<std::uint32_t>& numbers) {
+                    all.insert(all.end(), numbers.begin(), numbers.end());
+                });
             ASSERT_EQ(all.size(), size);
             for (std::uint32_t n = 0; n < size; ++n) ASSERT_EQ(all[n], n);
         }

@@ -1,10 +1,10 @@
-#include "regionmesh/base/sliding_array.h"
+#include "base/sliding_array.h"
 
 #include <gtest/gtest.h>
 
 #include <deque>
 
-#include "regionmesh/base/hash.h"
+#include "base/hash.h"
 
 namespace regionmesh {
 namespace {
@@ -58,24 +58,24 @@ TEST(SlidingArray, does_what_a_deque_does) {
     for (std::uint64_t seed : {1, 2, 3}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         SlidingArray<std::uint64_t> array;
-        std::deque<std::uint64_t> model;
+        std::deque<std::uint64_t> mesh;
         std::uint32_t first = 0;
         std::uint64_t state = mix64(seed);
         for (int step = 0; step < 2000; ++step) {
             state = mix64(state);
             if (state % 5 != 0) {
                 array.push_back(state);
-                model.push_back(state);
+                mesh.push_back(state);
             } else {
                 const std::uint32_t gone = (state >> 8) % 12;
-                const std::uint32_t count = std::min<std::uint32_t>(gone, static_cast<std::uint32_t>(model.size()));
+                const std::uint32_t count = std::min<std::uint32_t>(gone, static_cast<std::uint32_t>(mesh.size()));
                 first += count;
-                model.erase(model.begin(), model.begin() + count);
+                mesh.erase(mesh.begin(), mesh.begin() + count);
                 array.drop_before(first);
             }
             ASSERT_EQ(array.first(), first);
-            ASSERT_EQ(array.end(), first + model.size());
-            for (std::uint32_t n = 0; n < model.size(); ++n) ASSERT_EQ(array[first + n], model[n]);
+            ASSERT_EQ(array.end(), first + mesh.size());
+            for (std::uint32_t n = 0; n < mesh.size(); ++n) ASSERT_EQ(array[first + n], mesh[n]);
         }
     }
 }

@@ -1,4 +1,4 @@
-#include "regionmesh/base/sliding_lists.h"
+#include "base/sliding_lists.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "regionmesh/base/hash.h"
+#include "base/hash.h"
 
 namespace regionmesh {
 namespace {
@@ -57,7 +57,7 @@ TEST(SlidingLists, do_what_a_deque_of_lists_does) {
     for (std::uint64_t seed : {1, 2, 3}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         SlidingLists lists;
-        std::deque<List> model;
+        std::deque<List> mesh;
         std::uint32_t first = 0;
         std::uint64_t state = mix64(seed);
         for (int step = 0; step < 1000; ++step) {
@@ -66,15 +66,17 @@ TEST(SlidingLists, do_what_a_deque_of_lists_does) {
                 List list((state >> 8) % 6);
                 for (std::uint32_t& item : list) item = static_cast<std::uint32_t>(state = mix64(state));
                 lists.push_back(list);
-                model.push_back(list);
+                mesh.push_back(list);
             } else {
-                const std::uint32_t count = std::min<std::uint32_t>((state >> 8) % 8, static_cast<std::uint32_t>(model.size()));
+                const std::uint32_t count =
+                    std::min<std::uint32_t>((state >> 8) % 8, static_cast<std::uint32_t>(mesh.size()));
                 first += count;
-                model.erase(model.begin(), model.begin() + count);
+                mesh.erase(mesh.begin(), mesh.begin() + count);
                 lists.drop_before(first);
             }
-            ASSERT_EQ(lists.end(), first + model.size());
-            for (std::uint32_t n = 0; n < model.size(); ++n) ASSERT_THAT(lists.of(first + n), testing::ElementsAreArray(model[n]));
+            ASSERT_EQ(lists.end(), first + mesh.size());
+            for (std::uint32_t n = 0; n < mesh.size(); ++n)
+                ASSERT_THAT(lists.of(first + n), testing::ElementsAreArray(mesh[n]));
         }
     }
 }

@@ -1,4 +1,4 @@
-#include "regionmesh/base/temporary_file.h"
+#include "base/temporary_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "io/temporary_folder.h"
-#include "regionmesh/base/error.h"
+#include "formats/temporary_folder.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh {
 namespace {

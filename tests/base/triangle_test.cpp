@@ -1,4 +1,4 @@
-#include "regionmesh/base/triangle.h"
+#include "base/triangle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "regionmesh/check/check.h"
+#include "regionmesh/check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,9 +18,9 @@ using test::shape;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::set<std::string> found_in(const Model& model, const CheckOptions& options = {}) {
+std::set<std::string> found_in(const Mesh& mesh, const CheckOptions& options = {}) {
     std::set<std::string> kinds;
-    const CheckReport report = check(model, options);
+    const CheckReport report = check(mesh, options);
     for (int kind = 0; kind < kViolationKindCount; ++kind)
         if (report.counts[kind]) kinds.insert(to_string(static_cast<ViolationKind>(kind)));
     return kinds;
@@ -34,34 +34,36 @@ const CheckOptions kIslands{.background = {1}};
 TEST(Check, good_surfaces_have_no_violation) {
     EXPECT_THAT(found_in(octahedron()), ElementsAre());
     EXPECT_THAT(found_in(shape(test::kTetrahedronCorners, test::tetrahedron_faces())), ElementsAre());
-    EXPECT_THAT(found_in(Model()), ElementsAre());
-    for (const Reconstruction& made : {test::run(test::noise_volume({6, 6, 6}, 4, 1)), test::run(test::solid_volume({3, 4, 5}))})
-        EXPECT_THAT(found_in(made.model), ElementsAre());
+    EXPECT_THAT(found_in(Mesh()), ElementsAre());
+    for (const Reconstruction& made :
+         {test::run(test::noise_volume({6, 6, 6}, 4, 1)), test::run(test::solid_volume({3, 4, 5}))})
+        EXPECT_THAT(found_in(made.mesh), ElementsAre());
 }
 
 TEST(Check, open_edge) {
-    Model model = octahedron();
-    model.remove_face(FaceId{0});
-    EXPECT_THAT(found_in(model), ElementsAre("open_edge"));
-    EXPECT_EQ(count(check(model), ViolationKind::kOpenEdge), 6u) << "three edges of two regions";
+    Mesh mesh = octahedron();
+    mesh.remove_face(FaceId{0});
+    EXPECT_THAT(found_in(mesh), ElementsAre("open_edge"));
+    EXPECT_EQ(count(check(mesh), ViolationKind::kOpenEdge), 6u) << "three edges of two regions";
 }
 
 TEST(Check, an_edge_may_be_open_on_a_side_of_the_box_that_is_not_capped) {
-    Model model = octahedron();
-    model.remove_face(FaceId{0});
-    for (VertexId v : model[FaceId{1}].vertices) model[v].sides = 1;
-    EXPECT_THAT(found_in(model, {.boundary_is_open = true}), ElementsAre("open_edge")) << "elsewhere it may not";
-    for (std::uint32_t v = 0; v < 6; ++v) model[VertexId{v}].sides = 1;
-    EXPECT_THAT(found_in(model, {.boundary_is_open = true}), ElementsAre());
-    EXPECT_THAT(found_in(model), ElementsAre("open_edge"));
+    Mesh mesh = octahedron();
+    mesh.remove_face(FaceId{0});
+    for (VertexId v : mesh[FaceId{1}].vertices) mesh[v].sides = 1;
+    EXPECT_THAT(found_in(mesh, {.boundary_is_open = true}), ElementsAre("open_edge")) << "elsewhere it may not";
+    for (std::uint32_t v = 0; v < 6; ++v) mesh[VertexId{v}].sides = 1;
+    EXPECT_THAT(found_in(mesh, {.boundary_is_open = true}), ElementsAre());
+    EXPECT_THAT(found_in(mesh), ElementsAre("open_edge"));
 }
 
 TEST(Check, overfull_edge) {
     // Two tetrahedra on the edge 0-1.
-    const Model model = shape({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
-                              {{{0, 1, 2}}, {{1, 0, 3}}, {{0, 2, 3}}, {{1, 3, 2}}, {{0, 1, 4}}, {{1, 0, 5}}, {{0, 4, 5}}, {{1, 5, 4}}});
-    EXPECT_THAT(found_in(model), ElementsAre("overfull_edge"));
-    EXPECT_EQ(count(check(model), ViolationKind::kOverfullEdge), 2u);
+    const Mesh mesh =
+        shape({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
+              {{{0, 1, 2}}, {{1, 0, 3}}, {{0, 2, 3}}, {{1, 3, 2}}, {{0, 1, 4}}, {{1, 0, 5}}, {{0, 4, 5}}, {{1, 5, 4}}});
+    EXPECT_THAT(found_in(mesh), ElementsAre("overfull_edge"));
+    EXPECT_EQ(count(check(mesh), ViolationKind::kOverfullEdge), 2u);
 }
 
 TEST(Check, orientation) {
@@ -71,12 +73,14 @@ TEST(Check, orientation) {
 }
 
 TEST(Check, pinched_vertex) {
-    Model model = shape(test::kTetrahedronCorners, test::tetrahedron_faces(0, 1));
+    Mesh mesh = shape(test::kTetrahedronCorners, test::tetrahedron_faces(0, 1));
     // A second one in the opposite octant, at the same vertex 0.
-    const VertexId o{0}, x = model.add_vertex({-1, 0, 0}), y = model.add_vertex({0, -1, 0}), z = model.add_vertex({0, 0, -1});
-    for (auto [a, b, c] : {std::array{o, x, y}, std::array{o, z, x}, std::array{o, y, z}, std::array{x, z, y}}) model.add_face(a, b, c, 2, 1);
-    EXPECT_THAT(found_in(model), ElementsAre("pinched_vertex"));
-    EXPECT_EQ(count(check(model), ViolationKind::kPinchedVertex), 1u) << "only region 1 has two fans";
+    const VertexId o{0}, x = mesh.add_vertex({-1, 0, 0}), y = mesh.add_vertex({0, -1, 0}),
+                         z = mesh.add_vertex({0, 0, -1});
+    for (auto [a, b, c] : {std::array{o, x, y}, std::array{o, z, x}, std::array{o, y, z}, std::array{x, z, y}})
+        mesh.add_face(a, b, c, 2, 1);
+    EXPECT_THAT(found_in(mesh), ElementsAre("pinched_vertex"));
+    EXPECT_EQ(count(check(mesh), ViolationKind::kPinchedVertex), 1u) << "only region 1 has two fans";
 }
 
 TEST(Check, few_edges) {
@@ -86,20 +90,20 @@ TEST(Check, few_edges) {
 }
 
 TEST(Check, duplicate_face) {
-    Model model = octahedron();
-    const auto v = model[FaceId{0}].vertices;
-    model.add_face(v[0], v[2], v[1], 0, 1);
-    EXPECT_TRUE(found_in(model).contains("duplicate_face"));
-    EXPECT_EQ(count(check(model), ViolationKind::kDuplicateFace), 1u);
+    Mesh mesh = octahedron();
+    const auto v = mesh[FaceId{0}].vertices;
+    mesh.add_face(v[0], v[2], v[1], 0, 1);
+    EXPECT_TRUE(found_in(mesh).contains("duplicate_face"));
+    EXPECT_EQ(count(check(mesh), ViolationKind::kDuplicateFace), 1u);
 }
 
 TEST(Check, degenerate_face_without_area) {
     // Vertex 4 in the middle of edge 1-2 of a tetrahedron, and a face between.
     std::vector<Vec3> p = test::kTetrahedronCorners;
     p.push_back({0.5, 0.5, 0});
-    const Model model = shape(p, {{{0, 2, 1}}, {{1, 2, 4}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 4, 3}}, {{4, 2, 3}}});
-    EXPECT_THAT(found_in(model), ElementsAre("crossing_faces", "degenerate_face"));
-    EXPECT_EQ(count(check(model), ViolationKind::kDegenerateFace), 1u);
+    const Mesh mesh = shape(p, {{{0, 2, 1}}, {{1, 2, 4}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 4, 3}}, {{4, 2, 3}}});
+    EXPECT_THAT(found_in(mesh), ElementsAre("crossing_faces", "degenerate_face"));
+    EXPECT_EQ(count(check(mesh), ViolationKind::kDegenerateFace), 1u);
 }
 
 TEST(Check, degenerate_face_with_one_label) {
@@ -109,31 +113,32 @@ TEST(Check, degenerate_face_with_one_label) {
 }
 
 TEST(Check, coincident_vertices) {
-    Model model = octahedron();
-    test::add_octahedron(model, {0, 0, 2});
-    EXPECT_THAT(found_in(model, kIslands), ElementsAre("coincident_vertices", "crossing_faces")) << "touching is meeting";
-    Model apart = octahedron();
+    Mesh mesh = octahedron();
+    test::add_octahedron(mesh, {0, 0, 2});
+    EXPECT_THAT(found_in(mesh, kIslands), ElementsAre("coincident_vertices", "crossing_faces"))
+        << "touching is meeting";
+    Mesh apart = octahedron();
     test::add_octahedron(apart, {0, 0, 2 + 1e-15});
     EXPECT_THAT(found_in(apart, kIslands), ElementsAre());
 }
 
 TEST(Check, unused_vertex) {
-    Model model = octahedron();
-    model.add_vertex({9, 9, 9});
-    EXPECT_THAT(found_in(model), ElementsAre("unused_vertex"));
+    Mesh mesh = octahedron();
+    mesh.add_vertex({9, 9, 9});
+    EXPECT_THAT(found_in(mesh), ElementsAre("unused_vertex"));
 }
 
 TEST(Check, crossing_faces) {
-    Model model = octahedron();
-    test::add_octahedron(model, {0, 0, 1.2}, {0.1, 0.1, 0.5}, 2, 1);
-    EXPECT_THAT(found_in(model, kIslands), ElementsAre("crossing_faces"));
-    EXPECT_THAT(found_in(model, {.background = {1}, .crossing = false}), ElementsAre());
+    Mesh mesh = octahedron();
+    test::add_octahedron(mesh, {0, 0, 1.2}, {0.1, 0.1, 0.5}, 2, 1);
+    EXPECT_THAT(found_in(mesh, kIslands), ElementsAre("crossing_faces"));
+    EXPECT_THAT(found_in(mesh, {.background = {1}, .crossing = false}), ElementsAre());
 }
 
 TEST(Check, crossing_faces_that_share_a_vertex) {
-    Model model = octahedron();
-    model[VertexId{1}].position = {-0.9, 0, 0.8};  // +x leans through the pyramid below -x
-    EXPECT_THAT(found_in(model), ElementsAre("crossing_faces"));
+    Mesh mesh = octahedron();
+    mesh[VertexId{1}].position = {-0.9, 0, 0.8};  // +x leans through the pyramid below -x
+    EXPECT_THAT(found_in(mesh), ElementsAre("crossing_faces"));
 }
 
 TEST(Check, euler_quadruple_points_and_region_pairs) {
@@ -156,11 +161,11 @@ TEST(Check, a_region_of_the_labels_without_a_face_is_found_missing) {
 }
 
 /// A large octahedron of region 0 in region 1, and a small one of region 2 that says it lies in `round`.
-Model island(Vec3 middle, Label round) {
-    Model model;
-    test::add_octahedron(model, {}, {3, 3, 3}, 0, 1);
-    test::add_octahedron(model, middle, {0.5, 0.5, 0.5}, 2, round);
-    return model;
+Mesh island(Vec3 middle, Label round) {
+    Mesh mesh;
+    test::add_octahedron(mesh, {}, {3, 3, 3}, 0, 1);
+    test::add_octahedron(mesh, middle, {0.5, 0.5, 0.5}, 2, round);
+    return mesh;
 }
 
 TEST(Check, nesting) {
@@ -178,30 +183,31 @@ TEST(Check, nesting_finds_an_island_moved_into_the_wrong_region) {
     test::TextVolume::Section with_island = plain;
     with_island[2] = "1131122";
     Reconstruction made = test::run(test::TextVolume({plain, plain, with_island, plain, plain}));
-    EXPECT_THAT(found_in(made.model), ElementsAre());
+    EXPECT_THAT(found_in(made.mesh), ElementsAre());
     const Vec3 middle{2, 2, 2};
-    test::for_vertices(made.model, [&](VertexId v) {
-        Vec3& p = made.model[v].position;
+    test::for_vertices(made.mesh, [&](VertexId v) {
+        Vec3& p = made.mesh[v].position;
         if (length(p - middle) < 1) p = Vec3{5.25, 2, 2} + 0.5 * (p - middle);
     });
-    EXPECT_THAT(found_in(made.model), ElementsAre("nesting"));
+    EXPECT_THAT(found_in(made.mesh), ElementsAre("nesting"));
 }
 
 TEST(Check, a_finding_names_what_it_is_about) {
-    Model model = octahedron();
-    model.remove_face(FaceId{0});
-    const CheckReport report = check(model, {.label_text = [](Label label) { return label ? "liver" : "bone"; }});
+    Mesh mesh = octahedron();
+    mesh.remove_face(FaceId{0});
+    const CheckReport report = check(mesh, {.label_text = [](Label label) { return label ? "liver" : "bone"; }});
     ASSERT_FALSE(report.violations.empty());
     const Violation& first = report.violations[0];
     EXPECT_EQ(first.vertices.size(), 2u);
     EXPECT_THAT(first.text, HasSubstr(std::to_string(first.vertices[0])));
-    EXPECT_TRUE(first.text.find("liver") != std::string::npos || first.text.find("bone") != std::string::npos) << first.text;
+    EXPECT_TRUE(first.text.find("liver") != std::string::npos || first.text.find("bone") != std::string::npos)
+        << first.text;
 }
 
 TEST(Check, lists_some_and_counts_all) {
-    Model model = octahedron();
-    for (int n = 0; n < 10; ++n) model.add_vertex({n + 5.0, 0, 0});
-    const CheckReport report = check(model, {.listed = 3});
+    Mesh mesh = octahedron();
+    for (int n = 0; n < 10; ++n) mesh.add_vertex({n + 5.0, 0, 0});
+    const CheckReport report = check(mesh, {.listed = 3});
     EXPECT_EQ(report.violations.size(), 3u);
     EXPECT_EQ(report.violation_count(), 10u);
 }
@@ -226,7 +232,8 @@ TEST(Check, measures_a_box_with_its_spacing) {
 }
 
 TEST(Check, counts_the_components_of_a_hollow_region) {
-    const test::TextVolume::Section full{"11111", "11111", "11111", "11111", "11111"}, hollow{"11111", "11111", "11211", "11111", "11111"};
+    const test::TextVolume::Section full{"11111", "11111", "11111", "11111", "11111"},
+        hollow{"11111", "11111", "11211", "11111", "11111"};
     const Reconstruction made = test::run(test::TextVolume({full, full, hollow, full, full}));
     ASSERT_EQ(made.report.check.regions.size(), 2u);
     EXPECT_EQ(made.report.check.regions[0].components, 2u);
@@ -240,7 +247,7 @@ TEST(Check, histograms_hold_every_face_and_angle) {
     std::uint64_t faces = 0, angles = 0;
     for (std::uint64_t n : quality.histogram) faces += n;
     for (std::uint64_t n : quality.angle_histogram) angles += n;
-    EXPECT_EQ(faces, made.model.face_count());
+    EXPECT_EQ(faces, made.mesh.face_count());
     EXPECT_EQ(angles, 3 * faces);
     EXPECT_GT(quality.mean, quality.min);
     EXPECT_GT(quality.min_angle, 0);

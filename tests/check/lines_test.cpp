@@ -1,8 +1,8 @@
-#include "regionmesh/check/lines.h"
+#include "regionmesh/lines.h"
 
 #include <gtest/gtest.h>
 
-#include "regionmesh/check/check.h"
+#include "regionmesh/check.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -11,16 +11,21 @@ namespace {
 
 TEST(Lines, are_measured_along_a_book_with_a_bend) {
     // Three pages of regions 0, 1, 2 hang on a line of two edges, of lengths 1 and 2, that turns by a right angle.
-    const Model model = test::shape({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {2, -1, 0}, {1, 0, 1}, {1, 0, -1}},
-                                    {{{0, 1, 3}, 0, 1}, {{1, 2, 3}, 0, 1}, {{0, 1, 4}, 1, 2}, {{1, 2, 4}, 1, 2}, {{0, 1, 5}, 2, 0}, {{1, 2, 5}, 2, 0}});
-    const LineReport report = measure_lines(model);
+    const Mesh mesh =
+        test::shape({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {2, -1, 0}, {1, 0, 1}, {1, 0, -1}}, {{{0, 1, 3}, 0, 1},
+                                                                                           {{1, 2, 3}, 0, 1},
+                                                                                           {{0, 1, 4}, 1, 2},
+                                                                                           {{1, 2, 4}, 1, 2},
+                                                                                           {{0, 1, 5}, 2, 0},
+                                                                                           {{1, 2, 5}, 2, 0}});
+    const LineReport report = measure_lines(mesh);
     EXPECT_EQ(report.edges, 2u);
     EXPECT_DOUBLE_EQ(report.length, 3);
     EXPECT_DOUBLE_EQ(report.mean_turning_angle, 90);
 }
 
 TEST(Lines, on_the_box_do_not_count) {
-    const LineReport report = measure_lines(test::run(test::TextVolume({{"112", "112"}, {"112", "112"}})).model);
+    const LineReport report = measure_lines(test::run(test::TextVolume({{"112", "112"}, {"112", "112"}})).mesh);
     EXPECT_EQ(report.edges, 0u);
     EXPECT_EQ(report.mean_turning_angle, 0);
 }

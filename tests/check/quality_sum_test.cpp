@@ -1,4 +1,4 @@
-#include "regionmesh/check/quality_sum.h"
+#include "check/quality_sum.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "regionmesh/base/triangle.h"
+#include "base/triangle.h"
 #include "support/random.h"
 
 namespace regionmesh {
@@ -63,7 +63,8 @@ TEST(QualitySum, bins_begin_where_they_should) {
     for (int bin = 1; bin < 18; ++bin) {
         for (double off : {-1e-7, 1e-7}) {
             const double angle = (bin * 10 + off) * std::numbers::pi / 180;
-            const QualityReport report = report_of({{Vec3{}, Vec3{1, 0, 0}, Vec3{std::cos(angle), std::sin(angle), 0}}});
+            const QualityReport report =
+                report_of({{Vec3{}, Vec3{1, 0, 0}, Vec3{std::cos(angle), std::sin(angle), 0}}});
             EXPECT_GE(report.angle_histogram[off < 0 ? bin - 1 : bin], 1u) << bin * 10 << " degrees " << off;
         }
     }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "regionmesh/check/check.h"
+#include "regionmesh/check.h"
 #include "support/random.h"
 #include "support/runs.h"
 #include "support/shapes.h"
@@ -14,7 +14,8 @@ void expect_same(const CheckReport& a, const CheckReport& b) {
     ASSERT_EQ(a.violations.size(), b.violations.size());
     for (std::size_t n = 0; n < a.violations.size(); ++n) {
         const Violation &x = a.violations[n], &y = b.violations[n];
-        ASSERT_TRUE(x.kind == y.kind && x.vertices == y.vertices && x.faces == y.faces && x.text == y.text) << x.text << " / " << y.text;
+        ASSERT_TRUE(x.kind == y.kind && x.vertices == y.vertices && x.faces == y.faces && x.text == y.text)
+            << x.text << " / " << y.text;
     }
     ASSERT_EQ(a.regions.size(), b.regions.size());
     for (std::size_t n = 0; n < a.regions.size(); ++n) {
@@ -33,68 +34,68 @@ void expect_same(const CheckReport& a, const CheckReport& b) {
     EXPECT_EQ(a.region_pairs, b.region_pairs);
 }
 
-void expect_same_on_all_threads(const Model& model, CheckOptions options) {
+void expect_same_on_all_threads(const Mesh& mesh, CheckOptions options) {
     options.threads = 1;
-    const CheckReport one = check(model, options);
+    const CheckReport one = check(mesh, options);
     for (std::uint32_t threads : {2u, 3u, 8u}) {
         SCOPED_TRACE(testing::Message() << threads << " threads");
         options.threads = threads;
-        expect_same(check(model, options), one);
+        expect_same(check(mesh, options), one);
     }
 }
 
 /// Large enough for several parts, with something wrong of nearly every kind in all of them.
-Model broken_model() {
-    Model model = test::run(test::noise_volume({16, 16, 16}, 5, 7)).model;
+Mesh broken_mesh() {
+    Mesh mesh = test::run(test::noise_volume({16, 16, 16}, 5, 7)).mesh;
     test::Random random(8);
-    const auto some_vertex = [&] { return VertexId{random.below(model.vertex_end())}; };
+    const auto some_vertex = [&] { return VertexId{random.below(mesh.vertex_end())}; };
     const auto some_face = [&] {
-        FaceId f{random.below(model.face_end())};
-        while (!model.is_alive(f)) f = FaceId{random.below(model.face_end())};
+        FaceId f{random.below(mesh.face_end())};
+        while (!mesh.is_alive(f)) f = FaceId{random.below(mesh.face_end())};
         return f;
     };
     for (int n = 0; n < 300; ++n) {
-        model[some_vertex()].position += 0.5 * random.point(1);
-        const auto joined = model[some_face()].vertices;
-        model[joined[0]].position = model.position(joined[1]);
-        model.remove_face(some_face());
+        mesh[some_vertex()].position += 0.5 * random.point(1);
+        const auto joined = mesh[some_face()].vertices;
+        mesh[joined[0]].position = mesh.position(joined[1]);
+        mesh.remove_face(some_face());
         const FaceId turned = some_face();
-        const Face face = model[turned];
-        model.remove_face(turned);
-        model.add_face(face.vertices[0], face.vertices[2], face.vertices[1], face.labels[0], face.labels[1]);
-        const Face twice = model[some_face()];
-        model.add_face(twice.vertices[0], twice.vertices[2], twice.vertices[1], twice.labels[0], twice.labels[1]);
-        const auto corners = model[some_face()].vertices;
-        const VertexId loose = model.add_vertex(model.position(corners[2]) + random.point(1));
-        model.add_face(corners[0], corners[1], loose, random.below(5), random.below(5));
-        model.add_vertex(random.point(30));
-        test::add_octahedron(model, {random.between(-30, -1), 0, 0}, {0.1, 0.1, 0.1}, 5, random.below(5));
+        const Face face = mesh[turned];
+        mesh.remove_face(turned);
+        mesh.add_face(face.vertices[0], face.vertices[2], face.vertices[1], face.labels[0], face.labels[1]);
+        const Face twice = mesh[some_face()];
+        mesh.add_face(twice.vertices[0], twice.vertices[2], twice.vertices[1], twice.labels[0], twice.labels[1]);
+        const auto corners = mesh[some_face()].vertices;
+        const VertexId loose = mesh.add_vertex(mesh.position(corners[2]) + random.point(1));
+        mesh.add_face(corners[0], corners[1], loose, random.below(5), random.below(5));
+        mesh.add_vertex(random.point(30));
+        test::add_octahedron(mesh, {random.between(-30, -1), 0, 0}, {0.1, 0.1, 0.1}, 5, random.below(5));
     }
-    return model;
+    return mesh;
 }
 
 TEST(CheckOnThreads, reports_the_same_of_a_sound_model) {
-    expect_same_on_all_threads(test::run(test::noise_volume({16, 16, 16}, 5, 7)).model, {});
+    expect_same_on_all_threads(test::run(test::noise_volume({16, 16, 16}, 5, 7)).mesh, {});
 }
 
 TEST(CheckOnThreads, reports_the_same_of_a_broken_model) {
-    const Model model = broken_model();
-    ASSERT_GT(model.face_end(), 50000u);
-    ASSERT_GT(model.vertex_end(), 20000u);
-    const CheckReport report = check(model);
+    const Mesh mesh = broken_mesh();
+    ASSERT_GT(mesh.face_end(), 50000u);
+    ASSERT_GT(mesh.vertex_end(), 20000u);
+    const CheckReport report = check(mesh);
     for (ViolationKind kind : {ViolationKind::kOpenEdge, ViolationKind::kOverfullEdge, ViolationKind::kOrientation,
-                               ViolationKind::kPinchedVertex, ViolationKind::kDuplicateFace, ViolationKind::kDegenerateFace,
-                               ViolationKind::kCoincidentVertices, ViolationKind::kUnusedVertex, ViolationKind::kCrossingFaces,
-                               ViolationKind::kNesting})
+                               ViolationKind::kPinchedVertex, ViolationKind::kDuplicateFace,
+                               ViolationKind::kDegenerateFace, ViolationKind::kCoincidentVertices,
+                               ViolationKind::kUnusedVertex, ViolationKind::kCrossingFaces, ViolationKind::kNesting})
         EXPECT_GT(report.counts[static_cast<int>(kind)], 10u) << to_string(kind);
-    expect_same_on_all_threads(model, {});
-    expect_same_on_all_threads(model, {.listed = 7});
-    expect_same_on_all_threads(model, {.boundary_is_open = true, .background = {1}, .crossing = false});
+    expect_same_on_all_threads(mesh, {});
+    expect_same_on_all_threads(mesh, {.listed = 7});
+    expect_same_on_all_threads(mesh, {.boundary_is_open = true, .background = {1}, .crossing = false});
 }
 
 TEST(CheckOnThreads, lists_the_first_findings_of_each_kind) {
-    const Model model = broken_model();
-    const CheckReport all = check(model, {.listed = 1u << 30}), some = check(model, {.listed = 7});
+    const Mesh mesh = broken_mesh();
+    const CheckReport all = check(mesh, {.listed = 1u << 30}), some = check(mesh, {.listed = 7});
     std::array<std::uint32_t, kViolationKindCount> listed{};
     std::size_t n = 0;
     for (const Violation& violation : all.violations) {
@@ -107,10 +108,10 @@ TEST(CheckOnThreads, lists_the_first_findings_of_each_kind) {
 }
 
 TEST(CheckOnThreads, finds_the_same_in_another_order_of_faces) {
-    Model model = broken_model();
-    const CheckReport before = check(model);
-    model.sort_spatially();
-    EXPECT_EQ(check(model).counts, before.counts);
+    Mesh mesh = broken_mesh();
+    const CheckReport before = check(mesh);
+    mesh.sort_spatially();
+    EXPECT_EQ(check(mesh).counts, before.counts);
 }
 
 TEST(CheckOnThreads, a_run_reports_the_same) {

@@ -5,8 +5,10 @@
 #include <set>
 
 #include "cli/program.h"
+#include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
 #include "support/digest.h"
+#include "support/paths.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -18,7 +20,7 @@ using testing::Not;
 
 using Ran = Program::Ran;
 
-std::string data(const std::string& name) { return std::string(REGIONMESH_TEST_DATA) + "/" + name; }
+std::string data(const std::string& name) { return test::data_folder() + "/" + name; }
 
 class Cli : public Program {
 protected:
@@ -44,8 +46,8 @@ TEST_F(Cli, reconstruct_writes_a_model_and_a_report) {
     EXPECT_THAT(ran.out, HasSubstr("faces"));
     EXPECT_EQ(files_left(), 2);
     EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"final_faces\""));
-    const ModelFile file = read_model(out("m.vtp"));
-    test::expect_sound(check(file.model));
+    const MeshFile file = read_mesh(out("m.vtp"));
+    test::expect_sound(check(file.mesh));
 }
 
 TEST_F(Cli, names_of_a_table_go_to_the_model_and_the_report) {
@@ -53,11 +55,11 @@ TEST_F(Cli, names_of_a_table_go_to_the_model_and_the_report) {
     const std::string names = " --names " + path("names.csv").string();
     const Ran ran = run("reconstruct " + volume() + "-o " + out("m.vtp") + names + " --report " + out("r.json"));
     EXPECT_EQ(ran.code, 0) << ran.error;
-    EXPECT_EQ(read_model(out("m.vtp")).names, (LabelNames{{1, "the ball"}}));
+    EXPECT_EQ(read_mesh(out("m.vtp")).names, (LabelNames{{1, "the ball"}}));
     EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"name\": \"the ball\""));
     const Ran smoothed = run("smooth " + out("m.vtp") + " -o " + out("s.ply"));
     EXPECT_EQ(smoothed.code, 0) << smoothed.error;
-    EXPECT_EQ(read_model(out("s.ply")).names, (LabelNames{{1, "the ball"}}));
+    EXPECT_EQ(read_mesh(out("s.ply")).names, (LabelNames{{1, "the ball"}}));
 }
 
 TEST_F(Cli, table_of_names_that_cannot_be_read_is_refused_before_the_work) {
@@ -87,7 +89,8 @@ TEST_F(Cli, written_models_pass_check_against_their_volume) {
     for (const std::string more : {"", "--no-background ", "--boundary open "}) {
         SCOPED_TRACE(more);
         EXPECT_EQ(run("reconstruct " + volume() + more + "-o " + out("m.vtp") + " --reduce 0.5").code, 0);
-        const Ran ran = run("check " + out("m.vtp") + " " + more + "--sections " + volume() + " --json " + out("c.json"));
+        const Ran ran =
+            run("check " + out("m.vtp") + " " + more + "--sections " + volume() + " --json " + out("c.json"));
         EXPECT_EQ(ran.code, 0) << ran.out << ran.error;
         EXPECT_THAT(ran.out, HasSubstr("no violations"));
     }
@@ -106,29 +109,35 @@ TEST_F(Cli, reconstruct_smooths_unless_told_not_to) {
 }
 
 TEST_F(Cli, every_smoothing_option_leads_to_a_sound_model_of_its_own) {
-    std::set<std::string> models;
-    for (const std::string options : {"", "--smooth 3", "--smooth-filter laplacian", "--smooth-filter nifpms", "--smooth-lambda 0.3"}) {
+    std::set<std::string> meshes;
+    for (const std::string options :
+         {"", "--smooth 3", "--smooth-filter laplacian", "--smooth-filter nifpms", "--smooth-lambda 0.3"}) {
         SCOPED_TRACE(options);
         EXPECT_EQ(run("reconstruct " + volume() + options + " -o " + out("m.vtp")).code, 0);
         EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 0);
-        EXPECT_TRUE(models.insert(text_of(out("m.vtp"))).second) << "the same as without";
+        EXPECT_TRUE(meshes.insert(text_of(out("m.vtp"))).second) << "the same as without";
     }
 }
 
 TEST_F(Cli, the_report_of_decimate_says_what_became_of_the_edges) {
     ASSERT_EQ(run("reconstruct " + volume() + "-o " + out("full.ply") + " --no-decimate").code, 0);
-    ASSERT_EQ(run("decimate " + out("full.ply") + " -o " + out("half.ply") + " --reduce 50% --report " + out("r.json")).code, 0);
+    ASSERT_EQ(
+        run("decimate " + out("full.ply") + " -o " + out("half.ply") + " --reduce 50% --report " + out("r.json")).code,
+        0);
     const std::string report = text_of(out("r.json"));
     EXPECT_THAT(report, HasSubstr("\"stopped\": \"target\""));
     EXPECT_THAT(report, HasSubstr("\"decimate\": "));
     EXPECT_THAT(report, Not(HasSubstr("\"accepted\": 0,")));
-    EXPECT_EQ(run("decimate " + out("full.ply") + " -o " + out("half2.ply") + " --reduce 50% --report /no/such/r.json").code, 1);
+    EXPECT_EQ(
+        run("decimate " + out("full.ply") + " -o " + out("half2.ply") + " --reduce 50% --report /no/such/r.json").code,
+        1);
     EXPECT_EQ(files_left(), 3) << "a report that cannot be written is found out before the work";
 }
 
 TEST_F(Cli, the_report_says_what_smoothing_did) {
     EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("m.vtp") + " --report " + out("r.json")).code, 0);
-    for (const char* said : {"\"smoothing\"", "\"vertices\"", "\"turned_faces\"", "\"crossing_pairs\"", "\"stepped_back\"", "\"rms_displacement\"", "\"smooth\""})
+    for (const char* said : {"\"smoothing\"", "\"vertices\"", "\"turned_faces\"", "\"crossing_pairs\"",
+                             "\"stepped_back\"", "\"rms_displacement\"", "\"smooth\""})
         EXPECT_THAT(text_of(out("r.json")), HasSubstr(said));
 }
 
@@ -141,7 +150,8 @@ TEST_F(Cli, smooth_takes_a_model_and_writes_the_same_without_steps) {
     EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"smoothing\""));
     EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 0);
     EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("direct.vtp")).code, 0);
-    EXPECT_EQ(test::surface_digest(read_model(out("m.vtp")).model), test::surface_digest(read_model(out("direct.vtp")).model));
+    EXPECT_EQ(test::surface_digest(read_mesh(out("m.vtp")).mesh),
+              test::surface_digest(read_mesh(out("direct.vtp")).mesh));
 }
 
 TEST_F(Cli, smooth_may_write_over_what_it_read) {
@@ -154,11 +164,11 @@ TEST_F(Cli, smooth_may_write_over_what_it_read) {
 }
 
 TEST_F(Cli, smooth_of_a_broken_model_is_exit_3) {
-    Model model = test::octahedron();
-    model.remove_face(FaceId{0});
+    Mesh mesh = test::octahedron();
+    mesh.remove_face(FaceId{0});
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
-    write_model(model, labels, path("broken.vtp"), {});
+    write_mesh(mesh, labels, path("broken.vtp"), {});
     const Ran ran = run("smooth " + path("broken.vtp").string() + " -o " + out("m.vtp"));
     EXPECT_EQ(ran.code, 3);
     EXPECT_EQ(ran.error, "");
@@ -167,7 +177,8 @@ TEST_F(Cli, smooth_of_a_broken_model_is_exit_3) {
 
 TEST_F(Cli, bad_smoothing_is_refused) {
     const std::string to = "-o " + out("m.vtp");
-    for (const std::string lambda : {"2", "-0.5", "much", "nan"}) expect_refusal("reconstruct " + volume() + to + " --smooth-lambda " + lambda, 1, "--smooth-lambda");
+    for (const std::string lambda : {"2", "-0.5", "much", "nan"})
+        expect_refusal("reconstruct " + volume() + to + " --smooth-lambda " + lambda, 1, "--smooth-lambda");
     for (const std::string passes : {"-1", "many", "2.5", "99999999999"}) {
         SCOPED_TRACE(passes);
         const Ran ran = run("reconstruct " + volume() + to + " --smooth " + passes);
@@ -181,7 +192,7 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     expect_refusal("smooth " + path("nothing.vtp").string(), 2, "--output");
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
-    write_model(test::octahedron(), labels, path("good.vtp"), {});
+    write_mesh(test::octahedron(), labels, path("good.vtp"), {});
     expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.xyz");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 1, "--smooth-lambda");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 1, "--scale");
@@ -201,7 +212,8 @@ TEST_F(Cli, layer_chooses_among_layers_and_info_prints_names) {
 TEST_F(Cli, info_prints_what_a_volume_is) {
     const Ran ran = run("info " + volume() + "--spacing 1,2,5");
     EXPECT_EQ(ran.code, 0) << ran.error;
-    for (const char* said : {"9 x 9 x 9", "1 x 2 x 5", "uint8", "labels     2", "faces unsimplified"}) EXPECT_THAT(ran.out, HasSubstr(said));
+    for (const char* said : {"9 x 9 x 9", "1 x 2 x 5", "uint8", "labels     2", "faces unsimplified"})
+        EXPECT_THAT(ran.out, HasSubstr(said));
 }
 
 TEST_F(Cli, bad_input_is_exit_1) {
@@ -269,8 +281,9 @@ TEST_F(Cli, a_full_disk_is_one_line_and_leaves_nothing) {
 }
 
 TEST_F(Cli, a_file_size_limit_is_one_line_and_leaves_nothing) {
-    const std::string command = "trap '' XFSZ; ulimit -f 2; '" + std::string(REGIONMESH_PROGRAM) + "' reconstruct " + volume() + "-o " + out("m.vtp") +
-                                " 2>'" + path("stderr").string() + "' >'" + path("stdout").string() + "'";
+    const std::string command = "trap '' XFSZ; ulimit -f 2; '" + test::program() + "' reconstruct " + volume() + "-o " +
+                                out("m.vtp") + " 2>'" + path("stderr").string() + "' >'" + path("stdout").string() +
+                                "'";
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1);
     EXPECT_EQ(std::ranges::count(text_of(path("stderr")), '\n'), 1) << text_of(path("stderr"));
@@ -278,11 +291,11 @@ TEST_F(Cli, a_file_size_limit_is_one_line_and_leaves_nothing) {
 }
 
 TEST_F(Cli, check_of_a_broken_model_is_exit_3) {
-    Model model = test::octahedron();
-    model.remove_face(FaceId{0});
+    Mesh mesh = test::octahedron();
+    mesh.remove_face(FaceId{0});
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
-    write_model(model, labels, path("broken.vtp"), {});
+    write_mesh(mesh, labels, path("broken.vtp"), {});
     const Ran ran = run("check " + path("broken.vtp").string() + " --json " + path("c.json").string());
     EXPECT_EQ(ran.code, 3);
     EXPECT_EQ(ran.error, "");
@@ -295,7 +308,7 @@ TEST_F(Cli, check_of_a_broken_model_is_exit_3) {
 TEST_F(Cli, check_of_a_good_model_is_exit_0) {
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
-    write_model(test::octahedron(), labels, path("good.ply"), {});
+    write_mesh(test::octahedron(), labels, path("good.ply"), {});
     EXPECT_EQ(run("check " + path("good.ply").string()).code, 0);
 }
 
@@ -310,18 +323,21 @@ TEST_F(Cli, check_finds_that_a_model_is_of_another_volume) {
 }
 
 TEST_F(Cli, decimate_keeps_what_is_broken_and_says_so) {
-    EXPECT_EQ(run("reconstruct " + volume() + "--no-background --smooth 0 --no-decimate -o " + path("whole.vtp").string()).code, 0);
-    ModelFile file = read_model(path("whole.vtp"));
-    const std::uint32_t faces = file.model.face_count();
-    file.model.remove_face(FaceId{faces / 2});
-    write_model(file.model, file.labels, path("cracked.vtp"), {});
+    EXPECT_EQ(
+        run("reconstruct " + volume() + "--no-background --smooth 0 --no-decimate -o " + path("whole.vtp").string())
+            .code,
+        0);
+    MeshFile file = read_mesh(path("whole.vtp"));
+    const std::uint32_t faces = file.mesh.face_count();
+    file.mesh.remove_face(FaceId{faces / 2});
+    write_mesh(file.mesh, file.labels, path("cracked.vtp"), {});
     const std::string options = " --no-background --reduce 60% -o " + out("m.vtp");
     const Ran ran = run("decimate " + path("cracked.vtp").string() + options);
     EXPECT_EQ(ran.code, 3) << ran.error;
     EXPECT_EQ(ran.error, "");
     EXPECT_THAT(ran.out, HasSubstr("3 vertices and 0 faces left as they came: open_edge"));
     EXPECT_THAT(ran.out, Not(HasSubstr("worse")));
-    EXPECT_LE(read_model(out("m.vtp")).model.face_count(), 2 * faces / 5);
+    EXPECT_LE(read_mesh(out("m.vtp")).mesh.face_count(), 2 * faces / 5);
     EXPECT_EQ(run("decimate " + path("whole.vtp").string() + options).code, 0);
 }
 
@@ -338,14 +354,15 @@ TEST_F(Cli, convert_brings_regions_together_and_other_commands_read_them) {
 }
 
 TEST_F(Cli, orient_turns_faces_and_check_says_where_they_are) {
-    put_text(path("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng interface_3_-1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n");
-    const std::string model = path("m.obj").string();
-    const Ran ran = run("check " + model + " --json " + out("c.json"));
+    put_text(path("m.obj"),
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng interface_3_-1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n");
+    const std::string mesh = path("m.obj").string();
+    const Ran ran = run("check " + mesh + " --json " + out("c.json"));
     EXPECT_EQ(ran.code, 3);
     EXPECT_THAT(ran.out, HasSubstr("its two faces look opposite ways at (1, 0, 0)"));
     EXPECT_THAT(ran.out, HasSubstr("--orient"));
     for (const char* said : {"\"at\": [", "\"labels\": ["}) EXPECT_THAT(text_of(out("c.json")), HasSubstr(said));
-    EXPECT_EQ(run("check --orient " + model).code, 0);
+    EXPECT_EQ(run("check --orient " + mesh).code, 0);
 }
 
 TEST_F(Cli, convert_refuses_what_it_cannot_use) {
@@ -370,7 +387,7 @@ TEST_F(Cli, compare_prints_a_table_and_writes_all_figures) {
         EXPECT_THAT(ran.out, HasSubstr(said));
     EXPECT_THAT(text_of(out("c.json")), HasSubstr("\"quantile_95\""));
     EXPECT_THAT(text_of(out("d.vtp")), HasSubstr("Name=\"Distance\""));
-    EXPECT_EQ(read_model(out("d.vtp")).model.face_count(), read_model(path("a.vtp")).model.face_count());
+    EXPECT_EQ(read_mesh(out("d.vtp")).mesh.face_count(), read_mesh(path("a.vtp")).mesh.face_count());
     EXPECT_EQ(files_left(), 2);
     const Ran quiet = run("compare " + both + " --samples 5000 --quiet --threads 8 --json " + out("e.json"));
     EXPECT_EQ(quiet.code, 0);
@@ -381,16 +398,16 @@ TEST_F(Cli, compare_prints_a_table_and_writes_all_figures) {
 TEST_F(Cli, compare_refuses_what_it_cannot_use) {
     LabelTable labels;
     for (InputLabel label : {5, 7}) labels.dense(label);
-    write_model(test::octahedron(), labels, path("good.vtp"), {});
-    write_model(Model(), labels, path("empty.vtp"), {});
+    write_mesh(test::octahedron(), labels, path("good.vtp"), {});
+    write_mesh(Mesh(), labels, path("empty.vtp"), {});
     const std::string good = path("good.vtp").string();
     EXPECT_EQ(run("compare " + good + " " + good).code, 0);
     expect_refusal("compare " + good, 2, "regionmesh");
     expect_refusal("compare " + good + " " + path("nothing.vtp").string(), 1, "nothing.vtp");
     expect_refusal("compare " + good + " " + path("empty.vtp").string(), 1, "empty.vtp: has no faces");
-    Model cap;
+    Mesh cap;
     test::add_shape(cap, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}, 0, exterior(0)}});
-    write_model(cap, labels, path("cap.vtp"), {});
+    write_mesh(cap, labels, path("cap.vtp"), {});
     EXPECT_EQ(run("compare " + good + " " + path("cap.vtp").string()).code, 0);
     expect_refusal("compare " + good + " " + path("cap.vtp").string() + " --background 5", 1, "cap.vtp");
     expect_refusal("compare " + good + " " + good + " --samples 0", 1, "--samples 0");

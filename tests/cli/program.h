@@ -9,7 +9,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "io/temporary_folder.h"
+#include "formats/temporary_folder.h"
+#include "support/paths.h"
 
 namespace regionmesh {
 
@@ -25,7 +26,7 @@ protected:
 
     /// `before` is put before the command: variables.
     Ran run(const std::string& arguments, const std::string& before = "") const {
-        const std::string command = before + " '" + REGIONMESH_PROGRAM + "' " + arguments + " >'" +
+        const std::string command = before + " '" + test::program() + "' " + arguments + " >'" +
                                     path("stdout").string() + "' 2>'" + path("stderr").string() + "' </dev/null";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(path("stdout")), text_of(path("stderr"))};

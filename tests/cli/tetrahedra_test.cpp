@@ -5,8 +5,10 @@
 #include <functional>
 
 #include "cli/program.h"
+#include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
 #include "support/digest.h"
+#include "support/paths.h"
 #include "support/random.h"
 
 namespace regionmesh {
@@ -16,7 +18,7 @@ using Ran = Program::Ran;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string data(const std::string& name) { return std::string(REGIONMESH_TEST_DATA) + "/" + name; }
+std::string data(const std::string& name) { return test::data_folder() + "/" + name; }
 std::string numbers(Vec3 p) { return std::to_string(p.x) + "," + std::to_string(p.y) + "," + std::to_string(p.z); }
 
 class CliTetrahedra : public Program {
@@ -73,7 +75,7 @@ protected:
 class CliPoints : public CliTetrahedra {
 protected:
     void SetUp() override {
-        if (std::string(REGIONMESH_DELAUNAY_PROGRAM).empty()) GTEST_SKIP() << "built without regionmesh-delaunay";
+        if (test::delaunay_program().empty()) GTEST_SKIP() << "built without regionmesh-delaunay";
         CliTetrahedra::SetUp();
     }
 };
@@ -117,7 +119,7 @@ TEST_F(CliPoints, words_are_names_in_the_model_the_report_and_info) {
     const std::string table = words();
     const Ran ran = run("reconstruct " + table + " -o " + out("m.vtp") + " --report " + out("r.json"));
     EXPECT_EQ(ran.code, 0) << ran.error;
-    EXPECT_EQ(read_model(out("m.vtp")).names, (LabelNames{{1, "clay"}, {2, "grès, dur"}}));
+    EXPECT_EQ(read_mesh(out("m.vtp")).names, (LabelNames{{1, "clay"}, {2, "grès, dur"}}));
     EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"name\": \"grès, dur\""));
     const Ran info = run("info " + table);
     EXPECT_EQ(info.code, 0) << info.error;

@@ -1,4 +1,4 @@
-#include "regionmesh/compare/compare.h"
+#include "regionmesh/compare.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "regionmesh/io/write_compare.h"
+#include "regionmesh/write_compare.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -24,19 +24,19 @@ LabelTable labels_of(std::initializer_list<InputLabel> values) {
 /// All labels are regions; few samples.
 const CompareOptions kFew{.samples = 20000, .background = {}, .threads = 1};
 
-Model square(double z) { return test::shape({{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}}, {{{0, 1, 2}}, {{0, 2, 3}}}); }
+Mesh square(double z) { return test::shape({{0, 0, z}, {1, 0, z}, {1, 1, z}, {0, 1, z}}, {{{0, 1, 2}}, {{0, 2, 3}}}); }
 
 /// The box 1 x 1 x 2: label 0 up to `middle`, 1 above, capped.
-Model stack(double middle, Label lower = 0, Label upper = 1) {
-    Model model;
+Mesh stack(double middle, Label lower = 0, Label upper = 1) {
+    Mesh mesh;
     for (int i = 0; i < 12; ++i) {
         const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
         const int sides = 1 << x | 1 << (2 + y) | (z == 0 ? 1 << 4 : z == 2 ? 1 << 5 : 0);
-        model.add_vertex({1.0 * x, 1.0 * y, z == 1 ? middle : 1.0 * z}, static_cast<SideSet>(sides));
+        mesh.add_vertex({1.0 * x, 1.0 * y, z == 1 ? middle : 1.0 * z}, static_cast<SideSet>(sides));
     }
     const auto quad = [&](std::array<std::uint32_t, 4> v, Label first, Label second) {
-        model.add_face(VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}, first, second);
-        model.add_face(VertexId{v[0]}, VertexId{v[2]}, VertexId{v[3]}, first, second);
+        mesh.add_face(VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}, first, second);
+        mesh.add_face(VertexId{v[0]}, VertexId{v[2]}, VertexId{v[3]}, first, second);
     };
     quad({0, 2, 3, 1}, lower, exterior(4));
     if (lower != upper) quad({4, 5, 7, 6}, lower, upper);
@@ -48,13 +48,13 @@ Model stack(double middle, Label lower = 0, Label upper = 1) {
         quad({low + 3, low + 2, low + 6, low + 7}, label, exterior(3));
         quad({low + 2, low, low + 4, low + 6}, label, exterior(0));
     }
-    return model;
+    return mesh;
 }
 
 /// A ball of radius 1 round `middle`: an octahedron, each face of which is cut into four `cuts` times.
-Model ball(Vec3 middle, int cuts) {
+Mesh ball(Vec3 middle, int cuts) {
     std::vector<std::array<Vec3, 3>> faces;
-    const Model octahedron = test::octahedron();
+    const Mesh octahedron = test::octahedron();
     for (std::uint32_t f = 0; f < octahedron.face_end(); ++f) faces.push_back(octahedron.corners(FaceId{f}));
     for (int n = 0; n < cuts; ++n) {
         std::vector<std::array<Vec3, 3>> finer;
@@ -65,16 +65,16 @@ Model ball(Vec3 middle, int cuts) {
         }
         faces = std::move(finer);
     }
-    Model model;
+    Mesh mesh;
     for (const auto& corners : faces) {
         std::array<VertexId, 3> v;
-        for (int n = 0; n < 3; ++n) v[n] = model.add_vertex(middle + corners[n]);
-        model.add_face(v[0], v[1], v[2], 0, 1);
+        for (int n = 0; n < 3; ++n) v[n] = mesh.add_vertex(middle + corners[n]);
+        mesh.add_face(v[0], v[1], v[2], 0, 1);
     }
-    return model;
+    return mesh;
 }
 
-CompareReport compared(const Model& a, const Model& b, const CompareOptions& options = kFew) {
+CompareReport compared(const Mesh& a, const Mesh& b, const CompareOptions& options = kFew) {
     const LabelTable labels = labels_of({1, 2});
     return compare({a, labels}, {b, labels}, options);
 }
@@ -95,8 +95,8 @@ TEST(Compare, parallel_squares_are_one_distance_apart) {
 
 TEST(Compare, a_model_is_at_no_distance_from_itself) {
     const Reconstruction made = test::run(test::grain_volume({9, 8, 7}, 6, 11));
-    const ComparedModel model{made.model, made.labels};
-    const CompareReport report = compare(model, model, kFew);
+    const ComparedMesh mesh{made.mesh, made.labels};
+    const CompareReport report = compare(mesh, mesh, kFew);
     expect_all(report.distance, 0, 0);
     EXPECT_EQ(report.regions.size(), 6u);
     EXPECT_GT(report.interfaces.size(), 6u);
@@ -121,7 +121,7 @@ TEST(Compare, shifted_balls) {
 
 TEST(Compare, shifted_boxes) {
     constexpr double kShift = 0.125;
-    Model moved = stack(1);
+    Mesh moved = stack(1);
     for (std::uint32_t v = 0; v < moved.vertex_end(); ++v) moved[VertexId{v}].position.x += kShift;
     const CompareReport report = compared(stack(1), moved);
     EXPECT_NEAR(report.distance.both->max, kShift, 1e-12) << "on the sides that the shift is square to";
@@ -162,7 +162,7 @@ TEST(Compare, lines_are_named_by_all_their_labels) {
 }
 
 TEST(Compare, edges_of_the_box_are_no_lines_where_one_model_does_not_know_its_sides) {
-    Model other = stack(1.25);
+    Mesh other = stack(1.25);
     for (std::uint32_t v = 0; v < other.vertex_end(); ++v) other[VertexId{v}].sides = 0;
     for (const CompareReport& report : {compared(stack(1), other), compared(other, stack(1))}) {
         ASSERT_EQ(report.lines.size(), 1u);
@@ -189,7 +189,7 @@ TEST(Compare, what_only_one_model_has_is_there_without_distance) {
 }
 
 TEST(Compare, labels_match_as_the_input_has_them) {
-    const Model straight = stack(1, 0, 1), crossed = stack(1.25, 1, 0);
+    const Mesh straight = stack(1, 0, 1), crossed = stack(1.25, 1, 0);
     const CompareReport report = compare({straight, labels_of({40, -3})}, {crossed, labels_of({-3, 40, 7})}, kFew);
     EXPECT_EQ(report.labels.size(), 3u);
     EXPECT_EQ(report.labels.input(0), -3) << "as numbers ascending";
@@ -201,7 +201,7 @@ TEST(Compare, labels_match_as_the_input_has_them) {
 }
 
 TEST(Compare, background_is_no_region_and_its_faces_with_the_exterior_count_nowhere) {
-    Model without = stack(1);
+    Mesh without = stack(1);
     for (std::uint32_t f = 0; f < without.face_end(); ++f)
         if (without[FaceId{f}].labels[0] == 1) without.remove_face(FaceId{f});
     CompareOptions options = kFew;
@@ -218,13 +218,13 @@ TEST(Compare, vertices_have_their_distances) {
     CompareOptions options = kFew;
     EXPECT_THAT(compared(square(0), square(1), options).vertex_distances, ElementsAre());
     options.vertex_distances = true;
-    Model a = test::shape({{0, 0, 3}, {1, 0, 0}, {1, 1, 0}, {0, 5, 0}, {9, 9, 9}}, {{{0, 1, 2}}, {{0, 2, 3}}});
+    Mesh a = test::shape({{0, 0, 3}, {1, 0, 0}, {1, 1, 0}, {0, 5, 0}, {9, 9, 9}}, {{{0, 1, 2}}, {{0, 2, 3}}});
     a.remove_vertex(VertexId{4});
     EXPECT_THAT(compared(a, square(0), options).vertex_distances, ElementsAre(3, 0, 0, 4, 0));
 }
 
 TEST(Compare, models_without_faces_have_no_distance) {
-    const Model none;
+    const Mesh none;
     for (const CompareReport& report : {compared(none, square(0)), compared(square(0), none), compared(none, none)}) {
         EXPECT_FALSE(report.distance.both || report.distance.a_to_b || report.distance.b_to_a);
         EXPECT_NE(compare_json(report), "");
@@ -238,7 +238,7 @@ TEST(Compare, result_does_not_depend_on_threads) {
     std::vector<std::vector<double>> distances;
     for (const std::uint32_t threads : {1, 2, 3}) {
         const CompareOptions options{.samples = 30000, .background = {}, .vertex_distances = true, .threads = threads};
-        const auto report = compare({full.model, full.labels}, {reduced.model, reduced.labels}, options);
+        const auto report = compare({full.mesh, full.labels}, {reduced.mesh, reduced.labels}, options);
         texts.push_back(compare_json(report));
         distances.push_back(report.vertex_distances);
     }
@@ -251,7 +251,7 @@ TEST(Compare, result_does_not_depend_on_threads) {
 TEST(Compare, narrower_sets_are_never_nearer) {
     test::ArrayVolume volume = test::grain_volume({12, 12, 12}, 9, 3);
     const Reconstruction full = test::run(volume), reduced = test::run(volume, test::reduced(0.8));
-    const auto report = compare({full.model, full.labels}, {reduced.model, reduced.labels}, kFew);
+    const auto report = compare({full.mesh, full.labels}, {reduced.mesh, reduced.labels}, kFew);
     EXPECT_GT(report.distance.both->rms, 0.01);
     EXPECT_LT(report.distance.both->rms, 0.3);
     double largest = 0;

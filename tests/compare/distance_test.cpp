@@ -1,4 +1,4 @@
-#include "regionmesh/compare/distance.h"
+#include "compare/distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "regionmesh/compare/hilbert.h"
+#include "compare/hilbert.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "regionmesh/compare/sample.h"
+#include "compare/sample.h"
 
 #include <gtest/gtest.h>
 
@@ -8,17 +8,17 @@ namespace regionmesh {
 namespace {
 
 /// A square of side 2 and one of side 1, with different labels, and faces without area.
-Model two_squares() {
+Mesh two_squares() {
     return test::shape(
         {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}},
         {{{0, 1, 2}}, {{0, 2, 3}}, {{4, 5, 6}, 0, 2}, {{4, 6, 7}, 0, 2}, {{4, 4, 5}, 1, 2}, {{4, 5, 5}, 1, 2}});
 }
 
-SortedStrata strata_of(const Model& model) {
+SortedStrata strata_of(const Mesh& mesh) {
     LabelTable table;
     for (InputLabel label : {0, 1, 2}) table.dense(label);
     const CommonLabels labels(table, table);
-    return interfaces_of({model, labels, 0, {}}, 1);
+    return interfaces_of({mesh, labels, 0, {}}, 1);
 }
 
 TEST(Samples, are_shared_out_by_area) {
@@ -76,8 +76,8 @@ TEST(Samples, are_the_same_from_wherever_one_begins) {
 
 TEST(Samples, of_edges_are_shared_out_by_length) {
     // Three squares that meet in an edge of length 3.
-    const Model book = test::shape({{0, 0, 0}, {3, 0, 0}, {0, 1, 0}, {0, -1, 1}, {0, -1, -1}},
-                                   {{{0, 1, 2}, 0, 1}, {{0, 1, 3}, 1, 2}, {{0, 1, 4}, 2, 0}});
+    const Mesh book = test::shape({{0, 0, 0}, {3, 0, 0}, {0, 1, 0}, {0, -1, 1}, {0, -1, -1}},
+                                  {{{0, 1, 2}, 0, 1}, {{0, 1, 3}, 1, 2}, {{0, 1, 4}, 2, 0}});
     LabelTable table;
     for (InputLabel label : {0, 1, 2}) table.dense(label);
     const CommonLabels labels(table, table);

@@ -1,4 +1,4 @@
-#include "regionmesh/compare/statistics.h"
+#include "regionmesh/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "regionmesh/compare/strata_tree.h"
+#include "compare/strata_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
 
-#include "regionmesh/compare/distance.h"
+#include "compare/distance.h"
 
 namespace regionmesh {
 namespace {
@@ -17,19 +17,19 @@ LabelTable labels_up_to(InputLabel count) {
 }
 
 /// Faces anywhere, with any two of six labels; a third of them far from the others, some without area.
-Model scattered_faces(std::uint32_t count, std::uint64_t seed, Vec3 middle = {}) {
+Mesh scattered_faces(std::uint32_t count, std::uint64_t seed, Vec3 middle = {}) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
     const auto any = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
-    Model model;
+    Mesh mesh;
     for (std::uint32_t f = 0; f < count; ++f) {
         const Vec3 corner = middle + (f % 3 == 0 ? 20 : 3) * any();
-        const VertexId a = model.add_vertex(corner), b = model.add_vertex(corner + 0.5 * any()),
-                       c = f % 17 == 0 ? b : model.add_vertex(corner + 0.5 * any());
+        const VertexId a = mesh.add_vertex(corner), b = mesh.add_vertex(corner + 0.5 * any()),
+                       c = f % 17 == 0 ? b : mesh.add_vertex(corner + 0.5 * any());
         const Label first = random() % 5;
-        model.add_face(a, b, c, first, first + 1 + random() % (6 - first - 1));
+        mesh.add_face(a, b, c, first, first + 1 + random() % (6 - first - 1));
     }
-    return model;
+    return mesh;
 }
 
 /// What the tree should find, by looking at all.
@@ -49,10 +49,10 @@ INSTANTIATE_TEST_SUITE_P(StrataTree, Soup, testing::Values(1, 7, 65, 700, 3000))
 
 TEST_P(Soup, is_searched_as_if_one_looked_at_every_face) {
     for (const Vec3 middle : {Vec3{}, Vec3{1e5, -1e5, 3e5}}) {
-        const Model model = scattered_faces(GetParam(), GetParam(), middle);
+        const Mesh mesh = scattered_faces(GetParam(), GetParam(), middle);
         const LabelTable table = labels_up_to(6);
         const CommonLabels labels(table, table);
-        const SortedStrata sorted = interfaces_of({model, labels, 0, {}}, 1);
+        const SortedStrata sorted = interfaces_of({mesh, labels, 0, {}}, 1);
         const StrataTree tree(sorted, 1);
         std::mt19937_64 random(1);
         std::uniform_real_distribution<double> unit(-1, 1);
@@ -79,13 +79,13 @@ TEST_P(Soup, is_searched_as_if_one_looked_at_every_face) {
 TEST(StrataTree, finds_nothing_where_there_is_nothing) {
     const LabelTable table = labels_up_to(6);
     const CommonLabels labels(table, table);
-    const Model none;
+    const Mesh none;
     const SortedStrata nothing = interfaces_of({none, labels, 0, {}}, 1);
     const StrataTree empty(nothing, 1);
     EXPECT_EQ(empty.nearest({1, 2, 3}).simplex, kNoSimplex);
     EXPECT_EQ(empty.nearest_of_label({1, 2, 3}, 0).simplex, kNoSimplex);
     EXPECT_EQ(empty.nearest_of_stratum({1, 2, 3}, 0).simplex, kNoSimplex);
-    const Model some = scattered_faces(1, 1);
+    const Mesh some = scattered_faces(1, 1);
     const SortedStrata one = interfaces_of({some, labels, 0, {}}, 1);
     const StrataTree tree(one, 1);
     EXPECT_EQ(tree.nearest_of_stratum({1, 2, 3}, kNoStratum).simplex, kNoSimplex);
@@ -93,12 +93,12 @@ TEST(StrataTree, finds_nothing_where_there_is_nothing) {
 }
 
 TEST(SortedStrata, hold_every_face_once_under_its_labels) {
-    const Model model = scattered_faces(500, 5);
+    const Mesh mesh = scattered_faces(500, 5);
     LabelTable other;
     for (InputLabel label : {5, 3, 9, 1, 0, 2, 4}) other.dense(label);
     const LabelTable table = labels_up_to(6);
     const CommonLabels labels(other, table);
-    const SortedStrata sorted = interfaces_of({model, labels, 1, {}}, 2);
+    const SortedStrata sorted = interfaces_of({mesh, labels, 1, {}}, 2);
     const auto leftmost = [](const std::array<Vec3, 3>& p) { return std::min({p[0].x, p[1].x, p[2].x}); };
     std::multiset<std::pair<std::vector<Label>, double>> found, expected;
     std::uint32_t end = 0;
@@ -110,8 +110,8 @@ TEST(SortedStrata, hold_every_face_once_under_its_labels) {
             found.insert({stratum.labels, leftmost({sorted.points[a], sorted.points[b], sorted.points[c]})});
         }
     }
-    for (std::uint32_t f = 0; f < model.face_end(); ++f)
-        expected.insert({{model[FaceId{f}].labels[0], model[FaceId{f}].labels[1]}, leftmost(model.corners(FaceId{f}))});
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
+        expected.insert({{mesh[FaceId{f}].labels[0], mesh[FaceId{f}].labels[1]}, leftmost(mesh.corners(FaceId{f}))});
     EXPECT_EQ(found, expected);
 }
 

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "regionmesh/check/fix_unsound.h"
-#include "regionmesh/decimate/decimate.h"
-#include "regionmesh/io/label_names_file.h"
-#include "regionmesh/io/model_file.h"
-#include "regionmesh/io/read_sections.h"
-#include "regionmesh/io/tetrahedra/read_formats.h"
+#include "formats/surface/tetrahedron_formats.h"
+#include "regionmesh/fix_unsound.h"
+#include "regionmesh/label_names_file.h"
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/read_sections.h"
+#include "regionmesh/simplify.h"
 
 namespace regionmesh::fuzz {
 namespace {
@@ -76,15 +76,15 @@ void raw(const fs::path& path, Random& random) {
 constexpr std::uint32_t kMostFaces = 2000;  // of what is worked on
 
 /// What can be read is also checked and decimated: no surface may be too odd.
-void model(const fs::path& path, Random& random) {
-    ReadModelOptions options{.orient = random.one_in(2)};
+void mesh(const fs::path& path, Random& random) {
+    ReadMeshOptions options{.orient = random.one_in(2)};
     if (random.one_in(2)) options.weld = random.one_in(2) ? 0 : 0.01;
-    ModelFile file = read_model(path, options);
-    if (file.model.face_count() > kMostFaces) return;
-    check(file.model, {.threads = 1});
-    file.model.sort_spatially();
-    fix_unsound(file.model, {.threads = 1});
-    decimate(file.model, {.target_faces = file.model.face_count() / 4});
+    MeshFile file = read_mesh(path, options);
+    if (file.mesh.face_count() > kMostFaces) return;
+    check(file.mesh, {.threads = 1});
+    file.mesh.sort_spatially();
+    fix_unsound(file.mesh, {.threads = 1});
+    decimate(file.mesh, {.target_faces = file.mesh.face_count() / 4});
 }
 
 constexpr std::size_t kMostTetrahedra = std::size_t{1} << 22;
@@ -95,7 +95,8 @@ void tetrahedra(const fs::path& path, Random& random) {
     TetrahedraOptions options;
     if (random.one_in(3)) options.array = kArrays[random.below(kArrays.size())];
     if (random.one_in(4)) options.scale_z = 1e300;
-    const auto reader = path.extension() == ".msh" ? io::open_msh(path, options) : io::open_vtu(path, options);
+    const auto reader =
+        path.extension() == ".msh" ? formats::open_msh(path, options) : formats::open_vtu(path, options);
     const LabelledPoints points = reader->take_points();
     if (!points.positions.empty()) reader->name_of_point(static_cast<std::uint32_t>(points.positions.size() - 1));
     std::vector<LabelledTetrahedron> some(1 + random.below(1000));
@@ -117,12 +118,12 @@ void points(const fs::path& path, Random& random) {
                                   "name=5",  "label=lith,hole=Hole_ID", "x"};
     TetrahedraOptions options;
     if (random.one_in(2)) options.columns = kColumns[random.below(kColumns.size())];
-    const io::PointTable table = io::read_point_table(path, options);
+    const formats::PointTable table = formats::read_point_table(path, options);
     if (random.one_in(2)) return;
     double farthest = 0;
     for (const Vec3& position : table.points.positions) farthest = std::max(farthest, std::abs(position.z));
     options.step = farthest / 20;
-    io::read_point_table(path, options);
+    formats::read_point_table(path, options);
 }
 
 }  // namespace
@@ -146,15 +147,15 @@ std::span<const Format> formats() {
         Format{"zarr3", "chunked/zarr3", {}, volume, ".zarr"},
         Format{"ome", "chunked/ome", {}, volume, ".zarr"},
         Format{"n5", "chunked/n5", {}, volume, ".n5"},
-        Format{"vtp", "", {".vtp"}, model},
-        Format{"vtu", "surfaces", {".vtu"}, model},
+        Format{"vtp", "", {".vtp"}, mesh},
+        Format{"vtu", "surfaces", {".vtu"}, mesh},
         Format{"vtu_mesh", "meshes", {".vtu"}, tetrahedra},
         Format{"msh_mesh", "meshes", {".msh"}, tetrahedra},
-        Format{"ply", "ply", {".ply"}, model},
-        Format{"plies", "surfaces", {".ply"}, model},
-        Format{"stl", "surfaces", {".stl"}, model},
-        Format{"obj", "surfaces", {".obj"}, model},
-        Format{"dream3d_faces", "surfaces", {".dream3d"}, model},
+        Format{"ply", "ply", {".ply"}, mesh},
+        Format{"plies", "surfaces", {".ply"}, mesh},
+        Format{"stl", "surfaces", {".stl"}, mesh},
+        Format{"obj", "surfaces", {".obj"}, mesh},
+        Format{"dream3d_faces", "surfaces", {".dream3d"}, mesh},
     };
     return kFormats;
 }

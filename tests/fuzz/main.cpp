@@ -19,7 +19,8 @@
 
 #include "fuzz/fuzz_formats.h"
 #include "fuzz/watch.h"
-#include "regionmesh/base/error.h"
+#include "regionmesh/error.h"
+#include "support/paths.h"
 
 namespace regionmesh::fuzz {
 namespace {
@@ -49,7 +50,7 @@ std::string text_of(const fs::path& file) {
 /// Every file of every store of a format.
 Seeds gather_stores(const Format& format) {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(REGIONMESH_TEST_DATA) / format.folder))
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(test::data_folder()) / format.folder))
         if (entry.is_regular_file()) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     Seeds seeds;
@@ -79,7 +80,7 @@ void put(const fs::path& path, const Seeds& seeds, std::size_t index, const std:
 /// The seeds of a format; all files of its folder go into `work`, where headers may name them.
 Seeds gather(const Format& format, const fs::path& work) {
     if (*format.store != '\0') return gather_stores(format);
-    const fs::path folder = fs::path(REGIONMESH_TEST_DATA) / format.folder;
+    const fs::path folder = fs::path(test::data_folder()) / format.folder;
     std::vector<fs::path> files;
     if (*format.folder == '\0') {
         files.assign(fs::directory_iterator(folder), {});

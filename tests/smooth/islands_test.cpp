@@ -1,11 +1,11 @@
-#include "regionmesh/smooth/islands.h"
+#include "smooth/islands.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "regionmesh/base/hash.h"
+#include "base/hash.h"
 #include "support/shapes.h"
 
 namespace regionmesh {
@@ -59,12 +59,14 @@ TEST(MayChangeSides, faces_on_both_sides_of_an_edge_leave_no_gap_between_them) {
         // The same square with the numbers of its vertices the other way round.
         const auto number = [&](std::uint32_t n) { return first == 0 ? n : first - n; };
         const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            return MovedFace{{number(a), number(b), number(c)}, {before[a], before[b], before[c]}, {after[a], after[b], after[c]}};
+            return MovedFace{
+                {number(a), number(b), number(c)}, {before[a], before[b], before[c]}, {after[a], after[b], after[c]}};
         };
         const MovedFace one = face(0, 1, 2), other = face(2, 3, 0);
         for (std::uint64_t n = 0; n < 2000; ++n) {
             const Vec3 p{0.05 + 0.9 * hash_unit(n, 1), 0.05 + 0.9 * hash_unit(n, 2), 0.05 + 0.9 * hash_unit(n, 3)};
-            ASSERT_TRUE(may_change_sides(p, p, one) || may_change_sides(p, p, other)) << p.x << " " << p.y << " " << p.z;
+            ASSERT_TRUE(may_change_sides(p, p, one) || may_change_sides(p, p, other))
+                << p.x << " " << p.y << " " << p.z;
         }
     }
 }
@@ -81,18 +83,21 @@ int windings(const std::vector<std::array<Vec3, 3>>& faces, Vec3 p) {
 }
 
 TEST(MayChangeSides, what_no_face_may_have_changed_is_where_it_was) {
-    const Model model = test::octahedron();
+    const Mesh mesh = test::octahedron();
     int stayed = 0, changed = 0;
     for (std::uint32_t n = 0; n < 3000; ++n) {
         const auto random = [&](std::uint32_t k) { return 2 * hash_unit(100 * n + k, k) - 1; };
         std::array<Vec3, 6> now;
-        for (std::uint32_t v = 0; v < 6; ++v) now[v] = model.position(VertexId{v}) + 0.7 * Vec3{random(3 * v + 1), random(3 * v + 2), random(3 * v + 3)};
+        for (std::uint32_t v = 0; v < 6; ++v)
+            now[v] = mesh.position(VertexId{v}) + 0.7 * Vec3{random(3 * v + 1), random(3 * v + 2), random(3 * v + 3)};
         const Vec3 from{random(30), random(31), random(32)}, to = from + 0.6 * Vec3{random(33), random(34), random(35)};
         std::vector<std::array<Vec3, 3>> before, after;
         bool may = false;
         for (std::uint32_t f = 0; f < 8; ++f) {
-            const auto& v = model[FaceId{f}].vertices;
-            const MovedFace face{{index(v[0]), index(v[1]), index(v[2])}, model.corners(FaceId{f}), {now[index(v[0])], now[index(v[1])], now[index(v[2])]}};
+            const auto& v = mesh[FaceId{f}].vertices;
+            const MovedFace face{{index(v[0]), index(v[1]), index(v[2])},
+                                 mesh.corners(FaceId{f}),
+                                 {now[index(v[0])], now[index(v[1])], now[index(v[2])]}};
             before.push_back(face.before);
             after.push_back(face.after);
             may = may || may_change_sides(from, to, face);
@@ -117,7 +122,8 @@ void add_vertices(SurfaceWindow& window, std::uint32_t count) {
 TEST(Parts, end_in_the_last_layer_that_they_reach) {
     SurfaceWindow window;
     Parts parts;
-    // 0 1 2 and 3 4 5; then 6 and 7 join the second; then 8 and 9 make a third with nothing before them, and 10 goes on.
+    // 0 1 2 and 3 4 5; then 6 and 7 join the second; then 8 and 9 make a third with nothing before them, and 10 goes
+    // on.
     add_vertices(window, 6);
     window.faces.push_back({{0, 1, 2}, {0, 1}});
     window.faces.push_back({{3, 4, 5}, {0, 1}});

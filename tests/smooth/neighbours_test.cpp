@@ -1,4 +1,4 @@
-#include "regionmesh/smooth/neighbours.h"
+#include "smooth/neighbours.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "regionmesh/base/triangle.h"
-#include "regionmesh/model/strata.h"
+#include "base/triangle.h"
+#include "mesh/strata.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 #include "support/surface_windows.h"
@@ -22,7 +22,7 @@ using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 /// The octahedron cut in two, its membrane of two faces with a chord in place of a vertex.
-Model octahedron_with_chord() {
+Mesh octahedron_with_chord() {
     const std::vector<Vec3> p{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
     std::vector<test::ShapeFace> faces{{{1, 3, 0}, 0, 1}, {{1, 0, 2}, 0, 1}};
     constexpr std::array<std::uint32_t, 5> ring{1, 3, 0, 2, 1};
@@ -35,7 +35,7 @@ Model octahedron_with_chord() {
 
 /// A tetrahedron 0 1 2 3 cut in four regions from its middle 4; region r has no corner r, and 4 is outside. Each face
 /// inside it is cut in three at a vertex of its own, 5 to 10.
-Model four_regions() {
+Mesh four_regions() {
     std::vector<Vec3> p{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {0, 0, 0}};
     std::vector<test::ShapeFace> faces;
     for (std::uint32_t a = 0; a < 4; ++a) {
@@ -63,31 +63,31 @@ Model four_regions() {
 }
 
 /// The definition (P 4.2) and the rules for rims, edge by edge.
-std::set<std::uint32_t> expected(const Model& model, VertexId v) {
-    const LabelSet own = vertex_labels(model, v);
+std::set<std::uint32_t> expected(const Mesh& mesh, VertexId v) {
+    const LabelSet own = vertex_labels(mesh, v);
     std::set<std::uint32_t> joined, found;
-    model.for_star(v, [&](FaceId f, int place) {
-        for (int n = 1; n < 3; ++n) joined.insert(index(model[f].vertices[(place + n) % 3]));
+    mesh.for_star(v, [&](FaceId f, int place) {
+        for (int n = 1; n < 3; ++n) joined.insert(index(mesh[f].vertices[(place + n) % 3]));
     });
     if (own.size() > 3) return {};
     for (std::uint32_t w : joined) {
-        const LabelSet labels = edge_labels(model, v, VertexId{w});
+        const LabelSet labels = edge_labels(mesh, v, VertexId{w});
         int uses = 0;
-        model.for_star(v, [&](FaceId f, int place) {
-            for (int n = 1; n < 3; ++n) uses += index(model[f].vertices[(place + n) % 3]) == w;
+        mesh.for_star(v, [&](FaceId f, int place) {
+            for (int n = 1; n < 3; ++n) uses += index(mesh[f].vertices[(place + n) % 3]) == w;
         });
-        if (uses < labels.size() && (model[v].sides & model[VertexId{w}].sides) == 0) return {};
+        if (uses < labels.size() && (mesh[v].sides & mesh[VertexId{w}].sides) == 0) return {};
         if (std::ranges::all_of(own, [&](Label label) { return labels.contains(label); })) found.insert(w);
     }
     if (own.size() == 3 && found.size() != 2) return {};
     return found;
 }
 
-void expect_as_defined(const Model& model) {
-    const Surface surface(model);
-    for (std::uint32_t v = 0; v < model.vertex_end(); ++v) {
+void expect_as_defined(const Mesh& mesh) {
+    const Surface surface(mesh);
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
         const auto list = surface.neighbours.of(v);
-        ASSERT_EQ(std::set(list.begin(), list.end()), expected(model, VertexId{v})) << "vertex " << v;
+        ASSERT_EQ(std::set(list.begin(), list.end()), expected(mesh, VertexId{v})) << "vertex " << v;
         ASSERT_EQ(list.size(), std::set(list.begin(), list.end()).size()) << "vertex " << v << " has a neighbour twice";
     }
 }
@@ -105,40 +105,42 @@ TEST(Neighbours, on_a_triple_line_are_the_two_along_it) {
 }
 
 TEST(Neighbours, leave_out_a_chord_between_two_vertices_of_one_line) {
-    const Model model = octahedron_with_chord();
-    test::expect_sound(check(model));
-    const Surface surface(model);
+    const Mesh mesh = octahedron_with_chord();
+    test::expect_sound(check(mesh));
+    const Surface surface(mesh);
     EXPECT_THAT(surface.neighbours.of(0), UnorderedElementsAre(2, 3));
     EXPECT_THAT(surface.neighbours.of(1), UnorderedElementsAre(2, 3));
     EXPECT_THAT(surface.neighbours.of(5), UnorderedElementsAre(0, 1, 2, 3));
 }
 
 TEST(Neighbours, quadruple_points_have_none_unless_they_may_move) {
-    const Model model = four_regions();
-    test::expect_sound(check(model));
-    const Surface staying(model), moving(model, true);
+    const Mesh mesh = four_regions();
+    test::expect_sound(check(mesh));
+    const Surface staying(mesh), moving(mesh, true);
     for (std::uint32_t point = 0; point < 5; ++point) {
         EXPECT_THAT(staying.neighbours.of(point), IsEmpty());
         std::set<std::uint32_t> ends{0, 1, 2, 3, 4};
         ends.erase(point);
         const auto list = moving.neighbours.of(point);
-        EXPECT_EQ(std::set(list.begin(), list.end()), ends) << "the ends of its four lines, not the vertices of its faces";
+        EXPECT_EQ(std::set(list.begin(), list.end()), ends)
+            << "the ends of its four lines, not the vertices of its faces";
     }
     EXPECT_THAT(staying.neighbours.of(5), UnorderedElementsAre(0, 1, 4));
 }
 
 TEST(Neighbours, on_a_box_follow_its_sides_and_edges_and_stop_at_its_corners) {
-    const Model model = run(test::solid_volume({4, 4, 4})).model;
-    const Surface surface(model), moving(model, true);
+    const Mesh mesh = run(test::solid_volume({4, 4, 4})).mesh;
+    const Surface surface(mesh), moving(mesh, true);
     int corners = 0, edges = 0, insides = 0;
-    test::for_vertices(model, [&](VertexId v) {
-        const int sides = std::popcount(model[v].sides);
+    test::for_vertices(mesh, [&](VertexId v) {
+        const int sides = std::popcount(mesh[v].sides);
         const auto list = surface.neighbours.of(index(v));
         EXPECT_EQ(list.size(), sides == 3 ? 0u : sides == 2 ? 2u : list.size());
         if (sides == 1) {
             EXPECT_GE(list.size(), 4u);
         }
-        for (std::uint32_t w : list) EXPECT_EQ(model[VertexId{w}].sides & model[v].sides, model[v].sides) << "leaves its side";
+        for (std::uint32_t w : list)
+            EXPECT_EQ(mesh[VertexId{w}].sides & mesh[v].sides, mesh[v].sides) << "leaves its side";
         if (sides == 3) {
             EXPECT_EQ(moving.neighbours.of(index(v)).size(), 3u);
         }
@@ -155,11 +157,11 @@ TEST(Neighbours, at_an_open_rim_are_none) {
 }
 
 TEST(Neighbours, at_a_hole_of_a_foreign_surface_are_none) {
-    Model model = test::octahedron();
-    const auto hole = model[FaceId{0}].vertices;
-    model.remove_face(FaceId{0});
-    model.compact_faces();
-    const Surface surface(model);
+    Mesh mesh = test::octahedron();
+    const auto hole = mesh[FaceId{0}].vertices;
+    mesh.remove_face(FaceId{0});
+    mesh.compact_faces();
+    const Surface surface(mesh);
     for (std::uint32_t v = 0; v < 6; ++v) {
         const bool is_at_hole = std::ranges::find(hole, VertexId{v}) != hole.end();
         EXPECT_EQ(surface.neighbours.of(v).size(), is_at_hole ? 0u : 4u);
@@ -188,15 +190,16 @@ TEST(Neighbours, where_two_holes_touch_are_none_whatever_the_numbers) {
 }
 
 TEST(Neighbours, of_a_face_turned_the_wrong_way_are_still_all_neighbours) {
-    Model model;
-    for (Vec3 p : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) model.add_vertex(p);
+    Mesh mesh;
+    for (Vec3 p : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
+        mesh.add_vertex(p);
     constexpr std::array<std::uint32_t, 5> ring{0, 2, 1, 3, 0};
     for (int n = 0; n < 4; ++n) {
         const VertexId a{ring[n]}, b{ring[n + 1]};
-        n == 2 ? model.add_face(b, a, VertexId{4}, 0, 1) : model.add_face(a, b, VertexId{4}, 0, 1);
-        model.add_face(b, a, VertexId{5}, 0, 1);
+        n == 2 ? mesh.add_face(b, a, VertexId{4}, 0, 1) : mesh.add_face(a, b, VertexId{4}, 0, 1);
+        mesh.add_face(b, a, VertexId{5}, 0, 1);
     }
-    const Surface surface(model);
+    const Surface surface(mesh);
     for (std::uint32_t v = 0; v < 6; ++v) EXPECT_EQ(surface.neighbours.of(v).size(), 4u);
 }
 
@@ -204,17 +207,18 @@ TEST(Neighbours, are_those_joined_by_an_edge_with_all_their_labels) {
     for (std::uint32_t labels : {2, 4, 60}) {
         SCOPED_TRACE(std::to_string(labels) + " labels");
         test::ArrayVolume volume = test::noise_volume({6, 6, 6}, labels, 4);
-        expect_as_defined(run(volume).model);
-        expect_as_defined(run(volume, {.smooth = {.passes = 0}, .decimate = false, .cap = false, .background = {}}).model);
-        expect_as_defined(run(volume, {.smooth = {.passes = 0}, .decimate = false, .background = {0, 1}}).model);
+        expect_as_defined(run(volume).mesh);
+        expect_as_defined(
+            run(volume, {.smooth = {.passes = 0}, .decimate = false, .cap = false, .background = {}}).mesh);
+        expect_as_defined(run(volume, {.smooth = {.passes = 0}, .decimate = false, .background = {0, 1}}).mesh);
     }
-    expect_as_defined(run(test::grain_volume({9, 9, 9}, 7, 2)).model);
+    expect_as_defined(run(test::grain_volume({9, 9, 9}, 7, 2)).mesh);
 }
 
 TEST(Neighbours, come_in_the_order_of_their_places_whatever_the_numbers) {
-    const Model model = run(test::noise_volume({5, 5, 5}, 4, 2)).model;
-    const auto order = test::permutation(model.vertex_end(), 9);
-    const Surface surface(model), other(test::renumbered(model, order, 9));
+    const Mesh mesh = run(test::noise_volume({5, 5, 5}, 4, 2)).mesh;
+    const auto order = test::permutation(mesh.vertex_end(), 9);
+    const Surface surface(mesh), other(test::renumbered(mesh, order, 9));
     for (std::uint32_t n = 0; n < order.size(); ++n) {
         const auto list = surface.neighbours.of(order[n]), same = other.neighbours.of(n);
         ASSERT_EQ(list.size(), same.size());
@@ -229,12 +233,13 @@ TEST(Neighbours, come_in_the_order_of_their_places_whatever_the_numbers) {
 }
 
 TEST(Neighbours, do_not_depend_on_threads) {
-    const Model model = run(test::noise_volume({11, 11, 11}, 3, 2)).model;
-    const Surface one(model);
+    const Mesh mesh = run(test::noise_volume({11, 11, 11}, 3, 2)).mesh;
+    const Surface one(mesh);
     Neighbours many(false);
     many.add_layer(one.window, LayerStars(one.window, 0), 3);
-    ASSERT_GT(model.vertex_end(), 2u * 2048) << "one thread does it all";
-    for (std::uint32_t v = 0; v < model.vertex_end(); ++v) EXPECT_TRUE(std::ranges::equal(many.of(v), one.neighbours.of(v)));
+    ASSERT_GT(mesh.vertex_end(), 2u * 2048) << "one thread does it all";
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        EXPECT_TRUE(std::ranges::equal(many.of(v), one.neighbours.of(v)));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-#include "regionmesh/smooth/preserve_volume.h"
+#include "regionmesh/preserve_volume.h"
 
 #include <gtest/gtest.h>
 
-#include "regionmesh/model/region_volumes.h"
-#include "regionmesh/smooth/smooth.h"
+#include "mesh/region_volumes.h"
+#include "regionmesh/smooth.h"
 #include "support/digest.h"
 #include "support/runs.h"
 
@@ -17,9 +17,9 @@ ReconstructOptions preserving(ReconstructOptions options) {
 }
 
 TEST(RegionVolumes, sum_to_that_of_the_box) {
-    const Model model = test::run(test::grain_volume({9, 8, 7}, 5, 2)).model;
+    const Mesh mesh = test::run(test::grain_volume({9, 8, 7}, 5, 2)).mesh;
     double sum = 0;
-    for (double volume : region_volumes(model)) {
+    for (double volume : region_volumes(mesh)) {
         EXPECT_GT(volume, 0);
         sum += volume;
     }
@@ -27,26 +27,26 @@ TEST(RegionVolumes, sum_to_that_of_the_box) {
 }
 
 TEST(PreserveVolume, gives_a_shrunk_ball_its_volume_back) {
-    Model model = test::run(test::ball_volume({21, 21, 21}, 7)).model;
-    const std::vector<double> before = region_volumes(model);
-    smooth(model, {.filter = SmoothFilter::kLaplacian, .passes = 40});
-    EXPECT_LT(region_volumes(model)[1], 0.97 * before[1]);
-    const PreserveReport report = preserve_volumes(model, {before.begin(), before.end()}, {});
+    Mesh mesh = test::run(test::ball_volume({21, 21, 21}, 7)).mesh;
+    const std::vector<double> before = region_volumes(mesh);
+    smooth(mesh, {.filter = SmoothFilter::kLaplacian, .passes = 40});
+    EXPECT_LT(region_volumes(mesh)[1], 0.97 * before[1]);
+    const PreserveReport report = preserve_volumes(mesh, {before.begin(), before.end()}, {});
     EXPECT_GT(report.drift_before, 0.03);
     EXPECT_LT(report.drift, 1e-8);
     EXPECT_EQ(report.regions_off, 0u);
-    EXPECT_NEAR(region_volumes(model)[1] / before[1], 1, 1e-8);
-    test::expect_sound(check(model));
+    EXPECT_NEAR(region_volumes(mesh)[1] / before[1], 1, 1e-8);
+    test::expect_sound(check(mesh));
 }
 
 TEST(PreserveVolume, leaves_free_regions_free) {
-    Model model = test::run(test::ball_volume({21, 21, 21}, 7)).model;
-    const std::uint64_t same = test::digest(model);
-    EXPECT_EQ(preserve_volumes(model, {std::nullopt, std::nullopt}, {}).rounds, 0u);
-    EXPECT_EQ(test::digest(model), same);
-    const double before = region_volumes(model)[1];
-    EXPECT_EQ(preserve_volumes(model, {std::nullopt, 1.01 * before}, {}).regions_off, 0u);
-    EXPECT_NEAR(region_volumes(model)[1], 1.01 * before, 1e-6);
+    Mesh mesh = test::run(test::ball_volume({21, 21, 21}, 7)).mesh;
+    const std::uint64_t same = test::digest(mesh);
+    EXPECT_EQ(preserve_volumes(mesh, {std::nullopt, std::nullopt}, {}).rounds, 0u);
+    EXPECT_EQ(test::digest(mesh), same);
+    const double before = region_volumes(mesh)[1];
+    EXPECT_EQ(preserve_volumes(mesh, {std::nullopt, 1.01 * before}, {}).regions_off, 0u);
+    EXPECT_NEAR(region_volumes(mesh)[1], 1.01 * before, 1e-6);
 }
 
 TEST(PreserveVolume, keeps_all_grains_after_smoothing) {
@@ -54,7 +54,7 @@ TEST(PreserveVolume, keeps_all_grains_after_smoothing) {
     const Reconstruction made = test::run(volume, preserving(test::plain()));
     EXPECT_GT(made.report.preserved.drift_before, 1e-5);
     EXPECT_LT(made.report.preserved.drift, 1e-6);
-    const std::vector<double> exact = region_volumes(test::run(volume).model), now = region_volumes(made.model);
+    const std::vector<double> exact = region_volumes(test::run(volume).mesh), now = region_volumes(made.mesh);
     ASSERT_EQ(now.size(), exact.size());
     for (std::size_t n = 0; n < exact.size(); ++n) EXPECT_NEAR(now[n] / exact[n], 1, 1e-6);
     test::expect_sound(made.report.check);
@@ -75,20 +75,22 @@ TEST(PreserveVolume, takes_back_what_decimation_changed) {
 
 TEST(PreserveVolume, keeps_to_the_box) {
     test::ArrayVolume volume = test::grain_volume({20, 20, 20}, 8, 9);
-    Model model = test::run(volume).model;
-    const std::vector<double> before = region_volumes(model);
+    Mesh mesh = test::run(volume).mesh;
+    const std::vector<double> before = region_volumes(mesh);
     WantedVolumes wanted(before.begin(), before.end());
     wanted[0] = 1.02 * before[0];
     wanted[1].reset();
-    const Model was = test::run(volume).model;
-    preserve_volumes(model, wanted, {});
-    for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
+    const Mesh was = test::run(volume).mesh;
+    preserve_volumes(mesh, wanted, {});
+    for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n) {
         const VertexId v{n};
         for (int axis = 0; axis < 3; ++axis) {
-            if (was[v].sides >> (2 * axis) & 3) { EXPECT_EQ(model.position(v)[axis], was.position(v)[axis]); }
+            if (was[v].sides >> (2 * axis) & 3) {
+                EXPECT_EQ(mesh.position(v)[axis], was.position(v)[axis]);
+            }
         }
     }
-    EXPECT_NEAR(region_volumes(model)[0], 1.02 * before[0], 1e-6);
+    EXPECT_NEAR(region_volumes(mesh)[0], 1.02 * before[0], 1e-6);
 }
 
 }  // namespace

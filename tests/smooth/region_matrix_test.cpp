@@ -1,4 +1,4 @@
-#include "regionmesh/smooth/region_matrix.h"
+#include "smooth/region_matrix.h"
 
 #include <gtest/gtest.h>
 

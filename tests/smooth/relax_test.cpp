@@ -1,4 +1,4 @@
-#include "regionmesh/smooth/relax.h"
+#include "smooth/relax.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ namespace {
 using test::Surface;
 
 /// Places after one pass over all vertices.
-SlidingArray<Vec3> relaxed(const Surface& surface, const SlidingArray<Vec3>& from, double factor, std::uint32_t threads = 1) {
+SlidingArray<Vec3> relaxed(const Surface& surface, const SlidingArray<Vec3>& from, double factor,
+                           std::uint32_t threads = 1) {
     SlidingArray<Vec3> to;
     to.grow(from.end());
     relax(surface.window, surface.neighbours, surface.window.vertices_of(0), factor, from, to, threads);
@@ -24,9 +25,9 @@ SlidingArray<Vec3> relaxed(const Surface& surface, const SlidingArray<Vec3>& fro
 void expect_near(Vec3 p, Vec3 q) { EXPECT_LT(length(p - q), 1e-12); }
 
 TEST(Relax, goes_a_share_of_the_way_to_the_mean_of_the_neighbours) {
-    Model model = test::edge_in_sheet();
-    model[VertexId{0}].position = {0, 0, 3};
-    const Surface surface(model);
+    Mesh mesh = test::edge_in_sheet();
+    mesh[VertexId{0}].position = {0, 0, 3};
+    const Surface surface(mesh);
     // The mean of vertices 1 to 6 is (0, 0, 0), that of 0, 2, 3, 7, 8, 9 is (1, 0, 0.5).
     for (double factor : {0.6, 1.0, -0.612, 0.0}) {
         const auto to = relaxed(surface, surface.window.origin, factor);
@@ -45,9 +46,9 @@ TEST(Relax, reads_the_places_it_is_given_and_not_where_they_came_from) {
 }
 
 TEST(Relax, lines_go_along_lines) {
-    Model model = test::halved_octahedron();
-    model[VertexId{0}].position = {-1, 0, 1};
-    const auto to = relaxed(Surface(model), Surface(model).window.origin, 0.5);
+    Mesh mesh = test::halved_octahedron();
+    mesh[VertexId{0}].position = {-1, 0, 1};
+    const auto to = relaxed(Surface(mesh), Surface(mesh).window.origin, 0.5);
     expect_near(to[0], {-0.5, 0, 0.5});
     expect_near(to[2], {0, -0.5, 0.25});
     expect_near(to[6], {0, 0, 0.125});
@@ -64,8 +65,8 @@ TEST(RelaxFactor, of_taubin_alternates_and_of_laplacian_does_not) {
 }
 
 TEST(Relax, keeps_the_coordinates_of_box_sides_to_the_bit) {
-    const Model model = test::run(test::noise_volume({5, 6, 7}, 3, 9).spaced({0.1, 0.7, 1.0 / 3})).model;
-    const Surface surface(model);
+    const Mesh mesh = test::run(test::noise_volume({5, 6, 7}, 3, 9).spaced({0.1, 0.7, 1.0 / 3})).mesh;
+    const Surface surface(mesh);
     const auto to = relaxed(surface, surface.window.origin, 0.6);
     int moved = 0;
     for (std::uint32_t v = 0; v < to.end(); ++v) {
@@ -82,12 +83,14 @@ TEST(Relax, keeps_the_coordinates_of_box_sides_to_the_bit) {
 }
 
 TEST(Relax, does_not_depend_on_threads_or_on_how_a_layer_is_cut) {
-    const Surface surface(test::run(test::noise_volume({11, 11, 11}, 3, 2)).model);
-    const auto one = relaxed(surface, surface.window.origin, 0.6), many = relaxed(surface, surface.window.origin, 0.6, 3);
+    const Surface surface(test::run(test::noise_volume({11, 11, 11}, 3, 2)).mesh);
+    const auto one = relaxed(surface, surface.window.origin, 0.6),
+               many = relaxed(surface, surface.window.origin, 0.6, 3);
     SlidingArray<Vec3> parts;
     parts.grow(one.end());
     for (std::uint32_t v = 0; v < one.end(); v += 1000)
-        relax(surface.window, surface.neighbours, {v, std::min(v + 1000, one.end())}, 0.6, surface.window.origin, parts, 1);
+        relax(surface.window, surface.neighbours, {v, std::min(v + 1000, one.end())}, 0.6, surface.window.origin, parts,
+              1);
     for (std::uint32_t v = 0; v < one.end(); ++v) {
         EXPECT_EQ(one[v], many[v]);
         EXPECT_EQ(one[v], parts[v]);

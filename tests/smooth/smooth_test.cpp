@@ -1,13 +1,13 @@
-#include "regionmesh/smooth/smooth.h"
+#include "regionmesh/smooth.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <map>
 
-#include "regionmesh/decimate/decimate.h"
-#include "regionmesh/model/strata.h"
-#include "regionmesh/smooth/relax.h"
+#include "mesh/strata.h"
+#include "regionmesh/simplify.h"
+#include "smooth/relax.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"
@@ -21,51 +21,53 @@ using test::run;
 
 constexpr SmoothFilter kFilters[] = {SmoothFilter::kTaubin, SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
 
-Model grains() { return run(test::grain_volume({12, 12, 12}, 8, 5)).model; }
-Model noise(std::uint32_t labels = 4) { return run(test::noise_volume({7, 7, 7}, labels, 5)).model; }
-Model ball() { return run(test::ball_volume({16, 16, 16}, 5.5)).model; }
+Mesh grains() { return run(test::grain_volume({12, 12, 12}, 8, 5)).mesh; }
+Mesh noise(std::uint32_t labels = 4) { return run(test::noise_volume({7, 7, 7}, labels, 5)).mesh; }
+Mesh ball() { return run(test::ball_volume({16, 16, 16}, 5.5)).mesh; }
 
-double volume_of(const Model& model, Label label) {
-    for (const RegionReport& region : check(model).regions)
+double volume_of(const Mesh& mesh, Label label) {
+    for (const RegionReport& region : check(mesh).regions)
         if (region.label == label) return region.volume;
     return 0;
 }
 
 TEST(Smooth, no_passes_change_nothing) {
-    Model model = noise();
-    const std::uint64_t before = test::digest(model);
-    EXPECT_EQ(smooth(model, {.passes = 0}).vertices, 0u);
-    EXPECT_EQ(test::digest(model), before);
+    Mesh mesh = noise();
+    const std::uint64_t before = test::digest(mesh);
+    EXPECT_EQ(smooth(mesh, {.passes = 0}).vertices, 0u);
+    EXPECT_EQ(test::digest(mesh), before);
 }
 
 TEST(Smooth, takes_a_model_without_faces) {
-    Model model;
-    EXPECT_EQ(smooth(model, {}).vertices, 0u);
-    model.add_vertex({1, 2, 3});
-    for (SmoothFilter filter : kFilters) EXPECT_EQ(smooth(model, {.filter = filter}).vertices, 1u);
-    EXPECT_EQ(model.position(VertexId{0}), (Vec3{1, 2, 3}));
+    Mesh mesh;
+    EXPECT_EQ(smooth(mesh, {}).vertices, 0u);
+    mesh.add_vertex({1, 2, 3});
+    for (SmoothFilter filter : kFilters) EXPECT_EQ(smooth(mesh, {.filter = filter}).vertices, 1u);
+    EXPECT_EQ(mesh.position(VertexId{0}), (Vec3{1, 2, 3}));
 }
 
 TEST(Smooth, makes_the_passes_of_the_equation) {
     for (SmoothFilter filter : {SmoothFilter::kTaubin, SmoothFilter::kLaplacian})
         for (std::uint32_t passes : {1u, 2u, 7u}) {
-            Model model = ball();
-            const test::Surface surface(model);
-            const SmoothOptions options{.filter = filter, .passes = passes, .lambda = 0.4, .min_quality = 0, .intersect_check = false};
+            Mesh mesh = ball();
+            const test::Surface surface(mesh);
+            const SmoothOptions options{
+                .filter = filter, .passes = passes, .lambda = 0.4, .min_quality = 0, .intersect_check = false};
             SlidingArray<Vec3> places[2];
             for (auto& p : places)
-                for (std::uint32_t v = 0; v < model.vertex_end(); ++v) p.push_back(model.position(VertexId{v}));
+                for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) p.push_back(mesh.position(VertexId{v}));
             for (std::uint32_t pass = 0; pass < passes; ++pass)
-                relax(surface.window, surface.neighbours, surface.window.vertices_of(0), relax_factor(options, pass), places[pass % 2], places[1 - pass % 2], 1);
-            const SmoothReport report = smooth(model, options);
+                relax(surface.window, surface.neighbours, surface.window.vertices_of(0), relax_factor(options, pass),
+                      places[pass % 2], places[1 - pass % 2], 1);
+            const SmoothReport report = smooth(mesh, options);
             EXPECT_EQ(report.stepped_back, 0u);
-            EXPECT_EQ(report.vertex_passes, std::uint64_t{passes} * model.vertex_count());
-            test::for_vertices(model, [&](VertexId v) { EXPECT_EQ(model.position(v), places[passes % 2][index(v)]); });
+            EXPECT_EQ(report.vertex_passes, std::uint64_t{passes} * mesh.vertex_count());
+            test::for_vertices(mesh, [&](VertexId v) { EXPECT_EQ(mesh.position(v), places[passes % 2][index(v)]); });
         }
 }
 
 TEST(Smooth, taubin_keeps_the_volume_of_a_ball_and_laplacian_shrinks_it) {
-    Model first = ball(), second = ball();
+    Mesh first = ball(), second = ball();
     const double before = volume_of(first, 1);
     smooth(first, {});
     smooth(second, {.filter = SmoothFilter::kLaplacian});
@@ -75,109 +77,109 @@ TEST(Smooth, taubin_keeps_the_volume_of_a_ball_and_laplacian_shrinks_it) {
 
 TEST(Smooth, moves_vertices_and_nothing_else) {
     for (SmoothFilter filter : kFilters) {
-        const Model before = noise();
-        Model model = test::copy_of(before);
-        smooth(model, {.filter = filter});
-        ASSERT_EQ(model.face_end(), before.face_end());
-        test::for_faces(model, [&](FaceId f) {
-            EXPECT_EQ(model[f].vertices, before[f].vertices);
-            EXPECT_EQ(model[f].labels, before[f].labels);
+        const Mesh before = noise();
+        Mesh mesh = test::copy_of(before);
+        smooth(mesh, {.filter = filter});
+        ASSERT_EQ(mesh.face_end(), before.face_end());
+        test::for_faces(mesh, [&](FaceId f) {
+            EXPECT_EQ(mesh[f].vertices, before[f].vertices);
+            EXPECT_EQ(mesh[f].labels, before[f].labels);
         });
-        test::expect_same_strata(test::list_strata(model), test::list_strata(before));
-        test::expect_generic(model);
-        test::expect_sound(check(model));
+        test::expect_same_strata(test::list_strata(mesh), test::list_strata(before));
+        test::expect_generic(mesh);
+        test::expect_sound(check(mesh));
     }
 }
 
 TEST(Smooth, a_model_with_free_places_keeps_its_ids) {
-    Model model = grains();
-    decimate(model, {.target_faces = model.face_count() / 4});
-    Model same;
-    std::vector<VertexId> ids(model.vertex_end());
-    test::for_vertices(model, [&](VertexId v) { ids[index(v)] = same.add_vertex(model.position(v), model[v].sides); });
-    test::for_faces(model, [&](FaceId f) {
-        const auto& v = model[f].vertices;
-        same.add_face(ids[index(v[0])], ids[index(v[1])], ids[index(v[2])], model[f].labels[0], model[f].labels[1]);
+    Mesh mesh = grains();
+    decimate(mesh, {.target_faces = mesh.face_count() / 4});
+    Mesh same;
+    std::vector<VertexId> ids(mesh.vertex_end());
+    test::for_vertices(mesh, [&](VertexId v) { ids[index(v)] = same.add_vertex(mesh.position(v), mesh[v].sides); });
+    test::for_faces(mesh, [&](FaceId f) {
+        const auto& v = mesh[f].vertices;
+        same.add_face(ids[index(v[0])], ids[index(v[1])], ids[index(v[2])], mesh[f].labels[0], mesh[f].labels[1]);
     });
-    ASSERT_LT(same.vertex_end(), model.vertex_end());
-    smooth(model, {});
+    ASSERT_LT(same.vertex_end(), mesh.vertex_end());
+    smooth(mesh, {});
     smooth(same, {});
-    test::for_vertices(model, [&](VertexId v) { EXPECT_EQ(model.position(v), same.position(ids[index(v)])); });
-    test::expect_sound(check(model));
+    test::for_vertices(mesh, [&](VertexId v) { EXPECT_EQ(mesh.position(v), same.position(ids[index(v)])); });
+    test::expect_sound(check(mesh));
 }
 
 TEST(Smooth, keeps_the_sampled_box_to_the_bit) {
     const Vec3 high{5 * 0.1, 6 * 0.7, 7 * (1.0 / 3)};
     for (SmoothFilter filter : kFilters) {
-        Model model = run(test::noise_volume({6, 7, 8}, 3, 9).spaced({0.1, 0.7, 1.0 / 3})).model;
+        Mesh mesh = run(test::noise_volume({6, 7, 8}, 3, 9).spaced({0.1, 0.7, 1.0 / 3})).mesh;
         int edges = 0, corners = 0;
-        smooth(model, {.filter = filter, .scale = 0.3});
-        test::for_vertices(model, [&](VertexId v) {
-            const int sides = std::popcount(model[v].sides);
+        smooth(mesh, {.filter = filter, .scale = 0.3});
+        test::for_vertices(mesh, [&](VertexId v) {
+            const int sides = std::popcount(mesh[v].sides);
             for (int side = 0; side < 6; ++side) {
-                if (!(model[v].sides >> side & 1)) continue;
-                EXPECT_EQ(model.position(v)[side / 2], side % 2 ? high[side / 2] : 0.0);
+                if (!(mesh[v].sides >> side & 1)) continue;
+                EXPECT_EQ(mesh.position(v)[side / 2], side % 2 ? high[side / 2] : 0.0);
             }
             edges += sides == 2;
             corners += sides == 3;
         });
         EXPECT_EQ(corners, 8);
         EXPECT_GT(edges, 20) << "vertices on two sides lie on an edge of the box, straight";
-        test::expect_sound(check(model));
+        test::expect_sound(check(mesh));
     }
 }
 
 TEST(Smooth, quadruple_points_stay_unless_they_may_move) {
     for (bool may : {false, true}) {
-        const Model before = noise();
-        Model model = test::copy_of(before);
-        smooth(model, {.move_points = may});
+        const Mesh before = noise();
+        Mesh mesh = test::copy_of(before);
+        smooth(mesh, {.move_points = may});
         int points = 0, moved = 0;
-        test::for_vertices(model, [&](VertexId v) {
-            if (vertex_labels(model, v).size() != 4 || model[v].sides != 0) return;
+        test::for_vertices(mesh, [&](VertexId v) {
+            if (vertex_labels(mesh, v).size() != 4 || mesh[v].sides != 0) return;
             ++points;
-            moved += model.position(v) != before.position(v);
+            moved += mesh.position(v) != before.position(v);
         });
         EXPECT_GT(points, 100);
         EXPECT_GE(moved, may ? points / 2 : 0);
         EXPECT_LE(moved, may ? points : 0);
-        test::expect_sound(check(model));
+        test::expect_sound(check(mesh));
     }
 }
 
 TEST(Smooth, the_rim_of_an_open_surface_stays) {
     ReconstructOptions open = test::plain();
     open.cap = false;
-    const Model before = run(test::grain_volume({10, 10, 10}, 6, 4), open).model;
+    const Mesh before = run(test::grain_volume({10, 10, 10}, 6, 4), open).mesh;
     for (SmoothFilter filter : kFilters) {
-        Model model = test::copy_of(before);
-        smooth(model, {.filter = filter});
+        Mesh mesh = test::copy_of(before);
+        smooth(mesh, {.filter = filter});
         CheckOptions options;
         options.boundary_is_open = true;
-        test::expect_sound(check(model, options));
-        test::for_vertices(model, [&](VertexId v) {
+        test::expect_sound(check(mesh, options));
+        test::for_vertices(mesh, [&](VertexId v) {
             for (int side = 0; side < 6; ++side)
-                if (model[v].sides >> side & 1) {
-                    EXPECT_EQ(model.position(v)[side / 2], before.position(v)[side / 2]);
+                if (mesh[v].sides >> side & 1) {
+                    EXPECT_EQ(mesh.position(v)[side / 2], before.position(v)[side / 2]);
                 }
         });
     }
 }
 
 TEST(Smooth, a_hole_of_a_foreign_surface_keeps_its_rim) {
-    Model model = ball();
-    const auto hole = model[FaceId{5}].vertices;
-    model.remove_face(FaceId{5});
+    Mesh mesh = ball();
+    const auto hole = mesh[FaceId{5}].vertices;
+    mesh.remove_face(FaceId{5});
     std::array<Vec3, 3> rim;
-    for (int n = 0; n < 3; ++n) rim[n] = model.position(hole[n]);
-    EXPECT_GT(smooth(model, {}).largest_displacement, 0);
-    for (int n = 0; n < 3; ++n) EXPECT_EQ(model.position(hole[n]), rim[n]);
+    for (int n = 0; n < 3; ++n) rim[n] = mesh.position(hole[n]);
+    EXPECT_GT(smooth(mesh, {}).largest_displacement, 0);
+    for (int n = 0; n < 3; ++n) EXPECT_EQ(mesh.position(hole[n]), rim[n]);
 }
 
 TEST(Smooth, the_numbers_of_vertices_and_faces_do_not_matter) {
-    const auto expect_same = [](const char* name, const Model& model, const SmoothOptions& options) {
+    const auto expect_same = [](const char* name, const Mesh& mesh, const SmoothOptions& options) {
         SCOPED_TRACE(std::string(name) + ", filter " + std::to_string(static_cast<int>(options.filter)));
-        Model first = test::copy_of(model), second = test::renumbered(model, 7);
+        Mesh first = test::copy_of(mesh), second = test::renumbered(mesh, 7);
         ASSERT_EQ(test::surface_digest(first), test::surface_digest(second));
         const SmoothReport one = smooth(first, options), other = smooth(second, options);
         EXPECT_EQ(test::surface_digest(first), test::surface_digest(second));
@@ -189,15 +191,16 @@ TEST(Smooth, the_numbers_of_vertices_and_faces_do_not_matter) {
         expect_same("noise", noise(), options);
         expect_same("noise of two labels", noise(2), options);
     }
-    expect_same("few grains", run(test::grain_volume({8, 8, 8}, 4, 2)).model, {.filter = SmoothFilter::kNifpms});
-    expect_same("little noise", run(test::noise_volume({5, 5, 5}, 3, 2)).model, {.filter = SmoothFilter::kNifpms});
+    expect_same("few grains", run(test::grain_volume({8, 8, 8}, 4, 2)).mesh, {.filter = SmoothFilter::kNifpms});
+    expect_same("little noise", run(test::noise_volume({5, 5, 5}, 3, 2)).mesh, {.filter = SmoothFilter::kNifpms});
 }
 
 TEST(Smooth, threads_do_not_matter) {
     for (SmoothFilter filter : kFilters) {
         const std::uint32_t side = filter == SmoothFilter::kNifpms ? 6 : 12;
-        Model one = run(test::noise_volume({side, side, side}, 3, 1)).model, many = test::copy_of(one);
-        const SmoothReport by_one = smooth(one, {.filter = filter, .threads = 1}), by_many = smooth(many, {.filter = filter, .threads = 3});
+        Mesh one = run(test::noise_volume({side, side, side}, 3, 1)).mesh, many = test::copy_of(one);
+        const SmoothReport by_one = smooth(one, {.filter = filter, .threads = 1}),
+                           by_many = smooth(many, {.filter = filter, .threads = 3});
         EXPECT_EQ(test::digest(one), test::digest(many));
         EXPECT_EQ(by_one.stepped_back, by_many.stepped_back);
         EXPECT_EQ(by_one.crossing_pairs, by_many.crossing_pairs);
@@ -207,36 +210,40 @@ TEST(Smooth, threads_do_not_matter) {
 
 TEST(Smooth, the_unit_of_length_changes_nothing) {
     for (SmoothFilter filter : kFilters) {
-        Model small = run(test::noise_volume({5, 5, 5}, 3, 1)).model, large = run(test::noise_volume({5, 5, 5}, 3, 1).spaced({1024, 1024, 1024})).model;
+        Mesh small = run(test::noise_volume({5, 5, 5}, 3, 1)).mesh,
+             large = run(test::noise_volume({5, 5, 5}, 3, 1).spaced({1024, 1024, 1024})).mesh;
         smooth(small, {.filter = filter});
         smooth(large, {.filter = filter, .scale = 1024});
         double most = 0;
-        test::for_vertices(small, [&](VertexId v) { most = std::max(most, length(1024 * small.position(v) - large.position(v))); });
+        test::for_vertices(
+            small, [&](VertexId v) { most = std::max(most, length(1024 * small.position(v) - large.position(v))); });
         EXPECT_LT(most, 1e-6);
     }
 }
 
 TEST(SmoothReport, says_what_was_done) {
-    const Model before = noise();
-    Model model = test::copy_of(before);
+    const Mesh before = noise();
+    Mesh mesh = test::copy_of(before);
     const CheckReport was = check(before);
-    const SmoothReport report = smooth(model, {});
-    const CheckReport is = check(model);
-    EXPECT_EQ(report.vertices, model.vertex_count());
-    EXPECT_EQ(report.vertex_passes, 20u * model.vertex_count());
+    const SmoothReport report = smooth(mesh, {});
+    const CheckReport is = check(mesh);
+    EXPECT_EQ(report.vertices, mesh.vertex_count());
+    EXPECT_EQ(report.vertex_passes, 20u * mesh.vertex_count());
     double most = 0, sum = 0;
-    test::for_vertices(model, [&](VertexId v) {
-        const double moved = length2(model.position(v) - before.position(v));
+    test::for_vertices(mesh, [&](VertexId v) {
+        const double moved = length2(mesh.position(v) - before.position(v));
         most = std::max(most, std::sqrt(moved));
         sum += moved;
     });
     EXPECT_DOUBLE_EQ(report.largest_displacement, most);
-    EXPECT_NEAR(report.rms_displacement, std::sqrt(sum / model.vertex_count()), 1e-9);
+    EXPECT_NEAR(report.rms_displacement, std::sqrt(sum / mesh.vertex_count()), 1e-9);
     EXPECT_GT(report.low_quality_faces, 0u);
     EXPECT_GT(report.stepped_back, 0u);
     EXPECT_LT(report.stepped_back, report.vertices);
-    for (const RegionReport& region : was.regions) EXPECT_NEAR(report.volume_before.at(region.label), region.volume, 1e-9);
-    for (const RegionReport& region : is.regions) EXPECT_NEAR(report.volume_after.at(region.label), region.volume, 1e-9);
+    for (const RegionReport& region : was.regions)
+        EXPECT_NEAR(report.volume_before.at(region.label), region.volume, 1e-9);
+    for (const RegionReport& region : is.regions)
+        EXPECT_NEAR(report.volume_after.at(region.label), region.volume, 1e-9);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-#include "regionmesh/smooth/step_back.h"
+#include "smooth/step_back.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "regionmesh/base/triangle.h"
+#include "base/triangle.h"
 #include "support/shapes.h"
 #include "support/surface_windows.h"
 
@@ -30,8 +30,8 @@ double height_of_quality(double wanted) {
 
 /// Vertices of a model, where smoothing took them, and rounds of stepping back.
 struct Rounds {
-    Rounds(const Model& model, const std::vector<Vec3>& places, const SmoothOptions& with = {.threads = 1})
-        : window(test::window_of(model)), options(with), rounds(window, stand, options) {
+    Rounds(const Mesh& mesh, const std::vector<Vec3>& places, const SmoothOptions& with = {.threads = 1})
+        : window(test::window_of(mesh)), options(with), rounds(window, stand, options) {
         for (Vec3 p : places) {
             smooth.push_back(p);
             now.push_back(p);
@@ -59,11 +59,11 @@ struct Rounds {
 
 /// The sheet, with vertex 0 gone this far along x; at 1 it meets its neighbour, beyond it has turned two faces over.
 Rounds pushed(double x, const SmoothOptions& options = {.threads = 1}) {
-    const Model model = test::edge_in_sheet();
+    const Mesh mesh = test::edge_in_sheet();
     std::vector<Vec3> places;
-    for (std::uint32_t v = 0; v < 10; ++v) places.push_back(model.position(VertexId{v}));
+    for (std::uint32_t v = 0; v < 10; ++v) places.push_back(mesh.position(VertexId{v}));
     places[0] = {x, 0, 0};
-    return Rounds(model, places, options);
+    return Rounds(mesh, places, options);
 }
 
 TEST(ShapeFault, a_face_that_turns_by_90_degrees_or_more_is_turned) {
@@ -155,7 +155,8 @@ TEST(StepBack, the_first_round_asks_for_the_first_sound_level) {
     EXPECT_EQ(sheet.rounds.faults().low_quality, 0u);
     const std::uint8_t level = sheet.stand.level[0];
     for (std::uint32_t f : {0u, 1u}) EXPECT_EQ(sheet.fault_of(f), ShapeFault::kNone);
-    for (std::uint32_t v : {1u, 2u, 3u}) EXPECT_EQ(sheet.stand.level[v], level) << "all corners of the faulty faces step back";
+    for (std::uint32_t v : {1u, 2u, 3u})
+        EXPECT_EQ(sheet.stand.level[v], level) << "all corners of the faulty faces step back";
     EXPECT_EQ(sheet.stand.level[5], 0);
     ASSERT_GT(level, 1);
     sheet.stand.set_level(sheet.window, 0, level - 1);
@@ -186,8 +187,9 @@ TEST(StepBack, later_rounds_ask_for_two_more_and_count_nothing) {
 
 TEST(StepBack, a_vertex_follows_the_face_that_asks_for_most) {
     // Vertex 0 is shared by a face that needs many levels and one that needs few.
-    const Model model = test::shape({{0, 0, 0}, {1, 0.5, 0}, {1, -0.5, 0}, {-1, -0.5, 0}, {-1, 0.5, 0}}, {{{0, 2, 1}}, {{0, 4, 3}}});
-    Rounds both(model, {{0, 0, 0}, {-4, 0.5, 0}, {-4, -0.5, 0}, {0.2, -0.5, 0}, {0.2, 0.5, 0}});
+    const Mesh mesh =
+        test::shape({{0, 0, 0}, {1, 0.5, 0}, {1, -0.5, 0}, {-1, -0.5, 0}, {-1, 0.5, 0}}, {{{0, 2, 1}}, {{0, 4, 3}}});
+    Rounds both(mesh, {{0, 0, 0}, {-4, 0.5, 0}, {-4, -0.5, 0}, {0.2, -0.5, 0}, {0.2, 0.5, 0}});
     ASSERT_EQ(both.fault_of(0), ShapeFault::kTurned);
     ASSERT_EQ(both.fault_of(1), ShapeFault::kTurned);
     both.rounds.run(0, 0, true);
@@ -197,7 +199,8 @@ TEST(StepBack, a_vertex_follows_the_face_that_asks_for_most) {
 
 TEST(StepBack, in_layers_gives_what_one_layer_does) {
     // Two faces side by side, the second in a layer of its own with one new vertex; both turn over.
-    const std::vector<Vec3> from{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, to{{0, 0, 0}, {1, 0, 0}, {0, -0.3, 0}, {1, -1.5, 0}};
+    const std::vector<Vec3> from{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+        to{{0, 0, 0}, {1, 0, 0}, {0, -0.3, 0}, {1, -1.5, 0}};
     const WindowFace faces[2]{{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}};
     std::vector<std::uint8_t> levels[2];
     for (bool is_cut : {false, true}) {
@@ -224,7 +227,8 @@ TEST(StepBack, in_layers_gives_what_one_layer_does) {
         StepBackRounds rounds(window, stand, options);
         // A round on layer n follows the round before on layer n + 1.
         if (is_cut)
-            for (const auto& [round, layer] : {std::pair{0u, 0u}, {0u, 1u}, {1u, 0u}, {1u, 1u}, {2u, 0u}, {2u, 1u}}) rounds.run(round, layer, layer == 1);
+            for (const auto& [round, layer] : {std::pair{0u, 0u}, {0u, 1u}, {1u, 0u}, {1u, 1u}, {2u, 0u}, {2u, 1u}})
+                rounds.run(round, layer, layer == 1);
         else
             for (std::uint32_t round = 0; round < 3; ++round) rounds.run(round, 0, true);
         EXPECT_EQ(rounds.faults().turned, 2u);

@@ -1,9 +1,9 @@
-#include "regionmesh/smooth/surface_window.h"
+#include "smooth/surface_window.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "regionmesh/smooth/stars.h"
+#include "smooth/stars.h"
 
 namespace regionmesh {
 namespace {
@@ -47,7 +47,8 @@ TEST(SurfaceWindow, keeps_numbers_when_layers_are_let_go) {
         EXPECT_EQ(window.vertices_of(199).end, 400u);
         EXPECT_EQ(window.faces_of(layer).first, 2 * layer - 2);
         for (std::uint32_t f = window.faces_of(layer).first; f < window.faces_of(layer).end; ++f)
-            for (std::uint32_t v : window.faces[f].vertices) EXPECT_EQ(window.origin[v].z, v / 2) << "the layer before has the first vertices of this one";
+            for (std::uint32_t v : window.faces[f].vertices)
+                EXPECT_EQ(window.origin[v].z, v / 2) << "the layer before has the first vertices of this one";
     }
     EXPECT_LT(window.bytes(), whole / 20);
     window.origin.push_back({0, 0, 200});

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "regionmesh/memory_plan.h"
+#include "stream/memory_plan.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/strata_list.h"
@@ -26,7 +26,7 @@ TEST(Equivalence, strips_per_batch_changes_nothing_while_the_budget_does_not_bin
         const Reconstruction one = run(volume, options);
         options.strips_per_batch = 1000;
         const Reconstruction all = run(volume, options);
-        EXPECT_EQ(test::digest(one.model), test::digest(all.model));
+        EXPECT_EQ(test::digest(one.mesh), test::digest(all.mesh));
         EXPECT_EQ(one.report.verdicts, all.report.verdicts);
         EXPECT_LE(one.report.final_faces, target);
     }
@@ -35,20 +35,20 @@ TEST(Equivalence, strips_per_batch_changes_nothing_while_the_budget_does_not_bin
 TEST(Equivalence, a_budget_that_never_binds_is_no_budget) {
     test::ArrayVolume volume = test::noise_volume({9, 9, 9}, 4, 1);
     const Reconstruction bounded = run(volume, with_budget(3000, 10000000));
-    EXPECT_EQ(test::digest(bounded.model), test::digest(run(volume, {.target_faces = 3000, .background = {}}).model));
+    EXPECT_EQ(test::digest(bounded.mesh), test::digest(run(volume, {.target_faces = 3000, .background = {}}).mesh));
 }
 
 TEST(Determinism, the_same_run_twice_gives_the_same_bytes) {
     test::ArrayVolume volume = test::grain_volume({20, 20, 20}, 10, 2);
     for (const ReconstructOptions& options : {test::plain(), test::reduced(0.9), with_budget(1500, 6000)})
-        EXPECT_EQ(test::digest(run(volume, options).model), test::digest(run(volume, options).model));
+        EXPECT_EQ(test::digest(run(volume, options).mesh), test::digest(run(volume, options).mesh));
 }
 
 TEST(Determinism, what_ran_before_does_not_matter) {
     test::ArrayVolume volume = test::noise_volume({9, 9, 9}, 4, 2);
-    const std::uint64_t first = test::digest(run(volume, test::reduced(0.8)).model);
+    const std::uint64_t first = test::digest(run(volume, test::reduced(0.8)).mesh);
     run(test::grain_volume({20, 20, 20}, 10, 2), with_budget(1500, 6000));
-    EXPECT_EQ(test::digest(run(volume, test::reduced(0.8)).model), first);
+    EXPECT_EQ(test::digest(run(volume, test::reduced(0.8)).mesh), first);
 }
 
 TEST(OnTheFly, a_budget_that_binds_leaves_a_sound_model) {
@@ -61,7 +61,7 @@ TEST(OnTheFly, a_budget_that_binds_leaves_a_sound_model) {
         test::expect_sound(made.report.check);
         EXPECT_EQ(made.report.initial_faces, whole.report.initial_faces);
         EXPECT_LE(made.report.final_faces, 2500u);
-        test::expect_same_strata(test::list_strata(made.model), test::list_strata(whole.model));
+        test::expect_same_strata(test::list_strata(made.mesh), test::list_strata(whole.mesh));
     }
 }
 
@@ -71,7 +71,7 @@ TEST(OnTheFly, noise_beyond_the_budget_stays_sound) {
         test::ArrayVolume volume = test::noise_volume({8, 8, 16}, 3, seed);
         const Reconstruction made = run(volume, with_budget(1000, 3000));
         test::expect_sound(made.report.check);
-        test::expect_same_strata(test::list_strata(made.model), test::list_strata(run(volume).model));
+        test::expect_same_strata(test::list_strata(made.mesh), test::list_strata(run(volume).mesh));
     }
 }
 

@@ -1,11 +1,11 @@
-#include "regionmesh/stream/read_ahead.h"
+#include "stream/read_ahead.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <set>
 
-#include "regionmesh/base/error.h"
+#include "regionmesh/error.h"
 #include "support/digest.h"
 #include "support/runs.h"
 
@@ -15,7 +15,8 @@ namespace {
 /// Throws in place of one section; notes on which threads it was called.
 class FailingVolume : public test::ArrayVolume {
 public:
-    FailingVolume(test::ArrayVolume volume, std::uint32_t fails_at) : ArrayVolume(std::move(volume)), fails_at_(fails_at) {}
+    FailingVolume(test::ArrayVolume volume, std::uint32_t fails_at)
+        : ArrayVolume(std::move(volume)), fails_at_(fails_at) {}
     bool next(std::span<InputLabel> section) override {
         threads.insert(std::this_thread::get_id());
         if (read == fails_at_) throw Error(ErrorCode::kInput, "section " + std::to_string(read) + " is torn");
@@ -103,14 +104,13 @@ TEST(ReadAhead, may_be_left_at_any_time) {
 
 TEST(ReadAhead, reads_nothing_before_it_is_asked_and_one_section_ahead_then) {
     FailingVolume volume(noise(), kNever);
-    {
-        const ReadAhead idle(volume);
-    }
+    { const ReadAhead idle(volume); }
     EXPECT_EQ(volume.read, 0u);
     ReadAhead ahead(volume);
     std::vector<InputLabel> section(12);
     ahead.next(section);
-    for (int tries = 0; tries < 10000 && volume.read < 2; ++tries) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int tries = 0; tries < 10000 && volume.read < 2; ++tries)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_EQ(volume.read, 2u);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_EQ(volume.read, 2u) << "no further, while nobody asks";

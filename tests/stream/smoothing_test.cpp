@@ -1,19 +1,19 @@
 // Smoothing on the fly: equivalence, determinism, memory, anisotropy; and that all filters leave a sound model.
-#include "regionmesh/stream/smoothing.h"
+#include "stream/smoothing.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 
-#include "regionmesh/base/error.h"
-#include "regionmesh/smooth/smooth.h"
-#include "regionmesh/stream/section_window.h"
-#include "regionmesh/stream/weld.h"
-#include "regionmesh/tets/strip_mesher.h"
+#include "cells/strip_mesher.h"
+#include "regionmesh/error.h"
+#include "regionmesh/smooth.h"
+#include "stream/weld.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/strata_list.h"
+#include "volume/section_window.h"
 
 namespace regionmesh {
 namespace {
@@ -28,11 +28,13 @@ std::string name_of(const SmoothOptions& options) {
 }
 
 /// All labels are regions; smoothed so, and not decimated.
-ReconstructOptions smoothed(const SmoothOptions& smooth = {}) { return {.smooth = smooth, .decimate = false, .background = {}}; }
+ReconstructOptions smoothed(const SmoothOptions& smooth = {}) {
+    return {.smooth = smooth, .decimate = false, .background = {}};
+}
 
-/// What reconstruct(smooth) is: the filter and its rounds of stepping back on the whole of the plain model. What is left
-/// to settle after them settles strip by strip: there other vertices may step back than in core.
-Model smoothed_in_core(test::ArrayVolume& volume, ReconstructOptions options) {
+/// What reconstruct(smooth) is: the filter and its rounds of stepping back on the whole of the plain model. What is
+/// left to settle after them settles strip by strip: there other vertices may step back than in core.
+Mesh smoothed_in_core(test::ArrayVolume& volume, ReconstructOptions options) {
     const Vec3 spacing = volume.info().lattice.spacing;
     SmoothOptions smooth_options = options.smooth;
     smooth_options.min_quality = options.min_quality;
@@ -40,8 +42,8 @@ Model smoothed_in_core(test::ArrayVolume& volume, ReconstructOptions options) {
     smooth_options.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
     options.smooth.passes = 0;
     Reconstruction plain = run(volume, options);
-    smooth(plain.model, smooth_options);
-    return std::move(plain.model);
+    smooth(plain.mesh, smooth_options);
+    return std::move(plain.mesh);
 }
 
 void expect_smoothed_as_in_core(test::ArrayVolume& volume, const ReconstructOptions& options) {
@@ -49,7 +51,7 @@ void expect_smoothed_as_in_core(test::ArrayVolume& volume, const ReconstructOpti
     const Reconstruction streamed = run(volume, options);
     if (options.intersect_check) test::expect_sound(streamed.report.check);
     EXPECT_EQ(streamed.report.smoothing.held_vertices, 0u);
-    EXPECT_EQ(test::surface_digest(streamed.model), test::surface_digest(smoothed_in_core(volume, options)));
+    EXPECT_EQ(test::surface_digest(streamed.mesh), test::surface_digest(smoothed_in_core(volume, options)));
 }
 
 /// Balls of 1 in 0, one after the other along z, with sections of 0 alone between them and at both ends.
@@ -67,17 +69,21 @@ TEST(Equivalence, smoothed_strips_do_not_depend_on_how_many_come_at_once) {
     for (SmoothFilter filter : kFilters) {
         test::ArrayVolume volume = test::grain_volume({10, 9, 14}, 6, 1);
         ReconstructOptions options = smoothed({.filter = filter});
-        const std::uint64_t one = test::digest(run(volume, options).model);
+        const std::uint64_t one = test::digest(run(volume, options).mesh);
         for (std::uint32_t strips : {3u, 1000u}) {
             options.strips_per_batch = strips;
-            EXPECT_EQ(test::digest(run(volume, options).model), one);
+            EXPECT_EQ(test::digest(run(volume, options).mesh), one);
         }
     }
 }
 
 TEST(Equivalence, smoothing_on_the_fly_is_smoothing_in_core_on_grains) {
     test::ArrayVolume volume = test::grain_volume({9, 10, 16}, 8, 3);
-    for (const SmoothOptions& smooth : {SmoothOptions{}, {.passes = 1}, {.passes = 2}, {.filter = SmoothFilter::kLaplacian, .passes = 5}, {.filter = SmoothFilter::kNifpms}})
+    for (const SmoothOptions& smooth : {SmoothOptions{},
+                                        {.passes = 1},
+                                        {.passes = 2},
+                                        {.filter = SmoothFilter::kLaplacian, .passes = 5},
+                                        {.filter = SmoothFilter::kNifpms}})
         expect_smoothed_as_in_core(volume, smoothed(smooth));
     for (const Sweep& sweep : {kSweepX, kSweepY}) expect_smoothed_as_in_core(volume.swept(sweep), smoothed());
 }
@@ -121,7 +127,7 @@ TEST(Equivalence, strips_without_faces_are_passed_through) {
     }
     for (SmoothFilter filter : kFilters) {
         const Reconstruction nothing = run(test::solid_volume({4, 4, 9}, 0), {.smooth = {.filter = filter}});
-        EXPECT_EQ(nothing.model.face_count(), 0u);
+        EXPECT_EQ(nothing.mesh.face_count(), 0u);
         EXPECT_EQ(nothing.report.smoothing.vertices, 0u);
     }
 }
@@ -142,8 +148,8 @@ void for_batches(test::ArrayVolume& volume, Smoothing& smoothing, Visit&& visit)
     LabelTable labels;
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, volume.info().sweep, {});
-    std::deque<FaceBatch> in;
-    FaceBatch out;
+    std::deque<Chunk> in;
+    Chunk out;
     double plane = 0;
     while (window.advance()) {
         in.emplace_back();
@@ -163,9 +169,9 @@ TEST(Smoothing, batches_come_out_as_they_went_in_but_for_places) {
     for (SmoothFilter filter : kFilters) {
         test::ArrayVolume volume = test::noise_volume({5, 5, 12}, 3, 4);
         Smoothing smoothing({.filter = filter, .passes = 4}, {.thickness = 1});
-        Model model;
-        Weld weld(model);
-        for_batches(volume, smoothing, [&](const FaceBatch& in, const FaceBatch& out) {
+        Mesh mesh;
+        Weld weld(mesh);
+        for_batches(volume, smoothing, [&](const Chunk& in, const Chunk& out) {
             EXPECT_EQ(out.carried, in.carried);
             EXPECT_EQ(out.open, in.open);
             ASSERT_EQ(out.vertices.size(), in.vertices.size());
@@ -177,7 +183,7 @@ TEST(Smoothing, batches_come_out_as_they_went_in_but_for_places) {
             }
             weld.add(out);
         });
-        test::expect_sound(check(model));
+        test::expect_sound(check(mesh));
     }
 }
 
@@ -185,7 +191,7 @@ TEST(Smoothing, strips_come_out_while_others_go_in) {
     test::ArrayVolume volume = test::noise_volume({5, 5, 60}, 3, 4);
     Smoothing smoothing({.passes = 4}, {.thickness = 1});
     int strips = 0;
-    for_batches(volume, smoothing, [&](const FaceBatch&, const FaceBatch&) { ++strips; });
+    for_batches(volume, smoothing, [&](const Chunk&, const Chunk&) { ++strips; });
     EXPECT_EQ(strips, 59);
     EXPECT_LT(smoothing.report().window_layers, 30u);
 }
@@ -194,13 +200,16 @@ TEST(Smoothing, what_is_not_handed_out_lies_beyond_the_floor) {
     for (SmoothFilter filter : kFilters)
         for (const Sweep& sweep : {kSweepX, kSweepZ}) {
             const bool is_local = filter != SmoothFilter::kNifpms;
-            test::ArrayVolume volume = (is_local ? test::noise_volume({24, 5, 24}, 3, 4) : test::grain_volume({24, 5, 24}, 9, 4)).swept(sweep).spaced({0.5, 1, 1});
+            test::ArrayVolume volume =
+                (is_local ? test::noise_volume({24, 5, 24}, 3, 4) : test::grain_volume({24, 5, 24}, 9, 4))
+                    .swept(sweep)
+                    .spaced({0.5, 1, 1});
             const int axis = sweep.axes[2];
             const double thickness = volume.info().lattice.spacing[axis];
             Smoothing smoothing({.filter = filter, .passes = 5, .scale = 0.8}, {.axis = axis, .thickness = thickness});
             double floor = -HUGE_VAL, last = 0;
-            for_batches(volume, smoothing, [&](const FaceBatch&, const FaceBatch& out) {
-                for (const BatchVertex& vertex : out.vertices) ASSERT_GE(vertex.position[axis], floor);
+            for_batches(volume, smoothing, [&](const Chunk&, const Chunk& out) {
+                for (const ChunkVertex& vertex : out.vertices) ASSERT_GE(vertex.position[axis], floor);
                 floor = smoothing.floor();
                 if (floor < HUGE_VAL) last = floor;
             });
@@ -217,25 +226,26 @@ TEST(Determinism, smoothing_gives_the_same_bytes_on_any_number_of_threads) {
         options.decimate = share > 0;
         options.smooth = {};
         options.threads = 1;
-        const std::uint64_t one = test::digest(run(volume, options).model);
+        const std::uint64_t one = test::digest(run(volume, options).mesh);
         for (std::uint32_t threads : {2u, 3u, 8u}) {
             if (share == 0 && threads != 3) continue;
             options.threads = threads;
-            EXPECT_EQ(test::digest(run(volume, options).model), one) << threads << " threads";
+            EXPECT_EQ(test::digest(run(volume, options).mesh), one) << threads << " threads";
         }
     }
 }
 
 TEST(Determinism, every_filter_gives_the_same_bytes_on_any_number_of_threads) {
     test::ArrayVolume volume = test::noise_volume({12, 12, 10}, 3, 5);
-    for (const SmoothOptions& smooth : {SmoothOptions{.filter = SmoothFilter::kLaplacian, .passes = 40}, {.filter = SmoothFilter::kNifpms}}) {
+    for (const SmoothOptions& smooth :
+         {SmoothOptions{.filter = SmoothFilter::kLaplacian, .passes = 40}, {.filter = SmoothFilter::kNifpms}}) {
         if (smooth.filter == SmoothFilter::kNifpms) volume = test::grain_volume({12, 12, 10}, 6, 5);
         ReconstructOptions options = test::reduced(0.8);
         options.smooth = smooth;
         options.threads = 1;
-        const std::uint64_t one = test::digest(run(volume, options).model);
+        const std::uint64_t one = test::digest(run(volume, options).mesh);
         options.threads = 3;
-        EXPECT_EQ(test::digest(run(volume, options).model), one);
+        EXPECT_EQ(test::digest(run(volume, options).mesh), one);
     }
 }
 
@@ -260,16 +270,20 @@ TEST(Memory, smoothing_holds_as_many_strips_however_many_there_are) {
         EXPECT_EQ(whole.window_layers, half.window_layers);
         EXPECT_LE(whole.window_bytes, half.window_bytes * 11 / 10);
     };
-    for (const SmoothOptions& smooth : {SmoothOptions{}, {.passes = 5}, {.filter = SmoothFilter::kLaplacian, .passes = 10}}) {
+    for (const SmoothOptions& smooth :
+         {SmoothOptions{}, {.passes = 5}, {.filter = SmoothFilter::kLaplacian, .passes = 10}}) {
         SCOPED_TRACE(name_of(smooth));
-        expect_same_window(run(column(60), smoothed(smooth)).report.smoothing, run(column(120), smoothed(smooth)).report.smoothing);
+        expect_same_window(run(column(60), smoothed(smooth)).report.smoothing,
+                           run(column(120), smoothed(smooth)).report.smoothing);
     }
     const SmoothOptions nifpms{.filter = SmoothFilter::kNifpms};
     expect_same_window(wall(60, nifpms), wall(120, nifpms));
 }
 
 TEST(Memory, more_passes_hold_as_many_more_strips) {
-    const auto held = [](std::uint32_t passes) { return run(column(80), smoothed({.passes = passes})).report.smoothing.window_layers; };
+    const auto held = [](std::uint32_t passes) {
+        return run(column(80), smoothed({.passes = passes})).report.smoothing.window_layers;
+    };
     EXPECT_LE(held(20) - held(10), 14u);
 }
 
@@ -285,8 +299,8 @@ TEST(SampledBox, keeps_its_sides_to_the_bit_through_smoothing_and_decimation) {
             test::expect_sound(made.report.check);
             const Vec3 high{5 * spacing.x, 6 * spacing.y, 7 * spacing.z};
             int corners = 0;
-            test::for_vertices(made.model, [&](VertexId v) {
-                const Vertex& vertex = made.model[v];
+            test::for_vertices(made.mesh, [&](VertexId v) {
+                const Vertex& vertex = made.mesh[v];
                 for (int side = 0; side < 6; ++side) {
                     if (!(vertex.sides >> side & 1)) continue;
                     EXPECT_EQ(vertex.position[side / 2], side % 2 ? high[side / 2] : 0.0);
@@ -309,8 +323,8 @@ TEST(Oracle, smoothed_noise_is_sound) {
                 const Reconstruction made = run(volume, smoothed({.filter = filter, .passes = passes}));
                 test::expect_sound(made.report.check);
                 EXPECT_GE(made.report.check.quality.min, 0.1);
-                test::expect_generic(made.model);
-                test::expect_same_strata(test::list_strata(made.model), test::list_strata(run(volume).model));
+                test::expect_generic(made.mesh);
+                test::expect_same_strata(test::list_strata(made.mesh), test::list_strata(run(volume).mesh));
             }
 }
 
@@ -319,7 +333,8 @@ TEST(Oracle, smoothed_grains_are_sound) {
         for (std::uint32_t passes : {20u, 100u}) {
             if (filter == SmoothFilter::kNifpms && passes == 100) continue;
             SCOPED_TRACE(name_of({.filter = filter, .passes = passes}));
-            const Reconstruction made = run(test::grain_volume({14, 13, 12}, 8, 7), smoothed({.filter = filter, .passes = passes}));
+            const Reconstruction made =
+                run(test::grain_volume({14, 13, 12}, 8, 7), smoothed({.filter = filter, .passes = passes}));
             test::expect_sound(made.report.check);
             EXPECT_GE(made.report.check.quality.min, 0.1);
         }
@@ -370,12 +385,16 @@ TEST(OnTheFly, smoothed_noise_within_a_budget_stays_sound) {
 TEST(Anisotropy, smoothing_at_any_spacing_is_sound) {
     for (const Vec3 spacing : {Vec3{1, 2, 5}, Vec3{5, 2, 1}, Vec3{1, 1, 0.2}, Vec3{1e-3, 2e-3, 5e-3}})
         for (SmoothFilter filter : kFilters) {
-            SCOPED_TRACE(name_of({.filter = filter}) + ", spacing " + std::to_string(spacing.x) + " " + std::to_string(spacing.z));
+            SCOPED_TRACE(name_of({.filter = filter}) + ", spacing " + std::to_string(spacing.x) + " " +
+                         std::to_string(spacing.z));
             for (std::uint32_t passes : {20u, 100u}) {
                 if (filter == SmoothFilter::kNifpms && passes == 100) continue;
-                test::expect_sound(run(test::noise_volume({5, 5, 8}, 3, 1).spaced(spacing), smoothed({.filter = filter, .passes = passes})).report.check);
+                test::expect_sound(run(test::noise_volume({5, 5, 8}, 3, 1).spaced(spacing),
+                                       smoothed({.filter = filter, .passes = passes}))
+                                       .report.check);
             }
-            test::expect_sound(run(test::grain_volume({8, 8, 10}, 5, 2).spaced(spacing), smoothed({.filter = filter})).report.check);
+            test::expect_sound(
+                run(test::grain_volume({8, 8, 10}, 5, 2).spaced(spacing), smoothed({.filter = filter})).report.check);
         }
 }
 
@@ -386,9 +405,9 @@ TEST(Anisotropy, oblique_directions_move_the_smoothed_model_as_a_whole) {
     volume.lattice().origin = {10, 20, 30};
     const Reconstruction turned = run(volume, smoothed());
     test::expect_sound(turned.report.check);
-    test::for_vertices(straight.model, [&](VertexId v) {
-        const Vec3 p = straight.model.position(v);
-        EXPECT_LT(length(turned.model.position(v) - Vec3{10 + p.z, 20 - p.x, 30 + p.y}), 1e-12);
+    test::for_vertices(straight.mesh, [&](VertexId v) {
+        const Vec3 p = straight.mesh.position(v);
+        EXPECT_LT(length(turned.mesh.position(v) - Vec3{10 + p.z, 20 - p.x, 30 + p.y}), 1e-12);
     });
 }
 

@@ -1,42 +1,42 @@
-#include "regionmesh/stream/weld.h"
+#include "stream/weld.h"
 
 #include <gtest/gtest.h>
 
-#include "regionmesh/decimate/decimate.h"
-#include "regionmesh/stream/section_window.h"
-#include "regionmesh/tets/strip_mesher.h"
+#include "cells/strip_mesher.h"
+#include "regionmesh/simplify.h"
 #include "support/digest.h"
 #include "support/runs.h"
+#include "volume/section_window.h"
 
 namespace regionmesh {
 namespace {
 
 /// Meshes a volume strip by strip; after each weld calls visit(model, weld, z of the last section).
 template <class Visit>
-Model welded(test::ArrayVolume volume, Visit&& visit) {
+Mesh welded(test::ArrayVolume volume, Visit&& visit) {
     LabelTable labels;
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, kSweepZ, {});
-    Model model;
-    Weld weld(model);
-    FaceBatch batch;
+    Mesh mesh;
+    Weld weld(mesh);
+    Chunk batch;
     while (window.advance()) {
         batch.clear();
         mesher.mesh(window.low(), window.high(), batch);
         weld.add(batch);
-        visit(model, weld, window.sections_read() - 1.0);
+        visit(mesh, weld, window.sections_read() - 1.0);
     }
-    return model;
+    return mesh;
 }
 
 test::ArrayVolume grains() { return test::grain_volume({8, 8, 8}, 6, 2); }
 
 TEST(Weld, the_front_is_what_lies_on_the_last_section_and_is_fixed) {
-    welded(grains(), [](const Model& model, const Weld&, double z) {
+    welded(grains(), [](const Mesh& mesh, const Weld&, double z) {
         std::uint32_t front = 0;
-        test::for_vertices(model, [&](VertexId v) {
-            const bool is_front = model.position(v).z == z && z < 7;
-            EXPECT_EQ(model[v].is_fixed, is_front);
+        test::for_vertices(mesh, [&](VertexId v) {
+            const bool is_front = mesh.position(v).z == z && z < 7;
+            EXPECT_EQ(mesh[v].is_fixed, is_front);
             front += is_front;
         });
         EXPECT_EQ(front == 0, z == 7) << "at the end nothing is open";
@@ -44,38 +44,38 @@ TEST(Weld, the_front_is_what_lies_on_the_last_section_and_is_fixed) {
 }
 
 TEST(Weld, makes_no_vertex_twice) {
-    const Model model = welded(grains(), [](const Model&, const Weld&, double) {});
-    test::expect_sound(check(model));
+    const Mesh mesh = welded(grains(), [](const Mesh&, const Weld&, double) {});
+    test::expect_sound(check(mesh));
 }
 
 TEST(Weld, follows_a_front_that_got_new_ids) {
-    const Model plain = welded(grains(), [](const Model&, const Weld&, double) {});
-    const Model sorted = welded(grains(), [](Model& model, Weld& weld, double) { weld.renumber(model.sort_spatially()); });
+    const Mesh plain = welded(grains(), [](const Mesh&, const Weld&, double) {});
+    const Mesh sorted = welded(grains(), [](Mesh& mesh, Weld& weld, double) { weld.renumber(mesh.sort_spatially()); });
     EXPECT_EQ(test::surface_digest(sorted), test::surface_digest(plain));
     test::expect_sound(check(sorted));
 }
 
 TEST(Weld, puts_together_what_it_took_apart) {
-    const Model plain = welded(grains(), [](const Model&, const Weld&, double) {});
-    const Model again = welded(grains(), [](Model& model, Weld& weld, double) {
+    const Mesh plain = welded(grains(), [](const Mesh&, const Weld&, double) {});
+    const Mesh again = welded(grains(), [](Mesh& mesh, Weld& weld, double) {
         const std::size_t front = weld.front().size();
-        const FaceBatch whole = weld.take_apart();
+        const Chunk whole = weld.take_apart();
         EXPECT_EQ(whole.open.size(), front);
-        EXPECT_EQ(model.face_count(), 0u);
+        EXPECT_EQ(mesh.face_count(), 0u);
         weld.add(whole);
     });
     EXPECT_EQ(test::surface_digest(again), test::surface_digest(plain));
 }
 
 TEST(Weld, joins_what_was_decimated_up_to_the_front) {
-    const Model model = welded(grains(), [](Model& part, Weld& weld, double z) {
+    const Mesh mesh = welded(grains(), [](Mesh& part, Weld& weld, double z) {
         weld.renumber(part.sort_spatially());
         DecimateOptions options;
         options.limits.high.z = z;
         decimate(part, options);
     });
-    test::expect_sound(check(model));
-    EXPECT_LT(model.face_count(), welded(grains(), [](const Model&, const Weld&, double) {}).face_count() / 2);
+    test::expect_sound(check(mesh));
+    EXPECT_LT(mesh.face_count(), welded(grains(), [](const Mesh&, const Weld&, double) {}).face_count() / 2);
 }
 
 TEST(SectionWindow, hands_out_consecutive_sections_with_dense_labels) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "regionmesh/tets/kuhn.h"
+#include "cells/kuhn.h"
 #include "support/random.h"
 
 namespace regionmesh::test {
@@ -24,7 +24,9 @@ std::vector<Vec3> lattice_points(const ArrayVolume& volume) {
 /// Kuhn's chains follow the axes of the sweep, as the strips of sections do; these are those of the sweep along z.
 std::vector<LabelledTetrahedron> lattice_tetrahedra(const ArrayVolume& volume) {
     const auto& size = volume.size();
-    const auto point = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) { return (z * size[1] + y) * size[0] + x; };
+    const auto point = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        return (z * size[1] + y) * size[0] + x;
+    };
     std::vector<LabelledTetrahedron> tetrahedra;
     for (std::uint32_t z = 0; z + 1 < size[2]; ++z)
         for (std::uint32_t y = 0; y + 1 < size[1]; ++y)
@@ -83,7 +85,9 @@ ArrayMesh& ArrayMesh::scaled(double scale_z) {
     return *this;
 }
 
-ArrayMesh mesh_of(const ArrayVolume& volume) { return {{lattice_points(volume), volume.labels()}, lattice_tetrahedra(volume)}; }
+ArrayMesh mesh_of(const ArrayVolume& volume) {
+    return {{lattice_points(volume), volume.labels()}, lattice_tetrahedra(volume)};
+}
 
 ArrayMesh cell_mesh_of(const ArrayVolume& volume) { return {{lattice_points(volume), {}}, lattice_tetrahedra(volume)}; }
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "regionmesh/tets/tetrahedron_mesher.h"
-#include "regionmesh/volume/tetrahedron_reader.h"
+#include "cells/tetrahedron_mesher.h"
+#include "regionmesh/tetrahedron_reader.h"
 #include "support/volumes.h"
 
 namespace regionmesh::test {
@@ -57,7 +57,8 @@ ArrayMesh carved(const ArrayMesh& mesh, Size size, const KeepsCell& keeps);
 
 /// Meshes them in strips of so many tetrahedra each; end_strip() takes what the mesher has made of one.
 template <class EndStrip>
-void mesh_in_strips(RankedTetrahedra& ranked, TetrahedronMesher& mesher, std::uint32_t per_strip, EndStrip&& end_strip) {
+void mesh_in_strips(RankedTetrahedra& ranked, TetrahedronMesher& mesher, std::uint32_t per_strip,
+                    EndStrip&& end_strip) {
     std::uint32_t count = 0, strip = 0;
     const auto end = [&] {
         end_strip();

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "regionmesh/base/hash.h"
-#include "regionmesh/base/vec3.h"
+#include "base/hash.h"
+#include "regionmesh/vec3.h"
 
 namespace regionmesh::test {
 
@@ -20,7 +20,9 @@ public:
     Vec3 point(double reach) { return {between(-reach, reach), between(-reach, reach), between(-reach, reach)}; }
     /// With whole numbers from -reach to reach: many lie in line or in one plane.
     Vec3 lattice_point(int reach) {
-        const auto whole = [&] { return static_cast<double>(below(2 * static_cast<std::uint32_t>(reach) + 1)) - reach; };
+        const auto whole = [&] {
+            return static_cast<double>(below(2 * static_cast<std::uint32_t>(reach) + 1)) - reach;
+        };
         return {whole(), whole(), whole()};
     }
 

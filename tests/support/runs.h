@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "regionmesh/pipeline.h"
+#include "regionmesh/reconstruct.h"
 #include "support/meshes.h"
 #include "support/volumes.h"
 
@@ -27,7 +27,9 @@ inline Reconstruction run(ArrayVolume& volume, const ReconstructOptions& options
     volume.rewind();
     return reconstruct(volume, options);
 }
-inline Reconstruction run(ArrayVolume&& volume, const ReconstructOptions& options = plain()) { return run(volume, options); }
+inline Reconstruction run(ArrayVolume&& volume, const ReconstructOptions& options = plain()) {
+    return run(volume, options);
+}
 
 /// Along z unless the options say another sweep.
 inline Reconstruction run(ArrayMesh mesh, ReconstructOptions options = plain()) {
@@ -37,14 +39,14 @@ inline Reconstruction run(ArrayMesh mesh, ReconstructOptions options = plain()) 
 
 /// The faces and vertices that are there, in order.
 template <class Visit>
-void for_faces(const Model& model, Visit&& visit) {
-    for (std::uint32_t f = 0; f < model.face_end(); ++f)
-        if (model.is_alive(FaceId{f})) visit(FaceId{f});
+void for_faces(const Mesh& mesh, Visit&& visit) {
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
+        if (mesh.is_alive(FaceId{f})) visit(FaceId{f});
 }
 template <class Visit>
-void for_vertices(const Model& model, Visit&& visit) {
-    for (std::uint32_t v = 0; v < model.vertex_end(); ++v)
-        if (model.is_alive(VertexId{v})) visit(VertexId{v});
+void for_vertices(const Mesh& mesh, Visit&& visit) {
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        if (mesh.is_alive(VertexId{v})) visit(VertexId{v});
 }
 
 }  // namespace regionmesh::test

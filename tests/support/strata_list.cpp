@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
-#include "regionmesh/base/union_find.h"
-#include "regionmesh/model/strata.h"
+#include "base/union_find.h"
+#include "mesh/strata.h"
 
 namespace regionmesh::test {
 namespace {
@@ -20,7 +20,8 @@ std::vector<Label> sorted(const LabelSet& set) {
 
 std::string text_of(const std::vector<Label>& labels) {
     std::string text;
-    for (Label label : labels) text += is_exterior(label) ? "side " + std::to_string(side_of(label)) + ", " : std::to_string(label) + ", ";
+    for (Label label : labels)
+        text += is_exterior(label) ? "side " + std::to_string(side_of(label)) + ", " : std::to_string(label) + ", ";
     return text.substr(0, text.size() - 2);
 }
 
@@ -31,13 +32,13 @@ Edge edge_of(VertexId a, VertexId b) { return {std::min(a, b), std::max(a, b)}; 
 /// Vertices, edges and faces as numbers in one row, each with its label set.
 class Simplices {
 public:
-    explicit Simplices(const Model& model) {
-        for (std::uint32_t v = 0; v < model.vertex_end(); ++v) {
-            const bool is_alive = model.is_alive(VertexId{v});
-            add(is_alive ? sorted(vertex_labels(model, VertexId{v})) : std::vector<Label>{}, 0);
+    explicit Simplices(const Mesh& mesh) {
+        for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+            const bool is_alive = mesh.is_alive(VertexId{v});
+            add(is_alive ? sorted(vertex_labels(mesh, VertexId{v})) : std::vector<Label>{}, 0);
         }
-        for (std::uint32_t f = 0; f < model.face_end(); ++f)
-            if (model.is_alive(FaceId{f})) add_face(model, FaceId{f});
+        for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
+            if (mesh.is_alive(FaceId{f})) add_face(mesh, FaceId{f});
     }
 
     StrataList strata() const {
@@ -61,14 +62,14 @@ private:
         return static_cast<std::uint32_t>(labels_.size()) - 1;
     }
 
-    void add_face(const Model& model, FaceId f) {
-        const auto& v = model[f].vertices;
-        const std::uint32_t face = add({model[f].labels[0], model[f].labels[1]}, 2);
+    void add_face(const Mesh& mesh, FaceId f) {
+        const auto& v = mesh[f].vertices;
+        const std::uint32_t face = add({mesh[f].labels[0], mesh[f].labels[1]}, 2);
         for (int n = 0; n < 3; ++n) {
             const Edge edge = edge_of(v[n], v[(n + 1) % 3]);
             auto at = edges_.find(edge);
             if (at == edges_.end()) {
-                at = edges_.emplace(edge, add(sorted(edge_labels(model, edge.first, edge.second)), 1)).first;
+                at = edges_.emplace(edge, add(sorted(edge_labels(mesh, edge.first, edge.second)), 1)).first;
                 incidences_.push_back({index(edge.first), at->second});
                 incidences_.push_back({index(edge.second), at->second});
             }
@@ -82,14 +83,15 @@ private:
     std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences_;
 };
 
-int lines_at(const Model& model, VertexId v) {
+int lines_at(const Mesh& mesh, VertexId v) {
     std::vector<VertexId> neighbours;
-    model.for_star(v, [&](FaceId f, int place) {
-        for (int n = 1; n < 3; ++n) neighbours.push_back(model[f].vertices[(place + n) % 3]);
+    mesh.for_star(v, [&](FaceId f, int place) {
+        for (int n = 1; n < 3; ++n) neighbours.push_back(mesh[f].vertices[(place + n) % 3]);
     });
     std::ranges::sort(neighbours);
     const auto rest = std::ranges::unique(neighbours);
-    return static_cast<int>(std::count_if(neighbours.begin(), rest.begin(), [&](VertexId w) { return edge_labels(model, v, w).size() > 2; }));
+    return static_cast<int>(std::count_if(neighbours.begin(), rest.begin(),
+                                          [&](VertexId w) { return edge_labels(mesh, v, w).size() > 2; }));
 }
 
 }  // namespace
@@ -98,7 +100,7 @@ std::ostream& operator<<(std::ostream& out, const Stratum& stratum) {
     return out << stratum.components << " components with Euler characteristic " << stratum.euler;
 }
 
-StrataList list_strata(const Model& model) { return Simplices(model).strata(); }
+StrataList list_strata(const Mesh& mesh) { return Simplices(mesh).strata(); }
 
 void expect_same_strata(const StrataList& found, const StrataList& expected) {
     for (const StrataList* list : {&found, &expected})
@@ -109,14 +111,19 @@ void expect_same_strata(const StrataList& found, const StrataList& expected) {
         }
 }
 
-void expect_generic(const Model& model) {
-    for (std::uint32_t n = 0; n < model.vertex_end(); ++n) {
+void expect_generic(const Mesh& mesh) {
+    for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n) {
         const VertexId v{n};
-        if (!model.is_alive(v)) continue;
-        const LabelSet labels = vertex_labels(model, v);
-        ASSERT_TRUE(labels.size() >= 2 && labels.size() <= 4) << "vertex " << n << " has " << labels.size() << " labels";
+        if (!mesh.is_alive(v)) continue;
+        const LabelSet labels = vertex_labels(mesh, v);
+        ASSERT_TRUE(labels.size() >= 2 && labels.size() <= 4)
+            << "vertex " << n << " has " << labels.size() << " labels";
         const bool is_corner_of_box = std::ranges::count_if(labels, is_exterior) == 3;
-        ASSERT_EQ(lines_at(model, v), is_corner_of_box ? 3 : labels.size() == 2 ? 0 : labels.size() == 3 ? 2 : 4) << "at vertex " << n;
+        ASSERT_EQ(lines_at(mesh, v), is_corner_of_box     ? 3
+                                     : labels.size() == 2 ? 0
+                                     : labels.size() == 3 ? 2
+                                                          : 4)
+            << "at vertex " << n;
     }
 }
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "regionmesh/model/model.h"
+#include "regionmesh/mesh.h"
 
 namespace regionmesh::test {
 
@@ -20,13 +20,13 @@ std::ostream& operator<<(std::ostream& out, const Stratum& stratum);
 
 /// By sorted label set: two labels an interface, three a line, four a point.
 using StrataList = std::map<std::vector<Label>, Stratum>;
-StrataList list_strata(const Model& model);
+StrataList list_strata(const Mesh& mesh);
 
 /// Fails with one line for each stratum that differs.
 void expect_same_strata(const StrataList& found, const StrataList& expected);
 
 /// Fails unless every vertex has two, three or four labels, and as many lines end there as labels make (DESIGN 4): none
 /// inside an interface, two on a line, four at a point, three at a corner of the box. Requires a capped box.
-void expect_generic(const Model& model);
+void expect_generic(const Mesh& mesh);
 
 }  // namespace regionmesh::test

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "regionmesh/base/hash.h"
+#include "base/hash.h"
 
 namespace regionmesh::test {
 namespace {
@@ -64,13 +64,13 @@ ArrayVolume& ArrayVolume::once() {
 }
 
 TextVolume::TextVolume(const std::vector<Section>& sections)
-    : ArrayVolume(volume_of({static_cast<std::uint32_t>(sections[0][0].size()),
-                             static_cast<std::uint32_t>(sections[0].size()),
-                             static_cast<std::uint32_t>(sections.size())},
-                            [&](auto x, auto y, auto z) {
-                                const char c = sections[z][y].at(x);
-                                return InputLabel{c <= '9' ? c - '0' : c - 'a' + 10};
-                            })) {}
+    : ArrayVolume(
+          volume_of({static_cast<std::uint32_t>(sections[0][0].size()), static_cast<std::uint32_t>(sections[0].size()),
+                     static_cast<std::uint32_t>(sections.size())},
+                    [&](auto x, auto y, auto z) {
+                        const char c = sections[z][y].at(x);
+                        return InputLabel{c <= '9' ? c - '0' : c - 'a' + 10};
+                    })) {}
 
 ArrayVolume solid_volume(Size size, InputLabel label) {
     return volume_of(size, [&](auto, auto, auto) { return label; });
@@ -78,9 +78,8 @@ ArrayVolume solid_volume(Size size, InputLabel label) {
 
 ArrayVolume noise_volume(Size size, std::uint32_t label_count, std::uint64_t seed, InputLabel first) {
     std::uint64_t state = mix64(seed);
-    return volume_of(size, [&](auto, auto, auto) {
-        return first + static_cast<InputLabel>((state = mix64(state)) % label_count);
-    });
+    return volume_of(
+        size, [&](auto, auto, auto) { return first + static_cast<InputLabel>((state = mix64(state)) % label_count); });
 }
 
 ArrayVolume grain_volume(Size size, std::uint32_t label_count, std::uint64_t seed, InputLabel first) {

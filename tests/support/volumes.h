@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "regionmesh/volume/section_reader.h"
+#include "regionmesh/section_reader.h"
 
 namespace regionmesh::test {
 

@@ -1,4 +1,4 @@
-#include "regionmesh/volume/exact_grid.h"
+#include "volume/exact_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ TEST(ExactGrid, means_of_two_three_and_four_points_are_exact) {
         move_to_exact_grid(points);
         for (std::size_t n = 0; n + 3 < points.size(); ++n)
             for (int axis = 0; axis < 3; ++axis) {
-                const double a = points[n][axis], b = points[n + 1][axis], c = points[n + 2][axis], d = points[n + 3][axis];
+                const double a = points[n][axis], b = points[n + 1][axis], c = points[n + 2][axis],
+                             d = points[n + 3][axis];
                 EXPECT_TRUE(is_exact({a, b}, a + (b - a) / 2));
                 EXPECT_TRUE(is_exact({a, b, c}, a + ((b - a) + (c - a)) / 3));
                 EXPECT_TRUE(is_exact({a, b, c, d}, a + ((b - a) + (c - a) + (d - a)) / 4));

@@ -1,4 +1,4 @@
-#include "regionmesh/volume/label_table.h"
+#include "regionmesh/label_table.h"
 
 #include <gtest/gtest.h>
 

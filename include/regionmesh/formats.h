@@ -1,0 +1,10 @@
+// The public headers of regionmesh::formats: reading volumes, tetrahedra and models, writing models and reports.
+#pragma once
+
+#include "regionmesh/label_names_file.h"
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/output_file.h"
+#include "regionmesh/read_sections.h"
+#include "regionmesh/read_tetrahedra.h"
+#include "regionmesh/write_compare.h"
+#include "regionmesh/write_report.h"

@@ -1,0 +1,49 @@
+// The table at the door: labels as the input has them against dense labels.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "regionmesh/label.h"
+
+namespace regionmesh {
+
+/// Numbers input labels densely in order of first appearance, and back. 64-bit labels are carried bit for bit.
+class LabelTable {
+public:
+    explicit LabelTable(bool is_unsigned = false) : is_unsigned_(is_unsigned) {}
+
+    Label dense(InputLabel label) {
+        if (label == last_ && !labels_.empty()) return last_dense_;
+        const auto [place, is_new] = dense_.try_emplace(label, static_cast<Label>(labels_.size()));
+        if (is_new) labels_.push_back(label);
+        last_ = label;
+        return last_dense_ = place->second;
+    }
+    InputLabel input(Label dense) const { return labels_[dense]; }
+    std::uint32_t size() const { return static_cast<std::uint32_t>(labels_.size()); }
+    bool is_unsigned() const { return is_unsigned_; }
+
+    /// The label that stands for the exterior in files, never one of the table: -1; where a label is negative as a
+    /// signed number (an unsigned one of 2^63 or more is), one less than the smallest; where that is out of range, the
+    /// first free one counting down from -1.
+    InputLabel exterior_label() const;
+    /// Decimal text of a label, signed or unsigned as the input was.
+    std::string text(InputLabel label) const {
+        return is_unsigned_ ? std::to_string(static_cast<std::uint64_t>(label)) : std::to_string(label);
+    }
+    /// Order of labels as numbers.
+    bool less(InputLabel a, InputLabel b) const {
+        return is_unsigned_ ? static_cast<std::uint64_t>(a) < static_cast<std::uint64_t>(b) : a < b;
+    }
+
+private:
+    std::unordered_map<InputLabel, Label> dense_;
+    std::vector<InputLabel> labels_;
+    InputLabel last_ = 0;
+    Label last_dense_ = 0;
+    bool is_unsigned_;
+};
+
+}  // namespace regionmesh

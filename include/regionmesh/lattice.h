@@ -1,0 +1,33 @@
+// Where the samples of a volume lie in space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+/// Sample (i, j, k) lies at origin + direction * (i * spacing.x, j * spacing.y, k * spacing.z).
+/// Lengths are in the unit of the file. `direction` has orthonormal columns in row-major order; it may mirror.
+struct Lattice {
+    std::array<std::uint32_t, 3> size{0, 0, 0};  // samples along x, y, z
+    Vec3 spacing{1, 1, 1};
+    Vec3 origin{0, 0, 0};
+    std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+    bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
+};
+
+/// The order in which a volume is read: section s lies at index s of axis `axes[2]`; inside it, `axes[0]` runs fastest.
+/// The three orders are cyclic, so that none of them mirrors.
+struct Sweep {
+    std::array<int, 3> axes{0, 1, 2};
+};
+
+inline constexpr Sweep kSweepX{{1, 2, 0}};
+inline constexpr Sweep kSweepY{{2, 0, 1}};
+inline constexpr Sweep kSweepZ{{0, 1, 2}};
+
+}  // namespace regionmesh

@@ -1,0 +1,35 @@
+// What a run did and what it made, as plain data; io/write_report.h writes it as JSON.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "regionmesh/check.h"
+#include "regionmesh/preserve_volume.h"
+#include "regionmesh/smooth_report.h"
+#include "regionmesh/verdict.h"
+
+namespace regionmesh {
+
+struct Report {
+    std::uint64_t initial_faces = 0;  // of the unsimplified model, whether or not it ever existed at once
+    std::uint64_t initial_vertices = 0;
+    std::uint64_t final_faces = 0;
+    std::uint64_t final_vertices = 0;
+    std::map<std::string, double> seconds;  // by stage, and "total"
+    std::uint64_t peak_bytes = 0;           // largest resident size of the process
+    std::uint64_t peak_faces = 0;           // most faces held at once
+    double bytes_per_face = 0;              // model and decimation together, at the largest, over the faces then held
+    SmoothReport smoothing;
+    std::vector<double> unsmoothed_volumes;  // by dense label, length^3; empty where nobody asked
+    PreserveReport preserved;
+    std::uint64_t pinned_vertices = 0;  // of tetrahedra that touch themselves: left as they came
+    VerdictCounts verdicts{};
+    std::uint64_t refreshes = 0;
+    std::string stopped;  // why decimation ended: "target", "max_error", "topology", "none asked"
+    CheckReport check;
+};
+
+}  // namespace regionmesh

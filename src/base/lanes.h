@@ -1,0 +1,84 @@
+// Numbers side by side, worked on at once: two doubles or four floats. Every lane is computed as it would be alone.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+using Double2 = double __attribute__((vector_size(16)));
+using Float4 = float __attribute__((vector_size(16)));
+using Mask2 = decltype(Double2{} < Double2{});  // of a comparison: all bits of a lane, or none
+using Mask4 = decltype(Float4{} < Float4{});
+
+inline Double2 both(double x) { return Double2{x, x}; }
+inline Float4 all_four(float x) { return Float4{x, x, x, x}; }
+
+/// Bit n is set when lane n is.
+inline unsigned bits_of(Mask2 mask) {
+#if defined(__SSE2__)
+    return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
+    return (mask[0] != 0 ? 1u : 0u) | (mask[1] != 0 ? 2u : 0u);
+#endif
+}
+inline unsigned bits_of(Mask4 mask) {
+#if defined(__SSE2__)
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+    unsigned bits = 0;
+    for (int n = 0; n < 4; ++n) bits |= (mask[n] != 0 ? 1u : 0u) << n;
+    return bits;
+#endif
+}
+
+inline Double2 square_root(Double2 x) {
+#if defined(__SSE2__)
+    return _mm_sqrt_pd(x);
+#else
+    return Double2{std::sqrt(x[0]), std::sqrt(x[1])};
+#endif
+}
+
+template <class T>
+T least(T a, T b) {
+    return a < b ? a : b;
+}
+template <class T>
+T greatest(T a, T b) {
+    return a < b ? b : a;
+}
+
+/// Points or vectors side by side.
+template <class T>
+struct Lanes3 {
+    T x{}, y{}, z{};
+
+    void put(int lane, Vec3 p) { x[lane] = p.x, y[lane] = p.y, z[lane] = p.z; }
+    Vec3 operator[](int lane) const { return {x[lane], y[lane], z[lane]}; }
+};
+
+template <class T>
+Lanes3<T> operator-(const Lanes3<T>& a, const Lanes3<T>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+T dot(const Lanes3<T>& a, const Lanes3<T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+Lanes3<T> cross(const Lanes3<T>& a, const Lanes3<T>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Lanes3<Double2> side_by_side(Vec3 p, Vec3 q) {
+    return {Double2{p.x, q.x}, Double2{p.y, q.y}, Double2{p.z, q.z}};
+}
+inline Lanes3<Double2> both(Vec3 p) { return {both(p.x), both(p.y), both(p.z)}; }
+
+}  // namespace regionmesh

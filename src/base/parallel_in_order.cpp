@@ -1,0 +1,42 @@
+#include "base/parallel_in_order.h"
+
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace regionmesh {
+
+void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32_t threads, const OrderedWork& calls) {
+    namespace tbb = oneapi::tbb;
+    in_flight = std::max(in_flight, 1u);
+    if (threads == 1 || in_flight == 1 || count < 2) {
+        for (std::uint32_t n = 0; n < count; ++n) {
+            calls.work(n, 0);
+            calls.finish(n, 0);
+        }
+        return;
+    }
+    // Items are begun and finished in order: those in flight follow one another, and have places of their own.
+    std::uint32_t next = 0;
+    const auto begin = tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order,
+                                                             [&](tbb::flow_control& control) -> std::uint32_t {
+                                                                 if (next == count) {
+                                                                     control.stop();
+                                                                     return 0;
+                                                                 }
+                                                                 return next++;
+                                                             });
+    const auto work = tbb::make_filter<std::uint32_t, std::uint32_t>(tbb::filter_mode::parallel, [&](std::uint32_t n) {
+        calls.work(n, n % in_flight);
+        return n;
+    });
+    const auto finish = tbb::make_filter<std::uint32_t, void>(tbb::filter_mode::serial_in_order,
+                                                              [&](std::uint32_t n) { calls.finish(n, n % in_flight); });
+    const auto cores = static_cast<std::uint32_t>(tbb::info::default_concurrency());
+    tbb::task_arena arena(static_cast<int>(threads == 0 ? cores : std::min(threads, cores)));
+    arena.execute([&] { tbb::parallel_pipeline(in_flight, begin & work & finish); });
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,47 @@
+// Sorts many pairs by a 32-bit key, stably, in a time that does not depend on their order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/parallel_for.h"
+
+namespace regionmesh {
+
+struct KeyedIndex {
+    std::uint32_t key;
+    std::uint32_t index;
+};
+
+/// Least significant digit first, three passes of 11 bits; needs as much room again while it runs. Each pass counts the
+/// digits of each chunk of items, and so knows where each chunk puts its items of each digit.
+inline void radix_sort(std::vector<KeyedIndex>& items, std::uint32_t threads = 1) {
+    constexpr int kBits = 11;
+    constexpr std::uint32_t kDigits = 1u << kBits, kChunk = 1u << 16;
+    const auto size = static_cast<std::uint32_t>(items.size());
+    const std::uint32_t chunks = size / kChunk + 1;
+    std::vector<KeyedIndex> other(size);
+    std::vector<std::array<std::uint32_t, kDigits>> places(chunks);
+    for (int shift = 0; shift < 32; shift += kBits) {
+        const auto for_chunk = [&](std::uint32_t chunk, auto&& visit) {
+            for (std::uint32_t n = chunk * kChunk; n < std::min(size, (chunk + 1) * kChunk); ++n)
+                visit(items[n], places[chunk][items[n].key >> shift & (kDigits - 1)]);
+        };
+        parallel_for(chunks, threads, [&](std::uint32_t chunk) {
+            places[chunk].fill(0);
+            for_chunk(chunk, [](const KeyedIndex&, std::uint32_t& count) { ++count; });
+        });
+        std::uint32_t next = 0;
+        for (std::uint32_t digit = 0; digit < kDigits; ++digit)
+            for (auto& place : places) next += std::exchange(place[digit], next);
+        parallel_for(chunks, threads, [&](std::uint32_t chunk) {
+            for_chunk(chunk, [&](const KeyedIndex& item, std::uint32_t& place) { other[place++] = item; });
+        });
+        items.swap(other);
+    }
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "boreholes/csv_rows.h"
+#include "boreholes/drill_holes.h"
+#include "boreholes/table_columns.h"
+#include "boreholes/table_labels.h"
+#include "formats/surface/tetrahedron_formats.h"
+#include "formats/text/header_text.h"
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr std::uint64_t kLeastRowBytes = 8;  // "0,0,0,0\n"
+
+/// Rows of one table on their way to points.
+class PointTableReader {
+public:
+    PointTableReader(const std::filesystem::path& path, const TetrahedraOptions& options)
+        : options_(options), rows_(path), labels_(path) {
+        rows_.next();
+        columns_ = find_columns(rows_, options.columns);
+        holes_.path = path;
+    }
+
+    PointTable read();
+
+private:
+    void reserve();
+    void add_row();
+    void add_interval(double x, double y, std::uint32_t row);
+    void finish();
+
+    std::string_view text(Role role) const { return rows_.field(columns_.of(role)); }
+    std::string_view words(Role role) const;
+    double number(Role role) const;
+    std::uint32_t add_label(std::uint32_t row);
+    bool has_more_fields_than_titles() const;
+
+    const TetrahedraOptions& options_;
+    CsvRows rows_;
+    TableColumns columns_;
+    TableLabels labels_;
+    DrillHoles holes_;
+    std::uint32_t first_depth_ = 0, first_elevation_ = 0;  // rows where top and bottom are such
+    PointTable table_;
+};
+
+/// For no more rows than there are lines, so that nothing is held twice while vectors grow.
+void PointTableReader::reserve() {
+    const auto most = static_cast<std::size_t>(std::min(rows_.most_rows(kLeastRowBytes), kMostPoints));
+    if (columns_.are_intervals()) {
+        holes_.intervals.reserve(most);
+    } else {
+        table_.points.positions.reserve(most);
+        table_.points.labels.reserve(most);
+        table_.rows.reserve(most);
+    }
+}
+
+PointTable PointTableReader::read() {
+    if (options_.step && !columns_.are_intervals())
+        fail(rows_.path(), "is a table of points; --step is for drill holes, with columns top and bottom");
+    if (columns_.has_header && !rows_.next())
+        fail(rows_.path(), "has no rows below its header; add some, or name another file");
+    reserve();
+    do {
+        add_row();
+    } while (rows_.next());
+    if (columns_.are_intervals()) {
+        if (holes_.intervals.empty()) fail(rows_.path(), "has no interval with a length; give it other bottoms");
+        refuse_overlaps(holes_, labels_);
+        append_points(holes_, options_.step, table_);
+    }
+    finish();
+    return std::move(table_);
+}
+
+void PointTableReader::add_row() {
+    if (rows_.number() > kMostPoints) rows_.refuse(fmt::format("more than {} rows; split the table", kMostPoints));
+    const auto row = static_cast<std::uint32_t>(rows_.number());
+    if (rows_.field_count() < columns_.least_fields)
+        rows_.refuse(fmt::format("has {} fields where {} are needed; fill it or take it out", rows_.field_count(),
+                                 columns_.least_fields));
+    if (has_more_fields_than_titles())
+        rows_.refuse(fmt::format("has {} fields where there are {} columns; put text with a separator in quotes",
+                                 rows_.field_count(), columns_.titles.size()));
+    const double x = number(Role::kX), y = number(Role::kY);
+    if (columns_.are_intervals()) return add_interval(x, y, row);
+    table_.points.positions.push_back({x, y, number(Role::kZ)});
+    table_.points.labels.push_back(add_label(row));
+    table_.rows.push_back(row);
+}
+
+/// Elevations of top and bottom. Only depths need a surface, and intervals without a length, marks, have no label.
+void PointTableReader::add_interval(double x, double y, std::uint32_t row) {
+    Interval interval{.x = x, .y = y, .top = number(Role::kTop), .bottom = number(Role::kBottom), .row = row};
+    if (interval.top == interval.bottom) return;
+    const bool is_depth = interval.top < interval.bottom;
+    interval.length = std::abs(interval.top - interval.bottom);
+    std::uint32_t& first = is_depth ? first_depth_ : first_elevation_;
+    if (first == 0) first = row;
+    if (first_depth_ != 0 && first_elevation_ != 0)
+        fail(rows_.path(), fmt::format("rows {} and {}: the bottom has the larger number in row {}, the top in row {}; "
+                                       "write either depths or elevations",
+                                       std::min(first_depth_, first_elevation_), row, first_depth_, first_elevation_));
+    if (is_depth) {
+        const double surface = columns_.has(Role::kSurface) ? number(Role::kSurface) : 0;
+        interval.top = surface - interval.top;
+        interval.bottom = surface - interval.bottom;
+    }
+    if (!std::isfinite(interval.length) || !std::isfinite(interval.top) || !std::isfinite(interval.bottom))
+        rows_.refuse("top and bottom are out of range; mend them");
+    interval.label = add_label(row);
+    if (columns_.has(Role::kHole)) interval.hole = holes_.holes.number_of(words(Role::kHole));
+    holes_.intervals.push_back(interval);
+}
+
+/// Labels for the numbers of their texts, and z times its scale.
+void PointTableReader::finish() {
+    table_.info.source = rows_.path().string();
+    table_.info.format = "csv";
+    table_.info.scale_z = options_.scale_z;
+    const std::vector<InputLabel> labels = labels_.labels(table_.info);
+    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+        InputLabel& label = table_.points.labels[i];
+        label = labels[static_cast<std::size_t>(label)];
+        double& z = table_.points.positions[i].z;
+        z *= options_.scale_z;
+        if (!std::isfinite(z)) rows_.refuse(table_.rows[i], "z is out of range; give another --scale-z");
+    }
+}
+
+/// What must not be empty.
+std::string_view PointTableReader::words(Role role) const {
+    const std::string_view found = text(role);
+    if (found.empty()) rows_.refuse(fmt::format("column {} is empty; fill it in", columns_.titles[columns_.of(role)]));
+    return found;
+}
+
+double PointTableReader::number(Role role) const {
+    const std::string_view found = words(role);
+    const auto number = parse_real(found);
+    if (!number || !std::isfinite(*number))
+        rows_.refuse(fmt::format("column {}: '{}' is no finite number; {}", columns_.titles[columns_.of(role)],
+                                 shown(found),
+                                 found.find(',') == std::string_view::npos ? "mend it" : "write it with a point"));
+    return *number;
+}
+
+std::uint32_t PointTableReader::add_label(std::uint32_t row) {
+    return labels_.add(words(Role::kLabel), columns_.has(Role::kName) ? text(Role::kName) : std::string_view(), row);
+}
+
+/// Separators at the end of a row, with nothing between them, do no harm.
+bool PointTableReader::has_more_fields_than_titles() const {
+    for (std::size_t i = columns_.titles.size(); i < rows_.field_count(); ++i)
+        if (!rows_.field(i).empty()) return true;
+    return false;
+}
+
+}  // namespace
+
+PointTable read_point_table(const std::filesystem::path& path, const TetrahedraOptions& options) {
+    if (!(options.scale_z > 0) || !std::isfinite(options.scale_z))
+        fail(path, fmt::format("--scale-z {}: give a number above 0", options.scale_z));
+    if (options.step && (!(*options.step > 0) || !std::isfinite(*options.step)))
+        fail(path, fmt::format("--step {}: give a length above 0", *options.step));
+    return PointTableReader(path, options).read();
+}
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,182 @@
+#include "boreholes/table_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "formats/text/header_text.h"
+
+namespace regionmesh::formats {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+// Titles by which a column is known without being asked for, the likeliest first.
+const Words kXWords{"x", "easting", "east"};
+const Words kYWords{"y", "northing", "north"};
+const Words kZWord{"z"};
+const Words kElevationWords{"elevation", "elev"};
+const Words kLabelWords{"label", "lithology", "lith", "formation", "unit"};
+const Words kTopWords{"top", "from", "depthfrom"};
+const Words kBottomWords{"bottom", "base", "to", "depthto"};
+const Words kSurfaceWords{"surface", "collar", "elevation", "elev", "altitude"};
+const Words kHoleWords{"hole", "holeid", "bhid", "borehole", "well"};
+
+/// "X_m", "x (m)" and "X [m]" are x, "Depth from" is depthfrom.
+std::string plain_title(std::string_view title) {
+    const std::string lowered = lower(title.substr(0, title.find_first_of("([")));
+    Words words = split_words(lowered, " \t\r\n_-.");
+    constexpr std::array<std::string_view, 5> kUnits{"m", "ft", "km", "mm", "um"};
+    if (words.size() > 1 && std::find(kUnits.begin(), kUnits.end(), words.back()) != kUnits.end()) words.pop_back();
+    std::string plain;
+    for (const std::string_view word : words) plain += word;
+    return plain;
+}
+
+class ColumnFinder {
+public:
+    explicit ColumnFinder(const CsvRows& rows) : rows_(rows) {}
+
+    TableColumns find(const std::string& wanted);
+
+private:
+    void take_wanted(const std::string& wanted);
+    std::size_t wanted_column(std::string_view column);
+    std::optional<std::size_t> column_like(std::string_view title, std::string (*plain)(std::string_view)) const;
+    void look_for(Role role, const Words& words);
+    void choose_kind();
+    [[noreturn]] void refuse_without(const std::string& what) const;
+
+    std::optional<std::size_t>& place(Role role) { return found_.places[static_cast<std::size_t>(role)]; }
+    bool is_number(std::size_t column) const { return parse_real(rows_.field(column)).has_value(); }
+
+    const CsvRows& rows_;
+    TableColumns found_;
+    bool is_by_number_ = true;  // every wanted column
+};
+
+/// Numbers count from 1; anything else is a title, letter by letter or at least but for capitals.
+std::size_t ColumnFinder::wanted_column(std::string_view column) {
+    if (column.empty()) fail(rows_.path(), "--columns names an empty column; give its number");
+    if (const auto number = parse_size(column)) {
+        if (*number == 0 || *number > rows_.field_count())
+            rows_.refuse(fmt::format("has columns 1 to {}; --columns names {}", rows_.field_count(), *number));
+        return *number - 1;
+    }
+    is_by_number_ = false;
+    auto place = column_like(column, [](std::string_view title) { return std::string(title); });
+    if (!place) place = column_like(column, lower);
+    if (!place) refuse_without(fmt::format("column '{}' that --columns names", shown(column)));
+    return *place;
+}
+
+std::optional<std::size_t> ColumnFinder::column_like(std::string_view title,
+                                                     std::string (*plain)(std::string_view)) const {
+    std::optional<std::size_t> place;
+    for (std::size_t i = 0; i < rows_.field_count(); ++i) {
+        if (plain(rows_.field(i)) != plain(title)) continue;
+        if (place)
+            rows_.refuse(fmt::format("columns {} and {} are both called '{}'; choose one by number with --columns",
+                                     *place + 1, i + 1, shown(rows_.field(i))));
+        place = i;
+    }
+    return place;
+}
+
+void ColumnFinder::take_wanted(const std::string& wanted) {
+    constexpr std::array kInOrder{Role::kX, Role::kY, Role::kZ, Role::kLabel};
+    constexpr std::string_view kRemedy = "write four columns for x, y, z and label, or pairs like 'x=east,label=3'";
+    Words parts;
+    for (std::string_view rest = wanted;; rest.remove_prefix(parts.back().size() + 1)) {
+        parts.push_back(rest.substr(0, rest.find(',')));
+        if (parts.back().size() == rest.size()) break;
+    }
+    const bool has_pairs = wanted.find('=') != std::string::npos;
+    if (!has_pairs && parts.size() != kInOrder.size())
+        fail(rows_.path(), fmt::format("--columns {}: {}", shown(wanted), kRemedy));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        std::size_t role = static_cast<std::size_t>(kInOrder[std::min<std::size_t>(i, 3)]);
+        std::string_view column = parts[i];
+        if (has_pairs) {
+            const std::size_t equals = std::min(column.find('='), column.size());
+            const std::string key = lower(trim(column.substr(0, equals)));
+            role = static_cast<std::size_t>(std::find(kRoleNames.begin(), kRoleNames.end(), key) - kRoleNames.begin());
+            if (equals == column.size() || role == kRoleNames.size() || found_.places[role])
+                fail(rows_.path(),
+                     fmt::format("--columns {}: '{}' {}; {}", shown(wanted), shown(column),
+                                 role < kRoleNames.size() && found_.places[role] ? "comes twice" : "is no pair",
+                                 "a pair is x, y, z, label, name, top, bottom, surface or hole, = and "
+                                 "a column"));
+            column.remove_prefix(equals + 1);
+        }
+        found_.places[role] = wanted_column(trim(column));
+    }
+}
+
+void ColumnFinder::look_for(Role role, const Words& words) {
+    if (!found_.has_header) return;  // the first row is data, whatever words stand in it
+    for (std::size_t i = 0; !place(role) && i < words.size(); ++i) place(role) = column_like(words[i], plain_title);
+}
+
+/// In a table of intervals an elevation is that of the surface, unless --columns says otherwise.
+void ColumnFinder::choose_kind() {
+    const bool has_interval = found_.has(Role::kTop) || found_.has(Role::kBottom);
+    if (found_.has(Role::kZ) && has_interval)
+        fail(rows_.path(), "--columns names z and also top or bottom; points have a z, intervals have the others");
+    if (!has_interval) look_for(Role::kZ, kZWord);
+    if (found_.has(Role::kZ)) return;
+    look_for(Role::kTop, kTopWords);
+    look_for(Role::kBottom, kBottomWords);
+    if (found_.has(Role::kTop) && found_.has(Role::kBottom)) {
+        look_for(Role::kSurface, kSurfaceWords);
+        look_for(Role::kHole, kHoleWords);
+        return;
+    }
+    if (has_interval) refuse_without(found_.has(Role::kTop) ? "column for bottom" : "column for top");
+    look_for(Role::kZ, kElevationWords);
+    if (!found_.has(Role::kZ)) refuse_without("column for z, nor both of top and bottom");
+    place(Role::kTop) = place(Role::kBottom) = std::nullopt;
+}
+
+TableColumns ColumnFinder::find(const std::string& wanted) {
+    if (!wanted.empty()) take_wanted(wanted);
+    const bool is_data = !wanted.empty() && is_by_number_ && found_.has(Role::kX) && found_.has(Role::kY) &&
+                         is_number(found_.of(Role::kX)) && is_number(found_.of(Role::kY));
+    found_.has_header = !is_data;
+    look_for(Role::kX, kXWords);
+    if (!found_.has(Role::kX)) refuse_without("column for x");
+    look_for(Role::kY, kYWords);
+    if (!found_.has(Role::kY)) refuse_without("column for y");
+    choose_kind();
+    look_for(Role::kLabel, kLabelWords);
+    if (!found_.has(Role::kLabel)) refuse_without("column for label");
+    for (std::size_t i = 0; i < rows_.field_count(); ++i)
+        found_.titles.push_back(is_data || rows_.field(i).empty() ? std::to_string(i + 1)
+                                                                  : "'" + shown(rows_.field(i)) + "'");
+    for (const auto& at : found_.places)
+        if (at) found_.least_fields = std::max(found_.least_fields, *at + 1);
+    return found_;
+}
+
+void ColumnFinder::refuse_without(const std::string& what) const {
+    std::size_t numbers = 0;
+    std::string titles;
+    for (std::size_t i = 0; i < rows_.field_count(); ++i) {
+        numbers += is_number(i);
+        if (i < 12) titles += (i == 0 ? "'" : ", '") + shown(rows_.field(i)) + "'";
+    }
+    if (rows_.field_count() > 12) titles += ", ...";
+    if (2 * numbers > rows_.field_count())
+        rows_.refuse("is no header: it holds numbers; say which column is what: --columns 1,2,3,4 for x, y, z, label");
+    rows_.refuse(
+        fmt::format("has no {}, only {}; say which column is what: --columns x=COLUMN,label=COLUMN", what, titles));
+}
+
+}  // namespace
+
+TableColumns find_columns(const CsvRows& rows, const std::string& wanted) { return ColumnFinder(rows).find(wanted); }
+
+}  // namespace regionmesh::formats

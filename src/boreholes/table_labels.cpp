@@ -1,0 +1,107 @@
+#include "boreholes/table_labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "formats/input_file.h"
+#include "formats/text/header_text.h"
+
+namespace regionmesh::formats {
+namespace {
+
+/// A whole number as bits, and whether only an unsigned or only a signed one has them. Programs that know of no
+/// missing integers write "3.0".
+struct Whole {
+    std::uint64_t bits = 0;
+    bool is_negative = false, is_large = false;
+};
+
+std::optional<Whole> parse_label(std::string_view text) {
+    const std::size_t point = text.find('.');
+    if (point != std::string_view::npos && point > 0 &&
+        text.find_first_not_of('0', point + 1) == std::string_view::npos)
+        text = text.substr(0, point);
+    if (const auto number = parse_integer(text)) return Whole{static_cast<std::uint64_t>(*number), *number < 0, false};
+    if (const auto number = parse_size(text)) return Whole{*number, false, true};
+    return std::nullopt;
+}
+
+/// Nothing where they are no numbers of one type.
+std::optional<std::vector<InputLabel>> numbers_of(const TextTable& texts, bool& is_unsigned) {
+    std::vector<InputLabel> labels(texts.size());
+    bool has_negative = false, has_large = false;
+    for (std::uint32_t i = 0; i < texts.size(); ++i) {
+        const auto label = parse_label(texts.text(i));
+        if (!label) return std::nullopt;
+        labels[i] = static_cast<InputLabel>(label->bits);
+        has_negative |= label->is_negative;
+        has_large |= label->is_large;
+    }
+    if (has_negative && has_large) return std::nullopt;
+    is_unsigned = has_large;
+    return labels;
+}
+
+/// Each text's place in the order of bytes, from 1.
+std::vector<InputLabel> ranks_of(const TextTable& texts) {
+    std::vector<std::uint32_t> order(texts.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return texts.text(a) < texts.text(b); });
+    std::vector<InputLabel> labels(texts.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) labels[order[i]] = InputLabel{i} + 1;
+    return labels;
+}
+
+}  // namespace
+
+std::uint32_t TextTable::number_of(std::string_view text) {
+    if (!texts_.empty() && *texts_[last_] == text) return last_;
+    auto place = numbers_.find(text);
+    if (place == numbers_.end()) {
+        place = numbers_.emplace(text, size()).first;
+        texts_.push_back(&place->first);
+    }
+    return last_ = place->second;
+}
+
+std::uint32_t TableLabels::add(std::string_view text, std::string_view name, std::uint32_t row) {
+    const std::uint32_t number = texts_.number_of(text);
+    if (name.empty()) return number;
+    if (number >= names_.size()) names_.resize(number + std::size_t{1});
+    Name& known = names_[number];
+    if (known.text.empty()) {
+        known = {std::string(name), row};
+    } else if (known.text != name) {
+        refuse_names(number, known, {std::string(name), row});
+    }
+    return number;
+}
+
+std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
+    auto numbers = numbers_of(texts_, info.is_unsigned);
+    const bool are_words = !numbers;
+    const std::vector<InputLabel> labels = are_words ? ranks_of(texts_) : std::move(*numbers);
+    std::unordered_map<InputLabel, const Name*> named;  // several texts may be one number
+    for (std::uint32_t i = 0; i < names_.size(); ++i) {
+        if (names_[i].text.empty()) continue;
+        const auto [place, is_new] = named.emplace(labels[i], &names_[i]);
+        if (!is_new && place->second->text != names_[i].text) refuse_names(i, *place->second, names_[i]);
+        info.names.emplace(labels[i], one_line(names_[i].text));
+    }
+    for (std::uint32_t i = 0; are_words && i < texts_.size(); ++i)
+        info.names.emplace(labels[i], one_line(texts_.text(i)));  // unless it has a name
+    return labels;
+}
+
+void TableLabels::refuse_names(std::uint32_t label, const Name& a, const Name& b) const {
+    fail(path_, fmt::format("rows {} and {}: label '{}' is called '{}' and '{}'; keep one name", std::min(a.row, b.row),
+                            std::max(a.row, b.row), shown(texts_.text(label)), shown(a.row < b.row ? a.text : b.text),
+                            shown(a.row < b.row ? b.text : a.text)));
+}
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,133 @@
+#include "cells/label_census.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace regionmesh {
+namespace {
+
+/// Faces inside a tetrahedron by the number of its labels; two labels may be one against three or two against two.
+std::uint64_t faces_of(unsigned pattern) {
+    switch (std::popcount(pattern)) {
+        case 0:
+            return 0;
+        case 3:
+            return 1;
+        case 4:
+            return 2;
+        case 5:
+            return 5;
+        default:
+            return 12;
+    }
+}
+
+}  // namespace
+
+LabelCensus::LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions options)
+    : width_(lattice.size[sweep.axes[0]]),
+      height_(lattice.size[sweep.axes[1]]),
+      options_(std::move(options)),
+      mixed_(width_ - 1) {}
+
+void LabelCensus::add(std::span<const Label> low, std::span<const Label> high, bool is_last) {
+    const bool is_capped = options_.cap && (is_first_ || is_last);
+    for (std::uint32_t j = 0; j < height_; ++j) {
+        if (is_capped || j == 0 || j + 2 >= height_ || width_ < 3) {
+            for (std::uint32_t i = 0; i < width_; ++i) look_at(low, high, is_last, i, j);
+            continue;
+        }
+        // Inside the row only mixed cells count; its ends lie on sides of the box.
+        const std::size_t row = std::size_t{j} * width_;
+        mixed_.find(&low[row], &low[row + width_], &high[row], &high[row + width_]);
+        look_at(low, high, is_last, 0, j);
+        mixed_.for_each([&](std::uint32_t i) {
+            if (i > 0 && i + 2 < width_) look_at(low, high, is_last, i, j);
+        });
+        for (std::uint32_t i = width_ - 2; i < width_; ++i) look_at(low, high, is_last, i, j);
+    }
+    is_first_ = false;
+}
+
+/// Node i, j of the low section, and the cell that begins there.
+void LabelCensus::look_at(std::span<const Label> low, std::span<const Label> high, bool is_last, std::uint32_t i,
+                          std::uint32_t j) {
+    const bool has_i = i + 1 < width_, has_j = j + 1 < height_;
+    const std::size_t a = std::size_t{j} * width_ + i;
+    // Beyond the box the node itself stands in; `available` says which steps there are.
+    const std::size_t b = a + (has_i ? 1 : 0), row = has_j ? width_ : 0;
+    const Corners labels{low[a], low[b], low[a + row], low[b + row], high[a], high[b], high[a + row], high[b + row]};
+    Label difference = 0;
+    for (Label label : labels) difference |= label ^ labels[0];
+    const bool is_last_node = !has_i && !has_j;
+    if (difference || is_last_node) {
+        const Step plane = (has_i ? 1 : 0) | (has_j ? 2 : 0);
+        count_node(labels, plane | 4);
+        if (is_last) {
+            const Corners top{high[a], high[b], high[a + row], high[b + row],
+                              high[a], high[b], high[a + row], high[b + row]};
+            count_node(top, plane);
+        }
+    }
+    if (!has_i || !has_j) return;
+    if (difference) count_cell(labels);
+    if (!options_.cap) return;
+    unsigned sides =
+        unsigned(i == 0) | unsigned(i + 2 == width_) << 1 | unsigned(j == 0) << 2 | unsigned(j + 2 == height_) << 3;
+    sides |= unsigned(is_first_) << 4 | unsigned(is_last) << 5;
+    if (sides) count_caps(labels, sides);
+}
+
+/// The simplices whose base node is the cell's first, restricted to the steps that stay in the box.
+void LabelCensus::count_node(const Corners& labels, Step available) {
+    const Label own = labels[0];
+    std::int64_t sum = 0;
+    for (const SimplexKind& kind : kKinds) {
+        bool inside = true;
+        for (int n = 1; n < kind.node_count; ++n) inside &= (kind.steps[n] & available) == kind.steps[n];
+        if (!inside) continue;
+        bool same = true;
+        for (int n = 1; n < kind.node_count; ++n) same &= labels[kind.steps[n]] == own;
+        if (kind.node_count == 2 && !same) pairs_.add(own, labels[kind.steps[1]]);
+        if (same) sum += kind.node_count % 2 == 1 ? 2 : -2;
+    }
+    if (own >= euler_.size()) euler_.resize(own + 1, 0);
+    euler_[own] += sum;
+}
+
+void LabelCensus::count_cell(const Corners& labels) {
+    for (int t = kFirstTetrahedron; t < kKindCount; ++t) {
+        const auto& step = kKinds[t].steps;
+        const unsigned pattern = tetrahedron_pattern(labels[0], labels[step[1]], labels[step[2]], labels[7]);
+        faces_ += faces_of(pattern);
+        quadruple_points_ += pattern == 63;
+    }
+}
+
+void LabelCensus::count_caps(const Corners& labels, unsigned sides) {
+    for (int side = 0; side < 6; ++side) {
+        if (!(sides >> side & 1)) continue;
+        const int axis = side / 2;
+        const Step base = side % 2 ? 1 << axis : 0;
+        const Step s = 1 << (axis + 1) % 3, t = 1 << (axis + 2) % 3;
+        count_triangle(labels[base], labels[base | s], labels[base | s | t]);
+        count_triangle(labels[base], labels[base | t], labels[base | s | t]);
+    }
+}
+
+/// A corner alone has one face of its label, two of a label that two corners have make two, three make one.
+void LabelCensus::count_triangle(Label a, Label b, Label c) {
+    const auto count = [&](Label label, std::uint64_t faces) {
+        if (!options_.is_background(label)) faces_ += faces;
+    };
+    if (a == b && b == c) return count(a, 1);
+    if (a != b && b != c && a != c) return count(a, 2), count(b, 2), count(c, 2);
+    const Label twin = a == b || a == c ? a : b;
+    const Label tip = a == b ? c : a == c ? b : a;
+    count(twin, 2);
+    count(tip, 1);
+}
+
+LabelOracle LabelCensus::oracle() const { return {euler_, quadruple_points_, pairs_.size()}; }
+
+}  // namespace regionmesh

@@ -1,0 +1,50 @@
+// Counts on the labels alone, section by section: what the model must be, and how large it will be.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cells/label_pairs.h"
+#include "cells/mixed_cells.h"
+#include "cells/strip_mesher.h"
+#include "regionmesh/label.h"
+#include "regionmesh/label_oracle.h"
+
+namespace regionmesh {
+
+/// The Euler characteristic of region r's boundary is 2 (N0 - N1 + N2 - N3), where Ni counts the i-simplices of Kuhn's
+/// lattice whose corners all have label r. Round a node whose cell has one label only these cancel: only mixed cells
+/// are looked at. Faces are counted by case, without making them.
+class LabelCensus {
+public:
+    LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions options);
+
+    /// Counts the strip between two consecutive sections; `is_last` when `high` is the last section.
+    void add(std::span<const Label> low, std::span<const Label> high, bool is_last);
+
+    /// Faces of the unsimplified model so far.
+    std::uint64_t face_count() const { return faces_; }
+    LabelOracle oracle() const;
+
+private:
+    using Corners = std::array<Label, 8>;
+
+    void look_at(std::span<const Label> low, std::span<const Label> high, bool is_last, std::uint32_t i,
+                 std::uint32_t j);
+    void count_cell(const Corners& labels);
+    void count_node(const Corners& labels, Step available);
+    void count_caps(const Corners& labels, unsigned sides);
+    void count_triangle(Label a, Label b, Label c);
+
+    std::uint32_t width_, height_;
+    StripOptions options_;
+    MixedCells mixed_;  // of a row of cells
+    bool is_first_ = true;
+    std::uint64_t faces_ = 0;
+    std::uint64_t quadruple_points_ = 0;
+    std::vector<std::int64_t> euler_;
+    LabelPairs pairs_;
+};
+
+}  // namespace regionmesh

@@ -1,0 +1,240 @@
+#include "cells/strip_mesher.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace regionmesh {
+namespace {
+
+constexpr Step kAlongSweep = 4;
+
+/// Slot of a kind among those in the plane of a section, or among the others.
+constexpr int slot_of(int kind) {
+    const bool in_plane = !(extent(kind) & kAlongSweep);
+    int slot = 0;
+    for (int k = 0; k < kind; ++k) slot += (!(extent(k) & kAlongSweep)) == in_plane;
+    return slot;
+}
+
+}  // namespace
+
+StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions options)
+    : lattice_(lattice),
+      sweep_(sweep),
+      options_(std::move(options)),
+      width_(lattice.size[sweep.axes[0]]),
+      height_(lattice.size[sweep.axes[1]]),
+      count_(lattice.size[sweep.axes[2]]),
+      mixed_(width_ - 1) {
+    assert(width_ >= 2 && height_ >= 2 && count_ >= 2);
+    const std::size_t samples = std::size_t{width_} * height_;
+    for (auto& plane : planes_) plane.assign(samples * kPlaneSlots, 0);
+    for (auto& row : rows_) row.assign(std::size_t{width_} * kRowSlots, 0);
+    plan_tetrahedra();
+    plan_triangles();
+}
+
+std::size_t StripMesher::bytes() const {
+    return 4 * (planes_[0].size() + planes_[1].size() + rows_[0].size() + rows_[1].size() + touched_[0].capacity() +
+                touched_[1].capacity());
+}
+
+/// The simplex spanned by some corners (steps from the cell's first node, in increasing order).
+StripMesher::SimplexPlace StripMesher::place_of(const Step* corners, unsigned set) const {
+    Step base = -1;
+    std::array<Step, 3> chain{0, 0, 0};
+    int length = 0;
+    for (int c = 0; c < 4; ++c) {
+        if (!(set >> c & 1)) continue;
+        if (base < 0)
+            base = corners[c];
+        else
+            chain[length++] = corners[c] - base;
+    }
+    const int kind = kind_of(chain[0], chain[1], chain[2]);
+    const std::uint32_t dx = base & 1, dy = base >> 1 & 1;
+    SimplexPlace place{Table::kNowhere, std::uint8_t(kind), base, 0};
+    if (kind >= kFirstTetrahedron) return place;
+    const std::uint32_t slot = slot_of(kind);
+    if (!(extent(kind) & kAlongSweep)) {
+        place.table = base & kAlongSweep ? Table::kHighPlane : Table::kLowPlane;
+        place.offset = (dy * width_ + dx) * kPlaneSlots + slot;
+    } else {
+        place.table = dy ? Table::kNextRow : Table::kRow;
+        place.offset = dx * kRowSlots + slot;
+    }
+    return place;
+}
+
+void StripMesher::plan_tetrahedra() {
+    for (int t = 0; t < 6; ++t) {
+        TetrahedronPlan& plan = tetrahedra_[t];
+        plan.corners = kKinds[kFirstTetrahedron + t].steps;
+        plan.cases = make_tetrahedron_cases(plan.corners);
+        for (unsigned set = 1; set < 16; ++set) plan.simplices[set] = place_of(plan.corners.data(), set);
+    }
+}
+
+void StripMesher::plan_triangles() {
+    for (int side = 0; side < 6; ++side) {
+        const int axis = side / 2;
+        const bool is_high = side % 2;
+        const Step across = 1 << axis;
+        for (int first = 0; first < 3; ++first) {
+            if (first == axis) continue;
+            const int second = 3 - axis - first;
+            // From the corner of the cell's square, along one axis of the side, then along both.
+            const Step base = is_high ? across : 0;
+            std::array<Step, 3> increasing{base, base | 1 << first, base | 1 << first | 1 << second};
+            TrianglePlan plan{.side = side, .corners = increasing, .simplices = {}, .cases = {}};
+            // e_first x (e_first + e_second) points along +axis when (first, second, axis) is cyclic.
+            const bool points_high = (first + 1) % 3 == second;
+            const bool turn = points_high != is_high;
+            if (turn) std::swap(plan.corners[1], plan.corners[2]);
+            plan.cases = make_triangle_cases(plan.corners);
+            for (unsigned set = 1; set < 8; ++set) {
+                unsigned sorted = set;
+                if (turn) sorted = (set & 1) | (set >> 2 & 1) << 1 | (set >> 1 & 1) << 2;
+                plan.simplices[set] = place_of(increasing.data(), sorted);
+            }
+            triangles_[side].push_back(std::move(plan));
+        }
+    }
+}
+
+void StripMesher::mesh(std::span<const Label> low, std::span<const Label> high, Chunk& batch) {
+    assert(strip_ + 1 < count_ && low.size() == std::size_t{width_} * height_ && high.size() == low.size());
+    low_ = low;
+    high_ = high;
+    batch_ = &batch;
+    batch.carried = static_cast<std::uint32_t>(touched_[0].size());
+    std::fill(rows_[0].begin(), rows_[0].end(), 0);
+    for (std::uint32_t j = 0; j + 1 < height_; ++j) {
+        std::fill(rows_[1].begin(), rows_[1].end(), 0);
+        mesh_row(j);
+        roll_rows();
+    }
+    roll_planes();
+    ++strip_;
+}
+
+void StripMesher::mesh_row(std::uint32_t j) {
+    const std::size_t row = std::size_t{j} * width_;
+    const std::uint32_t cells = width_ - 1;
+    mixed_.find(&low_[row], &low_[row + width_], &high_[row], &high_[row + width_]);
+    mixed_.for_each([&](std::uint32_t i) { mesh_cell(i, j); });
+    if (!options_.cap) return;
+    cap_side(0, j, 0);
+    cap_side(cells - 1, j, 1);
+    for (std::uint32_t i = 0; i < cells; ++i) {
+        if (j == 0) cap_side(i, j, 2);
+        if (j + 2 == height_) cap_side(i, j, 3);
+        if (strip_ == 0) cap_side(i, j, 4);
+        if (strip_ + 2 == count_) cap_side(i, j, 5);
+    }
+}
+
+std::array<Label, 8> StripMesher::cell_labels(std::uint32_t i, std::uint32_t j) const {
+    const std::size_t a = std::size_t{j} * width_ + i, b = a + width_;
+    return {low_[a], low_[a + 1], low_[b], low_[b + 1], high_[a], high_[a + 1], high_[b], high_[b + 1]};
+}
+
+void StripMesher::mesh_cell(std::uint32_t i, std::uint32_t j) {
+    const auto labels = cell_labels(i, j);
+    for (const TetrahedronPlan& plan : tetrahedra_) {
+        const std::array<Label, 4> corner{labels[0], labels[plan.corners[1]], labels[plan.corners[2]], labels[7]};
+        const unsigned pattern = tetrahedron_pattern(corner[0], corner[1], corner[2], corner[3]);
+        if (!pattern) continue;
+        std::array<std::uint32_t, 16> known{};  // vertex number + 1 by CornerSet
+        for (const CaseFace& face : plan.cases[pattern]) {
+            ChunkFace made;
+            for (int n = 0; n < 3; ++n) {
+                std::uint32_t& number = known[face.vertices[n]];
+                if (!number) number = vertex(plan.simplices[face.vertices[n]], i, j) + 1;
+                made.vertices[n] = number - 1;
+            }
+            made.labels = {corner[face.first], corner[face.second]};
+            batch_->faces.push_back(made);
+        }
+    }
+}
+
+void StripMesher::cap_side(std::uint32_t i, std::uint32_t j, int side) {
+    const auto labels = cell_labels(i, j);
+    // Sides are numbered by the axes of the lattice, triangles were planned by those of the sweep.
+    const Label outside = exterior(2 * sweep_.axes[side / 2] + side % 2);
+    for (const TrianglePlan& plan : triangles_[side]) {
+        const std::array<Label, 3> corner{labels[plan.corners[0]], labels[plan.corners[1]], labels[plan.corners[2]]};
+        for (const CaseFace& face : plan.cases[triangle_pattern(corner[0], corner[1], corner[2])]) {
+            const Label inside = corner[face.first];
+            if (options_.is_background(inside)) continue;
+            ChunkFace made;
+            for (int n = 0; n < 3; ++n) made.vertices[n] = vertex(plan.simplices[face.vertices[n]], i, j);
+            made.labels = {inside, outside};
+            batch_->faces.push_back(made);
+        }
+    }
+}
+
+/// Number of the vertex of a simplex in the batch, made when first asked for.
+std::uint32_t StripMesher::vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j) {
+    const std::size_t cell = (std::size_t{j} * width_ + i) * kPlaneSlots + place.offset;
+    std::uint32_t* number = nullptr;
+    switch (place.table) {
+        case Table::kLowPlane:
+            number = &planes_[0][cell];
+            break;
+        case Table::kHighPlane:
+            number = &planes_[1][cell];
+            break;
+        case Table::kRow:
+            number = &rows_[0][i * kRowSlots + place.offset];
+            break;
+        case Table::kNextRow:
+            number = &rows_[1][i * kRowSlots + place.offset];
+            break;
+        case Table::kNowhere:
+            return make_vertex(place, i, j);
+    }
+    if (*number == 0) {
+        *number = make_vertex(place, i, j) + 1;
+        if (place.table == Table::kHighPlane) {
+            touched_[1].push_back(static_cast<std::uint32_t>(cell));
+            batch_->open.push_back(*number - 1);
+        }
+        if (place.table == Table::kLowPlane) touched_[0].push_back(static_cast<std::uint32_t>(cell));
+    }
+    return *number - 1;
+}
+
+std::uint32_t StripMesher::make_vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j) {
+    const std::array<std::uint32_t, 3> cell{i, j, strip_};
+    const std::array<std::uint32_t, 3> size{width_, height_, count_};
+    const Vec3 middle = centroid(place.kind);
+    const Step along = extent(place.kind);
+    ChunkVertex made;
+    for (int a = 0; a < 3; ++a) {
+        const int axis = sweep_.axes[a];
+        const std::uint32_t node = cell[a] + (place.base >> a & 1);
+        made.position[axis] = lattice_.origin[axis] + (node + middle[a]) * lattice_.spacing[axis];
+        if (along >> a & 1) continue;
+        if (node == 0) made.sides |= SideSet(1 << 2 * axis);
+        if (node + 1 == size[a]) made.sides |= SideSet(1 << (2 * axis + 1));
+    }
+    batch_->vertices.push_back(made);
+    return batch_->carried + static_cast<std::uint32_t>(batch_->vertices.size()) - 1;
+}
+
+void StripMesher::roll_rows() { std::swap(rows_[0], rows_[1]); }
+
+/// The high section becomes the low one of the next strip: its vertices are the first of the next batch.
+void StripMesher::roll_planes() {
+    for (std::uint32_t place : touched_[0]) planes_[0][place] = 0;
+    touched_[0].clear();
+    std::swap(planes_[0], planes_[1]);
+    std::swap(touched_[0], touched_[1]);
+    for (std::uint32_t n = 0; n < touched_[0].size(); ++n) planes_[0][touched_[0][n]] = n + 1;
+    if (strip_ + 2 == count_) batch_->open.clear();
+}
+
+}  // namespace regionmesh

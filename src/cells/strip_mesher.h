@@ -1,0 +1,92 @@
+// Sections in, faces out: the strip between two consecutive sections at a time (P 3.1-3.3).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cells/marching_tetrahedra.h"
+#include "cells/mixed_cells.h"
+#include "mesh/chunk.h"
+#include "regionmesh/label.h"
+#include "regionmesh/lattice.h"
+
+namespace regionmesh {
+
+struct StripOptions {
+    bool cap = true;  // split the lattice triangles on the six sides of the box into faces (DESIGN 4)
+    std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
+
+    bool is_background(Label label) const {
+        return std::find(background.begin(), background.end(), label) != background.end();
+    }
+};
+
+/// Meshes strips. Vertices are welded by lattice key: a base node and one of 26 kinds, looked up in flat tables that
+/// cover two sections (kinds in the plane of a section) and two rows (all others); 48 bytes a sample of a section.
+/// Positions are origin + (index + centroid) * spacing, in the axes of the lattice; its direction is not applied.
+class StripMesher {
+public:
+    /// Requires at least two samples along every axis.
+    StripMesher(const Lattice& lattice, Sweep sweep, StripOptions options);
+
+    /// Meshes the strip between sections `strip` and `strip + 1`, appending to an empty batch; strips come in order.
+    void mesh(std::span<const Label> low, std::span<const Label> high, Chunk& batch);
+
+    std::size_t bytes() const;
+
+private:
+    static constexpr int kPlaneSlots = 6;  // node, 3 edges, 2 triangles in the plane of a section
+    static constexpr int kRowSlots = 14;   // 4 edges, 10 triangles out of it
+
+    /// Where the number of a vertex is kept: one of four tables, and the place in it relative to the cell.
+    enum class Table : std::uint8_t { kLowPlane, kHighPlane, kRow, kNextRow, kNowhere };
+    struct SimplexPlace {
+        Table table;
+        std::uint8_t kind;
+        Step base;  // base node relative to the cell's first node
+        std::uint32_t offset;
+    };
+    struct TetrahedronPlan {
+        std::array<Step, 4> corners;
+        std::array<SimplexPlace, 16> simplices;  // by CornerSet
+        TetrahedronCases cases;
+    };
+    struct TrianglePlan {
+        int side;
+        std::array<Step, 3> corners;  // within the cell, turned outward
+        std::array<SimplexPlace, 8> simplices;
+        TriangleCases cases;
+    };
+
+    SimplexPlace place_of(const Step* corners, unsigned set) const;
+    void plan_tetrahedra();
+    void plan_triangles();
+    void mesh_row(std::uint32_t j);
+    void mesh_cell(std::uint32_t i, std::uint32_t j);
+    void cap_side(std::uint32_t i, std::uint32_t j, int side);
+    std::array<Label, 8> cell_labels(std::uint32_t i, std::uint32_t j) const;
+    std::uint32_t vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j);
+    std::uint32_t make_vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j);
+    void roll_rows();
+    void roll_planes();
+
+    Lattice lattice_;
+    Sweep sweep_;
+    StripOptions options_;
+    std::uint32_t width_, height_, count_;  // samples along the fast axis, the slow axis, the sweep
+    std::array<TetrahedronPlan, 6> tetrahedra_;
+    std::array<std::vector<TrianglePlan>, 6> triangles_;
+
+    std::uint32_t strip_ = 0;
+    std::span<const Label> low_, high_;
+    Chunk* batch_ = nullptr;
+    std::vector<std::uint32_t> planes_[2];  // vertex number + 1, 0 for none yet
+    std::vector<std::uint32_t> rows_[2];
+    std::vector<std::uint32_t> touched_[2];  // places in planes_ that are not 0
+    MixedCells mixed_;                       // of a row of cells
+};
+
+}  // namespace regionmesh

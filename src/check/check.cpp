@@ -1,0 +1,79 @@
+#include "regionmesh/check.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "check/findings.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr std::array<const char*, kViolationKindCount> kKindNames{
+    "open_edge",      "overfull_edge",    "orientation",         "pinched_vertex", "few_edges",
+    "duplicate_face", "degenerate_face",  "coincident_vertices", "unused_vertex",  "crossing_faces",
+    "euler",          "quadruple_points", "region_pairs",        "nesting",        "non_generic_vertex"};
+
+void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report) {
+    for (Label label = 0; label < regions.size(); ++label) {
+        if (!(regions[label].area > 0) || options.is_background(label)) continue;
+        report.regions.push_back(regions[label]);
+        report.regions.back().label = label;
+    }
+}
+
+}  // namespace
+
+const char* to_string(ViolationKind kind) { return kKindNames[static_cast<int>(kind)]; }
+
+std::uint64_t CheckReport::violation_count() const {
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+CheckReport check(const Mesh& mesh, const CheckOptions& options) {
+    CheckReport report;
+    Findings findings(options.listed);
+    std::vector<RegionReport> regions;
+    check_faces(mesh, options, regions, report, findings);
+    check_stars(mesh, options, regions, report, findings);
+    list_regions(options, regions, report);
+    check_places(mesh, options, findings);
+    std::optional<SortedFaceTree> tree;
+    if (options.crossing) {
+        tree.emplace(mesh, options.threads);
+        check_crossing(mesh, options, *tree, findings);
+    }
+    check_nesting(mesh, options, tree ? &*tree : nullptr, findings);
+    check_against_labels(options, report, findings);
+    report.lines = measure_lines(mesh);
+    findings.move_to(report);
+    for (Violation& violation : report.violations) place_violation(mesh, violation);
+    return report;
+}
+
+void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings) {
+    if (!options.oracle) return;
+    const LabelOracle& oracle = *options.oracle;
+    std::vector<std::int64_t> euler(oracle.euler.size(), 0);
+    for (const RegionReport& region : report.regions)
+        if (region.label < euler.size()) euler[region.label] = region.euler;
+    for (Label label = 0; label < euler.size(); ++label) {
+        if (options.is_background(label)) continue;
+        if (!options.boundary_is_open && euler[label] != oracle.euler[label])
+            findings.add(ViolationKind::kEuler, {}, {}, [&] {
+                return region_name(options, label) + ": Euler characteristic " + std::to_string(euler[label]) +
+                       ", its labels say " + std::to_string(oracle.euler[label]);
+            });
+    }
+    const auto compare = [&](ViolationKind kind, std::uint64_t found, std::uint64_t expected, const char* what) {
+        if (found != expected)
+            findings.add(kind, {}, {}, [&] {
+                return std::to_string(found) + " " + what + ", the labels say " + std::to_string(expected);
+            });
+    };
+    compare(ViolationKind::kQuadruplePoints, report.quadruple_points_inside, oracle.quadruple_points_inside,
+            "interior quadruple points");
+    compare(ViolationKind::kRegionPairs, report.region_pairs, oracle.region_pairs,
+            "pairs of regions with an interface");
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,15 @@
+// Faces that meet outside what they share, exactly (P test 6, over the whole model).
+#include "mesh/crossing.h"
+
+#include "check/findings.h"
+
+namespace regionmesh {
+
+void check_crossing(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree& tree, Findings& findings) {
+    for (const auto& [f, g] : find_crossings(mesh, tree, options.threads))
+        findings.add(ViolationKind::kCrossingFaces, {}, {index(f), index(g)}, [f = f, g = g] {
+            return "faces " + std::to_string(index(f)) + " and " + std::to_string(index(g)) + " cross";
+        });
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,94 @@
+// What can be said of one face at a time: has it an area, how much, of what quality?
+#include <algorithm>
+#include <unordered_set>
+
+#include "base/exact_predicates.h"
+#include "base/hash.h"
+#include "base/parallel_for.h"
+#include "base/triangle.h"
+#include "check/findings.h"
+#include "check/quality_sum.h"
+#include "check/region_sums.h"
+#include "mesh/extent.h"
+
+namespace regionmesh {
+namespace {
+
+/// Pairs of labels, most of them once only.
+class PairList {
+public:
+    PairList() { recent_.fill(~std::uint64_t{0}); }
+    void add(Label a, Label b) {
+        const std::uint64_t pair = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+        std::uint64_t& recent = recent_[mix64(pair) % recent_.size()];
+        if (recent == pair) return;
+        recent = pair;
+        pairs_.push_back(pair);
+    }
+    std::vector<std::uint64_t> take() { return std::move(pairs_); }
+
+private:
+    std::vector<std::uint64_t> pairs_;
+    std::array<std::uint64_t, 256> recent_;
+};
+
+struct FaceChunk {
+    Findings findings;
+    QualitySum quality;
+    std::vector<RegionReport> regions;
+    std::vector<std::uint64_t> pairs;
+};
+
+FaceChunk look_at_faces(const Mesh& mesh, Vec3 origin, std::uint32_t listed, std::uint32_t first, std::uint32_t end) {
+    FaceChunk chunk{.findings = Findings(listed), .quality = {}, .regions = {}, .pairs = {}};
+    RegionSums regions;
+    PairList pairs;
+    for (std::uint32_t n = first; n < end; ++n) {
+        const FaceId f{n};
+        if (!mesh.is_alive(f)) continue;
+        const auto p = mesh.corners(f);
+        const auto& labels = mesh[f].labels;
+        if (labels[0] == labels[1] || is_degenerate({p[0], p[1], p[2]}))
+            chunk.findings.add(ViolationKind::kDegenerateFace, {}, {n}, [&] {
+                return name(f) + (labels[0] == labels[1] ? " has one label on both sides" : " has no area");
+            });
+        const double area = 0.5 * length(area_vector(p[0], p[1], p[2]));
+        const double volume = dot(p[0] - origin, cross(p[1] - origin, p[2] - origin)) / 6;
+        for (int side = 0; side < 2; ++side) {
+            if (is_exterior(labels[side])) continue;
+            RegionReport& region = regions[labels[side]];
+            region.euler += repeats_a_vertex(mesh[f]) ? 0 : 1;
+            region.area += area;
+            region.volume += side == 0 ? volume : -volume;
+        }
+        if (!is_exterior(labels[0]) && !is_exterior(labels[1])) pairs.add(labels[0], labels[1]);
+        chunk.quality.add(p);
+    }
+    chunk.regions = regions.take();
+    chunk.pairs = pairs.take();
+    return chunk;
+}
+
+}  // namespace
+
+void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
+                 Findings& findings) {
+    // Volumes are measured from the middle, where rounding is least.
+    const Box extent = extent_of(mesh, options.threads);
+    const Vec3 origin = 0.5 * (extent.low + extent.high);
+    QualitySum quality;
+    std::unordered_set<std::uint64_t> pairs;
+    for_chunks(
+        mesh.face_end(), kCheckChunk, options.threads,
+        [&](std::uint32_t first, std::uint32_t end) { return look_at_faces(mesh, origin, options.listed, first, end); },
+        [&](FaceChunk&& chunk) {
+            findings.append(std::move(chunk.findings));
+            quality.append(chunk.quality);
+            add_to(regions, chunk.regions);
+            pairs.insert(chunk.pairs.begin(), chunk.pairs.end());
+        });
+    report.quality = quality.report();
+    report.region_pairs = pairs.size();
+}
+
+}  // namespace regionmesh

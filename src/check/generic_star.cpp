@@ -1,0 +1,80 @@
+#include "check/generic_star.h"
+
+#include <algorithm>
+
+#include "mesh/strata.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr int kMostLabels = 4;
+
+/// Faces at a vertex beyond which it is not looked at: putting a fan in order takes the square of their number.
+constexpr int kMostFaces = 4096;
+
+}  // namespace
+
+StarFault GenericStar::fault(VertexId v) {
+    bool is_odd = false;
+    int faces = 0;
+    mesh_.for_star(v, [&](FaceId f, int) {
+        is_odd |= mesh_[f].labels[0] == mesh_[f].labels[1];
+        ++faces;
+    });
+    const LabelSet labels = vertex_labels(mesh_, v);
+    if (is_odd || faces == 0 || labels.size() > kMostLabels) return StarFault::kLabels;
+    if (faces > kMostFaces) return StarFault::kFans;
+    for (Label label : labels) {
+        if (is_exterior(label)) continue;
+        if (!has_one_fan(v, label)) return StarFault::kFans;
+        // Both regions of an interface have the same faces.
+        if (labels.size() == 2) return StarFault::kNone;
+    }
+    return look_at_lines(v, labels);
+}
+
+bool GenericStar::has_one_fan(VertexId v, Label label) {
+    fan_.clear();
+    mesh_.for_star(v, [&](FaceId f, int place) {
+        const Face& face = mesh_[f];
+        const VertexId a = face.vertices[(place + 1) % 3], b = face.vertices[(place + 2) % 3];
+        if (face.labels[0] == label)
+            fan_.push_back({a, b, index(f)});
+        else if (face.labels[1] == label)
+            fan_.push_back({b, a, index(f)});
+    });
+    if (!order_fan(fan_)) return false;
+    if (is_closed(fan_)) return fan_.size() >= 3;
+    return may_be_open(label, v, fan_.front().first) && may_be_open(label, v, fan_.back().second);
+}
+
+bool GenericStar::may_be_open(Label label, VertexId v, VertexId end) const {
+    return (mesh_[v].sides & mesh_[end].sides) != 0 && (options_.boundary_is_open || options_.is_background(label));
+}
+
+StarFault GenericStar::look_at_lines(VertexId v, const LabelSet& labels) {
+    neighbours_.clear();
+    mesh_.for_star(v, [&](FaceId f, int place) {
+        neighbours_.push_back(mesh_[f].vertices[(place + 1) % 3]);
+        neighbours_.push_back(mesh_[f].vertices[(place + 2) % 3]);
+    });
+    std::sort(neighbours_.begin(), neighbours_.end());
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+    triples_.clear();
+    for (VertexId w : neighbours_) {
+        const LabelSet at_edge = edge_labels(mesh_, v, w);
+        if (at_edge.size() > 3) return StarFault::kPages;
+        if (at_edge.size() < 3) continue;
+        std::vector<Label>& triple = triples_.emplace_back(at_edge.begin(), at_edge.end());
+        std::sort(triple.begin(), triple.end());
+    }
+    const std::size_t lines = triples_.size();
+    if (labels.size() == 3) return lines == 2 ? StarFault::kNone : StarFault::kLines;
+    std::sort(triples_.begin(), triples_.end());
+    const bool repeats = std::adjacent_find(triples_.begin(), triples_.end()) != triples_.end();
+    // On the box three sides meet in no line that has faces, nor does a label whose faces were not made there.
+    const bool is_right = mesh_[v].sides == 0 ? lines == 4 : lines >= 2;
+    return is_right && !repeats ? StarFault::kNone : StarFault::kLines;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,55 @@
+#include "regionmesh/lines.h"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "mesh/strata.h"
+
+namespace regionmesh {
+namespace {
+
+bool is_inside(const LabelSet& labels) { return std::none_of(labels.begin(), labels.end(), is_exterior); }
+
+/// Ends of the line edges at v other than v.
+void gather_line_neighbours(const Mesh& mesh, VertexId v, std::vector<VertexId>& found) {
+    found.clear();
+    mesh.for_star(v, [&](FaceId f, int place) {
+        for (int step = 1; step < 3; ++step) {
+            const VertexId w = mesh[f].vertices[(place + step) % 3];
+            if (std::find(found.begin(), found.end(), w) == found.end()) found.push_back(w);
+        }
+    });
+    std::erase_if(found, [&](VertexId w) {
+        const LabelSet labels = edge_labels(mesh, v, w);
+        return labels.size() < 3 || !is_inside(labels);
+    });
+}
+
+}  // namespace
+
+LineReport measure_lines(const Mesh& mesh) {
+    LineReport report;
+    std::vector<VertexId> ends;
+    double turned = 0;
+    std::uint64_t turns = 0;
+    for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n) {
+        const VertexId v{n};
+        if (!mesh.is_alive(v) || vertex_labels(mesh, v).size() < 3) continue;
+        gather_line_neighbours(mesh, v, ends);
+        const Vec3 p = mesh.position(v);
+        for (VertexId w : ends) {
+            if (w < v) continue;
+            ++report.edges;
+            report.length += length(mesh.position(w) - p);
+        }
+        if (ends.size() != 2) continue;
+        const Vec3 in = p - mesh.position(ends[0]), out = mesh.position(ends[1]) - p;
+        turned += std::atan2(length(cross(in, out)), dot(in, out));
+        ++turns;
+    }
+    if (turns > 0) report.mean_turning_angle = turned / static_cast<double>(turns) * 180 / std::numbers::pi;
+    return report;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,41 @@
+// Where a finding is, and between which labels.
+#include <algorithm>
+#include <charconv>
+
+#include "check/findings.h"
+#include "mesh/strata.h"
+
+namespace regionmesh {
+namespace {
+
+/// The shortest text that names the number.
+std::string text_of(double value) {
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+}  // namespace
+
+void place_violation(const Mesh& mesh, Violation& violation) {
+    const auto& [kind, vertices, faces, text, at, labels] = violation;
+    LabelSet met;
+    if (!vertices.empty()) {
+        violation.at = mesh.position(VertexId{vertices[0]});
+        const bool is_edge = kind == ViolationKind::kOpenEdge || kind == ViolationKind::kOverfullEdge ||
+                             kind == ViolationKind::kOrientation;
+        met = is_edge ? edge_labels(mesh, VertexId{vertices[0]}, VertexId{vertices[1]})
+                      : vertex_labels(mesh, VertexId{vertices[0]});
+    } else if (!faces.empty()) {
+        const auto p = mesh.corners(FaceId{faces[0]});
+        violation.at = p[0] / 3 + p[1] / 3 + p[2] / 3;
+        for (std::uint32_t f : faces)
+            for (Label label : mesh[FaceId{f}].labels) met.add(label);
+    } else {
+        return;
+    }
+    violation.labels.assign(met.begin(), met.end());
+    std::sort(violation.labels.begin(), violation.labels.end());
+    violation.text += " at (" + text_of(at->x) + ", " + text_of(at->y) + ", " + text_of(at->z) + ")";
+}
+
+}  // namespace regionmesh

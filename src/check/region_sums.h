@@ -1,0 +1,44 @@
+// Sums by region over a part of the model, small where few regions are near.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "regionmesh/check.h"
+
+namespace regionmesh {
+
+class RegionSums {
+public:
+    RegionReport& operator[](Label label) {
+        if (label >= places_.size()) places_.resize(label + 1, kNone);
+        std::uint32_t& place = places_[label];
+        if (place == kNone) {
+            place = static_cast<std::uint32_t>(sums_.size());
+            sums_.push_back({.label = label});
+        }
+        return sums_[place];
+    }
+    std::vector<RegionReport> take() { return std::move(sums_); }
+
+private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    std::vector<std::uint32_t> places_;  // by label
+    std::vector<RegionReport> sums_;
+};
+
+/// Adds the sums of a part to those of the whole, by dense label.
+inline void add_to(std::vector<RegionReport>& regions, const std::vector<RegionReport>& part) {
+    for (const RegionReport& sum : part) {
+        if (sum.label >= regions.size()) regions.resize(sum.label + 1);
+        RegionReport& region = regions[sum.label];
+        region.euler += sum.euler;
+        region.components += sum.components;
+        region.volume += sum.volume;
+        region.area += sum.area;
+    }
+}
+
+}  // namespace regionmesh

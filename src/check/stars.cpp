@@ -1,0 +1,296 @@
+// What can be seen round one vertex at a time: edges, fans, Euler characteristics, and how boundaries hang together.
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+#include "base/parallel_for.h"
+#include "base/union_find.h"
+#include "check/findings.h"
+#include "check/generic_star.h"
+#include "check/region_sums.h"
+#include "mesh/fan.h"
+#include "mesh/label_set.h"
+
+namespace regionmesh {
+namespace {
+
+/// What was found round some vertices.
+struct StarChunk {
+    Findings findings;
+    std::vector<RegionReport> regions;
+    std::uint64_t quadruple_points_inside = 0;
+};
+
+/// The two sides of each face are its sheets, joined where a region's boundary goes on across an edge.
+class StarCheck {
+public:
+    StarCheck(const Mesh& mesh, const CheckOptions& options, UnionFind& sheets)
+        : mesh_(mesh), options_(options), sheets_(sheets), generic_(mesh, options), findings_(options.listed) {}
+
+    StarChunk run(std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t v = first; v < end; ++v)
+            if (mesh_.is_alive(VertexId{v})) look_at_vertex(VertexId{v});
+        return {std::move(findings_), regions_.take(), quadruple_points_inside_};
+    }
+
+private:
+    /// One face seen from the vertex in its middle: a then b go round it.
+    struct Page {
+        FaceId face;
+        VertexId a, b;
+        std::array<Label, 2> labels;
+    };
+    /// A side of a page at one of its edges.
+    struct Use {
+        VertexId end;
+        Label label;
+        std::uint32_t side;  // page * 2 + which
+        int turn;            // 1: it passes the edge outward
+    };
+    /// Putting a fan in order takes the square of its faces.
+    static constexpr std::size_t kMostOrdered = 1024;
+
+    static std::uint32_t sheet(FaceId f, int side) { return 2 * index(f) + static_cast<std::uint32_t>(side); }
+
+    void look_at_vertex(VertexId v) {
+        if (mesh_[v].star == kNoCorner)
+            return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {},
+                                 [&] { return name(v) + " has no face"; });
+        pages_.clear();
+        labels_ = LabelSet();
+        bool has_exterior = false, is_odd = false;
+        mesh_.for_star(v, [&](FaceId f, int place) {
+            const Face& face = mesh_[f];
+            if (repeats_a_vertex(face)) return;  // what it lies between meets without it
+            pages_.push_back({f, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels});
+            is_odd |= face.labels[0] == face.labels[1];
+            for (Label label : face.labels) {
+                if (is_exterior(label))
+                    has_exterior = true;
+                else
+                    labels_.add(label);
+            }
+        });
+        if (pages_.empty()) return;
+        if (mesh_[v].sides == 0 && !has_exterior && labels_.size() == 4) ++quadruple_points_inside_;
+        const bool is_small = labels_.size() < LabelSet::kCapacity && pages_.size() <= kMostOrdered;
+        if (!is_odd && is_small && look_at_closed_fans(v, has_exterior)) {
+            // Faces on the same vertices are in no closed fan, unless they have no label in common.
+            if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
+            if (has_exterior || labels_.size() > 2) look_at_form(v);
+        } else {
+            look_at_any_fans(v);
+            look_for_duplicates(v);
+            if (labels_.size() > 4) look_at_form(v);
+        }
+    }
+
+    void look_at_form(VertexId v) {
+        const StarFault fault = generic_.fault(v);
+        if (fault == StarFault::kNone) return;
+        findings_.add(ViolationKind::kNonGenericVertex, {index(v)}, {}, [&] {
+            return name(v) + (fault == StarFault::kLabels  ? ": more than four labels meet"
+                              : fault == StarFault::kPages ? ": more than three labels meet at one of its edges"
+                              : fault == StarFault::kLines ? ": its lines are not those where three or four labels meet"
+                                                           : ": its faces are too many to be told");
+        });
+    }
+
+    /// Nearly all vertices: the faces of each region go round v once, from one neighbour to the next. So all is well
+    /// with its edges, too. False where it is not so: then nothing has been done.
+    bool look_at_closed_fans(VertexId v, bool has_exterior) {
+        const bool is_interface = labels_.size() == 2 && !has_exterior;  // both regions have the same faces
+        fans_.clear();
+        ends_.clear();
+        for (Label label : labels_) {
+            if (!is_interface || ends_.empty())
+                if (!add_closed_fan(label)) return false;
+            ends_.push_back(fans_.size());
+        }
+        std::size_t start = 0;
+        for (int n = 0; n < labels_.size(); ++n) {
+            if (is_interface) start = 0;
+            const auto fan = std::span(fans_).subspan(start, ends_[n] - start);
+            regions_[labels_.begin()[n]].euler += 1 - join_fan(v, fan, is_interface && n == 1);
+            start = ends_[n];
+        }
+        return true;
+    }
+
+    /// Adds the faces of a region in the order in which they go round.
+    bool add_closed_fan(Label label) {
+        const std::size_t start = fans_.size();
+        for (const Page& page : pages_) {
+            if (page.labels[0] == label)
+                fans_.push_back({page.a, page.b, sheet(page.face, 0)});
+            else if (page.labels[1] == label)
+                fans_.push_back({page.b, page.a, sheet(page.face, 1)});
+        }
+        const std::span<FanPage> fan = std::span(fans_).subspan(start);
+        return fan.size() >= 3 && order_fan(fan) && is_closed(fan);
+    }
+
+    /// Joins the sheets of a closed fan across the edges from v to later vertices, and returns how many those are.
+    std::int64_t join_fan(VertexId v, std::span<const FanPage> fan, std::uint32_t other_side) {
+        std::int64_t edges = 0;
+        for (std::size_t n = 0; n < fan.size(); ++n) {
+            if (fan[n].second < v) continue;
+            ++edges;
+            sheets_.join(fan[n].name ^ other_side, fan[n + 1 < fan.size() ? n + 1 : 0].name ^ other_side);
+        }
+        return edges;
+    }
+
+    /// Anything goes here: any number of labels and of faces at an edge. Takes hardly longer than it takes to sort.
+    void look_at_any_fans(VertexId v) {
+        gather_uses();
+        const auto ends = [&](const Use& a, const Use& b) { return a.end != b.end; };
+        std::size_t edges = uses_.empty() ? 0 : 1;
+        for (std::size_t n = 1; n < uses_.size(); ++n) edges += ends(uses_[n - 1], uses_[n]);
+        const bool may_be_rim = mesh_[v].sides != 0 && (options_.boundary_is_open ||
+                                                        std::any_of(uses_.begin(), uses_.end(), [&](const Use& use) {
+                                                            return options_.is_background(use.label);
+                                                        }));
+        if (edges < 3 && !may_be_rim)
+            findings_.add(ViolationKind::kFewEdges, {index(v)}, {},
+                          [&] { return name(v) + " has fewer than three edges"; });
+        up_.resize(2 * pages_.size());
+        std::iota(up_.begin(), up_.end(), 0u);
+        for (std::size_t first = 0, end = 1; first < uses_.size(); first = end++) {
+            while (end < uses_.size() && uses_[end].end == uses_[first].end && uses_[end].label == uses_[first].label)
+                ++end;
+            if (!is_exterior(uses_[first].label)) look_at_edge(v, std::span(uses_).subspan(first, end - first));
+        }
+        look_at_parts(v);
+    }
+
+    /// Of all sides of all pages, edge by edge and label by label.
+    void gather_uses() {
+        uses_.clear();
+        for (std::uint32_t n = 0; n < pages_.size(); ++n) {
+            const Page& page = pages_[n];
+            for (std::uint32_t side = 0; side < 2; ++side) {
+                uses_.push_back({page.a, page.labels[side], 2 * n + side, side == 0 ? 1 : -1});
+                uses_.push_back({page.b, page.labels[side], 2 * n + side, side == 0 ? -1 : 1});
+            }
+        }
+        std::sort(uses_.begin(), uses_.end(), [](const Use& a, const Use& b) {
+            return std::tie(a.end, a.label, a.side) < std::tie(b.end, b.label, b.side);
+        });
+    }
+
+    /// The sides that one region has at the edge.
+    void look_at_edge(VertexId v, std::span<const Use> sides) {
+        const auto [w, label, first_side, first_turn] = sides[0];
+        const std::uint32_t first_sheet = sheet(pages_[first_side / 2].face, static_cast<int>(first_side % 2));
+        int turn = 0;
+        for (const Use& use : sides) {
+            turn += use.turn;
+            up_[root_of(use.side)] = root_of(first_side);
+            sheets_.join(first_sheet, sheet(pages_[use.side / 2].face, static_cast<int>(use.side % 2)));
+        }
+        if (w < v) return;  // told from there
+        regions_[label].euler -= 1;
+        const bool may_be_open =
+            (options_.boundary_is_open || options_.is_background(label)) && (mesh_[v].sides & mesh_[w].sides) != 0;
+        const auto say = [&, w = w, label = label](ViolationKind kind, const std::string& what) {
+            findings_.add(kind, {index(v), index(w)}, {},
+                          [&] { return name(v, w) + ", " + region_name(options_, label) + ": " + what; });
+        };
+        if (sides.size() == 1 && !may_be_open) say(ViolationKind::kOpenEdge, "one face");
+        if (sides.size() > 2) say(ViolationKind::kOverfullEdge, std::to_string(sides.size()) + " faces");
+        if (sides.size() == 2 && turn != 0) say(ViolationKind::kOrientation, "its two faces look opposite ways");
+    }
+
+    /// The faces of a region at a vertex must be one fan: joined by the edges between them.
+    void look_at_parts(VertexId v) {
+        parts_.clear();
+        for (std::uint32_t side = 0; side < up_.size(); ++side) {
+            const Label label = pages_[side / 2].labels[side % 2];
+            if (!is_exterior(label)) parts_.push_back({label, root_of(side)});
+        }
+        std::sort(parts_.begin(), parts_.end());
+        parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
+        for (std::size_t first = 0, end = 1; first < parts_.size(); first = end++) {
+            while (end < parts_.size() && parts_[end].first == parts_[first].first) ++end;
+            const Label label = parts_[first].first;
+            regions_[label].euler += 1;
+            if (end - first > 1)
+                findings_.add(ViolationKind::kPinchedVertex, {index(v)}, {},
+                              [&] { return name(v) + ": " + region_name(options_, label) + " has more than one fan"; });
+        }
+    }
+
+    std::uint32_t root_of(std::uint32_t side) {
+        while (up_[side] != side) side = up_[side] = up_[up_[side]];
+        return side;
+    }
+
+    /// Each face on the vertices of another is told once, beside one of these.
+    void look_for_duplicates(VertexId v) {
+        rims_.clear();
+        for (const Page& page : pages_)
+            if (v < page.a && v < page.b)
+                rims_.push_back({std::min(page.a, page.b), std::max(page.a, page.b), page.face});
+        std::sort(rims_.begin(), rims_.end());
+        for (std::size_t n = 1; n < rims_.size(); ++n) {
+            const auto& [a, b, f] = rims_[n - 1];
+            const auto& [c, d, g] = rims_[n];
+            if (a == c && b == d)
+                findings_.add(ViolationKind::kDuplicateFace, {}, {index(f), index(g)},
+                              [&, f = f, g = g] { return name(f) + " and " + name(g) + " have the same vertices"; });
+        }
+    }
+
+    const Mesh& mesh_;
+    const CheckOptions& options_;
+    UnionFind& sheets_;
+    GenericStar generic_;
+    Findings findings_;
+    RegionSums regions_;
+    std::uint64_t quadruple_points_inside_ = 0;
+    std::vector<Page> pages_;
+    LabelSet labels_;            // of the regions among them
+    std::vector<FanPage> fans_;  // region after region
+    std::vector<std::size_t> ends_;
+    std::vector<Use> uses_;
+    std::vector<std::uint32_t> up_;  // of the sides of pages: joined with this one
+    std::vector<std::pair<Label, std::uint32_t>> parts_;
+    std::vector<std::tuple<VertexId, VertexId, FaceId>> rims_;
+};
+
+/// Each part of a region's boundary has one root among its sheets.
+std::vector<RegionReport> count_components(const Mesh& mesh, const UnionFind& sheets, std::uint32_t first,
+                                           std::uint32_t end) {
+    RegionSums regions;
+    for (std::uint32_t f = first; f < end; ++f) {
+        if (!mesh.is_alive(FaceId{f})) continue;
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            const Label label = mesh[FaceId{f}].labels[side];
+            if (sheets.is_root(2 * f + side) && !is_exterior(label)) ++regions[label].components;
+        }
+    }
+    return regions.take();
+}
+
+}  // namespace
+
+void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
+                 Findings& findings) {
+    UnionFind sheets(2 * mesh.face_end());
+    for_chunks(
+        mesh.vertex_end(), kCheckChunk, options.threads,
+        [&](std::uint32_t first, std::uint32_t end) { return StarCheck(mesh, options, sheets).run(first, end); },
+        [&](StarChunk&& chunk) {
+            findings.append(std::move(chunk.findings));
+            add_to(regions, chunk.regions);
+            report.quadruple_points_inside += chunk.quadruple_points_inside;
+        });
+    for_chunks(
+        mesh.face_end(), kCheckChunk, options.threads,
+        [&](std::uint32_t first, std::uint32_t end) { return count_components(mesh, sheets, first, end); },
+        [&](const std::vector<RegionReport>& chunk) { add_to(regions, chunk); });
+}
+
+}  // namespace regionmesh

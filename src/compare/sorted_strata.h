@@ -1,0 +1,55 @@
+// The faces of a model by interface, and the edges of its lines by label set.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "compare/common_labels.h"
+#include "regionmesh/ids.h"
+#include "regionmesh/mesh.h"
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+/// Three points of a face; an edge repeats its second one, so that it is a face without area.
+using Simplex = std::array<std::uint32_t, 3>;
+inline bool is_edge(const Simplex& s) { return s[1] == s[2]; }
+
+inline constexpr std::uint32_t kNoStratum = 0xFFFFFFFFu;
+
+/// All faces, or edges, with one set of labels.
+struct Stratum {
+    std::vector<Label> labels;         // common labels, ascending; the exterior, exterior(0), stands last
+    std::uint32_t begin = 0, end = 0;  // its simplices
+    bool contains(Label label) const;
+};
+
+/// Simplices one stratum after another, each along Hilbert's curve, and points in the order in which simplices use
+/// them: neighbours in space are neighbours in the arrays, whatever they were in the model.
+struct SortedStrata {
+    std::vector<Vec3> points;
+    std::vector<Simplex> simplices;
+    std::vector<Stratum> strata;  // in order of labels
+    Box bounds;                   // of all vertices of the model
+
+    /// The stratum with these labels, or kNoStratum.
+    std::uint32_t find(const std::vector<Label>& labels) const;
+};
+
+/// One of the two models, in common labels.
+struct CommonView {
+    const Mesh& mesh;
+    const CommonLabels& labels;
+    int which = 0;                  // model 0 or 1 of `labels`
+    std::vector<Label> background;  // common; what has no other label but the exterior is left out
+};
+
+/// Interfaces: two labels each.
+SortedStrata interfaces_of(const CommonView& view, std::uint32_t threads);
+
+/// Lines: edges with three labels or more. Where `sides_apart`, each side of the box counts as one, and the exterior
+/// stands in `labels` as often as there are sides: an edge of the box is a line. Else the exterior counts once.
+SortedStrata lines_of(const CommonView& view, bool sides_apart, std::uint32_t threads);
+
+}  // namespace regionmesh

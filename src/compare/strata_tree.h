@@ -1,0 +1,62 @@
+// What is nearest to a point: of all faces, of those of one region, of those of one interface? The same for lines.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compare/box_tree.h"
+#include "compare/sorted_strata.h"
+
+namespace regionmesh {
+
+inline constexpr std::uint32_t kNoSimplex = 0xFFFFFFFFu;
+
+/// A nearest simplex. Of several at one distance any: the same in every run.
+struct Nearest {
+    double squared = HUGE_VAL;  // distance
+    std::uint32_t simplex = kNoSimplex;
+    std::uint32_t stratum = kNoStratum;
+};
+
+/// Runs of 64 neighbouring simplices of one stratum, with small trees of boxes over the runs: one over all, one for
+/// each label, one for each stratum. About 30 bytes a simplex beside the simplices. Refers to its argument.
+class StrataTree {
+public:
+    StrataTree(const SortedStrata& sorted, std::uint32_t threads);
+
+    /// The search begins with what `guess` found for another point, and is quick where that is near.
+    Nearest nearest(Vec3 p, const Nearest& guess = {}) const;
+    /// Nothing is found where no stratum has the label, or there is no such stratum.
+    Nearest nearest_of_label(Vec3 p, Label label) const;
+    Nearest nearest_of_stratum(Vec3 p, std::uint32_t stratum) const;
+
+    bool has_label(Label label) const { return label < by_label_.size() && !by_label_[label].is_empty(); }
+    const SortedStrata& sorted() const { return sorted_; }
+
+private:
+    /// Up to eight blocks of up to eight simplices.
+    struct Run {
+        std::uint32_t first_simplex, first_block, stratum;
+        EightBoxes blocks;
+    };
+
+    void make_runs();
+    void put_boxes(Run& run);
+    void make_trees();
+    FloatPoint to_frame(Vec3 p) const;
+    float limit_of(double squared) const;
+    FloatBox outward(const Simplex& s) const;
+    Nearest search(const BoxTree& tree, Vec3 p, Nearest found) const;
+    void look_into(const Run& run, Vec3 p, const FloatPoint& in_frame, Nearest& found, float& limit) const;
+    double squared_distance_to(Vec3 p, std::uint32_t simplex, double bound) const;
+
+    const SortedStrata& sorted_;
+    Vec3 middle_;       // single precision counts from here,
+    double scale_ = 1;  // in half extents of the model
+    std::vector<Run> runs_;
+    std::vector<EightBoxes> blocks_;
+    BoxTree all_;
+    std::vector<BoxTree> by_label_, by_stratum_;
+};
+
+}  // namespace regionmesh

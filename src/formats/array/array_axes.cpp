@@ -1,0 +1,120 @@
+#include "formats/array/array_axes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/input_file.h"
+
+namespace regionmesh::formats {
+namespace {
+
+std::string shape_text(const std::vector<std::uint64_t>& shape) {
+    std::string text;
+    for (const std::uint64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
+    return text;
+}
+
+/// The axes that stay of more than three, where they have no names.
+std::vector<int> drop_single(const std::vector<std::uint64_t>& shape) {
+    std::vector<int> kept;
+    for (int axis = 0; axis < static_cast<int>(shape.size()); ++axis) kept.push_back(axis);
+    while (kept.size() > 3 && shape[kept.back()] == 1) kept.pop_back();
+    while (kept.size() > 3 && shape[kept.front()] == 1) kept.erase(kept.begin());
+    while (kept.size() > 3) {
+        const auto single = std::find_if(kept.begin(), kept.end(), [&](int axis) { return shape[axis] == 1; });
+        if (single == kept.end()) break;
+        kept.erase(single);
+    }
+    return kept;
+}
+
+ArrayAxes unnamed_axes(const std::filesystem::path& source, const std::vector<std::uint64_t>& shape) {
+    const std::vector<int> kept = drop_single(shape);
+    if (kept.size() < 2 || kept.size() > 3) {
+        fail(source, "the array has " + std::to_string(shape.size()) + " dimensions (" + shape_text(shape) +
+                         ") without names for them; save one of shape (z, y, x)");
+    }
+    ArrayAxes axes;
+    for (std::size_t i = 0; i < kept.size(); ++i) axes.axis[i] = kept[kept.size() - 1 - i];
+    return axes;
+}
+
+}  // namespace
+
+std::array<std::uint64_t, 3> ArrayAxes::along(const std::vector<std::uint64_t>& numbers,
+                                              std::uint64_t otherwise) const {
+    std::array<std::uint64_t, 3> chosen{};
+    for (int i = 0; i < 3; ++i) chosen[i] = axis[i] < 0 ? otherwise : numbers[axis[i]];
+    return chosen;
+}
+
+ReadOptions ArrayAxes::without_layer(const ReadOptions& options) const {
+    ReadOptions rest = options;
+    if (has_layers) rest.layer.reset();
+    return rest;
+}
+
+ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std::uint64_t>& shape,
+                      const std::vector<std::string>& names, const ReadOptions& options) {
+    ArrayAxes axes;
+    if (names.size() == shape.size()) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const std::size_t known = std::string("xyz").find(names[i]);
+            if (names[i].size() == 1 && known != std::string::npos) axes.axis[known] = static_cast<int>(i);
+        }
+    }
+    const bool is_named = axes.axis[0] >= 0 && axes.axis[1] >= 0;
+    if (!is_named) axes = unnamed_axes(source, shape);
+    axes.index.assign(shape.size(), 0);
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        if (std::ranges::count(axes.axis, static_cast<int>(i)) > 0 || shape[i] == 1) continue;
+        const std::string what = "axis '" + names[i] + "' has " + std::to_string(shape[i]) + " samples";
+        if (axes.has_layers)
+            fail(source, what + ", and another axis beside x, y, z more than one, too; save one volume");
+        if (!options.layer) fail(source, what + "; choose one with --layer 0 to " + std::to_string(shape[i] - 1));
+        if (*options.layer >= shape[i]) fail(source, what + "; there is no " + std::to_string(*options.layer));
+        axes.index[i] = *options.layer;
+        axes.has_layers = true;
+    }
+    return axes;
+}
+
+void place(VolumeInfo& info, const Placement& placement, const ReadOptions& options) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double spacing = placement.spacing[axis], origin = placement.origin[axis];
+        if (!options.spacing && (!std::isfinite(spacing) || spacing == 0)) {
+            fail(info.source, std::string("spacing along ") + "xyz"[axis] + " is " + std::to_string(spacing) +
+                                  " in the file; give the right one with --spacing X,Y,Z");
+        }
+        if (!std::isfinite(origin)) {
+            fail(info.source, std::string("the place of the first sample along ") + "xyz"[axis] + " is " +
+                                  std::to_string(origin) + "; mend the file");
+        }
+        info.lattice.spacing[axis] = std::abs(spacing);
+        info.lattice.origin[axis] = origin;
+        info.lattice.direction[axis * 4] = spacing < 0 ? -1 : 1;
+    }
+}
+
+Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const FindNumbers& find) {
+    Placement placement;
+    const auto take = [&](const char* name, std::array<double, 3>& target) {
+        std::vector<double> numbers = find(name);
+        const bool is_whole = numbers.size() == axis_count;
+        if (!is_whole && numbers.size() != 3) return false;
+        for (int i = 0; i < 3; ++i) {
+            if (is_whole && axes.axis[i] >= 0) target[i] = numbers[axes.axis[i]];
+            if (!is_whole) target[i] = numbers[2 - i];
+        }
+        return true;
+    };
+    for (const char* name : {"element_size_um", "voxel_size", "resolution", "spacing"}) {
+        if (take(name, placement.spacing)) break;
+    }
+    for (const char* name : {"offset", "origin", "translation"}) {
+        if (take(name, placement.origin)) break;
+    }
+    return placement;
+}
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,75 @@
+#include "formats/array/stream_reader.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+#include <vector>
+
+#include "formats/array/volume_size.h"
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr std::uint64_t kPartSamples = std::uint64_t{1} << 17;  // read and turned into labels at a time
+constexpr std::uint64_t kMostPartBytes = std::uint64_t{1} << 20;
+
+class StreamReader final : public SectionReader {
+public:
+    StreamReader(std::unique_ptr<ByteStream> stream, VolumeInfo info, const StreamLayout& layout)
+        : stream_(std::move(stream)), info_(std::move(info)), layout_(layout) {}
+
+    const VolumeInfo& info() const override { return info_; }
+
+    bool next(std::span<InputLabel> section) override {
+        assert(section.size() == std::size_t{section_width()} * section_height());
+        if (next_ == section_count()) return false;
+        if (!is_at_data_ && !stream_->skip(layout_.offset)) refuse();
+        is_at_data_ = true;
+        const std::size_t bytes = sample_bytes(layout_.format.type), pitch = bytes * layout_.components;
+        const std::size_t part = std::clamp<std::size_t>(kMostPartBytes / pitch, 1, kPartSamples);
+        part_.resize(std::min(part, section.size()) * pitch);
+        for (std::size_t done = 0; done < section.size();) {
+            const std::size_t count = std::min(part_.size() / pitch, section.size() - done);
+            if (stream_->read(std::span(part_).first(count * pitch)) < count * pitch) refuse();
+            decode_samples(part_.data() + layout_.component * bytes, pitch, layout_.format,
+                           section.subspan(done, count));
+            done += count;
+        }
+        if (next_ + 1 == section_count() && !stream_->finish()) refuse();
+        ++next_;
+        return true;
+    }
+
+    void rewind() override {
+        stream_->rewind();
+        is_at_data_ = false;
+        next_ = 0;
+    }
+
+private:
+    [[noreturn]] void refuse() const { fail_section(info_.source, next_, stream_->problem()); }
+
+    std::unique_ptr<ByteStream> stream_;
+    VolumeInfo info_;
+    StreamLayout layout_;
+    std::vector<std::byte> part_;
+    bool is_at_data_ = false;
+    std::uint32_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SectionReader> open_stream(std::unique_ptr<ByteStream> stream, VolumeInfo info,
+                                           const StreamLayout& layout, const ReadOptions& options,
+                                           const std::string& remedy) {
+    apply_options(info, options, remedy);
+    return std::make_unique<StreamReader>(std::move(stream), std::move(info), layout);
+}
+
+void check_inflated(const std::filesystem::path& path, std::uint64_t packed_bytes, std::uint64_t needed) {
+    if (needed / kMaxInflation <= packed_bytes) return;
+    fail(path, "compressed samples of " + std::to_string(packed_bytes) + " bytes cannot hold the " +
+                   std::to_string(needed) + " that its header says; the file is truncated, fetch it again");
+}
+
+}  // namespace regionmesh::formats

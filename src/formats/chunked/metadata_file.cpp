@@ -1,0 +1,40 @@
+#include "formats/chunked/metadata_file.h"
+
+#include <string>
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20;
+constexpr int kMaxDepth = 100;  // copies of JSON go down it one call a level
+
+bool is_too_deep(const std::string& text) {
+    int depth = 0;
+    bool is_word = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') is_word = !is_word;
+        if (is_word && c == '\\') ++i;
+        if (is_word) continue;
+        if (c == '[' || c == '{') ++depth;
+        if (c == ']' || c == '}') --depth;
+        if (depth > kMaxDepth) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+std::optional<nlohmann::json> read_json(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found) return std::nullopt;
+    const InputFile file(path);
+    if (file.size() > kMaxBytes)
+        fail(path, "the metadata take " + std::to_string(file.size()) + " bytes; check the file");
+    std::string text(file.size(), '\0');
+    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
+    if (is_too_deep(text)) fail(path, "the metadata are nested deeper than " + std::to_string(kMaxDepth));
+    return reading(path, [&] { return nlohmann::json::parse(text); });
+}
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,95 @@
+// https://ngff.openmicroscopy.org
+#include "formats/chunked/ome_zarr.h"
+
+#include <algorithm>
+
+#include "formats/chunked/metadata_file.h"
+
+namespace regionmesh::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// Version 0.5 has a place of its own.
+const Json& ome_part(const Json& attributes) {
+    return attributes.is_object() && attributes.contains("ome") ? attributes.at("ome") : attributes;
+}
+
+/// Objects since version 0.4, words in 0.3; before that axes had an order, and no names.
+std::vector<std::string> axis_names(const Json& image) {
+    if (!image.contains("axes")) return {"t", "c", "z", "y", "x"};
+    std::vector<std::string> names;
+    for (const Json& axis : image.at("axes")) {
+        std::string name = axis.is_string() ? axis : axis.at("name");
+        std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+        names.push_back(name);
+    }
+    return names;
+}
+
+/// One after another: each acts on what those before it made.
+void transform(const fs::path& group, const Json& transformations, OmeLevel& level) {
+    for (const Json& step : transformations) {
+        const std::string type = step.at("type");
+        if (type == "identity") continue;
+        if ((type != "scale" && type != "translation") || !step.contains(type))
+            fail(group, "places in space are given by '" + type + "', which is not read; scale and translation are");
+        const auto numbers = step.at(type).get<std::vector<double>>();
+        level.scale.resize(numbers.size(), 1);
+        level.translation.resize(numbers.size(), 0);
+        for (std::size_t axis = 0; axis < numbers.size(); ++axis) {
+            if (type == "translation") level.translation[axis] += numbers[axis];
+            if (type == "scale") level.scale[axis] *= numbers[axis];
+            if (type == "scale") level.translation[axis] *= numbers[axis];
+        }
+    }
+}
+
+bool leaves_its_folder(const fs::path& path) {
+    return path.is_absolute() || std::ranges::find(path, "..") != path.end();
+}
+
+}  // namespace
+
+std::vector<OmeLevel> ome_levels(const fs::path& group, const Json& attributes) {
+    const Json& ome = ome_part(attributes);
+    if (!ome.is_object() || !ome.contains("multiscales")) return {};
+    return reading(group, [&] {
+        std::vector<OmeLevel> levels;
+        const Json& image = ome.at("multiscales").at(0);
+        for (const Json& dataset : image.at("datasets")) {
+            const fs::path path = dataset.at("path").get<std::string>();
+            if (leaves_its_folder(path)) fail(group, "an image has its samples at " + path.string() + ", outside");
+            OmeLevel level{.folder = group / path, .axes = axis_names(image), .scale = {}, .translation = {}};
+            const Json none = Json::array();
+            transform(group, dataset.value("coordinateTransformations", none), level);
+            transform(group, image.value("coordinateTransformations", none), level);
+            levels.push_back(std::move(level));
+        }
+        if (levels.empty()) fail(group, "the image has no resolution; write the file again");
+        return levels;
+    });
+}
+
+LabelNames ome_label_names(const Json& attributes) {
+    const Json& ome = ome_part(attributes);
+    LabelNames names;
+    if (!ome.is_object() || !ome.contains("image-label")) return names;
+    const Json& properties = ome.at("image-label").value("properties", Json::array());
+    for (const Json& property : properties) {
+        if (!property.is_object() || !property.value("label-value", Json()).is_number_integer()) continue;
+        for (const char* key : {"name", "label", "class"}) {
+            const Json word = property.value(key, Json());
+            if (!word.is_string() || word.get<std::string>().empty()) continue;
+            std::string text = word;
+            std::ranges::replace_if(
+                text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+            names[property.at("label-value").get<InputLabel>()] = text;
+            break;
+        }
+    }
+    return names;
+}
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,171 @@
+// https://github.com/saalfeldlab/n5: the file system specification.
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+#include "formats/array/volume_formats.h"
+#include "formats/chunked/metadata_file.h"
+#include "formats/chunked/store_array.h"
+#include "formats/chunked/store_search.h"
+#include "formats/input_file.h"
+
+namespace regionmesh::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* kFile = "attributes.json";
+constexpr int kMaxLevelDepth = 4;  // folders above an array that may speak for it
+
+Json attributes_of(const fs::path& folder) { return read_json(folder / kFile).value_or(Json::object()); }
+
+bool is_array(const Json& attributes) {
+    return attributes.is_object() && attributes.contains("dimensions") && attributes.contains("dataType");
+}
+
+std::vector<Codec> parse_compression(const fs::path& metadata, const Json& attributes) {
+    const Json compression = attributes.value("compression", attributes.value("compressionType", Json("raw")));
+    const std::string name = compression.is_string() ? compression : compression.at("type");
+    if (name == "raw") return {};
+    const auto codec = parse_codec(name);
+    if (!codec || *codec == Codec::kCrc32c) refuse_codec(metadata, name);
+    return {*codec};
+}
+
+/// Lists of N5 have the fastest axis first.
+template <class Number>
+std::vector<Number> slowest_first(const Json& list) {
+    auto numbers = list.get<std::vector<Number>>();
+    std::ranges::reverse(numbers);
+    return numbers;
+}
+
+StoreArray parse_array(const fs::path& folder, const Json& attributes) {
+    const fs::path metadata = folder / kFile;
+    StoreArray array{.folder = folder, .attributes = attributes};
+    reading(metadata, [&] {
+        array.shape = slowest_first<std::uint64_t>(attributes.at("dimensions"));
+        array.chunk = slowest_first<std::uint64_t>(attributes.at("blockSize"));
+        array.format = {.type = integer_type(metadata, attributes.at("dataType")), .is_big_endian = true};
+        array.codecs = parse_compression(metadata, attributes);
+    });
+    array.file = array.chunk;
+    array.stored.resize(array.chunk.size());
+    std::iota(array.stored.begin(), array.stored.end(), 0);
+    array.fill.resize(sample_bytes(array.format.type));
+    array.has_head = true;
+    array.names = {.separator = '/', .is_reversed = true};
+    check_array(array, metadata);
+    return array;
+}
+
+/// `s0` of a group is its finest resolution.
+fs::path find(const fs::path& folder) {
+    if (is_array(attributes_of(folder))) return folder;
+    if (is_array(attributes_of(folder / "s0"))) return folder / "s0";
+    const fs::path only = only_volume(folder, [](const fs::path& below) {
+        if (is_array(attributes_of(below / "s0"))) return StoreEntry::kVolume;
+        const Json attributes = attributes_of(below);
+        if (!is_array(attributes)) return StoreEntry::kGroup;
+        return may_be_volume(parse_array(below, attributes).shape) ? StoreEntry::kVolume : StoreEntry::kOther;
+    });
+    return is_array(attributes_of(only)) ? only : only / "s0";
+}
+
+/// Three numbers or more, alone or under `dimensions`.
+std::vector<double> numbers_of(const Json& attributes, const char* key) {
+    std::vector<double> numbers;
+    const Json value = attributes.is_object() ? attributes.value(key, Json()) : Json();
+    const Json list = value.is_object() ? value.value("dimensions", Json()) : value;
+    for (const Json& number : list.is_array() ? list : Json::array()) {
+        if (number.is_number()) numbers.push_back(number);
+    }
+    return numbers;
+}
+
+/// Of level 3 for an array called `s3`, from a list of all levels above it.
+std::vector<double> factors_of_level(const fs::path& array, const Json& attributes) {
+    const std::string name = array.filename().string();
+    std::size_t level = 0;
+    if (name.size() < 2 || name[0] != 's' ||
+        std::from_chars(&name[1], name.data() + name.size(), level).ptr != name.data() + name.size()) {
+        return {};
+    }
+    for (const char* key : {"downsamplingFactors", "scales"}) {
+        const Json list = attributes.is_object() ? attributes.value(key, Json()) : Json();
+        if (list.is_array() && level < list.size() && list.at(level).is_array())
+            return numbers_of({{"factors", list.at(level)}}, "factors");
+    }
+    return {};
+}
+
+/// The array's own numbers go before those of the groups it lies in, and nearer groups before farther ones.
+struct Found {
+    std::vector<double> resolution, factors, offset;
+};
+
+Found find_numbers(const fs::path& array) {
+    Found found;
+    fs::path folder = fs::absolute(array);
+    for (int depth = 0; depth <= kMaxLevelDepth; ++depth, folder = folder.parent_path()) {
+        const Json attributes = attributes_of(folder);
+        for (const char* key : {"pixelResolution", "resolution"})
+            if (found.resolution.empty()) found.resolution = numbers_of(attributes, key);
+        if (found.offset.empty()) found.offset = numbers_of(attributes, "offset");
+        if (found.factors.empty() && depth == 0) found.factors = numbers_of(attributes, "downsamplingFactors");
+        if (found.factors.empty() && depth > 0) found.factors = factors_of_level(array, attributes);
+        if (attributes.is_object() && attributes.contains("n5")) break;  // the root
+    }
+    return found;
+}
+
+/// With axes by name: {"axes": ["z", "y", "x"], "scale": [...], "translate": [...]}.
+bool take_transform(const Json& attributes, Placement& placement) {
+    const Json transform = attributes.value("transform", Json());
+    if (!transform.is_object() || !transform.value("axes", Json()).is_array()) return false;
+    const std::vector<double> scale = numbers_of(transform, "scale"), translate = numbers_of(transform, "translate");
+    const Json& axes = transform.at("axes");
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const std::size_t axis = axes[i].is_string() ? std::string("xyz").find(axes[i].get<std::string>()) : 3;
+        if (axis > 2) continue;
+        if (i < scale.size()) placement.spacing[axis] = scale[i];
+        if (i < translate.size()) placement.origin[axis] = translate[i];
+    }
+    return true;
+}
+
+/// A sample of a coarser level stands in the middle of those it was made from.
+Placement placement_of(const StoreArray& array) {
+    Placement placement;
+    if (take_transform(array.attributes, placement)) return placement;
+    const Found found = find_numbers(array.folder);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double resolution = axis < found.resolution.size() ? found.resolution[axis] : 1;
+        const double factor = axis < found.factors.size() ? found.factors[axis] : 1;
+        placement.spacing[axis] = resolution * factor;
+        placement.origin[axis] = resolution * (factor - 1) / 2 + (axis < found.offset.size() ? found.offset[axis] : 0);
+    }
+    return placement;
+}
+
+}  // namespace
+
+bool is_n5(const fs::path& folder) {
+    const Json attributes = attributes_of(folder);
+    if (is_array(attributes) || (attributes.is_object() && attributes.contains("n5"))) return true;
+    return is_array(attributes_of(folder / "s0"));
+}
+
+std::unique_ptr<SectionReader> open_n5(const fs::path& path, const ReadOptions& options) {
+    fs::path folder = path.lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();
+    const fs::path found = find(folder);
+    StoreArray array = parse_array(found, attributes_of(found));
+    StoreVolume volume{.format = "n5", .source = path.string()};
+    volume.axes = choose_axes(found, array.shape, {}, options);
+    volume.placement = placement_of(array);
+    return open_store_array(std::move(array), std::move(volume), options);
+}
+
+}  // namespace regionmesh::formats

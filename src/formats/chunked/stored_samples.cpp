@@ -1,0 +1,168 @@
+#include "formats/chunked/stored_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "formats/array/flat_reader.h"
+#include "formats/array/stream_reader.h"
+#include "formats/array/volume_size.h"
+#include "formats/codec/deflate_stream.h"
+#include "formats/text/ascii_stream.h"
+#include "formats/text/header_text.h"
+
+namespace regionmesh::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 1'000'000;
+
+/// Behind the lines that are passed over.
+std::uint64_t after_lines(const InputFile& file, std::uint64_t place, std::uint64_t lines) {
+    std::array<char, 4096> text;
+    while (lines > 0) {
+        const std::size_t count = file.read(place, std::as_writable_bytes(std::span(text)));
+        if (count == 0) fail(file.path(), fmt::format("ends {} lines before its samples; check the line skip", lines));
+        for (std::size_t i = 0; i < count && lines > 0; ++i, ++place) lines -= text[i] == '\n';
+    }
+    return place;
+}
+
+/// Where the samples of one file begin; of a deflated file, where the stream does.
+std::uint64_t samples_begin(const StoredSamples& samples, const InputFile& file, std::uint64_t needed) {
+    const std::uint64_t begin = after_lines(file, samples.begin, samples.skipped_lines);
+    if (samples.encoding == Encoding::kDeflated) return begin;
+    const std::uint64_t present = file.size() - std::min(begin, file.size());
+    if (samples.skipped_bytes >= 0) return begin + std::min<std::uint64_t>(samples.skipped_bytes, present);
+    if (samples.encoding == Encoding::kAscii) fail(file.path(), "samples as text cannot be found from its end");
+    return begin + (present < needed ? 0 : present - needed);
+}
+
+void check_present(const StoredSamples& samples, const InputFile& file, std::uint64_t begin, std::uint64_t needed) {
+    const std::uint64_t present = file.size() - std::min(begin, file.size());
+    if (samples.encoding == Encoding::kDeflated) {
+        check_inflated(file.path(), present, needed);
+        check_inflated(file.path(), present, static_cast<std::uint64_t>(samples.skipped_bytes));
+        return;
+    }
+    const bool is_ascii = samples.encoding == Encoding::kAscii;
+    const std::uint64_t most = is_ascii ? most_ascii_samples(present) : present;
+    if (most >= (is_ascii ? needed / sample_bytes(kAsciiFormat.type) : needed)) return;
+    fail(file.path(),
+         fmt::format("has {} bytes of samples, fewer than the header says; it is truncated, fetch it again", present));
+}
+
+StreamPart part_of(const StoredSamples& samples, const fs::path& path, std::uint64_t needed) {
+    const InputFile file(path);
+    const std::uint64_t begin = samples_begin(samples, file, needed);
+    check_present(samples, file, begin, needed);
+    return {[path, begin, encoding = samples.encoding, skip = samples.skipped_bytes]() -> std::unique_ptr<ByteStream> {
+                if (encoding == Encoding::kRaw) return std::make_unique<PlainStream>(InputFile(path), begin);
+                if (encoding == Encoding::kAscii) return std::make_unique<AsciiStream>(InputFile(path), begin);
+                auto stream = std::make_unique<DeflateStream>(InputFile(path), begin);
+                stream->skip(static_cast<std::uint64_t>(skip));  // where it cannot, the first read says why
+                return stream;
+            },
+            needed};
+}
+
+struct Pattern {
+    std::string_view before, after;
+    std::size_t width = 0;
+    bool has_zeros = false;
+};
+
+std::optional<Pattern> parse_pattern(std::string_view text) {
+    const std::size_t percent = text.find('%');
+    if (percent == std::string_view::npos) return std::nullopt;
+    Pattern pattern{text.substr(0, percent), text.substr(percent + 1)};
+    std::string_view& rest = pattern.after;
+    if (rest.starts_with('0')) pattern.has_zeros = true;
+    for (; !rest.empty() && rest[0] >= '0' && rest[0] <= '9' && pattern.width < 100; rest.remove_prefix(1))
+        pattern.width = 10 * pattern.width + static_cast<std::size_t>(rest[0] - '0');
+    if (rest.empty() || (rest[0] != 'd' && rest[0] != 'i' && rest[0] != 'u')) return std::nullopt;
+    rest.remove_prefix(1);
+    if (pattern.width >= 100 || rest.find('%') != std::string_view::npos) return std::nullopt;
+    return pattern;
+}
+
+}  // namespace
+
+std::unique_ptr<SectionReader> open_samples(const StoredSamples& samples, VolumeInfo info, const ReadOptions& options) {
+    const fs::path header = info.source;
+    const SampleFormat format = samples.encoding == Encoding::kAscii ? kAsciiFormat : samples.format;
+    const std::uint64_t volume =
+        volume_bytes(header, info.lattice.size, sample_bytes(format.type) * samples.components);
+    if (volume > std::numeric_limits<std::int64_t>::max() / samples.blocks)
+        fail(header, "describes more samples than any file holds; check the header");
+    const std::uint64_t all = volume * samples.blocks;
+    if (samples.encoding == Encoding::kDeflated && samples.skipped_bytes < 0)
+        fail(header, "compressed samples cannot be found from the end of the file; give the bytes to skip");
+    if (samples.files.empty() || all % samples.files.size() != 0) {
+        fail(header, fmt::format("names {} files for {} samples; each must hold as many", samples.files.size(),
+                                 size_text({info.lattice.size[0], info.lattice.size[1], info.lattice.size[2]})));
+    }
+    if (samples.encoding == Encoding::kRaw && samples.files.size() == 1 && samples.components == 1) {
+        info.can_sweep = {true, true, true};
+        InputFile file(samples.files[0]);
+        const std::uint64_t offset = samples_begin(samples, file, all) + samples.block * volume;
+        return open_flat(std::move(file), std::move(info), {.offset = offset, .format = format}, options);
+    }
+    std::vector<StreamPart> parts;
+    for (const fs::path& file : samples.files) parts.push_back(part_of(samples, file, all / samples.files.size()));
+    const StreamLayout layout{.offset = samples.block * volume,
+                              .format = format,
+                              .components = samples.components,
+                              .component = samples.component};
+    return open_stream(std::make_unique<JoinedStream>(std::move(parts)), std::move(info), layout, options,
+                       "give --sweep z, or write the samples uncompressed in one file");
+}
+
+fs::path file_beside(const fs::path& header, std::string_view name) { return header.parent_path() / name; }
+
+std::vector<fs::path> listed_files(const fs::path& header, std::string_view text) {
+    std::vector<fs::path> files;
+    while (!text.empty()) {
+        const std::string_view name = trim(take_line(text));
+        if (!name.empty()) files.push_back(file_beside(header, name));
+        if (files.size() > kMostFiles) fail(header, "lists more than a million files of samples; check the header");
+    }
+    if (files.empty()) fail(header, "lists no files of samples; name them below");
+    return files;
+}
+
+bool is_pattern(std::string_view text) { return parse_pattern(text).has_value(); }
+
+std::vector<fs::path> numbered_files(const fs::path& header, std::string_view text) {
+    const auto refuse = [&](const char* what) {
+        fail(header, fmt::format("the file pattern '{}' {}; write one such as 'z%03d.raw 1 10 1'", shown(text), what));
+    };
+    const auto words = split_words(text);
+    const auto pattern = parse_pattern(words.empty() ? text : words[0]);
+    std::array<std::int64_t, 3> numbers{0, 0, 1};  // first, last, step
+    if (!pattern || words.size() < 3) refuse("has no number to fill in, or no first and last one");
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, words.size() - 1); ++i) {
+        const auto number = parse_integer(words[i + 1]);
+        if (!number || *number < -1'000'000'000'000 || *number > 1'000'000'000'000)
+            refuse("has something that is no number");
+        numbers[i] = *number;
+    }
+    const auto [first, last, step] = numbers;
+    if (step == 0 || (last - first) / step < 0) refuse("never comes to its last number");
+    if (static_cast<std::uint64_t>((last - first) / step) >= kMostFiles) refuse("stands for more than a million files");
+    std::vector<fs::path> files;
+    for (std::int64_t number = first; step > 0 ? number <= last : number >= last; number += step) {
+        const std::string digits = pattern->has_zeros ? fmt::format("{:0{}}", number, pattern->width)
+                                                      : fmt::format("{:{}}", number, pattern->width);
+        files.push_back(file_beside(header, std::string(pattern->before) + digits + std::string(pattern->after)));
+        const InputFile there(files.back());
+    }
+    return files;
+}
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,76 @@
+// Bytes that come forward, one piece after the other: stored plainly, deflated, or as text.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/input_file.h"
+
+namespace regionmesh::formats {
+
+/// Holds a bounded number of bytes, whatever the length of the stream.
+class ByteStream {
+public:
+    virtual ~ByteStream() = default;
+
+    /// Fills `bytes`; returns how many there were. Where they are fewer, problem() says why and what to do.
+    virtual std::size_t read(std::span<std::byte> bytes) = 0;
+
+    /// Back to the first byte.
+    virtual void rewind() = 0;
+
+    /// After the last byte that is needed: false, and a problem, where what follows shows that the stream is damaged.
+    virtual bool finish() { return true; }
+
+    virtual const std::string& problem() const = 0;
+
+    /// Passes over `count` bytes; false where there are fewer.
+    bool skip(std::uint64_t count);
+};
+
+/// The bytes of a file as they lie there, from one place to another or to its end.
+class PlainStream final : public ByteStream {
+public:
+    explicit PlainStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX)
+        : file_(std::move(file)), begin_(begin), end_(end), place_(begin) {}
+
+    std::size_t read(std::span<std::byte> bytes) override;
+    void rewind() override;
+    const std::string& problem() const override { return problem_; }
+
+private:
+    InputFile file_;
+    std::uint64_t begin_, end_, place_;
+    std::string problem_;
+};
+
+/// A stream, and how many of its bytes count.
+struct StreamPart {
+    std::function<std::unique_ptr<ByteStream>()> open;
+    std::uint64_t bytes;
+};
+
+/// Several streams, one behind the other; one at a time is open.
+class JoinedStream final : public ByteStream {
+public:
+    explicit JoinedStream(std::vector<StreamPart> parts) : parts_(std::move(parts)) {}
+
+    std::size_t read(std::span<std::byte> bytes) override;
+    void rewind() override;
+    bool finish() override { return !stream_ || stream_->finish(); }
+    const std::string& problem() const override { return stream_ ? stream_->problem() : problem_; }
+
+private:
+    std::vector<StreamPart> parts_;
+    std::unique_ptr<ByteStream> stream_;
+    std::size_t next_ = 0;    // part
+    std::uint64_t left_ = 0;  // of the stream that is open
+    std::string problem_;
+};
+
+}  // namespace regionmesh::formats

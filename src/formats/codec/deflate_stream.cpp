@@ -1,0 +1,89 @@
+#include "formats/codec/deflate_stream.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <utility>
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr std::size_t kPackedBytes = std::size_t{256} << 10;
+constexpr int kAnyWrapper = 15 + 32;  // zlib: the largest window; the header says whether zlib or gzip wrote it
+constexpr std::array<std::byte, 2> kMagic{std::byte{0x1f}, std::byte{0x8b}};
+
+}  // namespace
+
+DeflateStream::DeflateStream(InputFile file, std::uint64_t begin)
+    : file_(std::move(file)), packed_(kPackedBytes), begin_(begin), packed_offset_(begin) {
+    if (inflateInit2(&stream_, kAnyWrapper) != Z_OK) throw std::bad_alloc();
+}
+
+DeflateStream::~DeflateStream() { inflateEnd(&stream_); }
+
+void DeflateStream::rewind() {
+    inflateReset(&stream_);
+    stream_.avail_in = 0;
+    packed_offset_ = begin_;
+    is_at_end_ = false;
+    problem_.clear();
+}
+
+bool DeflateStream::refill() {
+    const std::size_t count = file_.read(packed_offset_, packed_);
+    packed_offset_ += count;
+    stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
+    stream_.avail_in = static_cast<uInt>(count);
+    return count > 0;
+}
+
+/// What follows the last member and is not one itself (padding, most often) is passed over, as gzip does.
+bool DeflateStream::begin_next_member() {
+    std::array<std::byte, kMagic.size()> start{};
+    const bool is_member = file_.read(packed_offset_ - stream_.avail_in, start) == start.size() && start == kMagic;
+    if (is_member) inflateReset(&stream_);
+    return is_member;
+}
+
+std::size_t DeflateStream::read(std::span<std::byte> bytes) {
+    std::size_t done = 0;
+    while (done < bytes.size() && problem_.empty()) {
+        if (is_at_end_) {
+            problem_ = "the inflated data end here, before what the header says; write the file again";
+            break;
+        }
+        if (stream_.avail_in == 0 && !refill()) {
+            problem_ = "the compressed stream ends early; the file is truncated, fetch it again";
+            break;
+        }
+        const std::size_t wanted = std::min(bytes.size() - done, std::size_t{1} << 30);
+        stream_.next_out = reinterpret_cast<Bytef*>(bytes.data() + done);
+        stream_.avail_out = static_cast<uInt>(wanted);
+        const int status = inflate(&stream_, Z_NO_FLUSH);
+        done += wanted - stream_.avail_out;
+        if (status == Z_STREAM_END) {
+            is_at_end_ = !begin_next_member();
+        } else if (status != Z_OK && status != Z_BUF_ERROR) {
+            problem_ = std::string("the compressed stream is damaged (") + (stream_.msg ? stream_.msg : "zlib error") +
+                       "); fetch the file again";
+        }
+    }
+    return done;
+}
+
+bool DeflateStream::finish() {
+    std::array<std::byte, 4096> waste;
+    while (!is_at_end_) {
+        const std::size_t count = read(waste);
+        if (count < waste.size() && !is_at_end_) return false;
+    }
+    problem_.clear();
+    return true;
+}
+
+bool is_gzipped(const InputFile& file) {
+    std::array<std::byte, kMagic.size()> start{};
+    return file.read(0, start) == start.size() && start == kMagic;
+}
+
+}  // namespace regionmesh::formats

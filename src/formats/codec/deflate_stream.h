@@ -1,0 +1,48 @@
+// A deflated stream in a file, with the wrapper of gzip or of zlib, inflated forward in bounded memory.
+#pragma once
+
+#include <zlib.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/codec/byte_stream.h"
+
+namespace regionmesh::formats {
+
+/// Streams of several gzip members are read as one. Check sums are verified as their members end.
+class DeflateStream final : public ByteStream {
+public:
+    explicit DeflateStream(InputFile file, std::uint64_t begin = 0);
+    DeflateStream(const DeflateStream&) = delete;
+    DeflateStream& operator=(const DeflateStream&) = delete;
+    ~DeflateStream() override;
+
+    std::size_t read(std::span<std::byte> bytes) override;
+
+    /// Reads to the end, so that the last check sum is verified too; false where the stream is damaged or cut off.
+    bool finish() override;
+
+    void rewind() override;
+    const std::string& problem() const override { return problem_; }
+
+private:
+    bool refill();
+    bool begin_next_member();
+
+    InputFile file_;
+    std::vector<std::byte> packed_;
+    std::uint64_t begin_;
+    std::uint64_t packed_offset_;
+    z_stream stream_{};
+    bool is_at_end_ = false;
+    std::string problem_;
+};
+
+/// Whether the file begins as gzip does, whatever its name.
+bool is_gzipped(const InputFile& file);
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,23 @@
+// How one sample is stored, and how stored samples become labels.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "regionmesh/section_reader.h"
+
+namespace regionmesh::formats {
+
+struct SampleFormat {
+    SampleType type = SampleType::kU8;
+    bool is_big_endian = false;
+};
+
+/// Bytes of a stored sample. kU1 takes one byte here; images with packed bits have their own way (image_shape.h).
+std::size_t sample_bytes(SampleType type);
+
+/// Turns samples that begin `pitch` bytes apart into labels. Signed samples keep their sign, 64-bit unsigned ones their
+/// bits, and any kU1 sample but 0 is 1. Nothing need be aligned.
+void decode_samples(const std::byte* bytes, std::size_t pitch, SampleFormat format, std::span<InputLabel> labels);
+
+}  // namespace regionmesh::formats

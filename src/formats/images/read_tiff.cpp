@@ -1,0 +1,112 @@
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "formats/array/flat_reader.h"
+#include "formats/array/volume_formats.h"
+#include "formats/array/volume_size.h"
+#include "formats/images/tiff_file.h"
+
+namespace regionmesh::formats {
+namespace {
+
+/// A page a section.
+class TiffReader final : public SectionReader {
+public:
+    TiffReader(TiffFile file, VolumeInfo info, const ImageShape& shape)
+        : file_(std::move(file)), info_(std::move(info)), shape_(shape) {}
+
+    const VolumeInfo& info() const override { return info_; }
+
+    bool next(std::span<InputLabel> section) override {
+        assert(section.size() == std::size_t{section_width()} * section_height());
+        if (next_ == section_count()) return false;
+        file_.read_page(next_, next_, shape_, section);
+        ++next_;
+        return true;
+    }
+
+    void rewind() override { next_ = 0; }
+
+private:
+    TiffFile file_;
+    VolumeInfo info_;
+    ImageShape shape_;
+    std::uint32_t next_ = 0;
+};
+
+/// ImageJ's lines "key=value" in the description of the first page; `otherwise` where the key is missing.
+template <class Value>
+Value imagej_value(const std::string& description, std::string_view key, Value otherwise) {
+    std::string start = "\n";
+    start.append(key).append("=");
+    const std::size_t at = description.find(start);
+    if (at != std::string::npos) {
+        std::from_chars(description.data() + at + start.size(), description.data() + description.size(), otherwise);
+    }
+    return otherwise;
+}
+
+std::uint64_t imagej_count(const std::string& description, std::string_view key) {
+    return imagej_value<std::uint64_t>(description, key, 1);
+}
+
+/// Pixels a unit along x and y stand in the tags for resolution, the distance of sections in the description. Where
+/// ImageJ knows no unit, the resolution is that of some screen.
+Vec3 imagej_spacing(const std::string& description, const TiffFile& file) {
+    const std::size_t unit = description.find("\nunit=");
+    if (unit == std::string::npos || description.compare(unit, 12, "\nunit=pixel") == 0) return {1, 1, 1};
+    const auto [x, y] = file.resolution();
+    const double z = std::abs(imagej_value<double>(description, "spacing", 1));
+    const auto or_one = [](double length) { return std::isfinite(length) && length > 0 ? length : 1; };
+    return {or_one(1 / x), or_one(1 / y), or_one(z)};
+}
+
+void check_channels(const std::filesystem::path& path, const std::string& description) {
+    const std::uint64_t channels = imagej_count(description, "channels");
+    const std::uint64_t frames = imagej_count(description, "frames");
+    if (channels > 1 || (frames > 1 && imagej_count(description, "slices") > 1)) {
+        fail(path, "an ImageJ hyperstack of " + std::to_string(channels) + " channels and " + std::to_string(frames) +
+                       " frames; save one channel of one frame alone");
+    }
+}
+
+/// ImageJ writes stacks beyond 4 GiB, and on request all, as one page; the pixels of the others follow those of the
+/// first.
+std::unique_ptr<SectionReader> open_imagej_stack(const std::filesystem::path& path, const TiffFile& tiff,
+                                                 VolumeInfo info, const ImageShape& shape, const ReadOptions& options) {
+    const auto offset = tiff.bare_offset();
+    if (!offset || shape.channels != 1 || shape.bits < 8) {
+        fail(path, "an ImageJ stack of " + std::to_string(info.lattice.size[2]) + " images in one page, of " +
+                       describe(shape) + ", which is not read; save it uncompressed in 8 or 16 bit");
+    }
+    const FlatLayout layout{.offset = *offset, .format = {info.type, tiff.is_big_endian()}};
+    return open_flat(InputFile(path), std::move(info), layout, options);
+}
+
+}  // namespace
+
+std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, const ReadOptions& options) {
+    TiffFile file(path);
+    const ImageShape shape = file.read_shape(0, 0);
+    const std::string description = file.description();
+    std::uint64_t images = file.page_count();
+    const bool is_imagej = description.starts_with("ImageJ=");
+    if (is_imagej) {
+        check_channels(path, description);
+        if (images == 1) images = imagej_count(description, "images");
+    }
+    VolumeInfo info =
+        volume_info(path, "tiff", label_type(shape), checked_size(path, {shape.width, shape.height, images}));
+    if (is_imagej) info.lattice.spacing = imagej_spacing(description, file);
+    if (images > file.page_count()) return open_imagej_stack(path, file, std::move(info), shape, options);
+    for (std::uint32_t page = 1; page < file.page_count(); ++page) {
+        check_same_shape(path, page, file.read_shape(page, page), shape);
+    }
+    apply_options(info, options);
+    return std::make_unique<TiffReader>(std::move(file), std::move(info), shape);
+}
+
+}  // namespace regionmesh::formats

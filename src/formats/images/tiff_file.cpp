@@ -1,0 +1,243 @@
+#include "formats/images/tiff_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdarg>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "formats/array/volume_size.h"
+#include "formats/input_file.h"
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr std::uint64_t kMaxBlockBytes = std::uint64_t{1} << 30;
+
+/// How many bytes a byte of the file can become. A packbits pair gives 128; an LZW code, of nine bits or more, 4096.
+constexpr std::array<std::pair<int, std::uint64_t>, 5> kExpansions{{{COMPRESSION_NONE, 1},
+                                                                    {COMPRESSION_PACKBITS, 64},
+                                                                    {COMPRESSION_ADOBE_DEFLATE, kMaxInflation},
+                                                                    {COMPRESSION_DEFLATE, kMaxInflation},
+                                                                    {COMPRESSION_LZW, 4096}}};
+
+void keep_first(std::array<char, 256>& first, const char* format, va_list values) {
+    if (first[0] != '\0') return;
+    std::vsnprintf(first.data(), first.size(), format, values);
+    if (first[0] == '\0') first[0] = '?';
+}
+
+template <class Value>
+Value tag(TIFF* tiff, std::uint32_t name, Value otherwise) {
+    Value value = otherwise;
+    return TIFFGetFieldDefaulted(tiff, name, &value) == 1 ? value : otherwise;
+}
+
+}  // namespace
+
+/// Strips or tiles, the parts in which pixels are decoded.
+struct TiffFile::Blocks {
+    bool are_tiles;
+    std::uint32_t width, height;  // of one, in pixels
+    std::uint64_t row_bytes;
+    std::uint64_t bytes;
+    int planes;  // 1: the channels of a pixel beside each other
+};
+
+struct TiffFile::Block {
+    std::uint16_t plane;
+    std::uint32_t left, top;
+};
+
+int TiffFile::on_error(TIFF*, void* messages, const char*, const char* format, va_list values) {
+    keep_first(static_cast<Messages*>(messages)->first, format, values);
+    return 1;
+}
+
+int TiffFile::on_warning(TIFF*, void* messages, const char*, const char* format, va_list values) {
+    auto* kept = static_cast<Messages*>(messages);
+    if (kept->is_decoding) keep_first(kept->first, format, values);
+    return 1;
+}
+
+void TiffFile::refuse(std::uint64_t section, const std::string& otherwise) const {
+    const char* message = messages_->first.data();
+    fail_section(path_, section, "the TIFF file is damaged (" + (*message ? message : otherwise) + "); write it again");
+}
+
+TiffFile::TiffFile(const std::filesystem::path& path, std::uint64_t section)
+    : path_(path), messages_(std::make_unique<Messages>()) {
+    size_ = InputFile(path).size();
+    const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                               TIFFOpenOptionsFree);
+    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), on_error, messages_.get());
+    TIFFOpenOptionsSetWarningHandlerExtR(options.get(), on_warning, messages_.get());
+    TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(kMaxBlockBytes));
+    // "m": not mapped into memory, where a file cut short while it is read would end the program.
+    tiff_.reset(TIFFOpenExt(path.c_str(), "rm", options.get()));
+    if (!tiff_) refuse(section, "no TIFF header");
+    list_pages(section);
+}
+
+void TiffFile::list_pages(std::uint64_t section) {
+    while (true) {
+        if (!(tag<std::uint32_t>(tiff_.get(), TIFFTAG_SUBFILETYPE, 0) & FILETYPE_REDUCEDIMAGE)) {
+            pages_.push_back(TIFFCurrentDirOffset(tiff_.get()));
+        }
+        if (TIFFLastDirectory(tiff_.get())) break;
+        if (!TIFFReadDirectory(tiff_.get())) refuse(section + pages_.size(), "a page has no directory");
+    }
+    if (pages_.empty() || messages_->first[0]) refuse(section, "no page");
+}
+
+void TiffFile::select(std::uint32_t page, std::uint64_t section) {
+    *messages_ = {};
+    if (TIFFCurrentDirOffset(tiff_.get()) == pages_[page]) return;
+    if (!TIFFSetSubDirectory(tiff_.get(), pages_[page]) || messages_->first[0])
+        refuse(section, "a page has no directory");
+}
+
+/// Refuses what is no label: real numbers, and colours that lossy codecs make up.
+void TiffFile::check_pixels(std::uint64_t section) const {
+    TIFF* tiff = tiff_.get();
+    const auto format = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    const char* what = nullptr;
+    if (format == SAMPLEFORMAT_IEEEFP) what = "float";
+    if (format == SAMPLEFORMAT_COMPLEXINT || format == SAMPLEFORMAT_COMPLEXIEEEFP) what = "complex";
+    if (what)
+        fail_section(path_, section,
+                     std::string("samples are ") + what + "; labels must be integers: convert to 16 or 32 bit");
+    const auto colours = tag<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    constexpr std::array kRead{PHOTOMETRIC_MINISWHITE, PHOTOMETRIC_MINISBLACK, PHOTOMETRIC_RGB, PHOTOMETRIC_PALETTE,
+                               PHOTOMETRIC_MASK};
+    if (std::find(kRead.begin(), kRead.end(), colours) == kRead.end()) {
+        fail_section(path_, section,
+                     "colours are coded in a way that is not read (PhotometricInterpretation " +
+                         std::to_string(colours) + "); convert to gray or RGB without loss");
+    }
+}
+
+/// Whether the file can unpack to so many bytes. For the codecs not named here nothing is known.
+bool TiffFile::can_hold(std::uint64_t bytes) const {
+    std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    const auto compression = tag<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    for (const auto& [code, expansion] : kExpansions) {
+        if (code == compression) most = expansion;
+    }
+    return bytes / most <= size_;
+}
+
+/// A header must not claim more pixels than the file can unpack to.
+void TiffFile::check_backing(const ImageShape& shape, std::uint64_t section) const {
+    const std::uint64_t row_bytes = (std::uint64_t{shape.width} * shape.channels * shape.bits + 7) / 8;
+    if (can_hold(row_bytes * shape.height)) return;
+    fail_section(path_, section,
+                 "the image is " + describe(shape) + ", more than a file of " + std::to_string(size_) +
+                     " bytes can hold; the file is truncated or damaged, fetch it again");
+}
+
+ImageShape TiffFile::read_shape(std::uint32_t page, std::uint64_t section) {
+    select(page, section);
+    check_pixels(section);
+    TIFF* tiff = tiff_.get();
+    const ImageShape shape{
+        .width = tag<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0),
+        .height = tag<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0),
+        .channels = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL, 1),
+        .bits = tag<std::uint16_t>(tiff, TIFFTAG_BITSPERSAMPLE, 1),
+        .is_signed = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) == SAMPLEFORMAT_INT,
+        .is_palette = tag<std::uint16_t>(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) == PHOTOMETRIC_PALETTE};
+    check_shape(path_, section, shape);
+    check_backing(shape, section);
+    return shape;
+}
+
+std::string TiffFile::description() const {
+    const char* text = nullptr;
+    return TIFFGetField(tiff_.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text ? text : "";
+}
+
+std::array<double, 2> TiffFile::resolution() const {
+    return {tag<float>(tiff_.get(), TIFFTAG_XRESOLUTION, 0), tag<float>(tiff_.get(), TIFFTAG_YRESOLUTION, 0)};
+}
+
+std::optional<std::uint64_t> TiffFile::bare_offset() const {
+    if (TIFFIsTiled(tiff_.get()) ||
+        tag<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE) {
+        return std::nullopt;
+    }
+    return TIFFGetStrileOffset(tiff_.get(), 0);
+}
+
+TiffFile::Blocks TiffFile::blocks(const ImageShape& shape, std::uint64_t section) const {
+    TIFF* tiff = tiff_.get();
+    Blocks blocks{.are_tiles = TIFFIsTiled(tiff) != 0,
+                  .width = shape.width,
+                  .height = shape.height,
+                  .row_bytes = 0,
+                  .bytes = 0,
+                  .planes = 1};
+    if (tag<std::uint16_t>(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE)
+        blocks.planes = shape.channels;
+    if (blocks.are_tiles) {
+        blocks.width = tag<std::uint32_t>(tiff, TIFFTAG_TILEWIDTH, 0);
+        blocks.height = tag<std::uint32_t>(tiff, TIFFTAG_TILELENGTH, 0);
+        blocks.row_bytes = TIFFTileRowSize64(tiff);
+    } else {
+        blocks.height = std::min(shape.height, tag<std::uint32_t>(tiff, TIFFTAG_ROWSPERSTRIP, shape.height));
+        blocks.row_bytes = TIFFScanlineSize64(tiff);
+    }
+    const std::uint64_t bits = std::uint64_t{blocks.width} * shape.bits * (blocks.planes == 1 ? shape.channels : 1);
+    if (bits == 0 || blocks.height == 0 || blocks.row_bytes < (bits + 7) / 8)
+        refuse(section, "strips or tiles without size");
+    if (blocks.row_bytes > kMaxBlockBytes / blocks.height) {
+        fail_section(path_, section, "one strip or tile takes more than 1 GiB; save it with smaller ones");
+    }
+    blocks.bytes = blocks.row_bytes * blocks.height;
+    if (!can_hold(blocks.bytes)) refuse(section, "a strip or tile is larger than the file can hold");
+    return blocks;
+}
+
+void TiffFile::decode(const Blocks& blocks, Block block, std::uint64_t section, std::span<std::byte> pixels) {
+    TIFF* tiff = tiff_.get();
+    const auto wanted = static_cast<tmsize_t>(pixels.size());
+    const tmsize_t count =
+        blocks.are_tiles
+            ? TIFFReadEncodedTile(tiff, TIFFComputeTile(tiff, block.left, block.top, 0, block.plane), pixels.data(),
+                                  wanted)
+            : TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, block.top, block.plane), pixels.data(), wanted);
+    if (count < wanted || messages_->first[0]) refuse(section, "a strip or tile is cut short");
+}
+
+void TiffFile::read_page(std::uint32_t page, std::uint64_t section, const ImageShape& expected,
+                         std::span<InputLabel> labels) {
+    check_same_shape(path_, section, read_shape(page, section), expected);
+    const Blocks all = blocks(expected, section);
+    std::vector<std::byte> pixels(all.bytes);
+    std::fill(labels.begin(), labels.end(), 0);
+    messages_->is_decoding = true;
+    // libtiff has put wide samples into the byte order of this machine.
+    RowFormat format{.channel_count = all.planes == 1 ? expected.channels : 1,
+                     .is_big_endian = std::endian::native == std::endian::big};
+    const auto read_block = [&](Block block) {
+        const std::uint32_t columns = std::min(all.width, expected.width - block.left);
+        const std::uint32_t rows = std::min(all.height, expected.height - block.top);
+        decode(all, block, section, std::span(pixels).first(all.row_bytes * (all.are_tiles ? all.height : rows)));
+        for (std::size_t row = 0; row < rows; ++row) {
+            unpack_row(std::span(pixels).subspan(row * all.row_bytes, all.row_bytes), expected, format,
+                       labels.subspan((block.top + row) * expected.width + block.left, columns));
+        }
+    };
+    for (int plane = 0; plane < all.planes; ++plane) {
+        format.first_channel = plane;
+        for (std::uint64_t top = 0; top < expected.height; top += all.height) {
+            for (std::uint64_t left = 0; left < expected.width; left += all.width) {
+                read_block({static_cast<std::uint16_t>(plane), static_cast<std::uint32_t>(left),
+                            static_cast<std::uint32_t>(top)});
+            }
+        }
+    }
+}
+
+}  // namespace regionmesh::formats

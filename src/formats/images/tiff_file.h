@@ -1,0 +1,74 @@
+// A TIFF file and its pages, by libtiff.
+#pragma once
+
+#include <tiffio.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/images/image_shape.h"
+
+namespace regionmesh::formats {
+
+/// An open file. What libtiff says becomes part of an Error, and nothing is printed. Errors are taken wherever they
+/// come; warnings only while pixels are decoded, where they mean damage: in directories most are about tags nobody
+/// needs.
+class TiffFile {
+public:
+    /// Lists the pages; smaller copies of others (previews) are no pages. `section` is for error messages.
+    explicit TiffFile(const std::filesystem::path& path, std::uint64_t section = 0);
+
+    std::uint32_t page_count() const { return static_cast<std::uint32_t>(pages_.size()); }
+    bool is_big_endian() const { return TIFFIsBigEndian(tiff_.get()) != 0; }
+
+    /// The shape of a page; section `section` of the volume is meant in errors. The page stays selected.
+    ImageShape read_shape(std::uint32_t page, std::uint64_t section);
+
+    /// Text of the selected page: its tag ImageDescription, often empty.
+    std::string description() const;
+
+    /// Pixels a unit along x and y of the selected page; 0 where it does not say.
+    std::array<double, 2> resolution() const;
+
+    /// Where the pixels of the selected page begin, if they are bare: not compressed and not in tiles.
+    std::optional<std::uint64_t> bare_offset() const;
+
+    /// Labels of a page, rows from the top. Throws where it is not like `expected`.
+    void read_page(std::uint32_t page, std::uint64_t section, const ImageShape& expected, std::span<InputLabel> labels);
+
+private:
+    struct Messages {
+        bool is_decoding = false;
+        std::array<char, 256> first{};  // empty while all is well
+    };
+    struct Close {
+        void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+    };
+    struct Blocks;
+    struct Block;
+
+    static int on_error(TIFF*, void* messages, const char*, const char* format, va_list values);
+    static int on_warning(TIFF*, void* messages, const char*, const char* format, va_list values);
+    [[noreturn]] void refuse(std::uint64_t section, const std::string& otherwise) const;
+    void list_pages(std::uint64_t section);
+    void select(std::uint32_t page, std::uint64_t section);
+    void check_pixels(std::uint64_t section) const;
+    bool can_hold(std::uint64_t bytes) const;
+    void check_backing(const ImageShape& shape, std::uint64_t section) const;
+    Blocks blocks(const ImageShape& shape, std::uint64_t section) const;
+    void decode(const Blocks& blocks, Block block, std::uint64_t section, std::span<std::byte> pixels);
+
+    std::filesystem::path path_;
+    std::uint64_t size_ = 0;
+    std::unique_ptr<Messages> messages_;  // libtiff keeps its address
+    std::unique_ptr<TIFF, Close> tiff_;
+    std::vector<std::uint64_t> pages_;  // places of their directories
+};
+
+}  // namespace regionmesh::formats

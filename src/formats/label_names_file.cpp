@@ -1,0 +1,296 @@
+#include "regionmesh/label_names_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <pugixml.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/input_file.h"
+#include "formats/text/header_text.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+using formats::trim;
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
+constexpr std::size_t kMostColumns = 1000;
+constexpr std::string_view kBlanks = " \t\r\v\f";
+constexpr char kAnyBlanks = ' ';  // the delimiter of tables without one
+
+struct Row {
+    std::size_t line;
+    std::vector<std::string> fields;
+};
+
+/// A whole number; spreadsheets may add ".0". Beyond the signed ones, the bits of an unsigned one.
+std::optional<InputLabel> parse_label(std::string_view text) {
+    if (const std::size_t point = text.find('.'); point != std::string_view::npos && point > 0) {
+        if (text.find_first_not_of('0', point + 1) != std::string_view::npos) return std::nullopt;
+        text = text.substr(0, point);
+    }
+    const char* const end = text.data() + text.size();
+    InputLabel label = 0;
+    std::uint64_t bits = 0;
+    if (const auto [stop, error] = std::from_chars(text.data(), end, label); error == std::errc{} && stop == end)
+        return label;
+    if (const auto [stop, error] = std::from_chars(text.data(), end, bits); error == std::errc{} && stop == end)
+        return static_cast<InputLabel>(bits);
+    return std::nullopt;
+}
+
+bool is_label(std::string_view text) { return parse_label(text).has_value(); }
+
+bool is_number(std::string_view text) {
+    if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return false;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error != std::errc::invalid_argument && end == text.data() + text.size();
+}
+
+/// The table on its way from text to names.
+class TableReader {
+public:
+    TableReader(const fs::path& path, std::string_view text) : path_(path), text_(text) {}
+
+    LabelNames read();
+
+private:
+    void split_lines();
+    Row split(std::size_t number, std::string_view line) const;
+    void join_words();
+    std::optional<std::size_t> column_by_header(const Row& header, std::span<const std::string_view> words,
+                                                bool has_labels, std::optional<std::size_t> other) const;
+    std::optional<std::size_t> first_column(bool has_labels) const;
+    bool column_has(std::size_t column, bool (*is_wanted)(std::string_view)) const;
+    [[noreturn]] void refuse(std::size_t line, const std::string& text) const {
+        formats::fail(path_, fmt::format("line {}: {}", line, text));
+    }
+
+    const fs::path& path_;
+    std::string_view text_;
+    char delimiter_ = kAnyBlanks;
+    std::vector<Row> rows_;
+};
+
+Row TableReader::split(std::size_t number, std::string_view line) const {
+    Row row{number, {}};
+    const auto skip_blanks = [&] {
+        while (!line.empty() && line[0] != delimiter_ && kBlanks.find(line[0]) != std::string_view::npos)
+            line.remove_prefix(1);
+    };
+    if (delimiter_ == kAnyBlanks) line = trim(line);
+    while (true) {
+        skip_blanks();
+        std::string field;
+        if (!line.empty() && line[0] == '"') {
+            std::size_t i = 1;
+            for (; i < line.size(); ++i) {
+                if (line[i] == '"' && (i + 1 == line.size() || line[i + 1] != '"')) break;
+                if (line[i] == '"') ++i;
+                field += line[i];
+            }
+            if (i >= line.size()) refuse(number, "a quote is not closed; close it");
+            line.remove_prefix(i + 1);
+        }
+        const std::size_t end = delimiter_ == kAnyBlanks ? line.find_first_of(kBlanks) : line.find(delimiter_);
+        field += trim(line.substr(0, end));
+        row.fields.push_back(std::move(field));
+        if (end == std::string_view::npos) return row;
+        line.remove_prefix(end + 1);
+        if (delimiter_ == kAnyBlanks) line = trim(line);
+    }
+}
+
+/// A delimiter stands on every line, and on the last, which is no header, it sets a label apart no worse than blanks
+/// do.
+void TableReader::split_lines() {
+    std::vector<std::pair<std::size_t, std::string_view>> lines;
+    std::size_t number = 0;
+    for (std::string_view rest = text_; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view line = rest.substr(0, end), words = trim(line);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        ++number;
+        const bool is_comment = words.empty() || words[0] == '#' || words[0] == '%' || words.starts_with("//");
+        if (!is_comment) lines.emplace_back(number, line);
+    }
+    const auto separates = [&](char delimiter) {
+        delimiter_ = delimiter;
+        const auto has_it = [&](const auto& line) { return line.second.find(delimiter) != std::string_view::npos; };
+        if (lines.empty() || !std::all_of(lines.begin(), lines.end(), has_it)) return false;
+        const auto& [at, line] = lines.back();
+        const Row last = split(at, line);
+        return std::any_of(last.fields.begin(), last.fields.end(), is_label) ||
+               !is_label(formats::split_words(line)[0]);
+    };
+    if (!separates('\t') && !separates(';') && !separates(',')) delimiter_ = kAnyBlanks;
+    for (const auto& [at, line] : lines) {
+        rows_.push_back(split(at, line));
+        if (rows_.back().fields.size() > kMostColumns) refuse(at, "has more than 1000 columns: no table of names");
+    }
+}
+
+/// In a table without delimiters a row becomes its label and its name: all words from the first that is no number.
+/// Numbers behind the names, as many as every row has, are no part of them where they are colours (three or more), or
+/// where names differ without them ("1 Precentral_L 2001", but not "1 Brodmann area 4").
+void TableReader::join_words() {
+    if (!rows_.empty() && !parse_label(rows_[0].fields[0])) rows_.erase(rows_.begin());  // a header
+    std::size_t dropped = SIZE_MAX;
+    for (const Row& row : rows_) {
+        std::size_t numbers = 0;
+        while (numbers + 2 < row.fields.size() && is_number(row.fields[row.fields.size() - 1 - numbers])) ++numbers;
+        dropped = std::min(dropped, numbers);
+    }
+    const auto name_of = [](const Row& row, std::size_t without) {
+        std::string name;
+        for (std::size_t i = 1; i < row.fields.size() - without; ++i) {
+            if (name.empty() && is_number(row.fields[i])) continue;
+            name += (name.empty() ? "" : " ") + row.fields[i];
+        }
+        return name;
+    };
+    if (dropped < 3) {
+        std::vector<std::string> names;
+        for (const Row& row : rows_) names.push_back(name_of(row, dropped));
+        std::sort(names.begin(), names.end());
+        if (std::adjacent_find(names.begin(), names.end()) != names.end()) dropped = 0;
+    }
+    for (Row& row : rows_) {
+        const std::string name = name_of(row, dropped);
+        if (name.empty()) refuse(row.line, "has no name behind the label; write 'label,name'");
+        row.fields = {row.fields[0], name};
+    }
+}
+
+/// Whether that holds for all rows; those with too few columns are reported later.
+bool TableReader::column_has(std::size_t column, bool (*is_wanted)(std::string_view)) const {
+    return std::all_of(rows_.begin(), rows_.end(),
+                       [&](const Row& row) { return column >= row.fields.size() || is_wanted(row.fields[column]); });
+}
+
+std::optional<std::size_t> TableReader::first_column(bool has_labels) const {
+    for (std::size_t column = 0; column < rows_[0].fields.size(); ++column)
+        if (has_labels ? column_has(column, is_label) : !column_has(column, is_number)) return column;
+    return std::nullopt;
+}
+
+/// The column whose header is the first of `words` that one has, and that is not `other`.
+std::optional<std::size_t> TableReader::column_by_header(const Row& header, std::span<const std::string_view> words,
+                                                         bool has_labels, std::optional<std::size_t> other) const {
+    for (const std::string_view word : words) {
+        for (std::size_t column = 0; column < header.fields.size(); ++column) {
+            std::string found;
+            for (const char c : header.fields[column])
+                if (std::isalnum(static_cast<unsigned char>(c)))
+                    found += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            if (found == word && column != other && (!has_labels || column_has(column, is_label))) return column;
+        }
+    }
+    return std::nullopt;
+}
+
+LabelNames TableReader::read() {
+    static constexpr std::array<std::string_view, 9> kLabelWords{"label", "labelvalue", "labelid", "index", "value",
+                                                                 "id",    "key",        "number",  "roi"};
+    static constexpr std::array<std::string_view, 9> kNameWords{
+        "name", "labelname", "regionname", "structurename", "region", "structure", "label", "description", "text"};
+    split_lines();
+    if (delimiter_ == kAnyBlanks) join_words();
+    std::optional<Row> header;
+    if (!rows_.empty() && std::none_of(rows_[0].fields.begin(), rows_[0].fields.end(), is_label)) {
+        header = rows_[0];
+        rows_.erase(rows_.begin());
+    }
+    if (rows_.empty()) formats::fail(path_, "holds no labels and names; write lines 'label,name'");
+    std::optional<std::size_t> labels, names;
+    if (header) labels = column_by_header(*header, kLabelWords, true, {});
+    if (!labels) labels = first_column(true);
+    if (header) names = column_by_header(*header, kNameWords, false, labels);
+    if (!names) names = first_column(false);
+    if (!labels) labels = 0;  // some row has none: it is named below
+    if (!names) formats::fail(path_, "has no column of names, only numbers; write lines 'label,name'");
+    LabelNames result;
+    for (const Row& row : rows_) {
+        if (row.fields.size() <= std::max(*labels, *names))
+            refuse(row.line,
+                   fmt::format("has {} columns where others have more; write 'label,name'", row.fields.size()));
+        const auto label = parse_label(row.fields[*labels]);
+        if (!label)
+            refuse(row.line,
+                   fmt::format("'{}' is no label; a whole number is needed", row.fields[*labels].substr(0, 40)));
+        const std::string name = formats::one_line(row.fields[*names]);
+        if (name.empty()) continue;
+        const auto [known, is_new] = result.emplace(*label, name);
+        if (!is_new && known->second != name)
+            refuse(row.line, fmt::format("label {} is called '{}' and '{}'; keep one", *label, known->second, name));
+    }
+    return result;
+}
+
+/// FSL counts the structures of probabilistic atlases from 0, where their label volumes count from 1.
+LabelNames read_xml(const fs::path& path, const std::string& text) {
+    pugi::xml_document document;
+    if (!document.load_buffer(text.data(), text.size())) formats::fail(path, "is no whole XML; fetch the file again");
+    const pugi::xml_node atlas = document.child("atlas");
+    const bool counts_from_0 = formats::one_line(atlas.child("header").child_value("type")).starts_with("Prob");
+    LabelNames result;
+    for (const pugi::xml_node node : atlas.child("data").children("label")) {
+        const pugi::xml_attribute index = node.attribute("index");
+        const auto label = parse_label(trim(index ? index.value() : node.child_value("index")));
+        const std::string name = formats::one_line(index ? node.child_value() : node.child_value("name"));
+        if (!label) formats::fail(path, fmt::format("the label of '{}' is no whole number; mend it", name));
+        if (!name.empty())
+            result.emplace(static_cast<InputLabel>(static_cast<std::uint64_t>(*label) + counts_from_0), name);
+    }
+    return result;
+}
+
+}  // namespace
+
+LabelNames read_label_names(const fs::path& path) {
+    const formats::InputFile file(path);
+    if (file.size() > kMostBytes) formats::fail(path, "is larger than 4 MiB: no table of names; name another file");
+    std::string text(file.size(), '\0');
+    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
+    if (text.find('\0') != std::string::npos)
+        formats::fail(path, "is no text (in UTF-8); name a table of labels and names");
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    const bool is_xml = begin != std::string::npos && text[begin] == '<';
+    const LabelNames names = is_xml ? read_xml(path, text) : TableReader(path, text).read();
+    if (names.empty()) formats::fail(path, "holds no names; write lines 'label,name'");
+    return names;
+}
+
+LabelNames formats::names_beside(const fs::path& volume) {
+    fs::path stem = volume;
+    if (stem.extension() == ".gz" || stem.extension() == ".GZ") stem.replace_extension();
+    const fs::path short_stem = fs::path(stem).replace_extension();
+    for (const char* extension : {".txt", ".xml", ".tsv", ".csv", ".label", ".ctbl"}) {
+        for (const fs::path& base : {stem, short_stem}) {
+            const fs::path beside = base.string() + extension;
+            std::error_code ignored;
+            if (beside == volume || !fs::is_regular_file(beside, ignored)) continue;
+            try {
+                return read_label_names(beside);
+            } catch (const Error&) {
+                // Another file by that name: the volume is read without it.
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace regionmesh

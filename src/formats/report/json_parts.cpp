@@ -1,0 +1,26 @@
+#include "formats/report/json_parts.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr double kQualityBin = 0.01;  // widths of the bins of QualityReport
+constexpr double kAngleBin = 10;
+
+}  // namespace
+
+Json quality_json(const QualityReport& quality) {
+    return {{"min", quality.min},
+            {"mean", quality.mean},
+            {"histogram", {{"bin_width", kQualityBin}, {"counts", quality.histogram}}},
+            {"min_angle", quality.min_angle},
+            {"max_angle", quality.max_angle},
+            {"angles", {{"bin_width", kAngleBin}, {"counts", quality.angle_histogram}}}};
+}
+
+Json label_json(InputLabel label, const LabelTable& labels) {
+    return labels.is_unsigned() ? Json(static_cast<std::uint64_t>(label)) : Json(label);
+}
+
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
+}  // namespace regionmesh

@@ -1,0 +1,22 @@
+// What the JSON of all reports shares.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "regionmesh/check.h"
+#include "regionmesh/label_table.h"
+
+namespace regionmesh {
+
+using Json = nlohmann::ordered_json;
+
+Json quality_json(const QualityReport& quality);
+
+/// A number in the signedness of the input.
+Json label_json(InputLabel label, const LabelTable& labels);
+
+/// Two spaces of indent, a newline at the end; a number that is not finite is null.
+std::string text_of(const Json& json);
+
+}  // namespace regionmesh

@@ -1,0 +1,131 @@
+#include "regionmesh/write_report.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "formats/report/json_parts.h"
+#include "regionmesh/output_file.h"
+
+namespace regionmesh {
+namespace {
+
+/// By dense label, as far as known.
+void put_volume(Json& json, const char* name, const std::vector<double>& volumes, Label label) {
+    if (label < volumes.size()) json[name] = volumes[label];
+}
+
+Json regions_json(std::vector<RegionReport> regions, const LabelTable& labels, const LabelNames& names,
+                  const Report* run) {
+    std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
+        return labels.less(labels.input(a.label), labels.input(b.label));
+    });
+    Json json = Json::array();
+    for (const RegionReport& region : regions) {
+        json.push_back({{"label", label_json(labels.input(region.label), labels)},
+                        {"euler", region.euler},
+                        {"components", region.components},
+                        {"volume", region.volume},
+                        {"area", region.area}});
+        if (const auto name = names.find(labels.input(region.label)); name != names.end())
+            json.back()["name"] = name->second;
+        if (!run) continue;
+        put_volume(json.back(), "volume_unsmoothed", run->unsmoothed_volumes, region.label);
+        put_volume(json.back(), "volume_smoothed", run->smoothing.volume_after, region.label);
+        if (region.label < run->unsmoothed_volumes.size())
+            json.back()["volume_change"] = region.volume / run->unsmoothed_volumes[region.label] - 1;
+    }
+    return json;
+}
+
+Json smoothing_json(const Report& report) {
+    const SmoothReport& done = report.smoothing;
+    const double seconds = done.filter_seconds;
+    return {{"vertices", done.vertices},
+            {"vertex_passes", done.vertex_passes},
+            {"vertex_passes_per_second", seconds > 0 ? static_cast<double>(done.vertex_passes) / seconds : 0.0},
+            {"filter_seconds", done.filter_seconds},
+            {"guard_seconds", done.guard_seconds},
+            {"turned_faces", done.turned_faces},
+            {"low_quality_faces", done.low_quality_faces},
+            {"crossing_pairs", done.crossing_pairs},
+            {"islands", done.islands},
+            {"held_vertices", done.held_vertices},
+            {"stepped_back", done.stepped_back},
+            {"largest_displacement", done.largest_displacement},
+            {"rms_displacement", done.rms_displacement},
+            {"window_strips", done.window_layers},
+            {"window_bytes", done.window_bytes}};
+}
+
+Json violations_json(const std::vector<Violation>& violations, const LabelTable& labels) {
+    Json json = Json::array();
+    for (const Violation& violation : violations) {
+        json.push_back({{"kind", to_string(violation.kind)},
+                        {"text", violation.text},
+                        {"vertices", violation.vertices},
+                        {"faces", violation.faces}});
+        if (!violation.at) continue;
+        json.back()["at"] = {violation.at->x, violation.at->y, violation.at->z};
+        Json& met = json.back()["labels"] = Json::array();
+        for (const Label label : violation.labels) {
+            const Json text = label_json(is_exterior(label) ? labels.exterior_label() : labels.input(label), labels);
+            if (met.empty() || met.back() != text) met.push_back(text);  // the sides of the box are one exterior
+        }
+    }
+    return json;
+}
+
+void put_check(Json& json, const CheckReport& report, const LabelTable& labels, const LabelNames& names,
+               const Report* run = nullptr) {
+    json["quality"] = quality_json(report.quality);
+    json["regions"] = regions_json(report.regions, labels, names, run);
+    json["triple_lines"] = {{"edges", report.lines.edges},
+                            {"length", report.lines.length},
+                            {"mean_turning_angle", report.lines.mean_turning_angle}};
+    json["region_pairs"] = report.region_pairs;
+    json["quadruple_points_inside"] = report.quadruple_points_inside;
+    json["violations"] = violations_json(report.violations, labels);
+    Json& counts = json["violation_counts"] = Json::object();
+    for (std::size_t kind = 0; kind < report.counts.size(); ++kind)
+        counts[to_string(static_cast<ViolationKind>(kind))] = report.counts[kind];
+}
+
+}  // namespace
+
+std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names) {
+    Json json{{"initial_faces", report.initial_faces},
+              {"initial_vertices", report.initial_vertices},
+              {"final_faces", report.final_faces},
+              {"final_vertices", report.final_vertices},
+              {"seconds", report.seconds},
+              {"peak_bytes", report.peak_bytes},
+              {"peak_faces", report.peak_faces},
+              {"bytes_per_face", report.bytes_per_face}};
+    Json& verdicts = json["verdicts"] = Json::object();
+    for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
+    json["refreshes"] = report.refreshes;
+    json["stopped"] = report.stopped;
+    json["smoothing"] = smoothing_json(report);
+    json["pinned_vertices"] = report.pinned_vertices;
+    json["volumes_preserved"] = {{"rounds", report.preserved.rounds},
+                                 {"drift_before", report.preserved.drift_before},
+                                 {"drift", report.preserved.drift},
+                                 {"regions_off", report.preserved.regions_off},
+                                 {"held_vertices", report.preserved.held_vertices}};
+    put_check(json, report.check, labels, names, &report);
+    return text_of(json);
+}
+
+std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names) {
+    Json json;
+    put_check(json, report, labels, names);
+    return text_of(json);
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,73 @@
+// A surface as a file brings it, and what is done to it before it becomes a model.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "regionmesh/label.h"
+#include "regionmesh/label_names.h"
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+/// The readers promise that the arrays fit one another and every vertex number is in range.
+struct FileSurface {
+    std::vector<Vec3> points = {};
+    std::vector<std::array<std::uint32_t, 3>> faces = {};
+    std::vector<std::array<InputLabel, 2>> labels = {};  // by face; the normal points from the first to the second
+    std::vector<bool> is_on_hull = {};  // by point, as node types say: on the box, or another hull; empty: unknown
+    InputLabel exterior_label = -1;
+    LabelNames names = {};
+    bool is_by_region = false;      // faces came region by region, each with the exterior on its other side
+    bool has_shared_points = true;  // false: each face, or region, has points of its own
+};
+
+/// Node types (DREAM.3D's) of what lies on the box or hull begin here.
+inline constexpr std::int64_t kFirstHullType = 10;
+
+/// Most faces and vertices of a Mesh: a corner packs a face id and a place into 32 bits.
+inline constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) - 1;
+inline constexpr std::uint64_t kMostVertices = (std::uint64_t{1} << 32) - 1;
+
+/// Adds a polygon of three or more corners as triangles with these labels: a quad is cut along its shorter diagonal,
+/// the others go fan-wise from their first corner.
+void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, const std::array<InputLabel, 2>& labels);
+
+/// Appends the points of `other`, and its faces with their labels.
+void append(FileSurface& surface, const FileSurface& other);
+
+/// Joins points no farther apart than `distance` (0: at one place) to the first of them, in order, and drops points
+/// that are left over and faces that repeat a corner. A chain of near points is not joined as a whole: what has been
+/// joined to one point lies within the distance of it.
+void weld_points(FileSurface& surface, double distance);
+
+/// Two faces on the same vertices that look opposite ways, each with the exterior behind it, become one between their
+/// two regions. Where they are of one region, or not two, they stay.
+void join_back_to_back(FileSurface& surface);
+
+/// Turns faces so that a region that has two faces at an edge has them pass it in opposite directions. Which way a part
+/// of the surface looks as a whole: where more than two labels meet in it, so that all volumes but one, that of what is
+/// outside, are above 0; where two meet, so that the exterior, or else label 0, is outside; else as most of its faces
+/// do.
+void orient_faces(FileSurface& surface);
+
+/// The labels of faces that come in groups with names: "interface_3_7" has 3 behind its faces and 7 before them;
+/// "region_3", "region_3 liver" and "3" have 3 behind them and the exterior before; others likewise, with the first
+/// number from 1 that no group names.
+class RegionGroups {
+public:
+    /// The number of the group; that of an earlier one of the same name, unless each is to be apart or it has none.
+    std::uint32_t add(const std::string& name, bool is_apart);
+    /// Replaces group numbers, which stand first in the labels of faces, by labels, and adds the names.
+    void put_labels(FileSurface& surface) const;
+
+private:
+    std::vector<std::string> names_;
+    std::unordered_map<std::string, std::uint32_t> numbers_;  // of names that are not apart
+};
+
+}  // namespace regionmesh

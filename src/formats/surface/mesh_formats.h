@@ -1,0 +1,44 @@
+// What the formats of model files share: a model as their writers see it, and a surface as their readers bring it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "formats/surface/file_surface.h"
+#include "formats/surface/file_view.h"
+#include "regionmesh/label.h"
+#include "regionmesh/label_table.h"
+#include "regionmesh/mesh.h"
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/output_file.h"
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
+void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
+void write_ply(const FileView& view, OutputFile& file);
+void write_obj(const FileView& view, OutputFile& file);
+/// Files for one region, the first in the order of files: its faces with their normals outward.
+void write_region_ply(const FileView& view, OutputFile& file);
+void write_region_obj(const FileView& view, OutputFile& file);
+void write_region_stl(const FileView& view, OutputFile& file);
+/// In text, a solid for each region.
+void write_stl(const FileView& view, OutputFile& file);
+void write_smesh(const FileView& view, OutputFile& file);
+void write_poly(const FileView& view, OutputFile& file);
+/// The faces, and the text for Gmsh that makes volumes of them.
+void write_msh(const FileView& view, OutputFiles& files, const std::filesystem::path& path);
+void write_inp(const FileView& view, OutputFile& file);
+void write_glb(const FileView& view, OutputFile& file);
+void write_dream3d(const FileView& view, OutputFile& file);
+FileSurface read_vtp(const std::filesystem::path& path);
+FileSurface read_vtu(const std::filesystem::path& path);
+FileSurface read_ply(const std::filesystem::path& path);
+FileSurface read_stl(const std::filesystem::path& path);
+FileSurface read_obj(const std::filesystem::path& path);
+FileSurface read_dream3d(const std::filesystem::path& path);
+
+}  // namespace regionmesh

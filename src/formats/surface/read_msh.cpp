@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "formats/surface/corners.h"
+#include "formats/surface/msh_elements.h"
+#include "formats/surface/tetrahedron_formats.h"
+#include "formats/text/header_text.h"
+#include "formats/vtk/label_array.h"
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr const char* kPhysical = "gmsh:physical";
+constexpr const char* kGeometrical = "gmsh:geometrical";
+
+/// The elements are gone through when a file is opened, so that one of another kind is found before long work,
+/// and again for the name of a tetrahedron: names are for messages.
+class MshReader final : public TetrahedronReader {
+public:
+    MshReader(const std::filesystem::path& path, const TetrahedraOptions& options);
+
+    const TetrahedraInfo& info() const override { return info_; }
+    LabelledPoints take_points() override;
+    std::string name_of_point(std::uint32_t point) const override { return fmt::format("node {}", nodes_.tags[point]); }
+    std::string name_of_tetrahedron(std::uint64_t tetrahedron) const override;
+    std::size_t next(std::span<LabelledTetrahedron> tetrahedra) override;
+
+private:
+    enum class Source { kGroups, kVolumes, kViews };
+
+    bool count_tetrahedra();
+    void choose_labels(bool has_physical, const std::string& wanted);
+    void take(const MshTetrahedron& from, LabelledTetrahedron& tetrahedron) const;
+    InputLabel label_of(const MshTetrahedron& tetrahedron) const;
+    [[noreturn]] void fail(const MshTetrahedron& tetrahedron, const std::string& text) const;
+
+    std::filesystem::path path_;
+    MshStream stream_;
+    MshLayout layout_;
+    MshNodes nodes_;
+    std::optional<MshElements> elements_;
+    Source source_ = Source::kGroups;
+    const MshView* view_ = nullptr;
+    MshValues values_;  // of the view
+    TetrahedraInfo info_;
+};
+
+MshReader::MshReader(const std::filesystem::path& path, const TetrahedraOptions& options)
+    : path_(path), stream_(path), layout_(read_layout(stream_)) {
+    choose_labels(count_tetrahedra(), options.array);
+    info_ = {.source = path.string(),
+             .format = "msh",
+             .has_cell_labels = !view_ || view_->is_cell,
+             .scale_z = options.scale_z};
+    if (source_ == Source::kGroups) info_.names = layout_.names;
+    nodes_ = read_nodes(stream_, layout_, options.scale_z);
+    if (view_) values_ = read_values(stream_, *view_);
+    elements_.emplace(path, layout_);
+}
+
+/// Whether any is in a physical group.
+bool MshReader::count_tetrahedra() {
+    std::uint64_t count = 0;
+    bool has_physical = false;
+    MshElements elements(path_, layout_);
+    for (MshTetrahedron tetrahedron; elements.next(tetrahedron); ++count) has_physical |= tetrahedron.physical != 0;
+    if (count == 0) formats::fail(path_, "has no tetrahedra: a surface model? mesh its volumes with Gmsh, gmsh -3");
+    return has_physical;
+}
+
+/// Physical groups first, then a view whose name means regions, then volumes.
+void MshReader::choose_labels(bool has_physical, const std::string& wanted) {
+    std::vector<MeshArray> arrays;
+    if (has_physical) arrays.push_back({.name = kPhysical, .type = "tags"});
+    arrays.push_back({.name = kGeometrical, .type = "tags"});
+    const std::size_t tag_arrays = arrays.size();
+    for (const MshView& view : layout_.views)
+        arrays.push_back({view.name, view.is_cell, false, "view", static_cast<std::uint64_t>(view.components)});
+    std::size_t chosen = 0;
+    if (!wanted.empty()) {
+        chosen = choose_label_array(path_, arrays, wanted);
+    } else if (!has_physical) {
+        std::optional<std::size_t> best;
+        for (std::size_t i = tag_arrays; i < arrays.size(); ++i)
+            if (arrays[i].components == 1 && region_rank(arrays[i].name) &&
+                (!best || *region_rank(arrays[i].name) < *region_rank(arrays[*best].name)))
+                best = i;
+        chosen = best.value_or(0);
+    }
+    if (chosen >= tag_arrays) {
+        source_ = Source::kViews;
+        view_ = &layout_.views[chosen - tag_arrays];
+    } else {
+        source_ = arrays[chosen].name == kPhysical ? Source::kGroups : Source::kVolumes;
+    }
+}
+
+LabelledPoints MshReader::take_points() {
+    LabelledPoints points{std::move(nodes_.positions), {}};
+    if (info_.has_cell_labels) return points;
+    points.labels.resize(points.positions.size());
+    for (std::uint32_t i = 0; i < points.labels.size(); ++i)
+        if (const auto value = values_.tags.find(nodes_.tags[i])) points.labels[i] = values_.labels[*value];
+    values_.labels = {};
+    return points;
+}
+
+std::string MshReader::name_of_tetrahedron(std::uint64_t tetrahedron) const {
+    MshElements elements(path_, layout_);
+    MshTetrahedron found;
+    for (std::uint64_t i = 0; i <= tetrahedron; ++i)
+        if (!elements.next(found)) return fmt::format("tetrahedron {}", tetrahedron);
+    return fmt::format("element {}", found.tag);
+}
+
+void MshReader::fail(const MshTetrahedron& tetrahedron, const std::string& text) const {
+    formats::fail(path_, fmt::format("element {} {}", tetrahedron.tag, text));
+}
+
+InputLabel MshReader::label_of(const MshTetrahedron& tetrahedron) const {
+    if (source_ == Source::kGroups) return tetrahedron.physical;
+    if (source_ == Source::kVolumes) return tetrahedron.entity;
+    if (!view_->is_cell) return 0;
+    const auto value = values_.tags.find(tetrahedron.tag);
+    if (!value) fail(tetrahedron, fmt::format("has no value in '{}'", shown(view_->name)));
+    return values_.labels[*value];
+}
+
+void MshReader::take(const MshTetrahedron& from, LabelledTetrahedron& tetrahedron) const {
+    for (std::size_t n = 0; n < 4; ++n) {
+        const auto point = nodes_.tags.find(from.nodes[n]);
+        if (!point) fail(from, fmt::format("names node {}, which $Nodes has not", from.nodes[n]));
+        if (!info_.has_cell_labels && !values_.tags.find(from.nodes[n]))
+            fail(from, fmt::format("has node {}, which has no value in '{}'", from.nodes[n], shown(view_->name)));
+        tetrahedron.corners[n] = *point;
+    }
+    if (has_repeated_corner(tetrahedron.corners)) fail(from, "names a node twice; mend or drop it");
+    tetrahedron.label = label_of(from);
+}
+
+std::size_t MshReader::next(std::span<LabelledTetrahedron> tetrahedra) {
+    std::size_t count = 0;
+    for (MshTetrahedron from; count < tetrahedra.size() && elements_->next(from); ++count)
+        take(from, tetrahedra[count]);
+    return count;
+}
+
+}  // namespace
+
+std::unique_ptr<TetrahedronReader> open_msh(const std::filesystem::path& path, const TetrahedraOptions& options) {
+    return std::make_unique<MshReader>(path, options);
+}
+
+}  // namespace regionmesh::formats

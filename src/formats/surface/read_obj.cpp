@@ -1,0 +1,116 @@
+// Wavefront OBJ: shared points, polygons in groups.
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "formats/codec/byte_reader.h"
+#include "formats/surface/mesh_formats.h"
+#include "formats/text/header_text.h"
+
+namespace regionmesh {
+namespace {
+
+/// What groups faces: the first of these that the file has.
+constexpr std::array<std::string_view, 3> kGroupWords{"g", "o", "usemtl"};
+
+class ObjReader {
+public:
+    explicit ObjReader(const std::filesystem::path& path) : file_(path) {
+        for (std::uint32_t& group : current_) group = groups_.add({}, true);
+    }
+
+    FileSurface read() {
+        std::string whole;
+        while (const auto line = file_.take_line()) {
+            whole += *line;
+            if (whole.ends_with('\\')) {  // goes on in the next line
+                whole.back() = ' ';
+                if (whole.size() > kLongest) file_.fail_line("is longer than a line of such a file can be");
+                continue;
+            }
+            read_line(whole);
+            whole.clear();
+        }
+        if (!whole.empty()) read_line(whole);
+        return finish();
+    }
+
+private:
+    static constexpr std::size_t kLongest = 1 << 24;
+
+    void read_line(std::string_view rest) {
+        const std::string_view word = formats::take_word(rest);
+        if (word == "v") return read_point(rest);
+        if (word == "f") return read_face(rest);
+        if (word == "#") return read_comment(rest);
+        const auto at = std::find(kGroupWords.begin(), kGroupWords.end(), word);
+        if (at == kGroupWords.end()) return;
+        const std::size_t kind = static_cast<std::size_t>(at - kGroupWords.begin());
+        has_[kind] = true;
+        current_[kind] = groups_.add(formats::one_line(rest), false);
+    }
+
+    /// What our own files say beside.
+    void read_comment(std::string_view rest) {
+        const std::string_view word = formats::take_word(rest), number = formats::take_word(rest);
+        const auto label = formats::to_integer(number);
+        if (!label) return;
+        if (word == "exterior_label") surface_.exterior_label = *label;
+        if (word == "region" && !formats::one_line(rest).empty())
+            surface_.names.try_emplace(*label, formats::one_line(rest));
+    }
+
+    void read_point(std::string_view rest) {
+        Vec3 point;
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::string_view word = formats::take_word(rest);
+            const auto value = formats::to_real(word);
+            if (!value) file_.fail_line("'" + text_of(word) + "' stands where a coordinate belongs");
+            point[axis] = *value;
+        }
+        surface_.points.push_back(point);
+        if (surface_.points.size() > kMostVertices) file_.fail("has more points than a model can hold");
+    }
+
+    /// Corners are "7", "7/1", "7/1/2" or "7//2", from 1; below 0 they count from the last point back.
+    void read_face(std::string_view rest) {
+        corners_.clear();
+        for (std::string_view word = formats::take_word(rest); !word.empty(); word = formats::take_word(rest)) {
+            const auto number = formats::to_integer(word.substr(0, word.find('/')));
+            const auto count = static_cast<std::int64_t>(surface_.points.size());
+            if (!number || *number == 0 || *number > count || *number < -count)
+                file_.fail_line("a face names point '" + text_of(word) + "' of " + std::to_string(count));
+            corners_.push_back(static_cast<std::uint32_t>(*number > 0 ? *number - 1 : count + *number));
+        }
+        if (corners_.size() < 3) file_.fail_line("a face has fewer than three corners");
+        add_polygon(surface_, corners_, {0, 0});
+        kinds_.resize(surface_.faces.size(), current_);
+        if (surface_.faces.size() > kMostFaces) file_.fail("has more faces than a model can hold");
+    }
+
+    FileSurface finish() {
+        std::size_t kind = 0;
+        while (kind + 1 < kGroupWords.size() && !has_[kind]) ++kind;
+        for (std::size_t f = 0; f < kinds_.size(); ++f) surface_.labels[f] = {kinds_[f][kind], 0};
+        surface_.is_by_region = true;
+        groups_.put_labels(surface_);
+        return std::move(surface_);
+    }
+
+    static std::string text_of(std::string_view word) { return std::string(word.substr(0, 40)); }
+
+    formats::ByteReader file_;
+    FileSurface surface_;
+    RegionGroups groups_;
+    std::array<std::uint32_t, 3> current_;             // group by each word
+    std::array<bool, 3> has_{};                        // words seen
+    std::vector<std::array<std::uint32_t, 3>> kinds_;  // by face
+    std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+FileSurface read_obj(const std::filesystem::path& path) { return ObjReader(path).read(); }
+
+}  // namespace regionmesh

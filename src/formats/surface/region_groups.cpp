@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "formats/codec/byte_reader.h"
+#include "formats/surface/file_surface.h"
+
+namespace regionmesh {
+namespace {
+
+using Labels = std::array<InputLabel, 2>;
+
+/// What a name says by itself: the labels, and what the first of them is called.
+struct Told {
+    Labels labels;
+    std::string name;
+};
+
+std::optional<Told> told_by(std::string_view name, InputLabel exterior) {
+    std::string_view rest = name;
+    std::string_view word = formats::take_word(rest);
+    if (word.starts_with("interface_")) {
+        word.remove_prefix(10);
+        const std::size_t cut = word.find('_');
+        const auto first = formats::to_integer(word.substr(0, cut));
+        const auto second = cut == std::string_view::npos ? std::nullopt : formats::to_integer(word.substr(cut + 1));
+        if (first && second) return Told{{*first, *second}, {}};
+        return std::nullopt;
+    }
+    if (word.starts_with("region_")) word.remove_prefix(7);
+    const auto label = formats::to_integer(word);
+    if (!label || *label == exterior) return std::nullopt;
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    return Told{{*label, exterior}, std::string(rest)};
+}
+
+}  // namespace
+
+std::uint32_t RegionGroups::add(const std::string& name, bool is_apart) {
+    if (!is_apart && !name.empty()) {
+        const auto [at, is_new] = numbers_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
+        if (!is_new) return at->second;
+    }
+    names_.push_back(name);
+    return static_cast<std::uint32_t>(names_.size() - 1);
+}
+
+void RegionGroups::put_labels(FileSurface& surface) const {
+    std::vector<Labels> labels(names_.size());
+    std::vector<bool> is_used(names_.size()), is_told(names_.size());
+    for (const Labels& face : surface.labels) is_used[static_cast<std::size_t>(face[0])] = true;
+    std::set<InputLabel> taken{surface.exterior_label};
+    for (std::size_t n = 0; n < names_.size(); ++n) {
+        const auto told = told_by(names_[n], surface.exterior_label);
+        if (!told) continue;
+        is_told[n] = true;
+        labels[n] = told->labels;
+        taken.insert(told->labels.begin(), told->labels.end());
+        if (!told->name.empty()) surface.names.try_emplace(told->labels[0], told->name);
+    }
+    InputLabel next = 1;
+    for (std::size_t n = 0; n < names_.size(); ++n) {
+        if (is_told[n] || !is_used[n]) continue;
+        while (taken.contains(next)) ++next;
+        labels[n] = {next, surface.exterior_label};
+        if (!names_[n].empty()) surface.names.try_emplace(next, names_[n]);
+        ++next;
+    }
+    for (Labels& face : surface.labels) face = labels[static_cast<std::size_t>(face[0])];
+}
+
+}  // namespace regionmesh

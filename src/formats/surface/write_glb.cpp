@@ -1,0 +1,171 @@
+// Binary glTF 2.0: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "formats/report/json_parts.h"
+#include "formats/surface/file_regions.h"
+#include "formats/surface/mesh_formats.h"
+#include "mesh/extent.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF is little endian, and numbers go as they lie");
+
+constexpr int kFloat = 5126, kUnsignedInt = 5125;            // types of components
+constexpr int kArrayBuffer = 34962, kElementBuffer = 34963;  // what a view of the buffer is for
+constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr std::uint32_t kVersion = 2;
+
+/// One region: its vertices and its faces, outward. glTF has no normals here: faces are shaded flat, as they are.
+struct Part {
+    std::vector<VertexId> vertices;
+    std::vector<std::uint32_t> corners;
+};
+
+/// A light colour from the label alone; glTF wants it linear.
+std::array<double, 4> colour_of(InputLabel label) {
+    const double hue = 6 * std::abs(std::fmod(static_cast<double>(label) * 0.61803398875, 1.0));
+    std::array<double, 4> colour{0, 0, 0, 1};
+    for (int n = 0; n < 3; ++n) {
+        const double k = std::fmod(5 - 2 * n + hue, 6.0);
+        const double srgb = 0.92 - 0.5 * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+        colour[n] = std::round(1e4 * std::pow(srgb, 2.2)) / 1e4;
+    }
+    return colour;
+}
+
+class GlbWriter {
+public:
+    GlbWriter(const FileView& view, OutputFile& file)
+        : view_(view), file_(file), regions_(view), faces_(faces_by_region(view, regions_)), middle_(middle_of(view)) {}
+
+    void write() {
+        std::string json = describe();
+        json.resize((json.size() + 3) / 4 * 4, ' ');
+        const std::uint64_t total = 12 + 8 + json.size() + 8 + bytes_;
+        if (total > std::numeric_limits<std::uint32_t>::max())
+            throw Error(ErrorCode::kOutput, fmt::format("a .glb holds 4 GiB, and the model takes {} bytes: decimate it "
+                                                        "further, or write .vtp",
+                                                        total));
+        put({kMagic, kVersion, static_cast<std::uint32_t>(total)});
+        put({static_cast<std::uint32_t>(json.size()), kJsonChunk});
+        file_.write(json);
+        put({static_cast<std::uint32_t>(bytes_), kBinaryChunk});
+        for (std::size_t n = 0; n < regions_.all().size(); ++n) {
+            const Part part = part_of(n);
+            for (const VertexId v : part.vertices)
+                for (const float number : position(v)) put({std::bit_cast<std::uint32_t>(number)});
+            put(part.corners);
+        }
+    }
+
+private:
+    static Vec3 middle_of(const FileView& view) {
+        const Box box = extent_of(view.mesh(), 0);
+        return box.is_empty() ? Vec3{} : 0.5 * (box.low + box.high);
+    }
+
+    std::array<float, 3> position(VertexId v) const {
+        const Vec3 p = view_.mesh().position(v) - middle_;
+        return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    }
+
+    void put(const std::vector<std::uint32_t>& words) {
+        file_.write({reinterpret_cast<const char*>(words.data()), words.size() * sizeof(std::uint32_t)});
+    }
+
+    Part part_of(std::size_t group) const {
+        Part part;
+        faces_.for_group(group, [&](FaceId f, std::uint32_t side) {
+            for (const VertexId v : turned_vertices(view_.mesh(), f, side)) part.vertices.push_back(v);
+        });
+        const std::vector<VertexId> corners = part.vertices;
+        std::ranges::sort(part.vertices);
+        part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+        for (const VertexId v : corners)
+            part.corners.push_back(
+                static_cast<std::uint32_t>(std::ranges::lower_bound(part.vertices, v) - part.vertices.begin()));
+        return part;
+    }
+
+    /// Adds a view of the next `bytes` of the buffer, and what it holds.
+    std::size_t add_accessor(Json& json, Json accessor, std::uint64_t bytes, int target) {
+        accessor["bufferView"] = json["bufferViews"].size();
+        json["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", bytes_}, {"byteLength", bytes}, {"target", target}});
+        bytes_ += bytes;
+        json["accessors"].push_back(std::move(accessor));
+        return json["accessors"].size() - 1;
+    }
+
+    Json positions_json(const Part& part) const {
+        std::array<float, 3> low = position(part.vertices[0]), high = low;
+        for (const VertexId v : part.vertices) {
+            const auto p = position(v);
+            for (int axis = 0; axis < 3; ++axis) {
+                low[axis] = std::min(low[axis], p[axis]);
+                high[axis] = std::max(high[axis], p[axis]);
+            }
+        }
+        return {
+            {"componentType", kFloat}, {"count", part.vertices.size()}, {"type", "VEC3"}, {"min", low}, {"max", high}};
+    }
+
+    void add_region(std::size_t n, Json& json) {
+        const FileRegion& region = regions_.all()[n];
+        const Part part = part_of(n);
+        const std::size_t positions = add_accessor(json, positions_json(part), 12 * part.vertices.size(), kArrayBuffer);
+        const std::size_t corners =
+            add_accessor(json, {{"componentType", kUnsignedInt}, {"count", part.corners.size()}, {"type", "SCALAR"}},
+                         4 * part.corners.size(), kElementBuffer);
+        const InputLabel label = view_.labels().input(region.label);
+        json["materials"].push_back(
+            {{"name", region.title},
+             {"pbrMetallicRoughness",
+              {{"baseColorFactor", colour_of(label)}, {"metallicFactor", 0}, {"roughnessFactor", 0.7}}}});
+        json["meshes"].push_back(
+            {{"name", region.title},
+             {"primitives",
+              Json::array({{{"attributes", {{"POSITION", positions}}}, {"indices", corners}, {"material", n}}})}});
+        json["nodes"].push_back(
+            {{"name", region.title}, {"mesh", n}, {"extras", {{"label", label_json(label, view_.labels())}}}});
+        json["nodes"][0]["children"].push_back(n + 1);
+    }
+
+    /// The text of the file; counts the bytes of the buffer.
+    std::string describe() {
+        const double half = std::sqrt(0.5);  // a quarter turn: glTF has y upward, volumes have z
+        Json json{{"asset", {{"version", "2.0"}, {"generator", "regionmesh"}}}, {"scene", 0}};
+        json["scenes"] = Json::array({{{"nodes", {0}}}});
+        json["nodes"] = Json::array({{{"name", "model"}, {"rotation", {-half, 0, 0, half}}}});
+        if (regions_.all().empty()) return json.dump();
+        // The turn goes before the shift.
+        json["nodes"][0]["translation"] = {middle_.x, middle_.z, -middle_.y};
+        for (std::size_t n = 0; n < regions_.all().size(); ++n) add_region(n, json);
+        json["buffers"] = Json::array({{{"byteLength", bytes_}}});
+        return json.dump();
+    }
+
+    const FileView& view_;
+    OutputFile& file_;
+    FileRegions regions_;
+    GroupedFaces faces_;
+    Vec3 middle_;
+    std::uint64_t bytes_ = 0;  // of the buffer
+};
+
+}  // namespace
+
+void write_glb(const FileView& view, OutputFile& file) { GlbWriter(view, file).write(); }
+
+}  // namespace regionmesh

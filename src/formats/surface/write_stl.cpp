@@ -1,0 +1,68 @@
+// STL: triangles without shared vertices, each region a solid of its own.
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "formats/surface/file_regions.h"
+#include "formats/surface/mesh_formats.h"
+#include "formats/text/text_writer.h"
+
+namespace regionmesh {
+namespace {
+
+Vec3 unit_normal(const std::array<Vec3, 3>& p) {
+    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    const double size = length(normal);
+    return size > 0 ? normal / size : Vec3{};
+}
+
+}  // namespace
+
+void write_stl(const FileView& view, OutputFile& file) {
+    const Mesh& mesh = view.mesh();
+    const FileRegions regions(view);
+    const GroupedFaces faces = faces_by_region(view, regions);
+    TextWriter text(file);
+    for (std::size_t n = 0; n < regions.all().size(); ++n) {
+        text.line("solid", regions.all()[n].title);
+        faces.for_group(n, [&](FaceId f, std::uint32_t side) {
+            std::array<Vec3, 3> p;
+            const auto vertices = turned_vertices(mesh, f, side);
+            for (int place = 0; place < 3; ++place) p[place] = mesh.position(vertices[place]);
+            text.line("facet normal", unit_normal(p));
+            text.line(" outer loop");
+            for (const Vec3 corner : p) text.line("  vertex", corner);
+            text.line(" endloop");
+            text.line("endfacet");
+        });
+        text.line("endsolid", regions.all()[n].title);
+    }
+    if (regions.all().empty()) {
+        text.line("solid empty");
+        text.line("endsolid empty");
+    }
+    text.flush();
+}
+
+/// Binary, in single precision: one solid.
+void write_region_stl(const FileView& view, OutputFile& file) {
+    const Mesh& mesh = view.mesh();
+    char head[84] = "binary STL of regionmesh";  // must not begin with "solid"
+    const std::uint32_t count = mesh.face_count();
+    std::memcpy(head + 80, &count, sizeof(count));
+    file.write({head, sizeof(head)});
+    view.for_faces([&](FaceId f) {
+        const auto vertices = turned_vertices(mesh, f, view.is_turned(f));
+        std::array<Vec3, 4> p;
+        for (int place = 0; place < 3; ++place) p[place + 1] = mesh.position(vertices[place]);
+        p[0] = unit_normal({p[1], p[2], p[3]});
+        char record[50] = {};
+        for (int n = 0; n < 12; ++n) {
+            const float number = static_cast<float>(p[n / 3][n % 3]);
+            std::memcpy(record + 4 * n, &number, sizeof(number));
+        }
+        file.write({record, sizeof(record)});
+    });
+}
+
+}  // namespace regionmesh

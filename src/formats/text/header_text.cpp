@@ -1,0 +1,109 @@
+#include "formats/text/header_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+template <class Number>
+std::optional<Number> parse_whole(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+template <class Number>
+std::optional<std::vector<Number>> parse_all(std::string_view text, std::optional<Number> (*parse)(std::string_view)) {
+    std::vector<Number> numbers;
+    for (const std::string_view word : split_words(text)) {
+        const auto number = parse(word);
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+/// How many bytes the UTF-8 character at the front of `text` takes; 0 where there is none.
+std::size_t utf8_length(std::string_view text) {
+    const auto lead = static_cast<unsigned char>(text[0]);
+    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : 4;
+    if ((lead >= 0x80 && lead < 0xC2) || lead > 0xF4 || text.size() < length) return 0;
+    const bool is_whole = std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length),
+                                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });
+    return is_whole ? length : 0;
+}
+
+}  // namespace
+
+std::string_view trim(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return result;
+}
+
+std::vector<std::string_view> split_words(std::string_view text, std::string_view separators) {
+    std::vector<std::string_view> words;
+    while (true) {
+        text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+        if (text.empty()) return words;
+        words.push_back(text.substr(0, text.find_first_of(separators)));
+        text.remove_prefix(words.back().size());
+    }
+}
+
+std::optional<double> parse_real(std::string_view text) {
+    const auto number = parse_whole<double>(text);
+    return number && std::isinf(*number) ? std::nullopt : number;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view text) { return parse_whole<std::int64_t>(text); }
+std::optional<std::uint64_t> parse_size(std::string_view text) { return parse_whole<std::uint64_t>(text); }
+
+std::optional<std::vector<double>> parse_reals(std::string_view text) { return parse_all(text, parse_real); }
+std::optional<std::vector<std::uint64_t>> parse_sizes(std::string_view text) { return parse_all(text, parse_size); }
+
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+std::string shown(std::string_view text) {
+    constexpr std::size_t kMost = 40;
+    return std::string(text.substr(0, kMost)) + (text.size() > kMost ? "..." : "");
+}
+
+std::string one_line(std::string_view text) {
+    text = trim(text);
+    std::string name;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const auto byte = static_cast<unsigned char>(text[0]);
+        if (length == 0) {
+            name += static_cast<char>(0xC0 | byte >> 6);
+            name += static_cast<char>(0x80 | (byte & 0x3F));
+        } else if (byte < ' ' || byte == 0x7F) {
+            name += ' ';
+        } else {
+            name += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return name;
+}
+
+}  // namespace regionmesh::formats

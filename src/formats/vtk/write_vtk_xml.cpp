@@ -1,0 +1,225 @@
+// VTK PolyData and UnstructuredGrid in XML: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "formats/codec/base64.h"
+#include "formats/surface/mesh_formats.h"
+#include "regionmesh/output_file.h"
+
+namespace regionmesh {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "the file says LittleEndian and numbers are written as they lie in memory");
+
+constexpr std::size_t kBlockBytes = 1 << 20;  // uncompressed; a multiple of the size of every number
+constexpr std::size_t kProbeBytes = 1 << 15;
+constexpr int kStored = 0, kFast = 1;  // levels of zlib
+
+template <class T>
+constexpr const char* vtk_type() {
+    if constexpr (std::is_same_v<T, double>) return "Float64";
+    if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
+    if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
+    if constexpr (std::is_same_v<T, std::int8_t>) return "Int8";
+    if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
+}
+
+// Smoothed positions have few bytes that repeat: zlib would take most of the writing for a tenth of their size. Where
+// the beginning of a block saves less than an eighth, the block is stored.
+int compression_level(std::span<const Bytef> block, std::span<Bytef> scratch) {
+    const std::size_t probe = std::min(kProbeBytes, block.size());
+    uLongf size = scratch.size();
+    compress2(scratch.data(), &size, block.data(), probe, kFast);
+    return size > probe / 8 * 7 ? kStored : kFast;
+}
+
+// One DataArray: numbers are gathered into blocks, and each full block goes to the file compressed. The header, with
+// the compressed sizes, stands before the blocks but is known after them: room is left for it.
+template <class T>
+class ArrayWriter {
+public:
+    ArrayWriter(OutputFile& file, std::string_view name, int components, std::uint64_t count) : file_(file) {
+        file.write(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n",
+                               vtk_type<T>(), name, components));
+        const std::uint64_t bytes = count * sizeof(T);
+        header_ = {(bytes + kBlockBytes - 1) / kBlockBytes, kBlockBytes, bytes % kBlockBytes};
+        block_count_ = header_[0];
+        header_offset_ = file.size();
+        file.write(std::string(base64_length((header_.size() + block_count_) * sizeof(std::uint64_t)), 'A'));
+        block_.resize(kBlockBytes);
+        compressed_.resize(compressBound(kBlockBytes));
+    }
+
+    void put(T value) {
+        if (used_ == kBlockBytes) write_block();
+        std::memcpy(&block_[used_], &value, sizeof(T));
+        used_ += sizeof(T);
+    }
+
+    void close() {
+        if (used_ > 0) write_block();
+        assert(header_.size() == 3 + block_count_);
+        text_.clear();
+        encoder_.finish(text_);
+        file_.write(text_);
+        file_.overwrite(header_offset_, base64(std::as_bytes(std::span(header_))));
+        file_.write("\n</DataArray>\n");
+    }
+
+private:
+    void write_block() {
+        const int level = compression_level(std::span(block_).first(used_), compressed_);
+        uLongf size = compressed_.size();
+        const int status = compress2(compressed_.data(), &size, block_.data(), used_, level);
+        if (status != Z_OK) throw std::bad_alloc();  // the room suffices, so only memory can fail
+        header_.push_back(size);
+        text_.clear();
+        encoder_.encode(std::as_bytes(std::span(compressed_).first(size)), text_);
+        file_.write(text_);
+        used_ = 0;
+    }
+
+    OutputFile& file_;
+    Base64Encoder encoder_;
+    std::vector<std::uint64_t> header_;  // number of blocks, their size, size of the last if smaller, compressed sizes
+    std::uint64_t block_count_ = 0;
+    std::uint64_t header_offset_ = 0;
+    std::vector<Bytef> block_;
+    std::size_t used_ = 0;
+    std::vector<Bytef> compressed_;
+    std::string text_;
+};
+
+constexpr std::uint8_t kVtkTriangle = 5;
+
+enum class DataSet { kPolyData, kUnstructuredGrid };
+
+void write_number(std::string_view name, std::int64_t number, OutputFile& file) {
+    file.write(fmt::format(
+        "<DataArray type=\"Int64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name, number));
+}
+
+// Strings in ascii are the codes of their bytes, with a 0 behind each string.
+void write_names(const FileView& view, OutputFile& file) {
+    std::string labels, codes;
+    int count = 0;
+    for (const Label label : view.ordered_labels()) {
+        const std::string name = view.name(label);
+        if (name.empty()) continue;
+        ++count;
+        labels += fmt::format("{}\n", view.labels().input(label));
+        for (const char c : name) codes += fmt::format("{} ", static_cast<unsigned char>(c));
+        codes += "0\n";
+    }
+    if (count == 0) return;
+    file.write(
+        fmt::format("<DataArray type=\"Int64\" Name=\"RegionLabels\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}"
+                    "</DataArray>\n<Array type=\"String\" Name=\"RegionNames\" NumberOfTuples=\"{}\" "
+                    "format=\"ascii\">\n{}</Array>\n",
+                    count, labels, count, codes));
+}
+
+void write_head(const FileView& view, DataSet kind, OutputFile& file) {
+    const bool is_grid = kind == DataSet::kUnstructuredGrid;
+    file.write(
+        fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                    "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n<FieldData>\n",
+                    is_grid ? "UnstructuredGrid" : "PolyData"));
+    if (view.exterior_label() != -1) write_number("ExteriorLabel", view.exterior_label(), file);
+    write_names(view, file);
+    const std::uint64_t vertices = view.mesh().vertex_count(), faces = view.mesh().face_count();
+    file.write(fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" ", vertices));
+    if (!is_grid) file.write("NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" ");
+    file.write(fmt::format("NumberOf{}=\"{}\">\n", is_grid ? "Cells" : "Polys", faces));
+}
+
+void write_points(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
+    const std::uint64_t count = view.mesh().vertex_count();
+    file.write("<PointData>\n");
+    ArrayWriter<std::int8_t> types(file, "NodeType", 1, count);
+    view.for_vertices([&](VertexId v) { types.put(static_cast<std::int8_t>(view.node_type(v))); });
+    types.close();
+    for (const PointArray& array : arrays) {
+        ArrayWriter<double> values(file, array.name, 1, count);
+        view.for_vertices([&](VertexId v) { values.put(array.values[index(v)]); });
+        values.close();
+    }
+    file.write("</PointData>\n<Points>\n");
+    ArrayWriter<double> points(file, "Points", 3, 3 * count);
+    view.for_vertices([&](VertexId v) {
+        const Vec3 position = view.mesh().position(v);
+        for (int axis = 0; axis < 3; ++axis) points.put(position[axis]);
+    });
+    points.close();
+    file.write("</Points>\n");
+}
+
+void write_labels(const FileView& view, OutputFile& file) {
+    file.write("<CellData>\n");
+    ArrayWriter<std::int64_t> labels(file, "BoundaryLabels", 2, std::uint64_t{2} * view.mesh().face_count());
+    view.for_faces([&](FaceId f) {
+        for (const InputLabel label : view.face(f).labels) labels.put(label);
+    });
+    labels.close();
+    file.write("</CellData>\n");
+}
+
+// `Index` holds the largest vertex number and three times the number of faces.
+template <class Index>
+void write_faces(const FileView& view, DataSet kind, OutputFile& file) {
+    const std::uint64_t count = view.mesh().face_count();
+    const bool is_grid = kind == DataSet::kUnstructuredGrid;
+    file.write(is_grid ? "<Cells>\n" : "<Polys>\n");
+    ArrayWriter<Index> connectivity(file, "connectivity", 1, 3 * count);
+    view.for_faces([&](FaceId f) {
+        for (const std::uint32_t v : view.face(f).vertices) connectivity.put(static_cast<Index>(v));
+    });
+    connectivity.close();
+    ArrayWriter<Index> offsets(file, "offsets", 1, count);
+    for (std::uint64_t i = 1; i <= count; ++i) offsets.put(static_cast<Index>(3 * i));
+    offsets.close();
+    if (is_grid) {
+        ArrayWriter<std::uint8_t> types(file, "types", 1, count);
+        for (std::uint64_t i = 0; i < count; ++i) types.put(kVtkTriangle);
+        types.close();
+    }
+    file.write(is_grid ? "</Cells>\n" : "</Polys>\n");
+}
+
+void write_vtk_xml(const FileView& view, DataSet kind, const std::vector<PointArray>& arrays, OutputFile& file) {
+    write_head(view, kind, file);
+    write_points(view, arrays, file);
+    write_labels(view, file);
+    constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
+    if (std::uint64_t{3} * view.mesh().face_count() <= kMost && view.mesh().vertex_count() <= kMost)
+        write_faces<std::int32_t>(view, kind, file);
+    else
+        write_faces<std::int64_t>(view, kind, file);
+    file.write(kind == DataSet::kUnstructuredGrid ? "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"
+                                                  : "</Piece>\n</PolyData>\n</VTKFile>\n");
+}
+
+}  // namespace
+
+void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
+    write_vtk_xml(view, DataSet::kPolyData, arrays, file);
+}
+
+void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
+    write_vtk_xml(view, DataSet::kUnstructuredGrid, arrays, file);
+}
+
+}  // namespace regionmesh

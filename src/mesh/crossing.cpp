@@ -1,0 +1,148 @@
+#include "mesh/crossing.h"
+
+#include <algorithm>
+
+#include "base/exact_predicates.h"
+#include "base/parallel_for.h"
+#include "base/radix_sort.h"
+
+namespace regionmesh {
+namespace {
+
+using Pairs = std::vector<FacePair>;
+using Corners = std::array<Vec3, 3>;
+
+constexpr std::uint32_t kStars = 1 << 12, kParts = 8;  // looked at together
+
+/// The same questions for a model and for a list of faces.
+class MeshFaces {
+public:
+    explicit MeshFaces(const Mesh& mesh) : mesh_(mesh) {}
+
+    const std::array<VertexId, 3>& vertices(FaceId f) const { return mesh_[f].vertices; }
+    Corners corners(FaceId f) const { return mesh_.corners(f); }
+    std::uint32_t star_count() const { return mesh_.vertex_end(); }
+    /// Adds the pages of star n, and returns its vertex.
+    VertexId star(std::uint32_t n, std::vector<StarPage>& pages, Vec3& at) const {
+        const VertexId v{n};
+        if (!mesh_.is_alive(v)) return v;
+        at = mesh_.position(v);
+        mesh_.for_star(v, [&](FaceId f, int place) {
+            const Face& face = mesh_[f];
+            const VertexId a = face.vertices[(place + 1) % 3], b = face.vertices[(place + 2) % 3];
+            pages.push_back({f, a, b, mesh_.position(a), mesh_.position(b), face.labels});
+        });
+        return v;
+    }
+
+private:
+    const Mesh& mesh_;
+};
+
+class ListedFaces {
+public:
+    ListedFaces(std::span<const LabelledFace> faces, std::uint32_t threads) : faces_(faces) {
+        corners_.reserve(3 * faces.size());
+        for (std::uint32_t f = 0; f < faces.size(); ++f)
+            for (std::uint32_t place = 0; place < 3; ++place)
+                corners_.push_back({index(faces[f].placed.vertices[place]), f << 2 | place});
+        radix_sort(corners_, threads);
+        for (std::uint32_t n = 0; n < corners_.size(); ++n)
+            if (n == 0 || corners_[n].key != corners_[n - 1].key) starts_.push_back(n);
+        starts_.push_back(static_cast<std::uint32_t>(corners_.size()));
+    }
+
+    const std::array<VertexId, 3>& vertices(FaceId f) const { return faces_[index(f)].placed.vertices; }
+    const Corners& corners(FaceId f) const { return faces_[index(f)].placed.at; }
+    std::uint32_t star_count() const { return static_cast<std::uint32_t>(starts_.size()) - 1; }
+    VertexId star(std::uint32_t n, std::vector<StarPage>& pages, Vec3& at) const {
+        for (std::uint32_t c = starts_[n]; c < starts_[n + 1]; ++c) {
+            const FaceId f{corners_[c].index >> 2};
+            const std::uint32_t place = corners_[c].index & 3, a = (place + 1) % 3, b = (place + 2) % 3;
+            at = corners(f)[place];
+            pages.push_back({f, vertices(f)[a], vertices(f)[b], corners(f)[a], corners(f)[b], faces_[index(f)].labels});
+        }
+        return VertexId{corners_[starts_[n]].key};
+    }
+
+private:
+    std::span<const LabelledFace> faces_;
+    std::vector<KeyedIndex> corners_;    // by vertex
+    std::vector<std::uint32_t> starts_;  // of each star
+};
+
+template <class Faces>
+bool cross(const Faces& faces, FaceId f, FaceId g) {
+    const Corners p = faces.corners(f), q = faces.corners(g);
+    if (are_apart(p, q) || is_degenerate({p[0], p[1], p[2]}) || is_degenerate({q[0], q[1], q[2]})) return false;
+    return meet_outside_shared({faces.vertices(f), p}, {faces.vertices(g), q});
+}
+
+/// Adds the pairs that share no vertex, of one part of the tree.
+template <class Faces>
+void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t part, Pairs& found) {
+    Pairs strangers;
+    tree.boxes().visit_pairs(part, [&](std::span<const GridTree::Pair> pairs) {
+        strangers.resize(std::max(strangers.size(), pairs.size()));
+        std::size_t count = 0;
+        for (const GridTree::Pair pair : pairs) {
+            const FaceId f = tree.face(pair.m()), g = tree.face(pair.n());
+            strangers[count] = {f, g};
+            count += !share_vertex(faces.vertices(f), faces.vertices(g));
+        }
+        for (std::size_t n = 0; n < count; ++n) {
+            const auto [f, g] = strangers[n];
+            if (cross(faces, f, g)) found.push_back({std::min(f, g), std::max(f, g)});
+        }
+    });
+}
+
+/// Two passes, both of which only read the faces: those that share a vertex, star by star; and those that do not.
+template <class Faces>
+Pairs find_all(const Faces& faces, const SortedFaceTree& tree, std::uint32_t threads) {
+    Pairs all;
+    const auto append = [&](const Pairs& found) { all.insert(all.end(), found.begin(), found.end()); };
+    const auto in_stars = [&](std::uint32_t first, std::uint32_t end) {
+        Pairs found;
+        StarCrossing crossing;
+        std::vector<StarPage> pages;
+        for (std::uint32_t n = first; n < end; ++n) {
+            pages.clear();
+            Vec3 at;
+            const VertexId v = faces.star(n, pages, at);
+            crossing.find(v, at, pages, found);
+        }
+        return found;
+    };
+    const auto in_parts = [&](std::uint32_t first, std::uint32_t end) {
+        Pairs found;
+        for (std::uint32_t part = first; part < end; ++part) cross_apart(faces, tree, part, found);
+        return found;
+    };
+    for_chunks(faces.star_count(), kStars, threads, in_stars, append);
+    for_chunks(tree.boxes().part_count(), kParts, threads, in_parts, append);
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+}  // namespace
+
+std::vector<FacePair> find_crossings(const Mesh& mesh, const SortedFaceTree& tree, std::uint32_t threads) {
+    return find_all(MeshFaces(mesh), tree, threads);
+}
+
+std::vector<FacePair> find_crossings(std::span<const LabelledFace> faces, std::uint32_t threads) {
+    const ListedFaces listed(faces, threads);
+    const auto box_of = [&](FaceId f) {
+        Box box;
+        for (Vec3 p : listed.corners(f)) box.add(p);
+        return box;
+    };
+    Box extent;
+    for (const LabelledFace& face : faces)
+        for (Vec3 p : face.placed.at) extent.add(p);
+    const SortedFaceTree tree(static_cast<std::uint32_t>(faces.size()), extent, box_of, threads);
+    return find_all(listed, tree, threads);
+}
+
+}  // namespace regionmesh

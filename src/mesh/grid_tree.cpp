@@ -1,0 +1,254 @@
+#include "mesh/grid_tree.h"
+
+#include <cmath>
+#include <memory>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace regionmesh {
+namespace {
+
+/// The bits set in each number below 256: which, in the upper half of eight numbers, and how many.
+struct BitTable {
+    std::uint64_t bits[256][8];
+    std::uint8_t count[256];
+};
+constexpr BitTable make_bit_table() {
+    BitTable table{};
+    for (std::uint32_t mask = 0; mask < 256; ++mask)
+        for (std::uint64_t bit = 0; bit < 8; ++bit)
+            if (mask >> bit & 1) table.bits[mask][table.count[mask]++] = bit << 32;
+    return table;
+}
+constexpr BitTable kBits = make_bit_table();
+
+constexpr std::int16_t kLowest = -32768, kHighest = 32767;
+constexpr GridTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}};
+
+}  // namespace
+
+void GridTree::start(std::uint32_t count, const Box& extent) {
+    levels_.clear();
+    if (!extent.is_empty()) {
+        const Vec3 size = extent.high - extent.low;
+        origin_ = extent.low;
+        cells_per_length_ = 65500 / std::max({size.x, size.y, size.z, 1e-300});
+    }
+    for (std::uint32_t size = count;;) {
+        size = std::max(size / kFan + (size % kFan != 0), 1u);
+        levels_.push_back({size, std::make_unique_for_overwrite<Boxes[]>(size)});
+        if (size == 1) break;
+    }
+}
+
+void GridTree::build_upper(std::uint32_t threads) {
+    for (std::size_t level = 1; level < levels_.size(); ++level) {
+        const Level &below = levels_[level - 1], &own = levels_[level];
+        parallel_for(own.size / kBuildGroups + 1, threads, [&](std::uint32_t task) {
+            for (std::uint32_t g = task * kBuildGroups; g < std::min(own.size, (task + 1) * kBuildGroups); ++g) {
+                Boxes boxes = Boxes::none();
+                for (std::uint32_t child = g * kFan; child < std::min(below.size, (g + 1) * kFan); ++child)
+                    boxes.put(child % kFan, below[child].hull());
+                own[g] = boxes;
+            }
+        });
+    }
+}
+
+GridTree::GridBox GridTree::outward(const Box& box) const {
+    GridBox result;
+    for (int axis = 0; axis < 3; ++axis) {
+        // Beyond the grid everything counts as being at its rim, on both sides of a comparison; no box reaches as far
+        // as the empty one.
+        const double low = (box.low[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
+        const double high = (box.high[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
+        result.low[axis] = static_cast<std::int16_t>(std::clamp(low - 1, kLowest + 1.0, kHighest - 1.0));
+        result.high[axis] = static_cast<std::int16_t>(std::clamp(high + 1, kLowest + 1.0, kHighest - 1.0));
+    }
+    return result;
+}
+
+unsigned GridTree::Boxes::meeting(const GridBox& box) const {
+#if defined(__SSE2__)
+    __m128i out = _mm_setzero_si128();
+    for (int axis = 0; axis < 3; ++axis) {
+        const __m128i lowest = _mm_load_si128(reinterpret_cast<const __m128i*>(low[axis]));
+        const __m128i highest = _mm_load_si128(reinterpret_cast<const __m128i*>(high[axis]));
+        out = _mm_or_si128(out, _mm_cmpgt_epi16(lowest, _mm_set1_epi16(box.high[axis])));
+        out = _mm_or_si128(out, _mm_cmplt_epi16(highest, _mm_set1_epi16(box.low[axis])));
+    }
+    return ~static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(out, out))) & 0xFFu;
+#else
+    unsigned mask = 0;
+    for (std::uint32_t lane = 0; lane < kFan; ++lane) {
+        bool in = true;
+        for (int axis = 0; axis < 3; ++axis)
+            in &= low[axis][lane] <= box.high[axis] && high[axis][lane] >= box.low[axis];
+        mask |= static_cast<unsigned>(in) << lane;
+    }
+    return mask;
+#endif
+}
+
+bool GridTree::extend(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
+    bool grew = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        grew |= box.low[axis] < boxes.low[axis][lane] || box.high[axis] > boxes.high[axis][lane];
+        boxes.low[axis][lane] = std::min(boxes.low[axis][lane], box.low[axis]);
+        boxes.high[axis][lane] = std::max(boxes.high[axis][lane], box.high[axis]);
+    }
+    return grew;
+}
+
+GridTree::Boxes GridTree::Boxes::none() {
+    Boxes boxes;
+    for (std::uint32_t lane = 0; lane < kFan; ++lane) boxes.put(lane, kNothing);
+    return boxes;
+}
+
+GridTree::GridBox GridTree::Boxes::operator[](std::uint32_t lane) const {
+    return {{low[0][lane], low[1][lane], low[2][lane]}, {high[0][lane], high[1][lane], high[2][lane]}};
+}
+
+void GridTree::Boxes::put(std::uint32_t lane, const GridBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis][lane] = box.low[axis];
+        high[axis][lane] = box.high[axis];
+    }
+}
+
+GridTree::GridBox GridTree::Boxes::hull() const {
+    GridBox result;
+    for (int axis = 0; axis < 3; ++axis) {
+        result.low[axis] = *std::min_element(low[axis], low[axis] + kFan);
+        result.high[axis] = *std::max_element(high[axis], high[axis] + kFan);
+    }
+    return result;
+}
+
+class GridTree::PairList {
+public:
+    /// Forgets all, and makes room for this many.
+    void clear(std::size_t room) {
+        size_ = 0;
+        if (room + kFan <= room_) return;
+        room_ = 2 * (room + kFan);
+        pairs_ = std::make_unique_for_overwrite<Pair[]>(room_);
+    }
+    /// One pair for each bit of the mask.
+    void add(std::uint32_t m, std::uint32_t first_n, unsigned mask) {
+        const Pair first(m, first_n);
+        for (std::uint32_t k = 0; k < kFan; ++k) pairs_[size_ + k] = Pair(first.both_ + kBits.bits[mask][k]);
+        size_ += kBits.count[mask];
+    }
+    std::size_t size() const { return size_; }
+    const Pair* begin() const { return pairs_.get(); }
+    const Pair* end() const { return pairs_.get() + size_; }
+
+private:
+    std::unique_ptr<Pair[]> pairs_;
+    std::size_t room_ = 0, size_ = 0;
+};
+
+/// What one level of a search for pairs hands to the next.
+struct GridTree::PairSearch {
+    PairList groups;  // pairs of groups a, b
+    PairList lanes;   // b, and a box of a that meets the hull of b
+    PairList pairs;   // a box of a, and one of b that meets it
+};
+
+void GridTree::visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const {
+    PairSearch search;
+    for (std::uint32_t other : parts_near(part)) {
+        find_pairs(part, other, search);
+        visit({search.pairs.begin(), search.pairs.end()});
+    }
+}
+
+bool GridTree::is_spatial() const {
+    constexpr std::uint32_t kParts = 32, kPlaces = 512, kTests = 24;  // a sample, places in a part, tests a place
+    const std::uint32_t step = std::max(part_count() / kParts, 1u);
+    std::uint64_t left = std::uint64_t{kTests} * kPlaces * std::min(part_count(), kParts);
+    PairSearch search;
+    for (std::uint32_t part = 0; part < part_count(); part += step) {
+        for (std::uint32_t other : parts_near(part)) {
+            find_pairs(part, other, search);
+            if (search.lanes.size() > left) return false;
+            left -= search.lanes.size();
+        }
+    }
+    return true;
+}
+
+/// The parts from this one on whose boxes meet its own.
+std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
+    const GridBox own = levels_[part_level()][part].hull();
+    std::vector<std::uint32_t> parts;
+    std::vector<Entry> stack{root()};
+    while (!stack.empty()) {
+        const Entry entry = stack.back();
+        stack.pop_back();
+        if (entry.level == part_level()) {
+            parts.push_back(entry.group);
+            continue;
+        }
+        const std::uint32_t below = entry.level - 1;
+        for (unsigned mask = levels_[entry.level][entry.group].meeting(own); mask; mask &= mask - 1) {
+            const std::uint32_t child = entry.group * kFan + static_cast<std::uint32_t>(__builtin_ctz(mask));
+            if (child >= part >> 3 * (below - part_level())) stack.push_back({below, child});
+        }
+    }
+    return parts;
+}
+
+/// All pairs of a place in the one part and one in the other.
+void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const {
+    search.pairs.clear(1);
+    search.pairs.add(part, other, 1);
+    for (std::uint32_t level = part_level() + 1; level-- > 0;) {
+        std::swap(search.groups, search.pairs);
+        pair_lanes(level, search);
+    }
+}
+
+/// From pairs of groups of a level to pairs of what is in them. No jump depends on what is found: most would be
+/// foreseen wrongly.
+void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
+    auto& [groups, lanes, pairs] = search;
+    lanes.clear(groups.size() * kFan);
+    for (const Pair pair : groups) {
+        const std::uint32_t a = pair.m(), b = pair.n();
+        const bool has_hull = level < root().level;
+        const unsigned mask = has_hull ? levels_[level][a].meeting(levels_[level + 1][b / kFan][b % kFan]) : 0xFFu;
+        lanes.add(b, a * kFan, mask);
+    }
+    pairs.clear(lanes.size() * kFan);
+    for (const Pair pair : lanes) {
+        const std::uint32_t b = pair.m(), m = pair.n();
+        const unsigned lane = m % kFan;
+        // A pair once; a place makes no pair with itself, but a group does.
+        const unsigned later = m / kFan == b ? (level == 0 ? 0xFEu : 0xFFu) << lane : 0xFFu;
+        pairs.add(m, b * kFan, levels_[level][b].meeting(levels_[level][m / kFan][lane]) & later & 0xFFu);
+    }
+}
+
+void GridTree::set(std::uint32_t place, const Box& box) {
+    const GridBox grid = outward(box);
+    levels_[0][place / kFan].put(place % kFan, grid);
+    for (std::size_t level = 1; level < levels_.size(); ++level) {
+        place /= kFan;
+        if (!extend(levels_[level][place / kFan], place % kFan, grid)) return;
+    }
+}
+
+void GridTree::remove(std::uint32_t place) { levels_[0][place / kFan].put(place % kFan, kNothing); }
+
+std::size_t GridTree::bytes() const {
+    std::size_t sum = 0;
+    for (const Level& level : levels_) sum += level.size * sizeof(Boxes);
+    return sum;
+}
+
+}  // namespace regionmesh

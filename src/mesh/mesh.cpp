@@ -1,0 +1,209 @@
+#include "regionmesh/mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/radix_sort.h"
+#include "mesh/morton_curve.h"
+
+namespace regionmesh {
+namespace {
+
+/// Puts items of one key in the order of what `rank` says of their index, whatever order they came in. Mostly they are
+/// two or three.
+template <class Rank>
+void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
+    constexpr std::ptrdiff_t kFew = 16;
+    const auto is_before = [&](const KeyedIndex& a, const KeyedIndex& b) {
+        const auto of_a = rank(a.index), of_b = rank(b.index);
+        return of_a != of_b ? of_a < of_b : a.index < b.index;
+    };
+    for (auto first = items.begin(); first != items.end();) {
+        auto end = first + 1;
+        while (end != items.end() && end->key == first->key) ++end;
+        if (end - first > kFew)
+            std::sort(first, end, is_before);
+        else
+            for (auto next = first + 1; next < end; ++next)
+                for (auto at = next; at != first && is_before(*at, *(at - 1)); --at) std::swap(*at, *(at - 1));
+        first = end;
+    }
+}
+
+}  // namespace
+
+VertexId Mesh::add_vertex(Vec3 position, SideSet sides, bool is_fixed) {
+    const Vertex vertex{.position = position, .star = kNoCorner, .sides = sides, .is_fixed = is_fixed};
+    ++vertex_count_;
+    if (free_vertex_ != kNoCorner) {
+        const VertexId v{free_vertex_};
+        free_vertex_ = vertices_[index(v)].star;
+        vertices_[index(v)] = vertex;
+        return v;
+    }
+    vertices_.push_back(vertex);
+    return VertexId{vertices_.size() - 1};
+}
+
+FaceId Mesh::add_face(VertexId a, VertexId b, VertexId c, Label first, Label second) {
+    if (first > second) {
+        std::swap(first, second);
+        std::swap(b, c);
+    }
+    FaceId f{free_face_};
+    if (free_face_ != kNoCorner) {
+        free_face_ = faces_[index(f)].next[0];
+    } else {
+        faces_.push_back({});
+        f = FaceId{faces_.size() - 1};
+    }
+    Face& face = faces_[index(f)];
+    face.vertices = {a, b, c};
+    face.labels = {first, second};
+    link(f);
+    ++face_count_;
+    return f;
+}
+
+void Mesh::link(FaceId f) {
+    Face& face = faces_[index(f)];
+    for (int place = 0; place < 3; ++place) {
+        Vertex& vertex = vertices_[index(face.vertices[place])];
+        face.next[place] = vertex.star;
+        vertex.star = index(f) << 2 | static_cast<Corner>(place);
+    }
+}
+
+void Mesh::unlink(VertexId v, Corner corner) {
+    Corner* link = &vertices_[index(v)].star;
+    while (*link != corner) link = &faces_[*link >> 2].next[*link & 3];
+    *link = faces_[corner >> 2].next[corner & 3];
+}
+
+void Mesh::remove_face(FaceId f) {
+    for (int place = 0; place < 3; ++place)
+        unlink(faces_[index(f)].vertices[place], index(f) << 2 | static_cast<Corner>(place));
+    Face& face = faces_[index(f)];
+    face.vertices[0] = kNoVertex;
+    face.next[0] = free_face_;
+    free_face_ = index(f);
+    --face_count_;
+}
+
+void Mesh::remove_vertex(VertexId v) {
+    Vertex& vertex = vertices_[index(v)];
+    assert(vertex.is_alive && vertex.star == kNoCorner);
+    vertex.is_alive = false;
+    vertex.star = free_vertex_;
+    free_vertex_ = index(v);
+    --vertex_count_;
+}
+
+void Mesh::move_star(VertexId from, VertexId to) {
+    Corner last = kNoCorner;
+    for (Corner c = vertices_[index(from)].star; c != kNoCorner; c = faces_[c >> 2].next[c & 3]) {
+        faces_[c >> 2].vertices[c & 3] = to;
+        last = c;
+    }
+    if (last != kNoCorner) {
+        faces_[last >> 2].next[last & 3] = vertices_[index(to)].star;
+        vertices_[index(to)].star = vertices_[index(from)].star;
+    }
+    vertices_[index(from)].star = kNoCorner;
+    remove_vertex(from);
+}
+
+void Mesh::flip_faces() {
+    for (Face& face : faces_) {
+        if (face.vertices[0] == kNoVertex) continue;
+        // The corners of places 1 and 2 change places: so do the links that point at them, all of which say 1 or 2.
+        std::swap(face.vertices[1], face.vertices[2]);
+        std::swap(face.next[1], face.next[2]);
+    }
+    const auto turn = [](Corner& c) {
+        if (c != kNoCorner && (c & 3) != 0) c ^= 3;
+    };
+    for (Face& face : faces_) {
+        if (face.vertices[0] == kNoVertex) continue;
+        for (Corner& c : face.next) turn(c);
+    }
+    for (Vertex& vertex : vertices_)
+        if (vertex.is_alive) turn(vertex.star);
+}
+
+std::vector<KeyedIndex> Mesh::vertices_along_curve() const {
+    Box box;
+    for (const Vertex& vertex : vertices_)
+        if (vertex.is_alive) box.add(vertex.position);
+    const MortonCurve curve(box);
+    std::vector<KeyedIndex> order;
+    order.reserve(vertex_count_);
+    for (std::uint32_t v = 0; v < vertices_.size(); ++v)
+        if (vertices_[v].is_alive) order.push_back({curve(vertices_[v].position), v});
+    radix_sort(order);
+    sort_runs(order, [&](std::uint32_t v) {
+        const Vec3 p = vertices_[v].position;
+        return std::array{p.x, p.y, p.z};
+    });
+    return order;
+}
+
+/// By the place of the first of its vertices, which lie along the curve already; then of the others.
+std::vector<KeyedIndex> Mesh::faces_along_curve() const {
+    std::vector<KeyedIndex> order;
+    order.reserve(face_count_);
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+        if (is_alive(FaceId{f}))
+            order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
+    radix_sort(order);
+    sort_runs(order, [&](std::uint32_t f) {
+        std::array<VertexId, 3> corners = faces_[f].vertices;
+        std::sort(corners.begin(), corners.end());
+        return std::pair(corners, faces_[f].labels);
+    });
+    return order;
+}
+
+std::vector<VertexId> Mesh::sort_spatially() {
+    std::vector<VertexId> renumbered(vertices_.size(), kNoVertex);
+    {
+        FlatArray<Vertex> sorted;
+        sorted.reserve(vertices_.size());
+        for (const KeyedIndex& item : vertices_along_curve()) {
+            renumbered[item.index] = VertexId{sorted.size()};
+            sorted.push_back(vertices_[item.index]);
+        }
+        for (Vertex& vertex : sorted) vertex.star = kNoCorner;
+        vertices_ = std::move(sorted);
+        free_vertex_ = kNoCorner;
+    }
+    for (Face& face : faces_) {
+        if (face.vertices[0] == kNoVertex) continue;
+        for (VertexId& v : face.vertices) v = renumbered[index(v)];
+    }
+    FlatArray<Face> sorted;
+    sorted.reserve(faces_.size());
+    for (const KeyedIndex& item : faces_along_curve()) sorted.push_back(faces_[item.index]);
+    faces_ = std::move(sorted);
+    free_face_ = kNoCorner;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) link(FaceId{f});
+    return renumbered;
+}
+
+void Mesh::compact_faces() {
+    std::uint32_t kept = 0;
+    for (const Face& face : faces_)
+        if (face.vertices[0] != kNoVertex) faces_[kept++] = face;
+    faces_.resize(kept);
+    free_face_ = kNoCorner;
+    for (Vertex& vertex : vertices_)
+        if (vertex.is_alive) vertex.star = kNoCorner;
+    for (std::uint32_t f = 0; f < kept; ++f) link(FaceId{f});
+}
+
+void Mesh::reserve(std::size_t vertices, std::size_t faces) {
+    vertices_.reserve(vertices);
+    faces_.reserve(faces);
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,25 @@
+// Volumes of regions, from their faces.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "regionmesh/mesh.h"
+
+namespace regionmesh {
+
+/// Adds the cone from the origin over a face to the first of its labels, and takes it from the second: over a closed
+/// boundary that sums to the volume. `volumes` goes by dense label and grows as needed; exteriors have none.
+inline void add_cone(std::vector<double>& volumes, const std::array<Label, 2>& labels, Vec3 a, Vec3 b, Vec3 c) {
+    const double cone = dot(a, cross(b, c)) / 6;
+    for (int side = 0; side < 2; ++side) {
+        if (is_exterior(labels[side])) continue;
+        if (labels[side] >= volumes.size()) volumes.resize(labels[side] + 1);
+        volumes[labels[side]] += side == 0 ? cone : -cone;
+    }
+}
+
+/// Volumes of all regions by dense label; meaningful for those with a closed boundary.
+std::vector<double> region_volumes(const Mesh& mesh);
+
+}  // namespace regionmesh

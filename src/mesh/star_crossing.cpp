@@ -1,0 +1,188 @@
+#include "mesh/star_crossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/exact_predicates.h"
+#include "mesh/face_meeting.h"
+
+namespace regionmesh {
+namespace {
+
+/// A product of three vectors a . (b x c) whose value is more than this share of the product of their sizes has the
+/// sign computed: its rounding error is below 2e-15 of it.
+constexpr double kDoubt = 1e-12;
+
+/// Sizes between which no product of four overflows, or loses more than kDoubt where numbers get too small.
+constexpr double kSmallest = 1e-60, kLargest = 1e60;
+
+bool is_usual(double size) { return size > kSmallest && size < kLargest; }
+
+double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+
+}  // namespace
+
+void StarCrossing::find(VertexId v, Vec3 at, std::span<const StarPage> pages, std::vector<FacePair>& found) {
+    if (pages.size() < 2) return;
+    at_ = at;
+    pages_ = pages;
+    if (is_interface() && is_fan_simple(pages_[0].labels[0])) return;
+    gather_labels();
+    proved_.assign(pages_.size(), 0);
+    bool all_proved = true;
+    for (int n = 0; n < labels_.size(); ++n) {
+        const Label label = labels_.begin()[n];
+        if (is_fan_simple(label)) {
+            for (const FanPage& page : fan_) proved_[page.name >> 1] |= 1u << n;
+        } else {
+            all_proved = false;
+        }
+    }
+    // Of three labels any two faces have one in common, if each has two.
+    if (!all_proved || is_odd_ || labels_.size() > 3) test_pairs(v, found);
+}
+
+bool StarCrossing::is_interface() const {
+    return std::all_of(pages_.begin(), pages_.end(),
+                       [&](const StarPage& page) { return page.labels == pages_[0].labels; });
+}
+
+void StarCrossing::gather_labels() {
+    labels_ = LabelSet();
+    is_odd_ = false;
+    for (const StarPage& page : pages_) {
+        for (Label label : page.labels) labels_.add(label);
+        is_odd_ |= page.labels[0] == page.labels[1];
+    }
+}
+
+/// Do the faces of the label go round the vertex, or a part of the way, side by side? A page is named by its place,
+/// doubled, and its side.
+bool StarCrossing::is_fan_simple(Label label) {
+    fan_.clear();
+    for (std::uint32_t n = 0; n < pages_.size(); ++n) {
+        if (pages_[n].labels[0] == label)
+            fan_.push_back({pages_[n].a, pages_[n].b, 2 * n});
+        else if (pages_[n].labels[1] == label)
+            fan_.push_back({pages_[n].b, pages_[n].a, 2 * n + 1});
+    }
+    return fan_.size() < 2 || (order_fan(fan_) && gather_spokes() && goes_round_once());
+}
+
+/// False where sizes are so unusual that nothing can be proved.
+bool StarCrossing::gather_spokes() {
+    bool usual = true;
+    spokes_.clear();
+    const auto add = [&](Vec3 end) {
+        const Vec3 to = end - at_;
+        spokes_.push_back({to, size(to)});
+        usual = usual && is_usual(spokes_.back().size);
+    };
+    for (const FanPage& page : fan_) {
+        const StarPage& star_page = pages_[page.name >> 1];
+        add(page.name & 1 ? star_page.at_b : star_page.at_a);
+    }
+    const FanPage& last = fan_.back();
+    add(last.name & 1 ? pages_[last.name >> 1].at_a : pages_[last.name >> 1].at_b);
+    return usual;
+}
+
+/// Seen from above, do all pages look up, and does none but the first (and the last, where the fan is closed) come to
+/// the ray with which the first begins? Then they lie side by side.
+bool StarCrossing::goes_round_once() {
+    const std::size_t count = fan_.size();
+    normals_.clear();
+    for (std::size_t n = 0; n < count; ++n) normals_.push_back(cross(spokes_[n].to, spokes_[n + 1].to));
+    Vec3 up;
+    if (!find_up(up)) return false;
+    const Vec3 left = cross(up, spokes_[0].to);
+    const double doubt = kDoubt * size(up) * spokes_[0].size;
+    const std::size_t end = is_closed(fan_) ? count - 1 : count;
+    for (std::size_t n = 1; n < end; ++n) {
+        // It begins left of the ray, or ends right of it: it turns by less than half a round.
+        const Spoke &first = spokes_[n], &second = spokes_[n + 1];
+        if (!(dot(left, first.to) > doubt * first.size) && !(dot(left, second.to) < -doubt * second.size)) return false;
+    }
+    return true;
+}
+
+/// A direction to which all pages look: the mean of their normals, or one drawn again and again to the page that looks
+/// away most (Rosenblatt 1958). Any will do that passes the test.
+bool StarCrossing::find_up(Vec3& up) {
+    up = Vec3{};
+    for (Vec3 normal : normals_) up += normal;
+    if (all_look(up)) return true;
+    weights_.clear();
+    up = Vec3{};
+    for (Vec3 normal : normals_) {
+        weights_.push_back(1 / length(normal));
+        up += weights_.back() * normal;
+    }
+    constexpr int kAttempts = 4;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        double least = HUGE_VAL;
+        std::size_t worst = 0;
+        for (std::size_t n = 0; n < normals_.size(); ++n) {
+            const double look = weights_[n] * dot(up, normals_[n]);
+            worst = look < least ? n : worst;
+            least = std::min(look, least);
+        }
+        if (least > 0) return all_look(up);
+        up += (0.1 - 1.5 * least) * weights_[worst] * normals_[worst];
+    }
+    return false;
+}
+
+bool StarCrossing::all_look(Vec3 up) const {
+    const double doubt = kDoubt * size(up);
+    for (std::size_t n = 0; n < normals_.size(); ++n)
+        if (!(dot(up, normals_[n]) > doubt * spokes_[n].size * spokes_[n + 1].size)) return false;
+    return true;
+}
+
+/// Looks at the pairs that nothing has been proved of.
+void StarCrossing::test_pairs(VertexId v, std::vector<FacePair>& found) {
+    gather_planes();
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        for (std::size_t j = i + 1; j < pages_.size(); ++j) {
+            if ((proved_[i] & proved_[j]) != 0 || are_apart(i, j)) continue;
+            const StarPage &f = pages_[i], &g = pages_[j];
+            const bool share_a = f.a == g.a || f.a == g.b, share_b = f.b == g.a || f.b == g.b;
+            const bool is_earlier = (share_a && f.a < v) || (share_b && f.b < v);  // another vertex's pair
+            if (!is_earlier && cross_exactly(v, f, g))
+                found.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
+        }
+    }
+}
+
+void StarCrossing::gather_planes() {
+    planes_.clear();
+    for (const StarPage& page : pages_) {
+        const Vec3 a = page.at_a - at_, b = page.at_b - at_;
+        // What is of unusual size is on no side of anything.
+        const bool usual = is_usual(size(a)) && is_usual(size(b));
+        planes_.push_back({cross(a, b), {a, usual ? size(a) : HUGE_VAL}, {b, usual ? size(b) : HUGE_VAL}});
+    }
+}
+
+int StarCrossing::Plane::side(const Spoke& spoke) const {
+    const double ahead = dot(normal, spoke.to), doubt = kDoubt * to_a.size * to_b.size * spoke.size;
+    return ahead > doubt ? 1 : ahead < -doubt ? -1 : 0;
+}
+
+/// One page lies on one side of the other's plane, but for the vertex or the edge that they share.
+bool StarCrossing::are_apart(std::size_t i, std::size_t j) const { return is_off(i, j) || is_off(j, i); }
+
+bool StarCrossing::is_off(std::size_t i, std::size_t j) const {
+    const StarPage &f = pages_[i], &g = pages_[j];
+    const bool has_a = g.a == f.a || g.a == f.b, has_b = g.b == f.a || g.b == f.b;
+    const int a = has_a ? 0 : planes_[i].side(planes_[j].to_a), b = has_b ? 0 : planes_[i].side(planes_[j].to_b);
+    return has_a ? !has_b && b != 0 : has_b ? a != 0 : a != 0 && a == b;
+}
+
+bool StarCrossing::cross_exactly(VertexId v, const StarPage& f, const StarPage& g) const {
+    return !is_degenerate({at_, f.at_a, f.at_b}) && !is_degenerate({at_, g.at_a, g.at_b}) &&
+           meet_outside_shared({{v, f.a, f.b}, {at_, f.at_a, f.at_b}}, {{v, g.a, g.b}, {at_, g.at_a, g.at_b}});
+}
+
+}  // namespace regionmesh

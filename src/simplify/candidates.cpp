@@ -1,0 +1,149 @@
+#include "simplify/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "mesh/strata.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+Candidates::Candidates(const Mesh& mesh, const VertexQuadrics& quadrics, const DecimateOptions& options)
+    : mesh_(mesh), quadrics_(quadrics), options_(options), heap_(mesh.vertex_end()) {
+    partner_.resize(mesh.vertex_end(), kNoVertex);
+    floor_.resize(mesh.vertex_end(), kNoFloor);
+}
+
+std::size_t Candidates::bytes() const { return partner_.bytes() + floor_.bytes() + heap_.bytes(); }
+
+std::uint64_t Candidates::refresh() {
+    std::uint64_t forbidden = 0;
+    for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
+        floor_[v] = kNoFloor;
+        if (mesh_.is_alive(VertexId{v}))
+            rank(VertexId{v}, best(VertexId{v}, {kNoVertex, kNoFloor}, kNoVertex, &forbidden));
+    }
+    return forbidden;
+}
+
+/// The edges of v with their numbers of labels and their costs. Round a vertex of two labels all edges have both, and
+/// each neighbour follows v in exactly one face.
+void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
+    found.vertices.clear();
+    if (label_count(v) == 2) {
+        mesh_.for_star(
+            v, [&](FaceId f, int place) { found.vertices.push_back(mesh_[f].vertices[place == 2 ? 0 : place + 1]); });
+        found.label_counts.assign(found.vertices.size(), 2);
+    } else {
+        count_edge_labels(v, found);
+    }
+    find_edge_costs(mesh_, quadrics_, v, found.vertices, found.costs);
+}
+
+void Candidates::count_edge_labels(VertexId v, Neighbours& found) {
+    edge_labels_.clear();
+    mesh_.for_star(v, [&](FaceId f, int place) {
+        const Face& face = mesh_[f];
+        for (VertexId n : {face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3]}) {
+            const auto at = std::find(found.vertices.begin(), found.vertices.end(), n) - found.vertices.begin();
+            if (at == static_cast<std::ptrdiff_t>(found.vertices.size())) {
+                found.vertices.push_back(n);
+                edge_labels_.emplace_back();
+            }
+            for (Label label : face.labels) edge_labels_[at].labels.add(label);
+            edge_labels_[at].uses += 2;
+        }
+    });
+    found.label_counts.clear();
+    for (std::size_t n = 0; n < found.vertices.size(); ++n) {
+        // Where the surface ends sides count, too.
+        const auto& [labels, uses] = edge_labels_[n];
+        const int count = uses >= 2 * labels.size() ? labels.size() : edge_labels(mesh_, v, found.vertices[n]).size();
+        found.label_counts.push_back(static_cast<std::uint8_t>(count));
+    }
+}
+
+/// The end that would go, or none.
+VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
+    const bool a_may = label_count(a) == count, b_may = label_count(b) == count;
+    if (a_may && b_may) return ((index(a) ^ index(b)) & 1) != 0 ? std::min(a, b) : std::max(a, b);
+    return a_may ? a : b_may ? b : kNoVertex;
+}
+
+/// Rank of an edge; infinite beyond the cost level or the largest error.
+float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
+    constexpr float kNever = std::numeric_limits<float>::infinity();
+    if (!(edge.cost <= options_.max_cost)) return kNever;
+    if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight)
+        return kNever;
+    const double scale2 = options_.scale * options_.scale;
+    return static_cast<float>(edge.rank +
+                              options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays)));
+}
+
+/// The cheapest edge owned by v that comes after `after`, or leads to `fresh`.
+Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden) {
+    Best best{kNoVertex, std::numeric_limits<float>::infinity()};
+    if (mesh_[v].is_fixed) return best;
+    gather_neighbours(v, neighbours_);
+    for (std::size_t n = 0; n < neighbours_.vertices.size(); ++n) {
+        const VertexId w = neighbours_.vertices[n];
+        if (mesh_[w].is_fixed) continue;
+        const VertexId goes = owner(v, w, neighbours_.label_counts[n]);
+        if (forbidden && goes == kNoVertex && v < w) ++*forbidden;
+        if (goes != v) continue;
+        const Best candidate{w, key(v, w, neighbours_.costs[n])};
+        if (candidate.is_before(best) && (w == fresh || after.is_before(candidate))) best = candidate;
+    }
+    if (std::isinf(best.key)) best.stays = kNoVertex;
+    return best;
+}
+
+void Candidates::rank(VertexId v, Best best) {
+    partner_[index(v)] = best.stays;
+    if (best.stays == kNoVertex)
+        heap_.remove(v);
+    else
+        heap_.set(v, best.key);
+}
+
+void Candidates::refuse() {
+    const VertexId v = heap_.top();
+    const Best refused{partner_[index(v)], heap_.top_key()};
+    floor_[index(v)] = std::max(floor_[index(v)], refused.key);
+    rank(v, best(v, refused, kNoVertex, nullptr));
+}
+
+void Candidates::update(VertexId goes, VertexId stays) {
+    heap_.remove(goes);
+    partner_[index(goes)] = kNoVertex;
+    gather_neighbours(stays, round_merged_);
+    Best own{kNoVertex, std::numeric_limits<float>::infinity()};
+    for (std::size_t n = 0; n < round_merged_.vertices.size(); ++n) {
+        const VertexId w = round_merged_.vertices[n];
+        if (mesh_[w].is_fixed) continue;
+        const VertexId owner_of_edge = owner(stays, w, round_merged_.label_counts[n]);
+        if (owner_of_edge == stays) {
+            const Best candidate{w, key(stays, w, round_merged_.costs[n])};
+            if (candidate.is_before(own)) own = candidate;
+        }
+        const VertexId held = partner_[index(w)];
+        if (held == goes || held == stays) {
+            rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, nullptr));
+        } else if (owner_of_edge == w) {
+            const Best fresh{stays, key(w, stays, round_merged_.costs[n])};
+            if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, heap_.key(w)})))
+                rank(w, fresh);
+        }
+    }
+    floor_[index(stays)] = kNoFloor;
+    if (std::isinf(own.key)) own.stays = kNoVertex;
+    rank(stays, own);
+}
+
+}  // namespace regionmesh

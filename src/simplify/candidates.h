@@ -1,0 +1,69 @@
+// Which edges may be collapsed, what each would cost, and the heap that ranks them.
+#pragma once
+
+#include <vector>
+
+#include "mesh/label_set.h"
+#include "regionmesh/simplify.h"
+#include "simplify/edge_costs.h"
+#include "simplify/edge_heap.h"
+
+namespace regionmesh {
+
+/// Ranks the candidate edges of a model. An edge is a candidate when its label set is that of the end that goes, which
+/// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
+class Candidates {
+public:
+    Candidates(const Mesh& mesh, const VertexQuadrics& quadrics, const DecimateOptions& options);
+
+    /// Gathers all candidates anew. Returns the number of edges that strata forbid.
+    std::uint64_t refresh();
+
+    bool empty() const { return heap_.empty(); }
+    VertexId goes() const { return heap_.top(); }
+    VertexId stays() const { return partner_[index(heap_.top())]; }
+
+    /// Puts the cheapest candidate aside until something near it changes.
+    void refuse();
+    /// After a collapse: `goes` has left, and the edges round `stays` are ranked again.
+    void update(VertexId goes, VertexId stays);
+
+    std::size_t bytes() const;
+
+private:
+    /// The edges of a vertex, place by place.
+    struct Neighbours {
+        std::vector<VertexId> vertices;
+        std::vector<std::uint8_t> label_counts;  // of the edges
+        std::vector<EdgeCost> costs;
+    };
+    /// The labels of an edge while they are gathered, and two for each of its faces.
+    struct EdgeLabels {
+        LabelSet labels;
+        int uses = 0;
+    };
+    struct Best {
+        VertexId stays = kNoVertex;
+        float key = 0;
+        bool is_before(Best other) const { return key < other.key || (key == other.key && stays < other.stays); }
+    };
+
+    void gather_neighbours(VertexId v, Neighbours& found);
+    void count_edge_labels(VertexId v, Neighbours& found);
+    int label_count(VertexId v) const { return mesh_[v].label_count; }
+    VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
+    float key(VertexId goes, VertexId stays, EdgeCost cost) const;
+    Best best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden);
+    void rank(VertexId v, Best best);
+
+    const Mesh& mesh_;
+    const VertexQuadrics& quadrics_;
+    const DecimateOptions& options_;
+    FlatArray<VertexId> partner_;  // where the cheapest edge of a vertex in the heap leads
+    FlatArray<float> floor_;       // edges up to this key were refused since the last change
+    EdgeHeap heap_;
+    Neighbours neighbours_, round_merged_;
+    std::vector<EdgeLabels> edge_labels_;
+};
+
+}  // namespace regionmesh

@@ -1,0 +1,134 @@
+#include "simplify/edge_star.h"
+
+#include <algorithm>
+
+namespace regionmesh {
+namespace {
+
+void add_surviving(const Mesh& mesh, FaceId f, int place, EdgeStar& star) {
+    const Face& face = mesh[f];
+    const int after = place == 2 ? 0 : place + 1, before = place == 0 ? 2 : place - 1;
+    const std::size_t n = star.faces.size();
+    star.faces.push_back({f, face.vertices[after], face.vertices[before], face.vertices[place]});
+    if (n % 2 == 0) star.pairs.emplace_back();
+    StarPair& pair = star.pairs.back();
+    pair.a.put(n % 2, mesh.position(face.vertices[after]));
+    pair.b.put(n % 2, mesh.position(face.vertices[before]));
+}
+
+/// The measures that do not depend on where the merged vertex goes.
+void measure(EdgeStar& star) {
+    if (star.faces.size() % 2 == 1) {
+        StarPair& last = star.pairs.back();
+        last.a.put(1, last.a[0]);
+        last.b.put(1, last.b[0]);
+    }
+    Lanes3<Double2> low = both(Vec3{HUGE_VAL, HUGE_VAL, HUGE_VAL}), high = both(Vec3{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL});
+    for (std::size_t n = 0; n < star.pairs.size(); ++n) {
+        StarPair& pair = star.pairs[n];
+        const int last = std::min(2 * static_cast<int>(n) + 1, star.face_count() - 1);
+        const Lanes3<Double2> apex = side_by_side(star.at_apex(2 * static_cast<int>(n)), star.at_apex(last));
+        pair.old_normal = cross(pair.a - apex, pair.b - apex);
+        pair.old_length2 = dot(pair.old_normal, pair.old_normal);
+        const Lanes3<Double2> link_edge = pair.b - pair.a;
+        pair.link_length2 = dot(link_edge, link_edge);
+        low = {least(least(low.x, pair.a.x), pair.b.x), least(least(low.y, pair.a.y), pair.b.y),
+               least(least(low.z, pair.a.z), pair.b.z)};
+        high = {greatest(greatest(high.x, pair.a.x), pair.b.x), greatest(greatest(high.y, pair.a.y), pair.b.y),
+                greatest(greatest(high.z, pair.a.z), pair.b.z)};
+    }
+    star.link_box = {min(low[0], low[1]), max(high[0], high[1])};
+}
+
+/// All faces have the same two labels.
+bool is_one_interface(const Mesh& mesh, const EdgeStar& star) {
+    if (star.faces.empty()) return true;
+    const auto& labels = mesh[star.faces[0].face].labels;
+    return std::all_of(star.faces.begin(), star.faces.end(),
+                       [&](const StarFace& f) { return mesh[f.face].labels == labels; });
+}
+
+void add_to_link(EdgeStar& star, VertexId v) {
+    if (std::find(star.link.begin(), star.link.end(), v) == star.link.end()) star.link.push_back(v);
+}
+
+/// Round an edge within one interface every vertex of the link comes first in exactly one face, but the last of an open
+/// fan.
+void gather_link(const Mesh& mesh, EdgeStar& star) {
+    const bool is_inside = mesh[star.goes].label_count == 2 && (star.keeps_stays || mesh[star.stays].label_count == 2);
+    for (const StarFace& face : star.faces) {
+        if (is_inside) {
+            star.link.push_back(face.a);
+        } else {
+            add_to_link(star, face.a);
+            add_to_link(star, face.b);
+        }
+    }
+    if (is_inside && star.keeps_stays)
+        for (VertexId apex : star.apexes) add_to_link(star, apex);
+}
+
+void start(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
+    star.goes = goes;
+    star.stays = stays;
+    star.at_goes = mesh.position(goes);
+    star.at_stays = mesh.position(stays == kNoVertex ? goes : stays);
+    star.faces.clear();
+    star.pairs.clear();
+    star.dead.clear();
+    star.apexes.clear();
+    star.link.clear();
+}
+
+void add_faces_of_goes(const Mesh& mesh, EdgeStar& star) {
+    mesh.for_star(star.goes, [&](FaceId f, int place) {
+        const Face& face = mesh[f];
+        const VertexId a = face.vertices[place == 2 ? 0 : place + 1], b = face.vertices[place == 0 ? 2 : place - 1];
+        if (a != star.stays && b != star.stays) return add_surviving(mesh, f, place, star);
+        star.dead.push_back(f);
+        star.apexes.push_back(a == star.stays ? b : a);
+    });
+}
+
+void gather_faces_of_goes(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
+    start(mesh, goes, stays, star);
+    star.keeps_stays = true;
+    add_faces_of_goes(mesh, star);
+    star.is_interface = is_one_interface(mesh, star);
+    measure(star);
+}
+
+}  // namespace
+
+void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
+    start(mesh, goes, stays, star);
+    star.keeps_stays = false;
+    add_faces_of_goes(mesh, star);
+    mesh.for_star(stays, [&](FaceId f, int place) {
+        const Face& face = mesh[f];
+        if (face.vertices[place == 2 ? 0 : place + 1] != goes && face.vertices[place == 0 ? 2 : place - 1] != goes)
+            add_surviving(mesh, f, place, star);
+    });
+    star.is_interface = is_one_interface(mesh, star);
+    measure(star);
+    gather_link(mesh, star);
+}
+
+void gather_vertex(const Mesh& mesh, VertexId goes, EdgeStar& star) {
+    gather_faces_of_goes(mesh, goes, kNoVertex, star);
+}
+
+void gather_half(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
+    gather_faces_of_goes(mesh, goes, stays, star);
+    gather_link(mesh, star);
+}
+
+void set_normals(EdgeStar& star, Vec3 position) {
+    const Lanes3<Double2> merged = both(position);
+    for (StarPair& pair : star.pairs) {
+        pair.new_normal = cross(pair.a - merged, pair.b - merged);
+        pair.new_length2 = dot(pair.new_normal, pair.new_normal);
+    }
+}
+
+}  // namespace regionmesh

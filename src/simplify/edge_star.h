@@ -1,0 +1,72 @@
+// Everything round an edge that a collapse touches.
+#pragma once
+
+#include <vector>
+
+#include "base/lanes.h"
+#include "regionmesh/mesh.h"
+
+namespace regionmesh {
+
+/// A face of the star that survives the collapse: it keeps the corners a and b, and its third corner moves to the
+/// merged vertex. The order (merged vertex, a, b) is that of the face.
+struct StarFace {
+    FaceId face;
+    VertexId a, b;
+    VertexId apex;  // which end of the edge the third corner is now
+};
+
+/// The measures of two such faces, side by side. Where their number is odd, the last stands in both lanes.
+struct StarPair {
+    Lanes3<Double2> a, b;        // where the corners are
+    Lanes3<Double2> old_normal;  // twice the area vector before
+    Double2 old_length2;         // its length, squared
+    Double2 link_length2;        // of the edge from a to b, squared
+    Lanes3<Double2> new_normal;  // the same after; set by set_normals
+    Double2 new_length2;
+};
+
+/// The star of the edge goes-stays: reused from collapse to collapse, so that nothing is allocated in the long run.
+struct EdgeStar {
+    VertexId goes, stays;
+    Vec3 at_goes, at_stays;
+    std::vector<StarFace> faces;
+    std::vector<StarPair> pairs;
+    std::vector<FaceId> dead;      // faces at the edge, which vanish
+    std::vector<VertexId> apexes;  // their third corners
+    std::vector<VertexId> link;    // distinct vertices a, b of the surviving faces
+    Box link_box;                  // round them
+    bool is_interface;             // all faces have the same two labels
+    bool keeps_stays;              // only the faces of `goes` are here: `stays` does not move, nor do its faces change
+
+    int face_count() const { return static_cast<int>(faces.size()); }
+    Vec3 at_a(int n) const { return pairs[n / 2].a[n % 2]; }
+    Vec3 at_b(int n) const { return pairs[n / 2].b[n % 2]; }
+    Vec3 at_apex(int n) const { return faces[n].apex == goes ? at_goes : at_stays; }
+    /// The whole star lies in a plane square to the axis, to the last bit.
+    bool is_level(int axis) const {
+        const double level = at_goes[axis];
+        return at_stays[axis] == level && link_box.low[axis] == level && link_box.high[axis] == level;
+    }
+    Vec3 new_normal(int n) const { return pairs[n / 2].new_normal[n % 2]; }
+    double new_length2(int n) const { return pairs[n / 2].new_length2[n % 2]; }
+};
+
+/// May the edge from `stays` to a vertex of the link be one of a line?
+inline bool is_on_line(const Mesh& mesh, const EdgeStar& star, VertexId end) {
+    return mesh[star.stays].label_count > 2 && mesh[end].label_count > 2;
+}
+
+/// Collects the star. Requires that goes-stays is an edge.
+void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star);
+
+/// Collects all faces of a vertex as if it would go, nowhere yet.
+void gather_vertex(const Mesh& mesh, VertexId goes, EdgeStar& star);
+
+/// Collects the faces of `goes` only. Requires that goes-stays is an edge.
+void gather_half(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star);
+
+/// Fills in the normals that the surviving faces would have with the merged vertex at `position`.
+void set_normals(EdgeStar& star, Vec3 position);
+
+}  // namespace regionmesh

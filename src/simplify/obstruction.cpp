@@ -1,0 +1,284 @@
+#include "simplify/obstruction.h"
+
+#include <algorithm>
+
+#include "base/exact_predicates.h"
+#include "mesh/face_meeting.h"
+
+namespace regionmesh {
+namespace {
+
+bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
+    const int side = orientation(a, b, c, d);
+    return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side &&
+           orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
+}
+
+/// The plane of a face and those through its edges, square to it; and how sure they are of sides.
+class FacePlanes {
+public:
+    explicit FacePlanes(const PlacedFace& face) : face_(face) {
+        const Vec3 u = face.at[1] - face.at[0], v = face.at[2] - face.at[0];
+        planes_[3] = {face.at[0], cross(u, v), size(u) * size(v)};
+        for (int n = 0; n < 3; ++n) {
+            const Vec3 edge = face.at[(n + 1) % 3] - face.at[n];
+            planes_[n] = {face.at[n], cross(edge, planes_[3].out), size(edge) * planes_[3].size};
+        }
+        is_sure_ = length2(planes_[3].out) > 1e-12 * length2(u) * length2(v);
+    }
+    /// Is it sure that a plane has the other face beyond it, but for corners of both that it passes through?
+    bool are_beside(const PlacedFace& other) const {
+        if (!is_sure_) return false;
+        std::array<int, 3> place;  // of each corner in this face
+        for (int n = 0; n < 3; ++n) {
+            place[n] = -1;
+            for (int m = 0; m < 3; ++m)
+                if (other.vertices[n] == face_.vertices[m]) place[n] = m;
+        }
+        for (int n = 0; n < 3; ++n)
+            if (is_beyond(planes_[n], 1, other, place, n)) return true;
+        return is_beyond(planes_[3], 1, other, place, -1) || is_beyond(planes_[3], -1, other, place, -1);
+    }
+
+private:
+    static constexpr double kDoubt = 1e-12;
+    struct Plane {
+        Vec3 at, out;
+        double size;  // bounds `out` as it was computed, and its rounding
+    };
+
+    static double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+    /// `edge` is the first place of the edge that the plane goes through; -1 for all places.
+    static bool is_beyond(const Plane& plane, int side, const PlacedFace& other, const std::array<int, 3>& place,
+                          int edge) {
+        for (int n = 0; n < 3; ++n) {
+            if (place[n] >= 0 && (edge < 0 || place[n] == edge || place[n] == (edge + 1) % 3)) continue;
+            const Vec3 step = other.at[n] - plane.at;
+            if (!(side * dot(plane.out, step) > kDoubt * plane.size * size(step))) return false;
+        }
+        return true;
+    }
+
+    const PlacedFace& face_;
+    std::array<Plane, 4> planes_;
+    bool is_sure_;
+};
+
+/// Are these multiples of 1/64, and less than 2^45? Their differences are exact.
+bool are_of_few_digits(const Lanes3<Double2>& p) {
+    // Adding 1.5 * 2^46 leaves no digits beyond 1/64.
+    const Double2 round = both(0x1.8p46), most = both(0x1p45), zero = both(0);
+    unsigned ok = 3;
+    for (Double2 x : {p.x, p.y, p.z}) ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
+    return ok == 3;
+}
+
+/// Do all corners lie in one plane, exactly? Told only where the coordinates have few digits, as those of samples do,
+/// and lie less than 64 apart: products of three differences are exact then.
+bool is_in_one_plane(const EdgeStar& star) {
+    const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
+    const auto is_in_plane = [&](const Lanes3<Double2>& p) {
+        const Lanes3<Double2> step = p - origin;
+        const Double2 most = both(64), zero = both(0);
+        unsigned is_near = 3;
+        for (Double2 x : {step.x, step.y, step.z}) is_near &= bits_of(greatest(x, zero - x) < most);
+        return is_near == 3 && are_of_few_digits(p) && bits_of(dot(normal, step) == zero) == 3;
+    };
+    return are_of_few_digits(origin) && is_in_plane(both(star.at_stays)) &&
+           std::all_of(star.pairs.begin(), star.pairs.end(),
+                       [&](const StarPair& pair) { return is_in_plane(pair.a) && is_in_plane(pair.b); });
+}
+
+/// All faces of the star lie in one plane, exactly, and stay there: an interface or a side of the box. Since none
+/// folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
+bool is_flat(const EdgeStar& star, Vec3 position) {
+    if (!star.is_interface) return false;
+    for (int axis = 0; axis < 3; ++axis)
+        if (star.is_level(axis) && position[axis] == star.at_goes[axis]) return true;
+    return star.keeps_stays && is_in_one_plane(star);
+}
+
+}  // namespace
+
+Verdict Obstruction::verdict(const Mesh& mesh, const FaceTree& tree, const EdgeStar& star, Vec3 position,
+                             const ShapeBounds& bounds) {
+    if (is_flat(star, position)) return Verdict::kAccepted;
+    position_ = position;
+    const bool is_simple = is_simple_disk(star);
+    box_ = star.link_box;
+    for (Vec3 p : {position, star.at_goes, star.at_stays}) box_.add(p);
+    Verdict verdict = Verdict::kAccepted;
+    for (int first = 0; first < star.face_count() && verdict == Verdict::kAccepted; first += StarPlanes::kMost) {
+        prepare(mesh, star, first);
+        if (!is_simple && meets_itself(mesh, star)) return Verdict::kIntersect;
+        tree.search(box_, [&](FaceId f, const FaceTree::GridBox&) {
+            verdict = look_at(mesh, star, bounds, f);
+            return verdict == Verdict::kAccepted;
+        });
+    }
+    return verdict;
+}
+
+/// The new star is a disk of one interface whose faces, seen along their mean normal, all look up and go round the
+/// merged vertex once: no two of them meet but in what they share. The ray that is counted lies in the first face.
+bool Obstruction::is_simple_disk(const EdgeStar& star) const {
+    if (!star.is_interface) return false;
+    Vec3 up;
+    for (int n = 0; n < star.face_count(); ++n) up += star.new_normal(n);
+    const Vec3 ray = 0.5 * (star.at_a(0) + star.at_b(0)) - position_;
+    const Vec3 right = cross(ray, up);
+    for (int n = 0; n < star.face_count(); ++n) {
+        if (!is_ahead(up, star.new_normal(n))) return false;
+        if (n > 0 && !is_ahead(-right, star.at_a(n) - position_) && !is_ahead(right, star.at_b(n) - position_))
+            return false;
+    }
+    return true;
+}
+
+/// Does a new face in hand meet one that comes after it, outside the merged vertex or the edge that they share? Planes
+/// through the merged vertex tell most apart.
+bool Obstruction::meets_itself(const Mesh& mesh, const EdgeStar& star) {
+    for (int j = first_ + 1; j < star.face_count(); ++j) {
+        const StarFace& g = star.faces[j];
+        const Sides sides = place_of(mesh, g.a, 0).sides & place_of(mesh, g.b, 1).sides;
+        const std::uint32_t clear = sides.a | sides.b | sides.above | sides.below;
+        const std::uint32_t before = j - first_ < StarPlanes::kMost ? (1u << (j - first_)) - 1 : ~0u;
+        for (std::uint32_t rest = planes_.all() & before & ~clear; rest != 0; rest &= rest - 1)
+            if (meet_in_star(star, first_ + __builtin_ctz(rest), j)) return true;
+    }
+    return false;
+}
+
+bool Obstruction::meet_in_star(const EdgeStar& star, int i, int j) const {
+    const StarFace &f = star.faces[i], &g = star.faces[j];
+    const Vec3 f_a = star.at_a(i), f_b = star.at_b(i), g_a = star.at_a(j), g_b = star.at_b(j);
+    const Vec3 other = g.a == f.a || g.a == f.b ? g_b : g_a;
+    if (f.a == g.a || f.a == g.b) return meet_beyond_edge(position_, f_a, f_b, other);
+    if (f.b == g.a || f.b == g.b) return meet_beyond_edge(position_, f_b, f_a, other);
+    return meet_beyond_vertex(position_, f_a, f_b, g_a, g_b);
+}
+
+/// Takes new faces from `first` on in hand. What they know of their own corners: the planes through them.
+void Obstruction::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
+    first_ = first;
+    const int count = std::min(star.face_count() - first, StarPlanes::kMost);
+    planes_.prepare(star, position_, first, count);
+    if (++search_ == 0) {
+        std::fill(table_.begin(), table_.end(), Place());
+        search_ = 1;
+    }
+    used_ = 0;
+    Place& goes = place_of(mesh, star.goes, 0);
+    Place& stays = place_of(mesh, star.stays, 0);
+    goes.is_of_star = 1;
+    stays.is_of_star = !star.keeps_stays;
+    std::uint32_t at_goes = 0;
+    for (int n = 0; n < count; ++n) {
+        const StarFace& face = star.faces[first + n];
+        at_goes |= (face.apex == star.goes ? 1u : 0u) << n;
+        place_of(mesh, face.a, 0).as_a |= 1u << n;
+        place_of(mesh, face.b, 0).as_b |= 1u << n;
+    }
+    apex_ = planes_.far_sides_of(star.at_goes).of(at_goes) | planes_.far_sides_of(star.at_stays).of(~at_goes);
+    for (VertexId v : star.link) {
+        Place& place = place_of(mesh, v, 0);
+        const std::uint32_t own = place.as_a | place.as_b;
+        place.is_shared = own != 0;
+        place.sides.link |= own;
+        place.sides.a |= place.as_a;
+        place.sides.b |= place.as_b;
+        place.sides.above |= own;
+        place.sides.below |= own;
+    }
+    if (!star.keeps_stays) return;
+    stays.is_shared = 1;
+    stays.sides.a = stays.sides.b = stays.sides.above = stays.sides.below = planes_.all();
+}
+
+Obstruction::Place& Obstruction::find_place(const Mesh& mesh, VertexId v, int corner) {
+    std::uint32_t at = hash(v);
+    for (; table_[at].key >> 32 == search_; at = (at + 1) % kPlaces)
+        if (table_[at].key == key_of(v)) return table_[at];
+    const bool has_room = used_ < kPlaces / 4 * 3;
+    used_ += has_room;
+    Place& place = has_room ? table_[at] : spare_[corner];
+    const Vec3 p = mesh.position(v);
+    const bool is_in_reach = max(p, box_.low) == p && min(p, box_.high) == p;
+    place = {key_of(v), planes_.sides_of(p), 0, 0, 0, 0, is_in_reach};
+    return place;
+}
+
+/// Is it beyond doubt that the face does not meet any new face, comes near none, and is not swept over?
+Verdict Obstruction::look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
+    const auto& v = mesh[f].vertices;
+    const Place &p = place_of(mesh, v[0], 0), &q = place_of(mesh, v[1], 1), &r = place_of(mesh, v[2], 2);
+    if ((p.is_of_star | q.is_of_star | r.is_of_star) != 0) return Verdict::kAccepted;
+    const std::uint32_t shared = p.is_shared + q.is_shared + r.is_shared;
+    const Corners old{&p, &q, &r};
+    if (shared >= 2 && pinches(mesh, star, bounds, old)) return Verdict::kPinch;
+    const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
+    if (doubtful != 0 && meets(mesh, star, old, doubtful)) return Verdict::kIntersect;
+    const bool may_be_swept = (p.is_in_reach & q.is_in_reach & r.is_in_reach) != 0 && shared == 0;
+    return may_be_swept && is_swept(mesh, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
+}
+
+/// At an edge that is one of the link, or leads from there to `stays`. A corner beyond the plane that is square to the
+/// new face is far from it.
+bool Obstruction::pinches(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const {
+    for (int n = 0; n < 3; ++n) {
+        const Place &from = *old[n], &to = *old[(n + 1) % 3], &third = *old[(n + 2) % 3];
+        for (std::uint32_t rest = faces_at(from, to) & ~third.sides.link; rest != 0; rest &= rest - 1) {
+            const int face = __builtin_ctz(rest);
+            const bool runs_back = (from.as_b >> face & 1) != 0;
+            if (pinches_beyond(star, first_ + face, position_, mesh.position(third.vertex()), runs_back, bounds))
+                return true;
+        }
+        if (!star.keeps_stays || (from.vertex() != star.stays && to.vertex() != star.stays)) continue;
+        const Place& end = from.vertex() == star.stays ? to : from;
+        const KeptFace kept{to.vertex() == star.stays, mesh.position(third.vertex()),
+                            is_on_line(mesh, star, end.vertex())};
+        for (std::uint32_t rest = end.as_a | end.as_b; rest != 0; rest &= rest - 1) {
+            const int face = __builtin_ctz(rest);
+            if (pinches_beside(star, first_ + face, (end.as_a >> face & 1) != 0, kept, bounds)) return true;
+        }
+    }
+    return false;
+}
+
+/// Does the face meet one of the new faces named? Its own planes tell most apart.
+bool Obstruction::meets(const Mesh& mesh, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
+    const PlacedFace own{
+        {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
+        {mesh.position(old[0]->vertex()), mesh.position(old[1]->vertex()), mesh.position(old[2]->vertex())}};
+    if (is_degenerate({own.at[0], own.at[1], own.at[2]})) return false;  // it meets none, as in the check
+    const FacePlanes planes(own);
+    for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
+        const int n = first_ + __builtin_ctz(rest);
+        const PlacedFace made{{star.stays, star.faces[n].a, star.faces[n].b}, {position_, star.at_a(n), star.at_b(n)}};
+        if (boxes_overlap(own.at, made.at) && !planes.are_beside(made) && meet_outside_shared(made, own)) return true;
+    }
+    return false;
+}
+
+/// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
+/// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
+bool Obstruction::is_swept(const Mesh& mesh, const EdgeStar& star, const Corners& old) const {
+    const Place* best = nullptr;
+    std::uint32_t doubtful = 0;
+    for (const Place* place : old) {
+        const std::uint32_t own = planes_.all() & ~(place->sides & apex_).any();
+        if (best && __builtin_popcount(own) >= __builtin_popcount(doubtful)) continue;
+        best = place;
+        doubtful = own;
+    }
+    const Vec3 q = mesh.position(best->vertex());
+    for (std::uint32_t rest = doubtful; rest != 0; rest &= rest - 1) {
+        const int n = first_ + __builtin_ctz(rest);
+        if (is_in_tetrahedron(position_, star.at_apex(n), star.at_a(n), star.at_b(n), q)) return true;
+    }
+    return std::any_of(star.apexes.begin(), star.apexes.end(), [&](VertexId apex) {
+        return is_in_tetrahedron(position_, star.at_goes, star.at_stays, mesh.position(apex), q);
+    });
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,123 @@
+#include "simplify/tile.h"
+
+#include <algorithm>
+
+namespace regionmesh {
+namespace {
+
+constexpr std::uint32_t kRim = BoxedFaces::kRim, kNone = BoxedFaces::kNone;
+constexpr std::uint32_t kFree = 0xFFFFFFFFu;
+constexpr std::size_t kFirstRoom = 1024;
+
+}  // namespace
+
+void NumberTable::clear() {
+    if (items_.empty()) items_.resize(kFirstRoom);
+    std::fill(items_.begin(), items_.end(), KeyedIndex{kFree, kNone});
+    used_ = 0;
+}
+
+std::size_t NumberTable::find(std::uint32_t key) const {
+    const std::size_t mask = items_.size() - 1;
+    std::size_t at = (key * 0x9E3779B1u >> 7) & mask;
+    while (items_[at].key != key && items_[at].key != kFree) at = (at + 1) & mask;
+    return at;
+}
+
+std::uint32_t& NumberTable::operator[](std::uint32_t key) {
+    std::size_t at = find(key);
+    if (items_[at].key == kFree) {
+        if (++used_ * 2 > items_.size()) {
+            grow();
+            at = find(key);
+        }
+        items_[at].key = key;
+    }
+    return items_[at].index;
+}
+
+void NumberTable::grow() {
+    std::vector<KeyedIndex> old(items_.size() * 2, {kFree, kNone});
+    old.swap(items_);
+    for (const KeyedIndex& item : old)
+        if (item.key != kFree) items_[find(item.key)] = item;
+}
+
+void Tile::take_out(BoxedFaces& faces, std::uint32_t box) {
+    const auto own = faces.faces_of(box);
+    const auto obstacles = faces.obstacles_of(box);
+    mesh_ = {};
+    mesh_.reserve((own.size() + obstacles.size()) * 5 / 8, own.size() + obstacles.size());
+    inside_count_ = 0;
+    locals_.clear();
+    rim_.clear();
+    for (std::uint32_t f : own) put_in(faces, f);
+    for (const KeyedIndex& obstacle : obstacles) put_in(faces, obstacle.index);
+    sorted_ = mesh_.sort_spatially();
+}
+
+void Tile::put_in(BoxedFaces& faces, std::uint32_t f) {
+    const ChunkFace& face = faces.batch().faces[f];
+    std::array<VertexId, 3> corner;
+    for (int c = 0; c < 3; ++c) {
+        const std::uint32_t local = face.vertices[c];
+        const bool is_rim = faces.is_rim(local);
+        std::uint32_t& place = is_rim ? rim_[local] : faces.place(local);
+        if (place == kNone) {
+            const ChunkVertex& vertex = faces.vertex(local);
+            place = index(mesh_.add_vertex(vertex.position, vertex.sides, is_rim));
+            locals_.push_back(local);
+            inside_count_ += !is_rim;
+        }
+        corner[c] = VertexId{place};
+    }
+    mesh_.add_face(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]);
+}
+
+/// Faces all of rim vertices have not changed, and may be in several tiles: those of the box itself count.
+void Tile::note_left(BoxedFaces& faces, std::uint32_t box) {
+    left_vertices_.clear();
+    left_faces_.clear();
+    const auto is_rim = [&](std::uint32_t local) { return faces.is_rim(local); };
+    for (std::uint32_t f : faces.faces_of(box)) {
+        ChunkFace face = faces.batch().faces[f];
+        if (!std::all_of(face.vertices.begin(), face.vertices.end(), is_rim)) continue;
+        for (std::uint32_t& v : face.vertices) v = kRim | faces.rim_number(v);
+        left_faces_.push_back(face);
+    }
+    number_.assign(mesh_.vertex_end(), kNone);
+    for (std::uint32_t n = 0; n < locals_.size(); ++n) {
+        const std::uint32_t local = locals_[n];
+        if (faces.is_rim(local))
+            number_[index(sorted_[n])] = kRim | faces.rim_number(local);
+        else
+            faces.place(local) = kNone;
+    }
+    for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
+        if (!mesh_.is_alive(FaceId{f})) continue;
+        const auto& corners = mesh_[FaceId{f}].vertices;
+        ChunkFace face{{}, mesh_[FaceId{f}].labels};
+        std::uint32_t of_rim = kRim;
+        for (int c = 0; c < 3; ++c) {
+            std::uint32_t& number = number_[index(corners[c])];
+            if (number == kNone) {
+                number = static_cast<std::uint32_t>(left_vertices_.size());
+                left_vertices_.push_back({mesh_[corners[c]].position, mesh_[corners[c]].sides});
+            }
+            face.vertices[c] = number;
+            of_rim &= number;
+        }
+        if (of_rim == 0) left_faces_.push_back(face);
+    }
+}
+
+void Tile::put_back(Chunk& made) const {
+    const std::uint32_t first = made.carried + static_cast<std::uint32_t>(made.vertices.size());
+    made.vertices.insert(made.vertices.end(), left_vertices_.begin(), left_vertices_.end());
+    for (const ChunkFace& left : left_faces_) {
+        ChunkFace& face = made.faces.emplace_back(left);
+        for (std::uint32_t& v : face.vertices) v = (v & kRim) != 0 ? v & ~kRim : first + v;
+    }
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,35 @@
+// The quadric of each vertex.
+#pragma once
+
+#include "regionmesh/flat_array.h"
+#include "regionmesh/mesh.h"
+#include "simplify/placement.h"
+
+namespace regionmesh {
+
+/// Gathered from the model as it comes: each face gives a third of its area to each vertex; edges of lines give the
+/// planes square to each face (Garland and Heckbert 1997). Each is relative to its vertex.
+class VertexQuadrics {
+public:
+    /// Requires the label counts of the vertices (count_labels).
+    explicit VertexQuadrics(const Mesh& mesh);
+
+    const PackedQuadric& operator[](VertexId v) const { return quadrics_[index(v)]; }
+    EdgeEnds ends(const Mesh& mesh, VertexId goes, VertexId stays) const {
+        return {mesh.position(goes), mesh.position(stays), quadrics_[index(goes)], quadrics_[index(stays)],
+                mesh[stays].sides};
+    }
+    /// Before the star changes: `stays` moves to `position` and takes over what `goes` has.
+    void merge(const Mesh& mesh, VertexId goes, VertexId stays, Vec3 position) {
+        quadrics_[index(stays)] = PackedQuadric(merged_quadric(ends(mesh, goes, stays), position));
+    }
+    std::size_t bytes() const { return quadrics_.bytes(); }
+
+private:
+    void add_plane(VertexId v, Vec3 normal, double weight);
+    void add_lines(const Mesh& mesh, const Face& face, Vec3 normal);
+
+    FlatArray<PackedQuadric> quadrics_;
+};
+
+}  // namespace regionmesh

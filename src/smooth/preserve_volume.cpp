@@ -1,0 +1,203 @@
+#include "regionmesh/preserve_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/triangle.h"
+#include "mesh/region_volumes.h"
+#include "regionmesh/typical_edge.h"
+#include "smooth/guarded_move.h"
+#include "smooth/region_matrix.h"
+#include "smooth/relax.h"
+#include "smooth/step_back.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr std::uint32_t kMostRounds = 30;
+constexpr double kEnough = 1e-9;  // drift at which a round more would be vain
+// Of one round, in typical edges: what a region may ask for on average over its boundary, and what a vertex may go.
+constexpr double kMostAsked = 0.05, kLongestStep = 0.2;
+// A region that gets less than this share of what it asks for, so many rounds on end, is given up: it would only push
+// the others about.
+constexpr double kLeastGain = 0.3;
+constexpr int kPatience = 4;
+constexpr std::uint8_t kRest = 3, kForEver = 255;  // rounds for which a vertex that was held back is let be
+constexpr int kMostLabels = 4;
+constexpr double kRounding = 1e-10;  // of sums of volumes, relative
+
+/// How the volumes of the regions at a vertex change as it moves.
+struct Gradient {
+    std::array<Label, kMostLabels> labels;
+    std::array<Vec3, kMostLabels> of;
+    int size = 0;
+    double area = 0;  // a third of that of the star
+};
+
+class Preserving {
+public:
+    Preserving(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options)
+        : mesh_(mesh), wanted_(wanted), options_(options), rest_(mesh.vertex_end()) {
+        for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+            if (!mesh.is_alive(VertexId{v}) || mesh[VertexId{v}].is_fixed) rest_[v] = kForEver;
+    }
+
+    PreserveReport run() {
+        note_missing();
+        report_.drift_before = report_.drift;
+        while (!is_done() && report_.rounds < kMostRounds) {
+            ++report_.rounds;
+            const std::vector<double> multipliers = solve();
+            std::vector<Vec3> to(mesh_.vertex_end());
+            for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) to[v] = target(VertexId{v}, multipliers);
+            hold(move_guarded(mesh_, to, options_));
+            note_missing();
+        }
+        return report_;
+    }
+
+private:
+    /// In the game: to be brought to its volume, and not given up.
+    bool is_wanted(Label label) const {
+        return label < wanted_.size() && wanted_[label] && stalled_[label] < kPatience;
+    }
+
+    /// What each region misses, and what it asks for in the next round.
+    void note_missing() {
+        const std::vector<double> volumes = region_volumes(mesh_);
+        const std::vector<double> most = most_asked();
+        report_.drift = 0;
+        report_.regions_off = 0;
+        for (Label label = 0; label < wanted_.size(); ++label) {
+            if (!wanted_[label] || *wanted_[label] == 0) continue;
+            const double missing = *wanted_[label] - (label < volumes.size() ? volumes[label] : 0);
+            const double drift = std::abs(missing / *wanted_[label]);
+            report_.drift = std::max(report_.drift, drift);
+            report_.regions_off += drift > kVolumeTolerance;
+            if (report_.rounds > 0 && drift > kVolumeTolerance) {
+                const double gained = std::abs(missing_[label]) - std::abs(missing);
+                stalled_[label] = gained < kLeastGain * std::abs(asked_[label]) ? stalled_[label] + 1 : 0;
+            }
+            missing_[label] = missing;
+            asked_[label] = is_wanted(label) ? std::clamp(missing, -most[label], most[label]) : 0;
+        }
+        balance();
+    }
+
+    /// Where all space is regions, what they miss sums to nothing but rounding, and so must what they ask for: the
+    /// largest one makes up for it.
+    void balance() {
+        Label largest = 0;
+        double missing = 0, asked = 0, all = 0;
+        for (Label label = 0; label < wanted_.size(); ++label) {
+            if (!is_wanted(label)) continue;
+            if (!is_wanted(largest) || *wanted_[label] > *wanted_[largest]) largest = label;
+            missing += missing_[label];
+            asked += asked_[label];
+            all += *wanted_[label];
+        }
+        if (is_wanted(largest)) asked_[largest] += (std::abs(missing) < kRounding * all ? 0 : missing) - asked;
+    }
+
+    bool is_done() const {
+        for (Label label = 0; label < wanted_.size(); ++label)
+            if (is_wanted(label) && std::abs(missing_[label]) > kEnough * std::abs(*wanted_[label])) return false;
+        return true;
+    }
+
+    /// By region: the area of its boundary times the longest way on average.
+    std::vector<double> most_asked() const {
+        std::vector<double> most(wanted_.size());
+        for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
+            if (!mesh_.is_alive(FaceId{f})) continue;
+            const auto [a, b, c] = mesh_.corners(FaceId{f});
+            const double reach = 0.5 * length(area_vector(a, b, c)) * kMostAsked * edge_;
+            for (Label label : mesh_[FaceId{f}].labels)
+                if (label < most.size()) most[label] += reach;
+        }
+        return most;
+    }
+
+    /// Vertices that the guard held back are let be for some rounds.
+    void hold(const std::vector<std::uint8_t>& levels) {
+        for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
+            if (rest_[v] == kForEver) continue;
+            if (rest_[v] > 0) --rest_[v];
+            if (levels[v] == 0) continue;
+            rest_[v] = kRest;
+            ++report_.held_vertices;
+        }
+    }
+
+    /// A hull that is no box was moved by decimation, and may move back.
+    SideSet kept_sides(VertexId v) const { return mesh_[v].sides & static_cast<SideSet>(~kOnHull); }
+
+    Gradient gradient(VertexId v) const {
+        Gradient gradient;
+        const SideSet sides = kept_sides(v);
+        mesh_.for_star(v, [&](FaceId f, int) {
+            const auto [a, b, c] = mesh_.corners(f);
+            const Vec3 normal = area_vector(a, b, c);
+            gradient.area += length(normal) / 6;
+            for (int side = 0; side < 2; ++side) {
+                const Label label = mesh_[f].labels[side];
+                if (!is_wanted(label)) continue;
+                int n = 0;
+                while (n < gradient.size && gradient.labels[n] != label) ++n;
+                if (n == kMostLabels) continue;
+                if (n == gradient.size) {
+                    gradient.labels[gradient.size] = label;
+                    gradient.of[gradient.size++] = {};
+                }
+                gradient.of[n] += (side == 0 ? 1 : -1) / 6.0 * normal;
+            }
+        });
+        for (int n = 0; n < gradient.size; ++n) keep_on_sides(sides, {}, gradient.of[n]);
+        return gradient;
+    }
+
+    std::vector<double> solve() const {
+        RegionMatrix matrix(static_cast<std::uint32_t>(wanted_.size()));
+        for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
+            if (rest_[v] > 0) continue;
+            const Gradient g = gradient(VertexId{v});
+            if (!(g.area > 0)) continue;
+            for (int m = 0; m < g.size; ++m)
+                for (int n = m; n < g.size; ++n) matrix.add(g.labels[m], g.labels[n], dot(g.of[m], g.of[n]) / g.area);
+        }
+        return matrix.solve(asked_);
+    }
+
+    Vec3 target(VertexId v, const std::vector<double>& multipliers) {
+        const Vec3 from = mesh_.position(v);
+        if (rest_[index(v)] > 0) return from;
+        const Gradient g = gradient(v);
+        Vec3 step;
+        for (int n = 0; n < g.size; ++n) step += multipliers[g.labels[n]] / g.area * g.of[n];
+        const double size = length(step), longest = kLongestStep * edge_;
+        if (size > longest) step = longest / size * step;
+        report_.largest_displacement = std::max(report_.largest_displacement, std::min(size, longest));
+        Vec3 to = from + step;
+        keep_on_sides(kept_sides(v), from, to);
+        return to;
+    }
+
+    Mesh& mesh_;
+    const WantedVolumes& wanted_;
+    const SmoothOptions& options_;
+    std::vector<std::uint8_t> rest_;  // rounds to sit out
+    double edge_ = typical_edge(mesh_);
+    std::vector<double> missing_ = std::vector<double>(wanted_.size());
+    std::vector<double> asked_ = std::vector<double>(wanted_.size());
+    std::vector<int> stalled_ = std::vector<int>(wanted_.size());  // rounds without progress
+    PreserveReport report_;
+};
+
+}  // namespace
+
+PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options) {
+    return Preserving(mesh, wanted, options).run();
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,65 @@
+#include "stream/section_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stream/memory_plan.h"
+#include "stream/place_in_space.h"
+
+namespace regionmesh {
+namespace {
+
+SourceShape shape_of(const VolumeInfo& info) {
+    const Vec3 spacing = info.lattice.spacing;
+    SourceShape shape{.name = info.source, .lattice = meshing_lattice(info.lattice), .sweep = info.sweep};
+    shape.strip_count = std::max(info.lattice.size[shape.axis()], 1u) - 1;
+    shape.strip_thickness = spacing[shape.axis()];
+    shape.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
+    shape.reading_bytes = reading_bytes(info);
+    return shape;
+}
+
+}  // namespace
+
+SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options)
+    : reader_(reader),
+      options_(options),
+      shape_(shape_of(reader.info())),
+      labels_(table_for(reader.info())),
+      background_(dense_background(options.background, labels_)) {}
+
+std::optional<FaceCount> SectionFaces::count() {
+    if (!reader_.info().can_rewind) {
+        begin();
+        census_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
+        return {};
+    }
+    Census census = count_labels(reader_, options_);
+    reader_.rewind();
+    return FaceCount{std::move(census.strip_faces), census.face_count, std::move(census.oracle)};
+}
+
+double SectionFaces::plane_of(std::uint32_t strip) const {
+    return shape_.lattice.origin[shape_.axis()] + strip * shape_.lattice.spacing[shape_.axis()];
+}
+
+/// Not before sections were counted: counting takes as much memory again. Refuses volumes without a cell.
+void SectionFaces::begin() {
+    window_.emplace(reader_, labels_);
+    mesher_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
+}
+
+bool SectionFaces::advance() {
+    if (!window_) begin();
+    return window_->advance();
+}
+
+void SectionFaces::make_faces(Chunk& batch) {
+    if (census_) census_->add(window_->low(), window_->high(), window_->is_last());
+    batch.clear();
+    mesher_->mesh(window_->low(), window_->high(), batch);
+}
+
+void SectionFaces::place(Mesh& mesh) const { place_in_space(mesh, reader_.info().lattice); }
+
+}  // namespace regionmesh

@@ -1,0 +1,43 @@
+// The faces of labelled sections (P 3.1-3.3).
+#pragma once
+
+#include <optional>
+
+#include "cells/label_census.h"
+#include "cells/strip_mesher.h"
+#include "regionmesh/census.h"
+#include "stream/face_source.h"
+#include "volume/section_window.h"
+
+namespace regionmesh {
+
+/// Meshes the strips between sections as they are read. Where they can be read twice, the first time is to count.
+class SectionFaces final : public FaceSource {
+public:
+    SectionFaces(SectionReader& reader, const CensusOptions& options);
+
+    std::optional<FaceCount> count() override;
+    const SourceShape& shape() const override { return shape_; }
+    double plane_of(std::uint32_t strip) const override;
+    bool advance() override;
+    void make_faces(Chunk& batch) override;
+    std::uint32_t strips_read() const override { return window_ ? window_->sections_read() - 1 : 0; }
+    const LabelTable& labels() const override { return labels_; }
+    const std::vector<Label>& background() const override { return background_; }
+    LabelOracle oracle() const override { return census_->oracle(); }
+    void place(Mesh& mesh) const override;
+
+private:
+    void begin();
+
+    SectionReader& reader_;
+    CensusOptions options_;
+    SourceShape shape_;
+    LabelTable labels_;
+    std::vector<Label> background_;
+    std::optional<SectionWindow> window_;  // from begin() on
+    std::optional<StripMesher> mesher_;
+    std::optional<LabelCensus> census_;  // where nothing was counted before
+};
+
+}  // namespace regionmesh

@@ -1,0 +1,68 @@
+// The faces of labelled tetrahedra (P 3.9).
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "cells/ranked_tetrahedra.h"
+#include "stream/face_source.h"
+#include "stream/spilled_strips.h"
+
+namespace regionmesh {
+
+/// What is asked of the way from tetrahedra to strips of faces.
+struct TetrahedronOptions {
+    bool cap = true;
+    std::vector<InputLabel> background{0};
+    std::optional<Sweep> sweep = {};  // along the longest side if not given
+    bool in_layers = false;           // strips so wide that no vertex has faces in more than two, as smoothing needs
+    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes to stay within
+};
+
+/// Ranks the tetrahedra, meshes all of them, and keeps the faces on disk; then gives them strip by strip, as often as
+/// one likes. Strips are as thick as a cube that six tetrahedra fill.
+class TetrahedronFaces final : public FaceSource {
+public:
+    TetrahedronFaces(TetrahedronReader& reader, const TetrahedronOptions& options);
+
+    /// Makes all faces, the first time.
+    std::optional<FaceCount> count() override;
+    const SourceShape& shape() const override { return shape_; }
+    double plane_of(std::uint32_t strip) const override;
+    bool advance() override;
+    void make_faces(Chunk& batch) override;
+    std::uint32_t strips_read() const override { return strips_read_; }
+    const LabelTable& labels() const override { return labels_; }
+    const std::vector<Label>& background() const override { return background_; }
+    LabelOracle oracle() const override { return oracle_; }
+    void place(Mesh& mesh) const override;
+
+    /// Back to the first strip.
+    void rewind();
+    std::uint64_t tetrahedron_count() const { return tetrahedron_count_; }
+    std::uint64_t point_count() const { return point_count_; }
+    /// Points by dense label, or tetrahedra where they have the labels.
+    const std::vector<std::uint64_t>& samples() const { return samples_; }
+
+private:
+    void make_all();
+    void require_memory(std::uint64_t held) const;
+    void shape_strips(const RankedTetrahedra& tetrahedra);
+    void mesh(RankedTetrahedra& tetrahedra);
+    void gather_layers();
+
+    TetrahedronReader& reader_;
+    TetrahedronOptions options_;
+    LabelTable labels_;
+    std::vector<Label> background_;
+    SourceShape shape_;
+    LabelOracle oracle_;
+    std::uint64_t point_count_ = 0, tetrahedron_count_ = 0;
+    std::vector<std::uint64_t> samples_;
+    double high_ = HUGE_VAL;  // where the last strip ends, if there is a side of a box
+    SpilledStrips spilled_;
+    std::vector<StripRange> layers_;  // of thin strips, one a cell of the lattice: what a strip is to others
+    std::uint32_t strips_read_ = 0;
+};
+
+}  // namespace regionmesh

@@ -1,0 +1,38 @@
+#include "volume/section_window.h"
+
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+
+SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader_(reader), labels_(labels) {
+    const VolumeInfo& info = reader.info();
+    for (int axis = 0; axis < 3; ++axis)
+        if (info.lattice.size[axis] < 2)
+            throw Error(ErrorCode::kInput, info.source + ": " + std::to_string(info.lattice.size[axis]) +
+                                               " sample along " + "xyz"[axis] +
+                                               "; a cell needs two: give a volume with at least 2 x 2 x 2 samples");
+    const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
+    constexpr std::size_t kMostSamples = 700'000'000;  // six table places each, counted in 32 bits
+    if (samples > kMostSamples)
+        throw Error(ErrorCode::kInput, info.source + ": a section of " + std::to_string(samples) +
+                                           " samples is beyond " + std::to_string(kMostSamples) +
+                                           "; choose another --sweep");
+    input_.resize(samples);
+    low_.resize(samples);
+    high_.resize(samples);
+}
+
+bool SectionWindow::read() {
+    if (!reader_.next(input_)) return false;
+    low_.swap(high_);
+    for (std::size_t n = 0; n < input_.size(); ++n) high_[n] = labels_.dense(input_[n]);
+    ++sections_read_;
+    return true;
+}
+
+bool SectionWindow::advance() {
+    if (sections_read_ == 0 && !read()) return false;
+    return read();
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+
+#include "formats/array/read_volume.h"
+#include "formats/temporary_folder.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+using ReadNpyTest = TemporaryFolder;
+
+TEST_F(ReadNpyTest, numpy_arrays_of_every_type_order_and_version_come_back_label_for_label) {
+    for (const auto& file : files_in("npy")) {
+        if (file.filename() == "one_section_uint8.npy") continue;
+        for (const SweepChoice sweep : {SweepChoice::kAuto, SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ}) {
+            const Volume volume = read_volume({file}, swept(sweep));
+            EXPECT_EQ(volume.info.format, "npy");
+            EXPECT_EQ(volume.info.source, file.string());
+            EXPECT_EQ(volume.info.type, type_in_name(file)) << file;
+            EXPECT_EQ(volume.info.lattice.size, (std::array<std::uint32_t, 3>{5, 4, 3}));
+            EXPECT_EQ(volume.labels, expected(type_in_name(file))) << file;
+        }
+    }
+}
+
+TEST_F(ReadNpyTest, auto_sweeps_the_axis_with_the_smallest_section) {
+    EXPECT_EQ(open_sections({data("npy/uint8.npy")})->info().sweep.axes, kSweepX.axes);
+}
+
+TEST_F(ReadNpyTest, array_with_two_axes_is_one_section) {
+    const auto reader = open_sections({data("npy/one_section_uint8.npy")}, swept(SweepChoice::kZ));
+    EXPECT_EQ(reader->info().lattice.size, (std::array<std::uint32_t, 3>{5, 4, 1}));
+    EXPECT_EQ(pull(*reader)[7], 7);
+}
+
+TEST_F(ReadNpyTest, samples_that_are_no_integers_are_refused_by_name) {
+    EXPECT_THAT(refusal({data("npy/bad/float32.npy")}), HasSubstr("float32.npy: samples are float (dtype '<f4')"));
+    EXPECT_THAT(refusal({data("npy/bad/complex64.npy")}), HasSubstr("samples are complex"));
+    EXPECT_THAT(refusal({data("npy/bad/structured.npy")}), HasSubstr("structures"));
+    EXPECT_THAT(refusal({data("npy/bad/text.npy")}), HasSubstr("not integers"));
+}
+
+TEST_F(ReadNpyTest, arrays_without_three_axes_or_samples_are_refused) {
+    EXPECT_THAT(refusal({data("npy/bad/one_axis.npy")}), HasSubstr("1 dimensions"));
+    EXPECT_THAT(refusal({data("npy/bad/four_axes.npy")}), HasSubstr("4 dimensions"));
+    EXPECT_THAT(refusal({data("npy/bad/empty.npy")}), HasSubstr("empty volume: 5 x 0 x 3"));
+}
+
+TEST_F(ReadNpyTest, truncated_samples_are_named_by_their_first_missing_section) {
+    const std::string whole = text_of(data("npy/uint16.npy"));
+    put_text(path("cut.npy"), whole.substr(0, whole.size() - 41));
+    EXPECT_THAT(refusal({path("cut.npy")}),
+                AllOf(HasSubstr("cut.npy: section 1: "), HasSubstr("79 bytes"), HasSubstr("120")));
+}
+
+TEST_F(ReadNpyTest, file_cut_short_after_it_was_opened_is_refused) {
+    std::filesystem::copy_file(data("npy/uint16.npy"), path("cut.npy"));
+    const auto reader = open_sections({path("cut.npy")});
+    std::filesystem::resize_file(path("cut.npy"), 150);
+    EXPECT_THROW(pull(*reader), Error);
+}
+
+TEST_F(ReadNpyTest, header_cut_anywhere_is_refused) {
+    const std::string whole = text_of(data("npy/uint8.npy"));
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        put_text(path("cut.npy"), whole.substr(0, length));
+        EXPECT_THAT(refusal({path("cut.npy")}), StartsWith(path("cut.npy").string())) << length;
+    }
+}
+
+// A file with the header `text` and a few bytes of samples.
+std::string npy_with_header(const std::string& text) {
+    return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(text.size()) + '\0' + text + "12345678";
+}
+
+TEST_F(ReadNpyTest, damaged_headers_are_refused) {
+    for (const char* text :
+         {"", "{", "{}", "()", "{'descr'", "{'descr': }", "{'descr': '<u1', 'fortran_order': 0, 'shape': (1,1,1)}",
+          "{'descr': '<u1', 'fortran_order': False}", "{'descr': '', 'fortran_order': False, 'shape': (1,1,1)}",
+          "{'descr': '<u1', 'fortran_order': False, 'shape': (1,1,1",
+          "{'descr': '<u1', 'fortran_order': False, 'shape': (1 1)}",
+          "{'descr': '<u1', 'fortran_order': False, 'shape': (-1,1,1)}", "{'other': 'x'}", "{'a\nb': 'x'}",
+          "{'descr': '<u1' 'fortran_order': False}"}) {
+        put_text(path("bad.npy"), npy_with_header(text));
+        EXPECT_THAT(refusal({path("bad.npy")}), HasSubstr("bad.npy: the npy header is damaged")) << text;
+    }
+    put_text(path("bad.npy"), "GIF89a, not an array");
+    EXPECT_THAT(refusal({path("bad.npy")}), HasSubstr("not an npy file"));
+    put_text(path("bad.npy"), std::string("\x93NUMPY\x09\x00\x10\x00", 10) + "................");
+    EXPECT_THAT(refusal({path("bad.npy")}), HasSubstr("npy version 9"));
+}
+
+TEST_F(ReadNpyTest, sizes_that_no_file_backs_are_refused_before_anything_is_allocated) {
+    const auto refuse = [&](const std::string& shape) {
+        put_text(path("big.npy"),
+                 npy_with_header("{'descr': '<u8', 'fortran_order': False, 'shape': " + shape + ", }"));
+        return refusal({path("big.npy")});
+    };
+    EXPECT_THAT(refuse("(2147483648, 1, 1)"), HasSubstr("more than 2^31 - 1"));
+    EXPECT_THAT(refuse("(2147483647, 2147483647, 2147483647)"), HasSubstr("more than any file holds"));
+    EXPECT_THAT(refuse("(18446744073709551616, 1, 1)"), HasSubstr("damaged"));
+    EXPECT_THAT(refuse("(4294967297, 1, 1)"), HasSubstr("more than 2^31 - 1"));
+    EXPECT_THAT(refuse("(100000, 100000, 100000)"), HasSubstr("truncated"));
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,91 @@
+#include <gmock/gmock.h>
+
+#include "formats/array/read_volume.h"
+#include "formats/temporary_folder.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class ReadN5Test : public TemporaryFolder {
+protected:
+    /// A copy of a store whose first block is `block`.
+    fs::path with_block(const std::string& store, const std::string& block) {
+        const fs::path copy = path("changed.n5");
+        fs::remove_all(copy);
+        fs::copy(data("chunked/n5/" + store), copy, fs::copy_options::recursive);
+        put_text(copy / "0/0/0", block);
+        return copy;
+    }
+};
+
+TEST_F(ReadN5Test, every_type_and_codec_comes_back_label_for_label) {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(data("chunked/n5"))) {
+        if (entry.path().filename() == "bad") continue;
+        for (const SweepChoice sweep : {SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ}) {
+            const Volume volume = read_volume({entry.path()}, swept(sweep));
+            EXPECT_EQ(volume.info.format, "n5");
+            EXPECT_EQ(volume.info.type, type_in_name(entry.path()));
+            EXPECT_EQ(volume.info.lattice.size, (std::array<std::uint32_t, 3>{5, 4, 3}));
+            EXPECT_EQ(volume.labels, expected(type_in_name(entry.path()))) << entry.path();
+        }
+        ++count;
+    }
+    EXPECT_GE(count, 15);
+}
+
+TEST_F(ReadN5Test, group_opens_at_its_finest_resolution_and_another_may_be_named) {
+    for (const char* place : {"", "/volume", "/volume/s0"}) {
+        const Volume fine = read_volume({data("chunked/n5/bad/levels.n5" + std::string(place))});
+        EXPECT_EQ(fine.labels, expected(SampleType::kU16));
+        EXPECT_EQ(fine.info.lattice.spacing, (Vec3{0.5, 2, 5}));
+        EXPECT_EQ(fine.info.lattice.origin, (Vec3{10, 20, 30}));
+    }
+    const Lattice coarse = open_sections({data("chunked/n5/bad/levels.n5/volume/s1")})->info().lattice;
+    EXPECT_EQ(coarse.spacing, (Vec3{1, 4, 10}));
+    EXPECT_EQ(coarse.origin, (Vec3{10.25, 21, 32.5})) << "the middle of the samples it was made from";
+}
+
+TEST_F(ReadN5Test, transform_with_named_axes_goes_before_resolutions) {
+    const Lattice lattice = open_sections({data("chunked/n5/bad/cosem.n5")})->info().lattice;
+    EXPECT_EQ(lattice.spacing, (Vec3{0.5, 2, 5}));
+    EXPECT_EQ(lattice.origin, (Vec3{10, 20, 30}));
+}
+
+TEST_F(ReadN5Test, what_is_not_read_is_refused_by_name) {
+    EXPECT_THAT(refusal({data("chunked/n5/bad/float32.n5")}),
+                HasSubstr("samples are 'float32'; labels must be integers"));
+    EXPECT_THAT(refusal({data("chunked/n5/bad/bzip2.n5")}), HasSubstr("made by 'bzip2', which is not read"));
+}
+
+TEST_F(ReadN5Test, blocks_that_are_not_there_are_0) {
+    const fs::path store = with_block("raw_uint16.n5", "");
+    fs::remove(store / "0/0/0");
+    EXPECT_EQ(read_volume({store}).labels,
+              expected([](InputLabel v) { return v < 40 && v % 20 < 15 && v % 5 < 4 ? 0 : v; }));
+}
+
+TEST_F(ReadN5Test, damaged_heads_are_refused) {
+    const std::string block = text_of(data("chunked/n5/raw_uint16.n5/0/0/0"));
+    const auto with_byte = [&](std::size_t place, char byte) {
+        std::string bad = block;
+        bad[place] = byte;
+        return refusal({with_block("raw_uint16.n5", bad)});
+    };
+    EXPECT_THAT(with_byte(1, 2), HasSubstr("0/0/0: section 0: its head is not one of a block of samples"));
+    EXPECT_THAT(with_byte(3, 4), HasSubstr("not one of a block"));
+    EXPECT_THAT(with_byte(7, 5), HasSubstr("another size"));
+    EXPECT_THAT(with_byte(7, 0), HasSubstr("another size"));
+    EXPECT_THAT(with_byte(7, 3), HasSubstr("bytes where a chunk has"));
+    for (std::size_t length = 0; length < block.size(); ++length) {
+        EXPECT_THAT(refusal({with_block("raw_uint16.n5", block.substr(0, length))}), HasSubstr("0/0/0: section 0: "))
+            << length;
+    }
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,41 @@
+#include <gmock/gmock.h>
+
+#include "formats/surface/written_meshes.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST_F(WriterTest, stl_has_a_solid_for_each_region_and_each_interface_twice) {
+    const std::string text = written(nested(), nested_labels(), "m.stl", {.background = {2}});
+    EXPECT_EQ(count_of(text, "endsolid region_"), 2u);
+    EXPECT_EQ(count_of(text, "endfacet"), 8u * 4);
+    EXPECT_THAT(text, Not(HasSubstr("region_0")));
+}
+
+TEST_F(WriterTest, stl_normals_point_out_of_each_solid) {
+    const auto rows = rows_of(written(nested(), nested_labels(), "m.stl", {.background = {2}}));
+    double sum = 0;  // over the larger octahedron's faces and those of its cavity, as region 5 sees them
+    for (std::size_t n = 0; n < rows.size() && rows[n][0] != "endsolid"; ++n) {
+        if (rows[n][0] != "facet") continue;
+        const Vec3 normal{std::stod(rows[n][2]), std::stod(rows[n][3]), std::stod(rows[n][4])};
+        Vec3 corner{std::stod(rows[n + 2][1]), std::stod(rows[n + 2][2]), std::stod(rows[n + 2][3])};
+        EXPECT_NEAR(length(normal), 1, 1e-12);
+        if (corner.x > 6) corner.x -= 8;
+        sum += dot(normal, corner);
+    }
+    EXPECT_NEAR(sum, (8 * 4 - 8 * 2 + 8 * 1) / std::sqrt(3), 1e-9);
+}
+
+TEST_F(WriterTest, binary_stl_has_a_record_for_each_face) {
+    write_mesh(nested(), nested_labels(), path("m.stl"), {.background = {2}, .per_region = true});
+    const std::string bytes = text_of(path("m-7.stl"));
+    EXPECT_EQ(bytes.size(), 84u + 8 * 50);
+    EXPECT_FALSE(bytes.starts_with("solid"));
+    EXPECT_EQ(bytes[80], 8);
+}
+
+}  // namespace
+}  // namespace regionmesh

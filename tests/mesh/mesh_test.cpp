@@ -1,0 +1,197 @@
+#include "regionmesh/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "regionmesh/check.h"
+#include "support/digest.h"
+#include "support/runs.h"
+#include "support/shapes.h"
+#include "support/strata_list.h"
+
+namespace regionmesh {
+namespace {
+
+std::set<std::uint32_t> star_of(const Mesh& mesh, VertexId v) {
+    std::set<std::uint32_t> faces;
+    mesh.for_star(v, [&](FaceId f, int place) {
+        EXPECT_EQ(mesh[f].vertices[place], v);
+        faces.insert(index(f));
+    });
+    return faces;
+}
+
+/// The stars hold what the faces say.
+void expect_stars_of_faces(const Mesh& mesh) {
+    std::map<std::uint32_t, std::set<std::uint32_t>> stars;
+    std::uint32_t faces = 0, vertices = 0;
+    test::for_faces(mesh, [&](FaceId f) {
+        ++faces;
+        for (VertexId v : mesh[f].vertices) stars[index(v)].insert(index(f));
+    });
+    test::for_vertices(mesh, [&](VertexId v) {
+        ++vertices;
+        EXPECT_EQ(star_of(mesh, v), stars[index(v)]);
+    });
+    EXPECT_EQ(faces, mesh.face_count());
+    EXPECT_EQ(vertices, mesh.vertex_count());
+}
+
+Mesh grains() { return test::run(test::grain_volume({7, 7, 7}, 6, 1)).mesh; }
+
+TEST(Mesh, the_smaller_label_comes_first_and_the_face_is_turned) {
+    Mesh mesh = test::shape(test::kTetrahedronCorners, {});
+    const FaceId f = mesh.add_face(VertexId{0}, VertexId{1}, VertexId{2}, 5, 3);
+    EXPECT_EQ(mesh[f].labels, (std::array<Label, 2>{3, 5}));
+    EXPECT_EQ(mesh[f].vertices, (std::array{VertexId{0}, VertexId{2}, VertexId{1}}));
+}
+
+TEST(Mesh, freed_places_are_used_again) {
+    Mesh mesh = test::octahedron();
+    test::add_shape(mesh, {{5, 5, 5}}, {});
+    mesh.remove_face(FaceId{3});
+    mesh.remove_face(FaceId{5});
+    mesh.remove_vertex(VertexId{6});
+    EXPECT_FALSE(mesh.is_alive(FaceId{3}));
+    EXPECT_FALSE(mesh.is_alive(VertexId{6}));
+    EXPECT_EQ(mesh.face_count(), 6u);
+    EXPECT_EQ(mesh.add_vertex({7, 7, 7}), VertexId{6});
+    mesh.add_face(VertexId{0}, VertexId{2}, VertexId{6}, 0, 1);
+    mesh.add_face(VertexId{1}, VertexId{2}, VertexId{6}, 0, 1);
+    EXPECT_EQ(mesh.face_end(), 8u);
+    EXPECT_EQ(mesh.vertex_end(), 7u);
+    mesh.add_face(VertexId{1}, VertexId{3}, VertexId{6}, 0, 1);
+    EXPECT_EQ(mesh.face_end(), 9u) << "no free place was left";
+    expect_stars_of_faces(mesh);
+}
+
+TEST(Mesh, removed_faces_leave_the_stars) {
+    Mesh mesh = grains();
+    for (std::uint32_t f = 0; f < mesh.face_end(); f += 3) mesh.remove_face(FaceId{f});
+    expect_stars_of_faces(mesh);
+}
+
+TEST(Mesh, move_star_gives_all_faces_to_the_other_vertex) {
+    Mesh mesh = test::octahedron();
+    const VertexId copy = mesh.add_vertex(mesh.position(VertexId{1}));
+    const auto before = star_of(mesh, VertexId{1});
+    mesh.move_star(VertexId{1}, copy);
+    EXPECT_EQ(star_of(mesh, copy), before);
+    EXPECT_FALSE(mesh.is_alive(VertexId{1}));
+    EXPECT_EQ(test::surface_digest(mesh), test::surface_digest(test::octahedron()));
+    expect_stars_of_faces(mesh);
+}
+
+TEST(Mesh, move_star_joins_stars_as_a_collapse_does) {
+    Mesh mesh = test::edge_in_sheet();
+    mesh.remove_face(FaceId{0});
+    mesh.remove_face(FaceId{1});
+    mesh.move_star(VertexId{0}, VertexId{1});
+    EXPECT_EQ(star_of(mesh, VertexId{1}).size(), 8u);
+    expect_stars_of_faces(mesh);
+}
+
+TEST(Mesh, move_star_of_an_unused_vertex_only_removes_it) {
+    Mesh mesh = test::octahedron();
+    const VertexId lone = mesh.add_vertex({9, 9, 9});
+    mesh.move_star(lone, VertexId{0});
+    EXPECT_EQ(star_of(mesh, VertexId{0}).size(), 4u);
+    EXPECT_EQ(mesh.vertex_count(), 6u);
+}
+
+TEST(Mesh, sort_spatially_keeps_the_surface_and_names_the_new_ids) {
+    Mesh mesh = grains();
+    for (std::uint32_t f = 0; f < mesh.face_end(); f += 5) mesh.remove_face(FaceId{f});
+    std::vector<VertexId> unused;
+    test::for_vertices(mesh, [&](VertexId v) {
+        if (mesh[v].star == kNoCorner) unused.push_back(v);
+    });
+    for (VertexId v : unused) mesh.remove_vertex(v);
+    mesh[VertexId{0}].is_fixed = true;
+    std::vector<Vec3> positions;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) positions.push_back(mesh.position(VertexId{v}));
+    std::vector<bool> were_alive;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) were_alive.push_back(mesh.is_alive(VertexId{v}));
+    const std::uint64_t before = test::surface_digest(mesh);
+
+    const std::vector<VertexId> renumbered = mesh.sort_spatially();
+    EXPECT_EQ(test::surface_digest(mesh), before);
+    EXPECT_EQ(mesh.face_end(), mesh.face_count());
+    EXPECT_EQ(mesh.vertex_end(), mesh.vertex_count());
+    for (std::uint32_t v = 0; v < positions.size(); ++v) {
+        ASSERT_EQ(renumbered[v] != kNoVertex, were_alive[v]);
+        if (!were_alive[v]) continue;
+        EXPECT_EQ(mesh.position(renumbered[v]), positions[v]);
+    }
+    EXPECT_TRUE(mesh[renumbered[0]].is_fixed);
+    expect_stars_of_faces(mesh);
+}
+
+TEST(Mesh, sort_spatially_puts_near_vertices_near_in_memory) {
+    Mesh mesh = test::run(test::noise_volume({12, 12, 12}, 3, 1)).mesh;
+    mesh.sort_spatially();
+    double sum = 0;
+    for (std::uint32_t v = 1; v < mesh.vertex_end(); ++v)
+        sum += length(mesh.position(VertexId{v}) - mesh.position(VertexId{v - 1}));
+    EXPECT_LT(sum / mesh.vertex_end(), 1.0);
+}
+
+TEST(Mesh, sort_spatially_does_not_depend_on_the_order_before) {
+    Mesh mesh = grains();
+    mesh.sort_spatially();
+    const std::uint64_t once = test::digest(mesh);
+    mesh.sort_spatially();
+    EXPECT_EQ(test::digest(mesh), once);
+}
+
+TEST(Mesh, compact_faces_keeps_order_and_surface) {
+    Mesh mesh = grains();
+    for (std::uint32_t f = 0; f < mesh.face_end(); f += 2) mesh.remove_face(FaceId{f});
+    std::vector<std::array<VertexId, 3>> expected, found;
+    test::for_faces(mesh, [&](FaceId f) { expected.push_back(mesh[f].vertices); });
+    mesh.compact_faces();
+    EXPECT_EQ(mesh.face_end(), mesh.face_count());
+    test::for_faces(mesh, [&](FaceId f) { found.push_back(mesh[f].vertices); });
+    EXPECT_EQ(found, expected);
+    expect_stars_of_faces(mesh);
+    mesh.add_face(VertexId{0}, VertexId{1}, VertexId{2}, 0, 1);
+    expect_stars_of_faces(mesh);
+}
+
+TEST(Mesh, flip_faces_turns_every_face_and_nothing_else) {
+    Mesh mesh = grains();
+    const std::uint64_t before = test::surface_digest(mesh);
+    std::vector<Vec3> normals;
+    const auto normal = [&](FaceId f) {
+        const auto p = mesh.corners(f);
+        return cross(p[1] - p[0], p[2] - p[0]);
+    };
+    test::for_faces(mesh, [&](FaceId f) { normals.push_back(normal(f)); });
+    mesh.flip_faces();
+    expect_stars_of_faces(mesh);
+    for (std::uint32_t f = 0; f < normals.size(); ++f) EXPECT_EQ(normal(FaceId{f}), -normals[f]);
+    EXPECT_NE(test::surface_digest(mesh), before);
+    mesh.flip_faces();
+    EXPECT_EQ(test::surface_digest(mesh), before);
+}
+
+TEST(Mesh, random_changes_leave_consistent_stars) {
+    Mesh mesh = grains();
+    std::uint64_t state = 12;
+    SCOPED_TRACE("seed 12");
+    const auto below = [&](std::uint32_t end) { return static_cast<std::uint32_t>((state = mix64(state)) % end); };
+    for (int n = 0; n < 5000; ++n) {
+        const FaceId f{below(mesh.face_end())};
+        if (mesh.is_alive(f))
+            mesh.remove_face(f);
+        else
+            mesh.add_face(VertexId{n % 50u}, VertexId{50 + n % 31u}, VertexId{100 + n % 17u}, below(4), 4 + below(4));
+    }
+    expect_stars_of_faces(mesh);
+}
+
+}  // namespace
+}  // namespace regionmesh

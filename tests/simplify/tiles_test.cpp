@@ -1,0 +1,181 @@
+#include "simplify/tiles.h"
+
+#include <gtest/gtest.h>
+
+#include "cells/label_census.h"
+#include "cells/strip_mesher.h"
+#include "stream/smoothing.h"
+#include "stream/weld.h"
+#include "support/digest.h"
+#include "support/runs.h"
+#include "volume/section_window.h"
+
+namespace regionmesh {
+namespace {
+
+/// The whole volume as one batch, with what its labels say.
+struct Batch {
+    explicit Batch(test::ArrayVolume& volume, const SmoothOptions& smooth = {.passes = 0})
+        : lattice(volume.info().lattice) {
+        volume.rewind();
+        LabelTable labels;
+        std::optional<Smoothing> smoothing;
+        if (smooth.passes > 0) smoothing.emplace(smooth, LayerOrder{.axis = 2, .thickness = lattice.spacing.z});
+        SectionWindow window(volume, labels);
+        StripMesher mesher(lattice, kSweepZ, {});
+        LabelCensus census(lattice, kSweepZ, {});
+        while (window.advance()) {
+            Chunk strip;
+            census.add(window.low(), window.high(), window.is_last());
+            mesher.mesh(window.low(), window.high(), strip);
+            if (!smoothing) {
+                whole.append(strip);
+                continue;
+            }
+            smoothing->add(strip, window.is_last(), window.sections_read() - 1);
+            while (smoothing->next(strip)) whole.append(strip);
+        }
+        oracle = census.oracle();
+    }
+    Mesh mesh() const {
+        Mesh made;
+        Weld(made).add(whole);
+        return made;
+    }
+
+    Lattice lattice;
+    Chunk whole;
+    LabelOracle oracle;
+};
+
+/// Tiles of so many cells, one run for all sections.
+TilePlan plan_of(const Batch& batch, std::uint32_t cells) {
+    return {batch.lattice, kSweepZ, batch.lattice.size[2], cells};
+}
+
+/// One run of all sections: nothing comes before or after.
+RunExtent extent_of(const Batch& batch) { return {0, (batch.lattice.size[2] - 1) * batch.lattice.spacing.z}; }
+
+TEST(Chunk, appended_strips_make_the_model_of_strips_welded_one_by_one) {
+    test::ArrayVolume volume = test::noise_volume({6, 5, 7}, 4, 1);
+    const Batch batch(volume);
+    EXPECT_TRUE(batch.whole.open.empty());
+    EXPECT_EQ(test::surface_digest(batch.mesh()), test::surface_digest(test::run(volume).mesh));
+}
+
+TEST(Tiles, remove_faces_and_keep_what_the_labels_say) {
+    test::ArrayVolume volume = test::grain_volume({33, 26, 9}, 9, 3);
+    Batch batch(volume);
+    const std::size_t faces = batch.whole.faces.size();
+    const VerdictCounts verdicts = decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
+                                                  {.cost_level = 1e-3, .keep_share = 0, .threads = 1, .decimate = {}});
+    EXPECT_LT(batch.whole.faces.size(), faces * 7 / 10);
+    EXPECT_GT(verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
+    CheckOptions options;
+    options.oracle = batch.oracle;
+    test::expect_sound(check(batch.mesh(), options));
+}
+
+TEST(Tiles, stay_in_their_boxes) {
+    test::ArrayVolume volume = test::ball_volume({21, 21, 21}, 7);
+    Batch batch(volume);
+    Mesh before = batch.mesh();
+    decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 5),
+                   {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
+    // A face that reaches across x = 5, 10, 15 would lie in two tiles.
+    for (const ChunkFace& face : batch.whole.faces)
+        for (double wall : {5.0, 10.0, 15.0}) {
+            int below = 0, above = 0;
+            for (std::uint32_t v : face.vertices) {
+                below += batch.whole.vertices[v].position.x < wall;
+                above += batch.whole.vertices[v].position.x > wall;
+            }
+            EXPECT_TRUE(below == 0 || above == 0);
+        }
+    EXPECT_LT(batch.whole.faces.size(), before.face_count());
+}
+
+TEST(Tiles, leave_faces_that_reach_out_of_them_and_do_not_run_into_them) {
+    test::ArrayVolume volume = test::grain_volume({31, 30, 12}, 40, 8);
+    for (SmoothFilter filter : {SmoothFilter::kTaubin, SmoothFilter::kLaplacian}) {
+        Batch batch(volume, {.filter = filter, .passes = 30});
+        std::size_t reaching = 0;
+        for (const ChunkFace& face : batch.whole.faces) {
+            double low = HUGE_VAL, high = -HUGE_VAL;
+            for (std::uint32_t v : face.vertices) {
+                low = std::min(low, batch.whole.vertices[v].position.x);
+                high = std::max(high, batch.whole.vertices[v].position.x);
+            }
+            for (double wall : {6.0, 12.0, 18.0, 24.0}) reaching += low < wall && high > wall;
+        }
+        EXPECT_GT(reaching, 100u) << "this test needs faces across walls";
+        const std::size_t faces = batch.whole.faces.size();
+        decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 6),
+                       {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
+        EXPECT_LT(batch.whole.faces.size(), faces * 9 / 10);
+        CheckOptions options;
+        options.oracle = batch.oracle;
+        test::expect_sound(check(batch.mesh(), options));
+    }
+}
+
+TEST(Tiles, keep_the_share_they_are_told_to) {
+    test::ArrayVolume volume = test::solid_volume({17, 17, 5});
+    Batch batch(volume);
+    const std::size_t faces = batch.whole.faces.size();
+    decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
+                   {.cost_level = 1e-3, .keep_share = 0.5, .threads = 1, .decimate = {}});
+    EXPECT_GE(batch.whole.faces.size(), faces / 2 - 16);
+    EXPECT_LE(batch.whole.faces.size(), faces / 2 + 16);
+}
+
+TEST(Tiles, leave_carried_and_open_vertices_as_they_are) {
+    test::ArrayVolume volume = test::grain_volume({12, 12, 7}, 4, 5);
+    LabelTable labels;
+    SectionWindow window(volume, labels);
+    StripMesher mesher(volume.info().lattice, kSweepZ, {});
+    Mesh mesh;
+    Weld weld(mesh);
+    Chunk run;
+    const TilePlan plan{volume.info().lattice, kSweepZ, 3, 8};
+    for (std::uint32_t strip = 0; window.advance(); ++strip) {
+        Chunk next;
+        mesher.mesh(window.low(), window.high(), next);
+        run.append(next);
+        if (strip % 3 != 2) continue;
+        std::vector<Vec3> open;
+        for (std::uint32_t v : run.open)
+            open.push_back(v < run.carried ? weld.front()[v].position : run.vertices[v - run.carried].position);
+        decimate_tiles(run, weld.front(), {strip - 2.0, strip + 1.0}, plan,
+                       {.cost_level = 1e-2, .keep_share = 0, .threads = 1, .decimate = {}});
+        weld.add(run);
+        ASSERT_EQ(weld.front().size(), open.size());
+        for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(weld.front()[n].position, open[n]);
+        run.clear();
+    }
+    test::expect_sound(check(mesh));
+}
+
+TEST(Determinism, any_number_of_threads_gives_the_same_bytes) {
+    test::ArrayVolume volume = test::grain_volume({70, 40, 36}, 30, 11);
+    ReconstructOptions options = test::reduced(0.9);
+    options.threads = 1;
+    const std::uint64_t one = test::digest(test::run(volume, options).mesh);
+    for (std::uint32_t threads : {2u, 3u, 8u, 0u}) {
+        options.threads = threads;
+        EXPECT_EQ(test::digest(test::run(volume, options).mesh), one);
+    }
+}
+
+TEST(TilePlan, comes_from_the_size_alone) {
+    Lattice lattice;
+    lattice.size = {360, 360, 100};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 16u);
+    lattice.size = {64, 64, 64};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 24u);
+    lattice.size = {5000, 5000, 64};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 8u);
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,226 @@
+#include "stream/memory_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cells/strip_mesher.h"
+#include "regionmesh/census.h"
+#include "regionmesh/error.h"
+#include "support/digest.h"
+#include "support/runs.h"
+
+namespace regionmesh {
+namespace {
+
+using test::run;
+using testing::HasSubstr;
+
+/// A volume of 100 x 100 samples a section and so many strips of 1000 faces each, to be decimated to a tenth.
+MemoryDemand even_demand(std::uint32_t strips, std::uint64_t faces = 1000) {
+    const VolumeInfo volume = test::solid_volume({100, 100, strips + 1}).info();
+    return {.source = volume.source,
+            .lattice = volume.lattice,
+            .sweep = volume.sweep,
+            .reading_bytes = reading_bytes(volume),
+            .strip_faces = std::vector<std::uint64_t>(strips, faces),
+            .window_strips = 32,
+            .window_bytes_per_face = 100,
+            .run_strips = 32,
+            .fewest_run_strips = 4,
+            .target_share = 0.1,
+            .tile_share = 0.5,
+            .is_decimating = true};
+}
+constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
+
+std::uint64_t least(const MemoryDemand& demand) { return plan_memory(kPlenty, demand).least.sum(); }
+
+std::string refusal(std::uint64_t memory, const MemoryDemand& demand) {
+    try {
+        require_memory(plan_memory(memory, demand), demand);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "nothing thrown";
+}
+
+TEST(MemoryPlan, holds_from_the_least_memory_on) {
+    for (std::uint32_t strips : {1u, 7u, 100u}) {
+        MemoryDemand demand = even_demand(strips, 20000);
+        demand.fewest_run_strips = demand.run_strips;
+        const std::uint64_t memory = plan_memory(1, demand).least.sum();
+        EXPECT_TRUE(plan_memory(memory, demand).holds());
+        EXPECT_FALSE(plan_memory(memory - 1, demand).holds());
+        EXPECT_EQ(refusal(memory, demand), "nothing thrown");
+    }
+}
+
+TEST(MemoryPlan, a_refusal_says_how_much_would_do_and_what_to_change) {
+    const MemoryDemand demand = even_demand(100, 20000);
+    const std::string text = refusal(20'000'000, demand);
+    EXPECT_THAT(text, HasSubstr("--memory 20 MB"));
+    EXPECT_THAT(text, HasSubstr("needs at least"));
+    EXPECT_THAT(text, HasSubstr("--smooth"));
+    MemoryDemand whole = demand;
+    whole.target_share = 0.9;
+    whole.tile_share = 1;
+    EXPECT_THAT(refusal(20'000'000, whole), HasSubstr("lower target"));
+}
+
+TEST(MemoryPlan, runs_are_shortened_only_where_the_usual_do_not_fit) {
+    MemoryDemand demand = even_demand(128, 20000);
+    demand.window_strips = 0;
+    const std::uint64_t memory = least(demand);
+    EXPECT_EQ(plan_memory(memory, demand).run_strips, 32u);
+    EXPECT_EQ(plan_memory(memory, demand).in_flight, 16u);
+    const MemoryPlan leaner = plan_memory(memory - 1, demand);
+    EXPECT_TRUE(leaner.holds());
+    EXPECT_LT(leaner.in_flight, 16u) << "which does not change the result";
+    EXPECT_EQ(leaner.run_strips, 32u);
+    const MemoryPlan shorter = plan_memory(memory / 2, demand);
+    EXPECT_TRUE(shorter.holds());
+    EXPECT_EQ(shorter.run_strips, 16u);
+    EXPECT_EQ(plan_memory(1, demand).run_strips, 4u);
+}
+
+TEST(MemoryPlan, more_sections_need_no_more) {
+    // A target of so many faces; its share falls as the sections grow more.
+    MemoryDemand demand = even_demand(100);
+    const std::uint64_t once = least(demand);
+    for (std::uint32_t times : {2u, 4u, 16u}) {
+        MemoryDemand more = even_demand(100 * times);
+        more.target_share = demand.target_share / times;
+        EXPECT_LE(least(more), once + once / 100) << times << " times the sections";
+    }
+}
+
+TEST(MemoryPlan, the_window_counts_the_strips_that_it_will_hold) {
+    MemoryDemand even = even_demand(100), uneven = even;
+    even.target_share = uneven.target_share = 0;
+    std::fill(uneven.strip_faces.begin() + 40, uneven.strip_faces.begin() + 60, 5000);
+    const MemoryNeed a = plan_memory(kPlenty, even).least, b = plan_memory(kPlenty, uneven).least;
+    EXPECT_EQ(a.window, 32u * 1000 * 100);
+    EXPECT_EQ(b.window, (20u * 5000 + 12 * 1000) * 100);
+}
+
+TEST(MemoryPlan, what_is_not_taken_otherwise_is_the_models) {
+    const MemoryDemand demand = even_demand(64);
+    const MemoryPlan small = plan_memory(200'000'000, demand), large = plan_memory(300'000'000, demand);
+    EXPECT_EQ(large.face_budget(1) - small.face_budget(1), 1'000'000u);
+    EXPECT_EQ(small.room_before(1, 500), small.face_budget(1) - 500);
+    EXPECT_LE(large.room_before(1, 0) * kMeshBytesPerFace + large.runs[1].gathering, 300'000'000u);
+    EXPECT_EQ(plan_memory(kPlenty, demand).face_budget(0), kMostFaces);
+}
+
+TEST(MemoryPlan, a_face_budget_that_is_asked_for_stands) {
+    MemoryDemand demand = even_demand(64);
+    demand.asked_budget = 5000;
+    const MemoryPlan plan = plan_memory(1, demand);
+    EXPECT_TRUE(plan.holds());
+    EXPECT_EQ(plan.face_budget(1), 5000u);
+    EXPECT_EQ(plan.room_before(1, 2000), 3000u);
+}
+
+TEST(MemoryPlan, the_next_run_is_expected_to_keep_as_much_as_the_last) {
+    MemoryDemand demand = even_demand(64);
+    std::fill(demand.strip_faces.begin() + 32, demand.strip_faces.end(), 3000);
+    EXPECT_EQ(plan_memory(kPlenty, demand).expected_faces(1, 10000), 30000u);
+}
+
+TEST(Census, counts_the_faces_of_each_strip) {
+    test::ArrayVolume volume = test::grain_volume({12, 11, 10}, 6, 3);
+    const Census census = count_labels(volume, {.background = {}});
+    volume.rewind();
+    const Lattice lattice = volume.info().lattice;
+    StripMesher mesher(lattice, volume.info().sweep, {});
+    std::vector<std::vector<Label>> sections(10, std::vector<Label>(132));
+    std::vector<InputLabel> input(132);
+    for (auto& section : sections) {
+        volume.next(input);
+        std::copy(input.begin(), input.end(), section.begin());
+    }
+    ASSERT_EQ(census.strip_faces.size(), 9u);
+    for (std::size_t n = 0; n < 9; ++n) {
+        Chunk batch;
+        mesher.mesh(sections[n], sections[n + 1], batch);
+        EXPECT_EQ(census.strip_faces[n], batch.faces.size()) << "strip " << n;
+    }
+}
+
+/// Bytes that run and model took at most: what is measured here is not shared with other tests, as peak_bytes is.
+std::uint64_t bytes_held(const Report& report) {
+    return report.smoothing.window_bytes +
+           static_cast<std::uint64_t>(report.bytes_per_face * static_cast<double>(report.peak_faces));
+}
+
+TEST(Memory, twice_and_four_times_the_sections_take_no_more) {
+    for (std::uint32_t passes : {0u, 1u}) {
+        SCOPED_TRACE(std::to_string(passes) + " passes");
+        const ReconstructOptions options{.target_faces = 4000,
+                                         .smooth = {.passes = passes},
+                                         .background = {},
+                                         .memory = passes == 0 ? 23'500'000u : 25'000'000u};
+        const Report once = run(test::grain_blocks(16, 12), options).report;
+        EXPECT_EQ(once.stopped, "target");
+        for (std::uint32_t times : {2u, 4u}) {
+            const Report more = run(test::grain_blocks(16, 12 * times), options).report;
+            EXPECT_GT(more.initial_faces, once.initial_faces * times * 9 / 10);
+            EXPECT_LE(bytes_held(more), bytes_held(once) * 11 / 10) << times << " times the sections";
+        }
+    }
+}
+
+TEST(Memory, a_target_that_does_not_fit_is_refused_before_reading_for_the_model_begins) {
+    test::ArrayVolume volume = test::grain_blocks(24, 12);
+    std::set<std::string> stages;
+    try {
+        reconstruct(volume, {.target_faces = 200000, .background = {}, .memory = 26'000'000},
+                    [&](const Progress& progress) { stages.insert(progress.stage); });
+        ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("needs at least"));
+    }
+    EXPECT_THAT(stages, testing::ElementsAre("count"));
+}
+
+TEST(Determinism, memory_that_does_not_bind_and_threads_change_nothing) {
+    for (std::uint32_t passes : {0u, 3u})
+        for (const ReconstructOptions& goal :
+             {ReconstructOptions{.reduce = 0.9}, ReconstructOptions{.max_error = 0.1}}) {
+            SCOPED_TRACE(std::to_string(passes) + " passes");
+            test::ArrayVolume volume = test::grain_volume({20, 20, 20}, 10, 2);
+            ReconstructOptions options = goal;
+            options.smooth.passes = passes;
+            options.background = {};
+            options.threads = 1;
+            const std::uint64_t expected = test::digest(run(volume, options).mesh);
+            for (std::uint64_t memory : {std::uint64_t{100} << 20, std::uint64_t{300} << 20, std::uint64_t{1} << 40})
+                for (std::uint32_t threads : {1u, 2u, 3u, 8u}) {
+                    if (memory != std::uint64_t{300} << 20 && threads == 3) continue;
+                    options.memory = memory;
+                    options.threads = threads;
+                    EXPECT_EQ(test::digest(run(volume, options).mesh), expected)
+                        << threads << " threads, " << memory << " bytes";
+                }
+        }
+}
+
+TEST(Determinism, memory_that_binds_gives_the_same_bytes_on_any_number_of_threads) {
+    test::ArrayVolume volume = test::grain_blocks(16, 16);
+    ReconstructOptions options{
+        .target_faces = 4000, .smooth = {.passes = 1}, .background = {}, .memory = 24'500'000, .threads = 1};
+    const Reconstruction one = run(volume, options);
+    options.memory = std::uint64_t{2} << 30;
+    EXPECT_LT(one.report.peak_faces, run(volume, options).report.peak_faces) << "24.5 MB do not bind";
+    options.memory = 24'500'000;
+    for (std::uint32_t threads : {2u, 3u, 8u}) {
+        options.threads = threads;
+        EXPECT_EQ(test::digest(run(volume, options).mesh), test::digest(one.mesh)) << threads << " threads";
+    }
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,236 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "regionmesh/error.h"
+#include "regionmesh/reconstruct.h"
+#include "support/digest.h"
+#include "support/runs.h"
+#include "support/strata_list.h"
+
+namespace regionmesh {
+namespace {
+
+using test::reduced;
+using test::run;
+using testing::HasSubstr;
+
+std::map<InputLabel, RegionReport> regions_of(const Reconstruction& made) {
+    std::map<InputLabel, RegionReport> regions;
+    for (const RegionReport& region : made.report.check.regions) regions[made.labels.input(region.label)] = region;
+    return regions;
+}
+
+std::string refusal(test::ArrayVolume volume, const ReconstructOptions& options = {}) {
+    try {
+        run(volume, options);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "nothing thrown";
+}
+
+TEST(Reconstruct, noise_of_2_4_and_256_labels_goes_down_by_90_percent_and_stays_sound) {
+    for (std::uint32_t labels : {2, 4, 256})
+        for (std::uint64_t seed : {1, 2}) {
+            SCOPED_TRACE(std::to_string(labels) + " labels, seed " + std::to_string(seed));
+            const Reconstruction made = run(test::noise_volume({14, 13, 12}, labels, seed), reduced(0.9));
+            test::expect_sound(made.report.check);
+            EXPECT_LT(made.report.final_faces, made.report.initial_faces);
+            EXPECT_GE(made.report.check.quality.min, 0.1);
+        }
+}
+
+TEST(Reconstruct, grains_go_down_by_90_percent) {
+    const Reconstruction made = run(test::grain_volume({24, 24, 24}, 12, 3), reduced(0.9));
+    test::expect_sound(made.report.check);
+    EXPECT_LE(made.report.final_faces, made.report.initial_faces / 10 + 1);
+    EXPECT_EQ(made.report.stopped, "target");
+    EXPECT_EQ(made.mesh.face_count(), made.report.final_faces);
+    EXPECT_EQ(made.mesh.vertex_count(), made.report.final_vertices);
+}
+
+TEST(Reconstruct, region_volumes_change_little) {
+    test::ArrayVolume volume = test::grain_volume({24, 24, 24}, 6, 3);
+    const auto before = regions_of(run(volume)), after = regions_of(run(volume, reduced(0.9)));
+    ASSERT_EQ(before.size(), after.size());
+    for (const auto& [label, region] : before) EXPECT_NEAR(after.at(label).volume, region.volume, 0.03 * region.volume);
+}
+
+TEST(Reconstruct, the_smallest_volume_is_one_cell) {
+    const Reconstruction made = run(test::TextVolume({{"12", "34"}, {"56", "78"}}), reduced(0.9));
+    test::expect_sound(made.report.check);
+    EXPECT_EQ(regions_of(made).size(), 8u);
+}
+
+TEST(Reconstruct, a_volume_with_one_sample_along_an_axis_is_refused) {
+    EXPECT_THAT(refusal(test::solid_volume({1, 3, 3})), HasSubstr("along x"));
+    EXPECT_THAT(refusal(test::solid_volume({3, 1, 3})), HasSubstr("along y"));
+    EXPECT_THAT(refusal(test::solid_volume({3, 3, 1})), HasSubstr("along z"));
+}
+
+TEST(Reconstruct, too_little_memory_is_refused) {
+    EXPECT_THAT(refusal(test::solid_volume({3, 3, 3}), {.memory = 1000}), HasSubstr("--memory"));
+}
+
+TEST(Reconstruct, one_region_may_touch_all_sides) {
+    test::ArrayVolume volume = test::ball_volume({13, 13, 13}, 3);
+    const Reconstruction made = run(volume, reduced(0.8));
+    test::expect_sound(made.report.check);
+    EXPECT_EQ(regions_of(made).at(0).components, 2u);
+    EXPECT_EQ(regions_of(made).at(0).euler, 4);
+}
+
+TEST(Reconstruct, background_is_left_out) {
+    const Reconstruction made = run(test::ball_volume({13, 13, 13}, 3), {.reduce = 0.8});
+    test::expect_sound(made.report.check);
+    EXPECT_EQ(regions_of(made).size(), 1u);
+    EXPECT_EQ(regions_of(made).at(1).euler, 2);
+    test::for_vertices(made.mesh, [&](VertexId v) { EXPECT_EQ(made.mesh[v].sides, 0); });
+}
+
+TEST(Reconstruct, several_backgrounds_are_left_out) {
+    const ReconstructOptions options{.reduce = 0.8, .background = {0, 2, 77}};
+    const Reconstruction made = run(test::grain_volume({14, 14, 14}, 6, 4), options);
+    test::expect_sound(made.report.check);
+    EXPECT_EQ(regions_of(made).size(), 4u);
+    EXPECT_EQ(made.background.size(), 3u);
+}
+
+TEST(Reconstruct, nothing_but_background_is_an_empty_model) {
+    for (const ReconstructOptions& options :
+         {ReconstructOptions{}, ReconstructOptions{.target_faces = 100}, ReconstructOptions{.reduce = 0.9}}) {
+        const Reconstruction made = run(test::solid_volume({4, 4, 4}, 0), options);
+        EXPECT_EQ(made.mesh.face_count(), 0u);
+        EXPECT_EQ(made.mesh.vertex_count(), 0u);
+        test::expect_sound(made.report.check);
+    }
+}
+
+TEST(Reconstruct, an_open_boundary_is_sound) {
+    for (double share : {0.0, 0.9}) {
+        ReconstructOptions options = reduced(share);
+        options.cap = false;
+        test::expect_sound(run(test::noise_volume({9, 9, 9}, 3, 4), options).report.check);
+        test::expect_sound(run(test::grain_volume({14, 14, 14}, 6, 4), options).report.check);
+        EXPECT_EQ(run(test::solid_volume({4, 4, 4}), options).mesh.face_count(), 0u);
+    }
+}
+
+TEST(Reconstruct, sheets_on_an_open_boundary_do_not_cross_when_decimated) {
+    const std::vector<std::vector<test::TextVolume::Section>> volumes{
+        {{"01", "01", "01"}, {"10", "10", "01"}, {"01", "00", "10"}},  // a pocket on an edge of the box was closed
+        {{"110", "010"}, {"101", "110"}, {"110", "001"}},              // faces of the merged vertex crossed each other
+    };
+    for (const auto& sections : volumes)
+        for (double quality : {0.0, 0.1}) {
+            test::TextVolume volume(sections);
+            const ReconstructOptions options{.target_faces = 0, .min_quality = quality, .cap = false, .background = {}};
+            test::expect_sound(run(volume, options).report.check);
+        }
+}
+
+TEST(Reconstruct, an_open_rim_may_have_a_vertex_with_two_edges) {
+    const ReconstructOptions open{.decimate = false, .cap = false, .background = {}};
+    test::expect_sound(run(test::TextVolume({{"00", "00"}, {"00", "01"}}), open).report.check);
+    test::expect_sound(
+        run(test::TextVolume({{"00", "00"}, {"00", "01"}}), {.decimate = false, .background = {0, 1}}).report.check);
+}
+
+TEST(Reconstruct, labels_are_carried_bit_for_bit) {
+    constexpr InputLabel kLeast = std::numeric_limits<InputLabel>::min(),
+                         kMost = std::numeric_limits<InputLabel>::max();
+    const Reconstruction made = run(test::ArrayVolume({2, 2, 2}, {kLeast, kMost, -1, 0, 1, kLeast, kMost, -1}));
+    test::expect_sound(made.report.check);
+    for (InputLabel label : {kLeast, kMost, InputLabel{-1}, InputLabel{0}, InputLabel{1}})
+        EXPECT_TRUE(regions_of(made).contains(label));
+}
+
+TEST(Reconstruct, a_pipe_that_cannot_be_read_twice_is_read_once) {
+    const Reconstruction made = run(test::grain_volume({14, 14, 14}, 6, 4).once(), reduced(0.9));
+    test::expect_sound(made.report.check);
+    EXPECT_LE(made.report.final_faces, made.report.initial_faces / 10 + 1);
+}
+
+TEST(Reconstruct, target_max_error_and_reduce_end_where_they_say) {
+    test::ArrayVolume volume = test::grain_volume({16, 16, 16}, 6, 4);
+    EXPECT_LE(run(volume, {.target_faces = 2000, .background = {}}).report.final_faces, 2000u);
+    const Reconstruction by_error = run(volume, {.max_error = 0.1, .background = {}});
+    EXPECT_EQ(by_error.report.stopped, "max_error");
+    EXPECT_LT(by_error.report.final_faces, by_error.report.initial_faces / 2);
+    EXPECT_EQ(run(volume, {.target_faces = 1, .background = {}}).report.stopped, "topology");
+    const Reconstruction untouched = run(volume);
+    EXPECT_EQ(untouched.report.stopped, "none asked");
+    EXPECT_EQ(untouched.report.final_faces, untouched.report.initial_faces);
+}
+
+TEST(Reconstruct, tells_its_progress) {
+    std::uint32_t last = 0;
+    std::map<std::string, int> stages;
+    test::ArrayVolume volume = test::grain_volume({10, 10, 10}, 6, 4);
+    reconstruct(volume, reduced(0.5), [&](const Progress& progress) {
+        ++stages[progress.stage];
+        EXPECT_GE(progress.strips_read, last);
+        EXPECT_EQ(progress.strip_count, 9u);
+        last = progress.strips_read;
+    });
+    EXPECT_EQ(last, 9u);
+    EXPECT_THAT(stages, testing::Contains(testing::Key("reconstruct")));
+}
+
+// Anisotropy.
+
+TEST(Anisotropy, spacing_1_2_5_is_sound) {
+    for (const Vec3 spacing : {Vec3{1, 2, 5}, Vec3{5, 2, 1}, Vec3{1e-3, 2e-3, 5e-3}, Vec3{100, 200, 500}}) {
+        SCOPED_TRACE("spacing " + std::to_string(spacing.x));
+        test::expect_sound(run(test::noise_volume({9, 9, 9}, 4, 1).spaced(spacing), reduced(0.9)).report.check);
+        test::expect_sound(run(test::grain_volume({14, 14, 14}, 8, 2).spaced(spacing), reduced(0.9)).report.check);
+    }
+}
+
+TEST(Anisotropy, the_unit_of_length_changes_nothing) {
+    test::ArrayVolume volume = test::grain_volume({12, 12, 12}, 5, 2);
+    const Reconstruction small = run(volume.spaced({1.0 / 1024, 1.0 / 1024, 1.0 / 1024}), reduced(0.9));
+    const Reconstruction large = run(volume.spaced({1024, 1024, 1024}), reduced(0.9));
+    EXPECT_EQ(small.report.final_faces, large.report.final_faces);
+    EXPECT_NEAR(small.report.check.quality.mean, large.report.check.quality.mean, 1e-3);
+}
+
+/// A turn about z by the angle, then about x; mirrored in x where asked.
+std::array<double, 9> direction(double angle, bool mirrors) {
+    const double c = std::cos(angle), s = std::sin(angle), m = mirrors ? -1 : 1;
+    return {m * c, -s, 0, m * c * s, c * c, -s, m * s * s, c * s, c};
+}
+
+TEST(Anisotropy, oblique_and_mirrored_directions_keep_volumes_positive) {
+    test::ArrayVolume volume = test::grain_volume({12, 12, 12}, 6, 2).spaced({1, 2, 5});
+    const auto straight = regions_of(run(volume, reduced(0.8)));
+    for (bool mirrors : {false, true}) {
+        SCOPED_TRACE(mirrors ? "mirrored" : "turned");
+        volume.lattice().direction = direction(0.3, mirrors);
+        volume.lattice().origin = {100, -50, 7};
+        const Reconstruction made = run(volume, reduced(0.8));
+        test::expect_sound(made.report.check);
+        for (const auto& [label, region] : regions_of(made)) {
+            EXPECT_GT(region.volume, 0);
+            EXPECT_NEAR(region.volume, straight.at(label).volume, 1e-6 * region.volume);
+        }
+    }
+}
+
+TEST(Anisotropy, direction_and_origin_move_every_sample_as_the_lattice_says) {
+    test::ArrayVolume volume = test::solid_volume({3, 3, 3}).spaced({1, 2, 5});
+    volume.lattice().direction = {0, 0, 1, -1, 0, 0, 0, 1, 0};
+    volume.lattice().origin = {10, 20, 30};
+    const Reconstruction made = run(volume);
+    Box box;
+    test::for_vertices(made.mesh, [&](VertexId v) { box.add(made.mesh.position(v)); });
+    EXPECT_EQ(box.low, (Vec3{10, 18, 30}));
+    EXPECT_EQ(box.high, (Vec3{20, 20, 34}));
+    EXPECT_NEAR(regions_of(made).at(1).volume, 80, 1e-9);
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,14 @@
+// Where the tests find their data, the sources and the programs under test.
+#pragma once
+
+#include <string>
+
+namespace regionmesh::test {
+
+std::string data_folder();
+std::string source_folder();
+std::string program();
+/// Empty where it was not built.
+std::string delaunay_program();
+
+}  // namespace regionmesh::test
