@@ -72,7 +72,7 @@ int smooth_command(const Arguments& arguments) {
         fmt::print(
             "{}: {} vertices, {} stepped back, moved by {:.3g} at most; quality {:.3f} at worst, {} violations (before "
             "{})\n",
-            arguments.output.path, report.smoothing.vertices, report.smoothing.stepped_back,
+            arguments.output.path, report.smoothing.vertices, report.smoothing.backtracked,
             report.smoothing.largest_displacement, report.check.quality.min, report.check.violation_count(),
             before.violation_count());
         print_unsound(fixed, before, report.check);

@@ -32,7 +32,7 @@ struct ReconstructOptions {
     std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process is to stay within
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of one derived from memory
     std::uint32_t threads = 0;                      // at work at a time; 0: one per core. The result is the same
-    std::uint32_t strips_per_batch = 1;  // strips meshed before they are welded; tiles set it where there are any
+    std::uint32_t strips_per_chunk = 1;  // strips meshed before they are merged; tiles set it where there are any
     std::optional<Sweep> sweep = {};     // of tetrahedra, along the longest side if not given; sections have their own
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 namespace regionmesh {
 
@@ -22,18 +21,9 @@ struct SmoothOptions {
     double nifpms_reach = 2;      // sigma of the weight by distance, times scale
     double nifpms_bound = 0.5;    // sigma of the weight by height over a tangent plane, times scale
     bool move_points = false;     // --smooth-points: quadruple points follow their lines
-    std::uint32_t more_hold = 0;  // strips held beyond those that the reach of the filter calls for
     double min_quality = 0.1;     // no face falls below, unless it was
     bool intersect_check = true;
     std::uint32_t threads = 0;  // 0: one per core. The result is the same
-};
-
-/// How a surface comes in: the axis along which layers follow each other, and how thick they are. A surface that is
-/// wholly in core is one layer.
-struct LayerOrder {
-    int axis = 2;
-    double thickness = std::numeric_limits<double>::infinity();
-    std::uint32_t overlap = 0;  // so many layers that follow begin before the end of one
 };
 
 }  // namespace regionmesh

@@ -14,10 +14,10 @@ struct SmoothReport {
     std::uint64_t crossing_pairs = 0;     // found crossing on the way
     std::uint64_t islands = 0;            // separate parts found to change sides of another on the way
     std::uint64_t held_vertices = 0;      // that would have gone too far along the sweep
-    std::uint64_t stepped_back = 0;       // vertices that did in the end
+    std::uint64_t backtracked = 0;        // vertices that did in the end
     double largest_displacement = 0;      // length
     double rms_displacement = 0;
-    std::uint32_t window_layers = 0;  // most strips held at once
+    std::uint32_t window_chunks = 0;  // most strips held at once
     std::uint64_t window_bytes = 0;   // at most
     double filter_seconds = 0, guard_seconds = 0;
     std::vector<double> volume_before, volume_after;  // by dense label, length^3

@@ -28,6 +28,9 @@ struct StripOptions {
 /// cover two sections (kinds in the plane of a section) and two rows (all others); 48 bytes a sample of a section.
 /// Positions are origin + (index + centroid) * spacing, in the axes of the lattice; its direction is not applied.
 class StripMesher {
+    static constexpr int kPlaneSlots = 6;  // node, 3 edges, 2 triangles in the plane of a section
+    static constexpr int kRowSlots = 14;   // 4 edges, 10 triangles out of it
+
 public:
     /// Requires at least two samples along every axis.
     StripMesher(const Lattice& lattice, Sweep sweep, StripOptions options);
@@ -36,11 +39,10 @@ public:
     void mesh(std::span<const Label> low, std::span<const Label> high, Chunk& batch);
 
     std::size_t bytes() const;
+    /// Of a section: two planes of vertex numbers.
+    static constexpr std::uint64_t kBytesPerSample = 2 * kPlaneSlots * sizeof(std::uint32_t);
 
 private:
-    static constexpr int kPlaneSlots = 6;  // node, 3 edges, 2 triangles in the plane of a section
-    static constexpr int kRowSlots = 14;   // 4 edges, 10 triangles out of it
-
     /// Where the number of a vertex is kept: one of four tables, and the place in it relative to the cell.
     enum class Table : std::uint8_t { kLowPlane, kHighPlane, kRow, kNextRow, kNowhere };
     struct SimplexPlace {

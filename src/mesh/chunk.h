@@ -1,4 +1,4 @@
-// What reconstruction hands on: some more labelled faces, and which of their vertices are still open.
+// A piece of surface on its way from the mesher to the mesh: the one form that all stages of the stream share.
 #pragma once
 
 #include <array>
@@ -14,21 +14,24 @@ struct ChunkVertex {
     Vec3 position;
     SideSet sides = 0;
 };
+static_assert(sizeof(ChunkVertex) == 32);
 
 struct ChunkFace {
     std::array<std::uint32_t, 3> vertices;  // normal from the first label to the second
     std::array<Label, 2> labels;
 };
+static_assert(sizeof(ChunkFace) == 20);
 
-/// Vertices have numbers local to the batch: the first `carried` are those the batch before listed as `open`, in that
-/// order; then come `vertices`. All that are not in `open` have all their faces now: they are finalized (P 3.4).
+/// Vertices have numbers local to the chunk. The first `carried` are the active vertices of the chunk before, in the
+/// order of its list `open`; then come `vertices`. The vertices in `open` are still active: chunks to come may add
+/// faces to them. All others are finalized (P 3.4).
 struct Chunk {
     std::uint32_t carried = 0;
     std::vector<ChunkVertex> vertices;
     std::vector<ChunkFace> faces;
     std::vector<std::uint32_t> open;
 
-    /// Appends the batch that follows: its carried vertices are this one's open ones.
+    /// Appends the chunk that follows: its carried vertices are the active ones of this chunk.
     void append(const Chunk& next);
 
     void clear() {

@@ -1,4 +1,4 @@
-// New places for the vertices of a model, as far as the guard allows.
+// Moves the vertices of a mesh to new positions, as far as the guard allows.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 namespace regionmesh {
 
 /// Moves every vertex to `to[v]`, or part of the way there where a face would turn over, fall below the quality bound
-/// or cross another. Returns the level that each vertex has stepped back to (smooth/step_back.h). Uses min_quality,
-/// intersect_check and threads of the options.
+/// or cross another. Returns the steps that each vertex backtracked, 0 to kFullBacktrack (smooth/backtrack.h). Uses
+/// min_quality, intersect_check and threads of the options.
 std::vector<std::uint8_t> move_guarded(Mesh& mesh, const std::vector<Vec3>& to, const SmoothOptions& options);
 
 }  // namespace regionmesh

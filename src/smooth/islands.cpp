@@ -30,8 +30,8 @@ std::uint32_t Parts::root(std::uint32_t v) {
     return v;
 }
 
-void Parts::add_layer(const SurfaceWindow& window, std::uint32_t layer) {
-    const NumberRange vertices = window.vertices_of(layer), faces = window.faces_of(layer);
+void Parts::add_chunk(const SurfaceWindow& window, std::uint32_t chunk) {
+    const NumberRange vertices = window.vertices_of(chunk), faces = window.faces_of(chunk);
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v) parent_.push_back(v);
     for (std::uint32_t f = faces.first; f < faces.end; ++f) {
         std::uint32_t joined = root(window.faces[f].vertices[0]);
@@ -43,13 +43,13 @@ void Parts::add_layer(const SurfaceWindow& window, std::uint32_t layer) {
     }
 }
 
-std::vector<std::uint32_t> Parts::that_end_in(const SurfaceWindow& window, std::uint32_t layer) {
-    const NumberRange vertices = window.vertices_of(layer);
+std::vector<std::uint32_t> Parts::that_end_in(const SurfaceWindow& window, std::uint32_t chunk) {
+    const NumberRange vertices = window.vertices_of(chunk);
     const auto is_before = [&](std::uint32_t v, std::uint32_t w) {
         const Vec3 p = window.origin[v], q = window.origin[w];
         return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
     };
-    std::unordered_map<std::uint32_t, std::uint32_t> firsts;  // of each root in the layer
+    std::unordered_map<std::uint32_t, std::uint32_t> firsts;  // of each root in the chunk
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v)
         if (parent_[v] == v) firsts[v] = v;
     for (std::uint32_t v = vertices.first; v < vertices.end && !firsts.empty(); ++v) {

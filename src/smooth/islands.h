@@ -9,15 +9,15 @@
 namespace regionmesh {
 
 /// Joins vertices to parts as faces come in. The root of a part is its newest vertex, so that a part that is complete
-/// has its root in the last layer that it reaches.
+/// has its root in the last chunk that it reaches.
 class Parts {
 public:
-    /// The faces of a layer, in order of layers.
-    void add_layer(const SurfaceWindow& window, std::uint32_t layer);
+    /// The faces of a chunk, in order of chunks.
+    void add_chunk(const SurfaceWindow& window, std::uint32_t chunk);
 
-    /// Of each part that ends in this layer, its first vertex there by place, whatever the numbers. Requires that the
-    /// next layer was added, if there is one.
-    std::vector<std::uint32_t> that_end_in(const SurfaceWindow& window, std::uint32_t layer);
+    /// Of each part that ends in this chunk, its first vertex there by place, whatever the numbers. Requires that the
+    /// next chunk was added, if there is one.
+    std::vector<std::uint32_t> that_end_in(const SurfaceWindow& window, std::uint32_t chunk);
 
     std::uint32_t root(std::uint32_t v);
     void drop_before(std::uint32_t v) { parent_.drop_before(v); }

@@ -9,7 +9,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kChunk = 2048;  // vertices
+constexpr std::uint32_t kTaskSize = 2048;  // vertices
 
 void add_sides(LabelSet& set, SideSet sides) {
     for (int side = 0; side < kSideCount; ++side)
@@ -46,7 +46,7 @@ private:
         const Label low = std::min(labels[0], labels[1]), high = std::max(labels[0], labels[1]);
         std::uint64_t sum = 0;  // of what comes after v in its faces less what comes before: 0 where the star is closed
         for (std::uint32_t corner : star) {
-            const WindowFace& face = window_.faces[corner >> 2];
+            const ChunkFace& face = window_.faces[corner >> 2];
             if (std::min(face.labels[0], face.labels[1]) != low || std::max(face.labels[0], face.labels[1]) != high)
                 return false;
             // Seen from the lower label all faces go round the same way.
@@ -84,7 +84,7 @@ private:
     void gather_spokes(std::uint32_t v, std::span<const std::uint32_t> star) {
         spokes_.clear();
         for (std::uint32_t corner : star) {
-            const WindowFace& face = window_.faces[corner >> 2];
+            const ChunkFace& face = window_.faces[corner >> 2];
             for (std::uint32_t step = 1; step < 3; ++step) {
                 const std::uint32_t w = face.vertices[((corner & 3) + step) % 3];
                 auto at = std::find_if(spokes_.begin(), spokes_.end(), [&](const Spoke& s) { return s.vertex == w; });
@@ -93,7 +93,7 @@ private:
                 ++at->uses;
             }
         }
-        // Where the surface ends on the box (not capped, or background), the sides stand for the faces not made there.
+        // Where the surface ends on the box (not capped, or background), the sides steps for the faces not made there.
         for (Spoke& spoke : spokes_) {
             if (spoke.uses >= spoke.labels.size()) continue;
             const SideSet common = window_.sides[v] & window_.sides[spoke.vertex];
@@ -110,13 +110,13 @@ private:
 
 }  // namespace
 
-void Neighbours::add_layer(const SurfaceWindow& window, const LayerStars& stars, std::uint32_t threads) {
+void Neighbours::add_chunk(const SurfaceWindow& window, const ChunkStars& stars, std::uint32_t threads) {
     const NumberRange vertices = stars.vertices();
-    std::vector<SlidingLists> parts((vertices.size() + kChunk - 1) / kChunk);
+    std::vector<SlidingLists> parts((vertices.size() + kTaskSize - 1) / kTaskSize);
     parallel_for(static_cast<std::uint32_t>(parts.size()), threads, [&](std::uint32_t n) {
         Finder finder(window, move_points_);
-        const std::uint32_t first = vertices.first + n * kChunk;
-        for (std::uint32_t v = first; v < std::min(vertices.end, first + kChunk); ++v)
+        const std::uint32_t first = vertices.first + n * kTaskSize;
+        for (std::uint32_t v = first; v < std::min(vertices.end, first + kTaskSize); ++v)
             parts[n].push_back(finder.find(v, stars.of(v)));
     });
     for (const SlidingLists& part : parts)

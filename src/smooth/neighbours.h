@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/sliding_lists.h"
-#include "smooth/stars.h"
+#include "smooth/chunk_stars.h"
 
 namespace regionmesh {
 
@@ -17,8 +17,8 @@ class Neighbours {
 public:
     explicit Neighbours(bool move_points) : move_points_(move_points) {}
 
-    /// Appends the neighbours of a layer's vertices. Layers come in order.
-    void add_layer(const SurfaceWindow& window, const LayerStars& stars, std::uint32_t threads);
+    /// Appends the neighbours of a chunk's vertices. Layers come in order.
+    void add_chunk(const SurfaceWindow& window, const ChunkStars& stars, std::uint32_t threads);
 
     std::span<const std::uint32_t> of(std::uint32_t v) const { return lists_.of(v); }
     void drop_before(std::uint32_t v) { lists_.drop_before(v); }

@@ -9,11 +9,12 @@
 #include "base/triangle.h"
 #include "regionmesh/ids.h"
 #include "smooth/relax.h"
+#include "smooth/tuning.h"
 
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kChunk = 256;  // vertices
+using smoothing::kNifpmsTask;
 
 bool is_before(Vec3 p, Vec3 q) { return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z; }
 
@@ -114,7 +115,7 @@ private:
             for (std::uint32_t corner : stars_.of(queue_[n])) {
                 const std::uint32_t f = corner >> 2;
                 if (!seen_faces_.add(f)) continue;
-                const WindowFace& face = window_.faces[f];
+                const ChunkFace& face = window_.faces[f];
                 const auto& [middle, area] = measures_[f];
                 if (!is_same_interface(face.labels, labels) || length2(middle - from) > reach * reach) continue;
                 found_.push_back({middle, area, FaceId{f}});
@@ -155,28 +156,46 @@ Vec3 projected_on_line(Vec3 p, Vec3 middle, Vec3 direction) {
 
 }  // namespace
 
-void Nifpms::add_layer(const LayerStars& stars) {
+void Nifpms::note_stars(const ChunkStars& stars) {
     for (std::uint32_t v = stars.vertices().first; v < stars.vertices().end; ++v) stars_.push_back(stars.of(v));
 }
 
-void Nifpms::note_layer(std::uint32_t layer) {
-    const NumberRange faces = window_.faces_of(layer);
+void Nifpms::note_chunk(std::uint32_t chunk) {
+    const NumberRange faces = input_.window.faces_of(chunk);
     for (std::uint32_t f = faces.first; f < faces.end; ++f) {
         // In the order of their places, so that nothing depends on where a face begins.
         std::array<Vec3, 3> p;
-        for (int n = 0; n < 3; ++n) p[n] = window_.origin[window_.faces[f].vertices[n]];
+        for (int n = 0; n < 3; ++n) p[n] = input_.window.origin[input_.window.faces[f].vertices[n]];
         std::sort(p.begin(), p.end(), is_before);
         measures_.push_back({(p[0] + p[1] + p[2]) / 3.0, 0.5 * length(area_vector(p[0], p[1], p[2]))});
     }
 }
 
+void Nifpms::run(std::uint32_t pass, std::uint32_t chunk, const SlidingArray<Vec3>& from, SlidingArray<Vec3>& to) {
+    const NumberRange vertices = input_.window.vertices_of(chunk);
+    if (pass == 0) {
+        mollify(vertices, to);
+        return;
+    }
+    const std::uint32_t end = std::min(chunk + chunks_ahead(pass), input_.window.chunk_end());
+    note_normals(input_.window.faces_of(end - 1).end, from);
+    predict(vertices, from, to);
+}
+
+void Nifpms::drop_before(std::uint32_t v, std::uint32_t f) {
+    if (stars_.end() == 0) return;
+    stars_.drop_before(v);
+    measures_.drop_before(f);
+    normals_.drop_before(f);
+}
+
 void Nifpms::mollify(NumberRange vertices, SlidingArray<Vec3>& mollified) const {
-    const double sigma = 0.5 * options_.nifpms_reach * options_.scale;
-    parallel_for((vertices.size() + kChunk - 1) / kChunk, options_.threads, [&](std::uint32_t n) {
-        Witnesses witnesses(window_, neighbours_, stars_, measures_);
-        const std::uint32_t first = vertices.first + n * kChunk;
-        for (std::uint32_t v = first; v < std::min(vertices.end, first + kChunk); ++v) {
-            const Vec3 p = window_.origin[v];
+    const double sigma = 0.5 * input_.options.nifpms_reach * input_.options.scale;
+    parallel_for((vertices.size() + kNifpmsTask - 1) / kNifpmsTask, input_.options.threads, [&](std::uint32_t n) {
+        Witnesses witnesses(input_.window, input_.neighbours, stars_, measures_);
+        const std::uint32_t first = vertices.first + n * kNifpmsTask;
+        for (std::uint32_t v = first; v < std::min(vertices.end, first + kNifpmsTask); ++v) {
+            const Vec3 p = input_.window.origin[v];
             Vec3 sum;
             double weights = 0;
             for (const Witness& witness : witnesses.near(v, mollifying_reach())) {
@@ -192,7 +211,7 @@ void Nifpms::mollify(NumberRange vertices, SlidingArray<Vec3>& mollified) const 
 void Nifpms::note_normals(std::uint32_t face_end, const SlidingArray<Vec3>& mollified) {
     for (std::uint32_t f = normals_.end(); f < face_end; ++f) {
         std::array<Vec3, 3> p;
-        for (int n = 0; n < 3; ++n) p[n] = mollified[window_.faces[f].vertices[n]];
+        for (int n = 0; n < 3; ++n) p[n] = mollified[input_.window.faces[f].vertices[n]];
         std::sort(p.begin(), p.end(), is_before);
         const Vec3 normal = area_vector(p[0], p[1], p[2]);
         const double size = length(normal);
@@ -200,16 +219,15 @@ void Nifpms::note_normals(std::uint32_t face_end, const SlidingArray<Vec3>& moll
     }
 }
 
-void Nifpms::predict(NumberRange vertices, std::uint32_t face_end, const SlidingArray<Vec3>& mollified,
-                     SlidingArray<Vec3>& to) {
-    note_normals(face_end, mollified);
-    const double reach = options_.nifpms_reach * options_.scale, bound = options_.nifpms_bound * options_.scale;
+void Nifpms::predict(NumberRange vertices, const SlidingArray<Vec3>& mollified, SlidingArray<Vec3>& to) const {
+    const double reach = input_.options.nifpms_reach * input_.options.scale,
+                 bound = input_.options.nifpms_bound * input_.options.scale;
     const double by_distance = 1 / (2 * reach * reach), by_height = 1 / (2 * bound * bound);
-    parallel_for((vertices.size() + kChunk - 1) / kChunk, options_.threads, [&](std::uint32_t n) {
-        Witnesses witnesses(window_, neighbours_, stars_, measures_);
-        const std::uint32_t first = vertices.first + n * kChunk;
-        for (std::uint32_t v = first; v < std::min(vertices.end, first + kChunk); ++v) {
-            const Vec3 p = window_.origin[v];
+    parallel_for((vertices.size() + kNifpmsTask - 1) / kNifpmsTask, input_.options.threads, [&](std::uint32_t n) {
+        Witnesses witnesses(input_.window, input_.neighbours, stars_, measures_);
+        const std::uint32_t first = vertices.first + n * kNifpmsTask;
+        for (std::uint32_t v = first; v < std::min(vertices.end, first + kNifpmsTask); ++v) {
+            const Vec3 p = input_.window.origin[v];
             Vec3 sum;
             double weights = 0;
             for (const Witness& witness : witnesses.near(v, predicting_reach())) {
@@ -223,7 +241,7 @@ void Nifpms::predict(NumberRange vertices, std::uint32_t face_end, const Sliding
                 weights += weight;
             }
             Vec3 q = weights > 0 ? p + sum / weights : p;
-            keep_on_sides(window_.sides[v], p, q);
+            keep_on_sides(input_.window.sides[v], p, q);
             to[v] = q;
         }
     });

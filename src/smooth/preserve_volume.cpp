@@ -10,20 +10,14 @@
 #include "smooth/guarded_move.h"
 #include "smooth/region_matrix.h"
 #include "smooth/relax.h"
-#include "smooth/step_back.h"
+#include "smooth/tuning.h"
 
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kMostRounds = 30;
-constexpr double kEnough = 1e-9;  // drift at which a round more would be vain
-// Of one round, in typical edges: what a region may ask for on average over its boundary, and what a vertex may go.
-constexpr double kMostAsked = 0.05, kLongestStep = 0.2;
-// A region that gets less than this share of what it asks for, so many rounds on end, is given up: it would only push
-// the others about.
-constexpr double kLeastGain = 0.3;
-constexpr int kPatience = 4;
-constexpr std::uint8_t kRest = 3, kForEver = 255;  // rounds for which a vertex that was held back is let be
+using namespace smoothing;
+
+constexpr std::uint8_t kForEver = 255;  // rounds of rest of a vertex that may never move
 constexpr int kMostLabels = 4;
 constexpr double kRounding = 1e-10;  // of sums of volumes, relative
 
@@ -46,7 +40,7 @@ public:
     PreserveReport run() {
         note_missing();
         report_.drift_before = report_.drift;
-        while (!is_done() && report_.rounds < kMostRounds) {
+        while (!is_done() && report_.rounds < kMostVolumeRounds) {
             ++report_.rounds;
             const std::vector<double> multipliers = solve();
             std::vector<Vec3> to(mesh_.vertex_end());
@@ -102,7 +96,7 @@ private:
 
     bool is_done() const {
         for (Label label = 0; label < wanted_.size(); ++label)
-            if (is_wanted(label) && std::abs(missing_[label]) > kEnough * std::abs(*wanted_[label])) return false;
+            if (is_wanted(label) && std::abs(missing_[label]) > kEnoughDrift * std::abs(*wanted_[label])) return false;
         return true;
     }
 
@@ -125,7 +119,7 @@ private:
             if (rest_[v] == kForEver) continue;
             if (rest_[v] > 0) --rest_[v];
             if (levels[v] == 0) continue;
-            rest_[v] = kRest;
+            rest_[v] = kRestRounds;
             ++report_.held_vertices;
         }
     }

@@ -1,19 +1,15 @@
-// The layers of a surface that smoothing holds at a time, as flat arrays.
+// The chunks of a surface that smoothing holds at a time, as flat arrays.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "base/sliding_array.h"
-#include "regionmesh/label.h"
-#include "regionmesh/vec3.h"
+#include "base/sliding_lists.h"
+#include "mesh/chunk.h"
+#include "regionmesh/mesh.h"
 
 namespace regionmesh {
-
-struct WindowFace {
-    std::array<std::uint32_t, 3> vertices;
-    std::array<Label, 2> labels;  // the normal points from the first to the second
-};
 
 /// Numbers from `first` up to `end`, without it.
 struct NumberRange {
@@ -21,39 +17,44 @@ struct NumberRange {
     std::uint32_t size() const { return end - first; }
 };
 
-/// A layer is what one strip adds: its faces, and the vertices that they are the first to use. A face has vertices of
-/// its own layer and the one before, so that all faces of a vertex lie in its layer and the next. A surface that is
-/// wholly in core is one layer.
+/// Chunks are numbered from 0 in the order in which they are added, and so are all their vertices and faces. A face has
+/// vertices of its own chunk and the one before, so that all faces of a vertex lie in its chunk and the next. A surface
+/// that is wholly in core is one chunk.
 class SurfaceWindow {
 public:
-    SlidingArray<Vec3> origin;  // places before smoothing
+    SlidingArray<Vec3> origin;  // positions before smoothing
     SlidingArray<SideSet> sides;
-    SlidingArray<WindowFace> faces;
+    SlidingArray<ChunkFace> faces;  // with vertex numbers of the window: a neighbour is found with one look-up
 
-    SurfaceWindow() { layers_.push_back({0, 0}); }
+    SurfaceWindow();
 
-    /// Vertices and faces added since the last call are a layer.
-    void end_layer() { layers_.push_back({origin.end(), faces.end()}); }
-    std::uint32_t layer_end() const { return layers_.end() - 1; }
-    std::uint32_t first_layer() const { return layers_.first(); }
-    NumberRange vertices_of(std::uint32_t layer) const { return {layers_[layer].vertex, layers_[layer + 1].vertex}; }
-    NumberRange faces_of(std::uint32_t layer) const { return {layers_[layer].face, layers_[layer + 1].face}; }
+    /// Appends the chunk that follows.
+    void add(const Chunk& chunk);
+    /// Appends the vertices and faces of a mesh as a chunk, in their order. Fixed vertices are marked as lying on all
+    /// sides of the box, so that they stay. Returns the number in the window of each vertex of the mesh.
+    std::vector<std::uint32_t> add(const Mesh& mesh);
+    /// A chunk as it was added, but with its vertices at `positions`.
+    void copy_out(std::uint32_t chunk, const SlidingArray<Vec3>& positions, Chunk& out) const;
 
-    /// Lets go of the layers before this one; vertices of the last of them stay for the faces that use them.
-    void drop_before(std::uint32_t layer) {
-        if (layer == 0) return;
-        layers_.drop_before(layer - 1);
-        origin.drop_before(layers_[layer - 1].vertex);
-        sides.drop_before(layers_[layer - 1].vertex);
-        faces.drop_before(layers_[layer].face);
-    }
-    std::size_t bytes() const { return origin.bytes() + sides.bytes() + faces.bytes(); }
+    std::uint32_t chunk_end() const { return starts_.end() - 1; }
+    NumberRange vertices_of(std::uint32_t chunk) const { return {starts_[chunk].vertex, starts_[chunk + 1].vertex}; }
+    NumberRange faces_of(std::uint32_t chunk) const { return {starts_[chunk].face, starts_[chunk + 1].face}; }
+
+    /// Releases the chunks before this one; vertices of the last of them stay for the faces that use them.
+    void drop_before(std::uint32_t chunk);
+    std::size_t bytes() const { return origin.bytes() + sides.bytes() + faces.bytes() + active_.bytes(); }
 
 private:
     struct Start {
         std::uint32_t vertex, face;
     };
-    SlidingArray<Start> layers_;
+
+    /// Vertices that chunk n carries: those left active by the chunk before.
+    std::span<const std::uint32_t> carried_by(std::uint32_t chunk) const;
+    void end_chunk(std::span<const std::uint32_t> active);
+
+    SlidingArray<Start> starts_;  // of each chunk, and of the next one
+    SlidingLists active_;         // of each chunk: the vertices that it leaves active
 };
 
 }  // namespace regionmesh

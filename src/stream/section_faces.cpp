@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stream/memory_plan.h"
+#include "stream/footprint.h"
 #include "stream/place_in_space.h"
 
 namespace regionmesh {
@@ -39,11 +39,11 @@ std::optional<FaceCount> SectionFaces::count() {
     return FaceCount{std::move(census.strip_faces), census.face_count, std::move(census.oracle)};
 }
 
-double SectionFaces::plane_of(std::uint32_t strip) const {
+double SectionFaces::low_of(std::uint32_t strip) const {
     return shape_.lattice.origin[shape_.axis()] + strip * shape_.lattice.spacing[shape_.axis()];
 }
 
-/// Not before sections were counted: counting takes as much memory again. Refuses volumes without a cell.
+/// Called after sections were counted, since counting takes as much memory again. Refuses volumes without a cell.
 void SectionFaces::begin() {
     window_.emplace(reader_, labels_);
     mesher_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
@@ -54,10 +54,18 @@ bool SectionFaces::advance() {
     return window_->advance();
 }
 
-void SectionFaces::make_faces(Chunk& batch) {
+void SectionFaces::make_faces(Chunk& chunk) {
     if (census_) census_->add(window_->low(), window_->high(), window_->is_last());
-    batch.clear();
-    mesher_->mesh(window_->low(), window_->high(), batch);
+    chunk.clear();
+    mesher_->mesh(window_->low(), window_->high(), chunk);
+}
+
+bool SectionFaces::rewind() {
+    if (!reader_.info().can_rewind) return false;
+    window_.reset();
+    mesher_.reset();
+    reader_.rewind();
+    return true;
 }
 
 void SectionFaces::place(Mesh& mesh) const { place_in_space(mesh, reader_.info().lattice); }

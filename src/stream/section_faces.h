@@ -11,17 +11,18 @@
 
 namespace regionmesh {
 
-/// Meshes the strips between sections as they are read. Where they can be read twice, the first time is to count.
+/// Meshes the strips between sections as they are read. Sections that can be read twice are counted first.
 class SectionFaces final : public FaceSource {
 public:
     SectionFaces(SectionReader& reader, const CensusOptions& options);
 
     std::optional<FaceCount> count() override;
     const SourceShape& shape() const override { return shape_; }
-    double plane_of(std::uint32_t strip) const override;
+    double low_of(std::uint32_t strip) const override;
     bool advance() override;
-    void make_faces(Chunk& batch) override;
+    void make_faces(Chunk& chunk) override;
     std::uint32_t strips_read() const override { return window_ ? window_->sections_read() - 1 : 0; }
+    bool rewind() override;
     const LabelTable& labels() const override { return labels_; }
     const std::vector<Label>& background() const override { return background_; }
     LabelOracle oracle() const override { return census_->oracle(); }
@@ -37,7 +38,7 @@ private:
     std::vector<Label> background_;
     std::optional<SectionWindow> window_;  // from begin() on
     std::optional<StripMesher> mesher_;
-    std::optional<LabelCensus> census_;  // where nothing was counted before
+    std::optional<LabelCensus> census_;  // while meshing, where nothing was counted before
 };
 
 }  // namespace regionmesh

@@ -3,8 +3,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 namespace regionmesh {
+namespace {
+
+/// Reads `count` items from `offset` to the end of `items`. Returns the offset behind them.
+template <class T>
+std::uint64_t read_onto(std::vector<T>& items, const TemporaryFile& file, std::uint64_t offset, std::uint64_t count) {
+    items.resize(items.size() + count);
+    file.read(offset, std::as_writable_bytes(std::span(items).last(count)));
+    return offset + count * sizeof(T);
+}
+
+}  // namespace
 
 void SpilledStrips::add(const MeshedStrip& strip, double top) {
     const auto number = static_cast<std::uint32_t>(strips_.size());
@@ -20,7 +32,7 @@ void SpilledStrips::add_end(const VertexEnd& end) {
     if (!end.is_shared) return;
     const auto after = std::upper_bound(strips_.begin(), strips_.end(), end.vertex,
                                         [](std::uint32_t vertex, const Strip& s) { return vertex < s.first_vertex; });
-    // Those without vertices begin where the next one does.
+    // A strip without vertices has the first vertex of the next one.
     Strip& own = *std::prev(after);
     own.reach = std::max(own.reach, end.last_strip);
 }
@@ -45,21 +57,21 @@ double SpilledStrips::top_of(StripRange strips) const {
     return top;
 }
 
-std::vector<StripRange> SpilledStrips::layers() const {
-    std::vector<StripRange> layers;
-    std::uint32_t end = 0, reach = 0;  // the layer must go on to where the vertices of the one before have faces
+std::vector<StripRange> SpilledStrips::strips_for_smoothing() const {
+    std::vector<StripRange> ranges;
+    std::uint32_t end = 0, reach = 0;  // last strip with faces of the vertices of the range before
     while (end < strip_count()) {
         const std::uint32_t first = end, last = std::min(std::max(first, reach), strip_count() - 1);
         end = last + 1;
         reach = 0;
         for (std::uint32_t s = first; s < end; ++s) reach = std::max(reach, strips_[s].reach);
-        layers.push_back({first, end});
+        ranges.push_back({first, end});
     }
-    return layers;
+    return ranges;
 }
 
 void SpilledStrips::rewind() {
-    open_.clear();
+    active_.clear();
     ends_.rewind();
     has_end_ = ends_.next(next_end_);
 }
@@ -69,46 +81,47 @@ SideSet SpilledStrips::sides_of(SideSet of_box, bool is_on_hull, bool is_pinned)
     return sides | (is_pinned ? kPinned : SideSet{0});
 }
 
-void SpilledStrips::read(StripRange strips, Chunk& batch) {
-    batch.clear();
-    batch.carried = static_cast<std::uint32_t>(open_.size());
-    const std::uint32_t first_vertex = strips_[strips.first].first_vertex;
-    const auto local = [&](std::uint32_t vertex) {
-        if (vertex >= first_vertex) return batch.carried + (vertex - first_vertex);
-        const auto at = std::lower_bound(open_.begin(), open_.end(), vertex,
-                                         [](const Open& open, std::uint32_t v) { return open.vertex < v; });
-        assert(at != open_.end() && at->vertex == vertex);
-        return static_cast<std::uint32_t>(at - open_.begin());
-    };
+void SpilledStrips::read(StripRange strips, Chunk& chunk) {
+    chunk.clear();
+    chunk.carried = static_cast<std::uint32_t>(active_.size());
     for (std::uint32_t s = strips.first; s < strips.end; ++s) {
-        const Strip& strip = strips_[s];
-        const std::uint64_t behind = file_.read_items(strip.offset, strip.vertices, vertices_);
-        file_.read_items(behind, strip.faces, faces_);
-        for (const ChunkVertex& vertex : vertices_)
-            batch.vertices.push_back({vertex.position, sides_of(vertex.sides, false, false)});
-        for (ChunkFace face : faces_) {
-            for (std::uint32_t& v : face.vertices) v = local(v);
-            for (Label& label : face.labels)
-                if (is_exterior(label) && !hull_is_box_) label = exterior(kHull);
-            batch.faces.push_back(face);
-        }
+        const std::uint64_t faces_at = read_onto(chunk.vertices, file_, strips_[s].offset, strips_[s].vertices);
+        read_onto(chunk.faces, file_, faces_at, strips_[s].faces);
     }
-    // What was carried and goes on, in its order; then what is new and goes on.
-    std::vector<Open> before = std::move(open_);
-    open_.clear();
+    const std::uint32_t first_vertex = strips_[strips.first].first_vertex;
+    for (ChunkVertex& vertex : chunk.vertices) vertex.sides = sides_of(vertex.sides, false, false);
+    make_local(chunk, first_vertex);
+    // Carried vertices that stay active, in their order; then the new ones.
+    std::vector<Active> before = std::move(active_);
+    active_.clear();
     for (std::uint32_t n = 0; n < before.size(); ++n) {
         if (before[n].last_strip < strips.end) continue;
-        open_.push_back(before[n]);
-        batch.open.push_back(n);
+        active_.push_back(before[n]);
+        chunk.open.push_back(n);
     }
-    const std::uint32_t end_vertex = first_vertex + static_cast<std::uint32_t>(batch.vertices.size());
+    const std::uint32_t end_vertex = first_vertex + static_cast<std::uint32_t>(chunk.vertices.size());
     for (; has_end_ && next_end_.vertex < end_vertex; has_end_ = ends_.next(next_end_)) {
         const std::uint32_t n = next_end_.vertex - first_vertex;
-        ChunkVertex& vertex = batch.vertices[n];
+        ChunkVertex& vertex = chunk.vertices[n];
         vertex.sides = sides_of(vertex.sides, next_end_.is_on_hull, next_end_.is_pinned);
         if (!next_end_.is_shared || next_end_.last_strip < strips.end) continue;
-        open_.push_back({next_end_.vertex, next_end_.last_strip});
-        batch.open.push_back(batch.carried + n);
+        active_.push_back({next_end_.vertex, next_end_.last_strip});
+        chunk.open.push_back(chunk.carried + n);
+    }
+}
+
+/// From the mesher's numbers, which run through all strips, to those of the chunk.
+void SpilledStrips::make_local(Chunk& chunk, std::uint32_t first_vertex) const {
+    const auto local = [&](std::uint32_t vertex) {
+        if (vertex >= first_vertex) return chunk.carried + (vertex - first_vertex);
+        const auto at = std::ranges::lower_bound(active_, vertex, {}, &Active::vertex);
+        assert(at != active_.end() && at->vertex == vertex);
+        return static_cast<std::uint32_t>(at - active_.begin());
+    };
+    for (ChunkFace& face : chunk.faces) {
+        for (std::uint32_t& v : face.vertices) v = local(v);
+        for (Label& label : face.labels)
+            if (is_exterior(label) && !hull_is_box_) label = exterior(kHull);
     }
 }
 

@@ -1,4 +1,4 @@
-// Strips of faces, put aside on disk and read back in order (P 3.9).
+// Spills strips of faces to disk and reads them back in order, as chunks (P 3.9).
 #pragma once
 
 #include <cstdint>
@@ -11,50 +11,52 @@
 
 namespace regionmesh {
 
-/// So many strips that follow one another.
+/// Consecutive strips.
 struct StripRange {
     std::uint32_t first, end;
 };
 
-/// Keeps meshed strips, and brings them back as batches: a vertex is finalized with the last of its faces. Holds some
-/// bytes a strip, and those vertices that are open.
+/// Which vertices a strip leaves active is known only when later strips are meshed. So strips are spilled with vertex
+/// numbers that run through all of them, and become chunks when they are read back. Holds some bytes per strip, and the
+/// active vertices.
 class SpilledStrips {
 public:
     explicit SpilledStrips(std::uint64_t sort_bytes) : ends_(sort_bytes) {}
 
-    /// Strips come in order, with the vertices that have ended since the one before; they reach up to `top` along the
-    /// sweep.
+    /// Strips come in order, each with the vertices that have ended since the one before. `top` is the highest vertex
+    /// along the sweep.
     void add(const MeshedStrip& strip, double top);
     void add_end(const VertexEnd& end);
-    /// No more come. What lies on the hull lies on sides of a box, or else on no side but kHull.
+    /// After the last strip. Vertices on the hull lie on sides of a box, or else on no side but kHull.
     void finish(bool hull_is_box);
 
     std::uint32_t strip_count() const { return static_cast<std::uint32_t>(strips_.size()); }
     std::uint64_t face_count() const;
     std::uint64_t faces_of(StripRange strips) const;
     double top_of(StripRange strips) const;
-    /// Layers of the fewest strips each such that no vertex has faces in more than two, one after the other.
-    std::vector<StripRange> layers() const;
+    /// Consecutive ranges of the fewest strips each such that no vertex has faces in more than two of them.
+    std::vector<StripRange> strips_for_smoothing() const;
 
-    /// Begins again with the first.
+    /// Returns to the first strip.
     void rewind();
-    /// The faces of the strips that come next, as a batch.
-    void read(StripRange strips, Chunk& batch);
+    /// The faces of the strips that come next, as one chunk.
+    void read(StripRange strips, Chunk& chunk);
     std::uint64_t bytes() const {
-        return strips_.capacity() * sizeof(Strip) + open_.capacity() * sizeof(Open) + ends_.bytes();
+        return strips_.capacity() * sizeof(Strip) + active_.capacity() * sizeof(Active) + ends_.bytes();
     }
 
 private:
     struct Strip {
         std::uint64_t offset, faces;
         std::uint32_t first_vertex, vertices;
-        std::uint32_t reach;  // the last strip that has a face of one of its vertices
+        std::uint32_t reach;  // last strip with a face of one of its vertices
         double top;
     };
-    struct Open {
+    struct Active {
         std::uint32_t vertex, last_strip;
     };
 
+    void make_local(Chunk& chunk, std::uint32_t first_vertex) const;
     SideSet sides_of(SideSet of_box, bool is_on_hull, bool is_pinned) const;
 
     TemporaryFile file_;
@@ -63,9 +65,7 @@ private:
     bool hull_is_box_ = true;
     VertexEnd next_end_{};
     bool has_end_ = false;
-    std::vector<Open> open_;  // after the strips read, in order of vertices
-    std::vector<ChunkVertex> vertices_;
-    std::vector<ChunkFace> faces_;
+    std::vector<Active> active_;  // after the strips read, in order of vertices
 };
 
 }  // namespace regionmesh

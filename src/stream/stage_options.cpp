@@ -1,12 +1,8 @@
 #include "stream/stage_options.h"
 
+#include "stream/tuning.h"
+
 namespace regionmesh {
-namespace {
-
-/// Faces are decimated to so much more than the least quality where their vertices are to move once more.
-constexpr double kRoomForVolume = 1.1;
-
-}  // namespace
 
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
     SmoothOptions own = options.smooth;
@@ -20,7 +16,7 @@ SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
 DecimateOptions decimate_options(const ReconstructOptions& options, double scale) {
     DecimateOptions own;
     if (options.max_error) own.max_error = *options.max_error;
-    own.min_quality = options.min_quality * (options.preserve_volume ? kRoomForVolume : 1);
+    own.min_quality = options.min_quality * (options.preserve_volume ? stream::kQualityMargin : 1);
     own.perturbation = options.perturbation;
     own.scale = scale;
     own.intersect_check = options.intersect_check;

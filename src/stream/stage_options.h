@@ -1,4 +1,4 @@
-// What a run's options say to its stages.
+// The options of the stages, from those of the run.
 #pragma once
 
 #include "regionmesh/reconstruct.h"
@@ -8,7 +8,7 @@ namespace regionmesh {
 
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 
-/// Without target and limits.
+/// Without target and safe interval.
 DecimateOptions decimate_options(const ReconstructOptions& options, double scale);
 
 }  // namespace regionmesh

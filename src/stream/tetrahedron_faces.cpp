@@ -7,23 +7,14 @@
 #include "cells/tetrahedron_mesher.h"
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
-#include "stream/memory_plan.h"
+#include "stream/footprint.h"
 #include "stream/star_watch.h"
+#include "stream/tuning.h"
 
 namespace regionmesh {
 namespace {
 
-/// Of memory, for sorting; but no more than what makes it faster.
-constexpr std::uint64_t kSortShare = 8, kMostSortBytes = std::uint64_t{256} << 20;
-
-/// Cells of the lattice for each tetrahedron at most, where most of the box is empty.
-constexpr double kMostCells = 8;
-
-/// Of points while their faces are made: place, label, number, and whether it is used.
-constexpr std::uint64_t kBytesPerPoint = 33;
-
-/// Along one axis, since each strip takes some bytes.
-constexpr double kMostStrips = 1 << 16;
+using namespace stream;
 
 std::uint64_t sort_bytes(std::uint64_t memory) { return std::min(memory / kSortShare, kMostSortBytes); }
 
@@ -58,9 +49,9 @@ TetrahedronFaces::TetrahedronFaces(TetrahedronReader& reader, const TetrahedronO
 }
 
 std::optional<FaceCount> TetrahedronFaces::count() {
-    if (layers_.empty()) make_all();
+    if (strips_.empty()) make_all();
     FaceCount count{.strip_faces = {}, .face_count = spilled_.face_count(), .oracle = oracle_};
-    for (StripRange layer : layers_) count.strip_faces.push_back(spilled_.faces_of(layer));
+    for (StripRange strip : strips_) count.strip_faces.push_back(spilled_.faces_of(strip));
     return count;
 }
 
@@ -72,12 +63,12 @@ void TetrahedronFaces::make_all() {
     tetrahedron_count_ = tetrahedra.sorted.size();
     samples_.assign(labels_.size(), 0);
     for (Label label : tetrahedra.points.labels) ++samples_[label];
-    shape_strips(tetrahedra);
+    shape_lattice(tetrahedra);
     mesh(tetrahedra);
-    gather_layers();
+    shape_strips_of_faces();
 }
 
-void TetrahedronFaces::shape_strips(const RankedTetrahedra& tetrahedra) {
+void TetrahedronFaces::shape_lattice(const RankedTetrahedra& tetrahedra) {
     const Box& box = tetrahedra.points.box;
     const double spacing = tetrahedra.spacing();
     shape_.sweep = tetrahedra.points.sweep;
@@ -140,47 +131,47 @@ void TetrahedronFaces::require_memory(std::uint64_t held) const {
     if (kProcessBytes + held <= options_.memory) return;
     throw Error(ErrorCode::kInput, "--memory " + megabytes(options_.memory) + ": " + shape_.name + " needs more than " +
                                        megabytes(kProcessBytes + held) +
-                                       " while its faces are made; give more, or another --sweep");
+                                       " while its faces are made; raise --memory, or change --sweep");
 }
 
-/// What a strip is to others: thin strips, or as many of them as smoothing needs at a time.
-void TetrahedronFaces::gather_layers() {
-    if (options_.in_layers) {
-        layers_ = spilled_.layers();
+/// Strips are thin strips, or ranges of them where smoothing needs thicker ones.
+void TetrahedronFaces::shape_strips_of_faces() {
+    if (options_.for_smoothing) {
+        strips_ = spilled_.strips_for_smoothing();
     } else {
-        for (std::uint32_t strip = 0; strip < spilled_.strip_count(); ++strip) layers_.push_back({strip, strip + 1});
+        for (std::uint32_t strip = 0; strip < spilled_.strip_count(); ++strip) strips_.push_back({strip, strip + 1});
     }
-    shape_.strip_count = static_cast<std::uint32_t>(layers_.size());
+    shape_.strip_count = static_cast<std::uint32_t>(strips_.size());
     std::uint32_t thinnest = spilled_.strip_count();
     double top = -HUGE_VAL;
     std::uint64_t most_faces = 0;
-    for (std::uint32_t n = 0; n < layers_.size(); ++n) {
-        if (n + 1 < layers_.size()) thinnest = std::min(thinnest, layers_[n].end - layers_[n].first);
-        // A face has vertices of its own layer and the one before.
-        const double own_top = spilled_.top_of(layers_[n]), face_top = std::max(top, own_top);
+    for (std::uint32_t n = 0; n < strips_.size(); ++n) {
+        if (n + 1 < strips_.size()) thinnest = std::min(thinnest, strips_[n].end - strips_[n].first);
+        // A face has vertices of its own strip and the one before.
+        const double own_top = spilled_.top_of(strips_[n]), face_top = std::max(top, own_top);
         std::uint32_t behind = n + 1;
-        while (behind < layers_.size() && plane_of(behind) < face_top) ++behind;
+        while (behind < strips_.size() && low_of(behind) < face_top) ++behind;
         shape_.strip_overlap = std::max(shape_.strip_overlap, behind - n - 1);
         top = own_top;
-        most_faces = std::max(most_faces, spilled_.faces_of(layers_[n]));
+        most_faces = std::max(most_faces, spilled_.faces_of(strips_[n]));
     }
     shape_.strip_thickness = thinnest * shape_.lattice.spacing[shape_.axis()];
-    constexpr std::uint64_t kBytesPerFaceRead = 80;  // twice: as read, and as a batch
-    shape_.reading_bytes = kProcessBytes + most_faces * kBytesPerFaceRead + spilled_.bytes();
+    // A strip twice: as it is read, and smoothed or gathered.
+    shape_.reading_bytes = kProcessBytes + most_faces * 2 * kChunkBytesPerFace + spilled_.bytes();
 }
 
-double TetrahedronFaces::plane_of(std::uint32_t strip) const {
-    if (strip == layers_.size()) return high_;
-    return shape_.lattice.origin[shape_.axis()] + layers_[strip].first * shape_.lattice.spacing[shape_.axis()];
+double TetrahedronFaces::low_of(std::uint32_t strip) const {
+    if (strip == strips_.size()) return high_;
+    return shape_.lattice.origin[shape_.axis()] + strips_[strip].first * shape_.lattice.spacing[shape_.axis()];
 }
 
 bool TetrahedronFaces::advance() {
-    if (strips_read_ == layers_.size()) return false;
+    if (strips_read_ == strips_.size()) return false;
     ++strips_read_;
     return true;
 }
 
-void TetrahedronFaces::make_faces(Chunk& batch) { spilled_.read(layers_[strips_read_ - 1], batch); }
+void TetrahedronFaces::make_faces(Chunk& chunk) { spilled_.read(strips_[strips_read_ - 1], chunk); }
 
 void TetrahedronFaces::place(Mesh& mesh) const {
     const double scale = reader_.info().scale_z;
@@ -189,9 +180,10 @@ void TetrahedronFaces::place(Mesh& mesh) const {
         if (mesh.is_alive(VertexId{n})) mesh[VertexId{n}].position.z /= scale;
 }
 
-void TetrahedronFaces::rewind() {
+bool TetrahedronFaces::rewind() {
     strips_read_ = 0;
     spilled_.rewind();
+    return true;
 }
 
 }  // namespace regionmesh

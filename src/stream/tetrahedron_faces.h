@@ -10,17 +10,17 @@
 
 namespace regionmesh {
 
-/// What is asked of the way from tetrahedra to strips of faces.
+/// Options of the way from tetrahedra to strips of faces.
 struct TetrahedronOptions {
     bool cap = true;
     std::vector<InputLabel> background{0};
-    std::optional<Sweep> sweep = {};  // along the longest side if not given
-    bool in_layers = false;           // strips so wide that no vertex has faces in more than two, as smoothing needs
+    std::optional<Sweep> sweep = {};                // along the longest side if not given
+    bool for_smoothing = false;                     // strips so thick that no vertex has faces in more than two
     std::uint64_t memory = std::uint64_t{2} << 30;  // bytes to stay within
 };
 
-/// Ranks the tetrahedra, meshes all of them, and keeps the faces on disk; then gives them strip by strip, as often as
-/// one likes. Strips are as thick as a cube that six tetrahedra fill.
+/// Ranks the tetrahedra, meshes all of them, and keeps the faces on disk; then returns them strip by strip, any number
+/// of times. A thin strip is as thick as a cube that six tetrahedra fill.
 class TetrahedronFaces final : public FaceSource {
 public:
     TetrahedronFaces(TetrahedronReader& reader, const TetrahedronOptions& options);
@@ -28,17 +28,16 @@ public:
     /// Makes all faces, the first time.
     std::optional<FaceCount> count() override;
     const SourceShape& shape() const override { return shape_; }
-    double plane_of(std::uint32_t strip) const override;
+    double low_of(std::uint32_t strip) const override;
     bool advance() override;
-    void make_faces(Chunk& batch) override;
+    void make_faces(Chunk& chunk) override;
     std::uint32_t strips_read() const override { return strips_read_; }
+    bool rewind() override;
     const LabelTable& labels() const override { return labels_; }
     const std::vector<Label>& background() const override { return background_; }
     LabelOracle oracle() const override { return oracle_; }
     void place(Mesh& mesh) const override;
 
-    /// Back to the first strip.
-    void rewind();
     std::uint64_t tetrahedron_count() const { return tetrahedron_count_; }
     std::uint64_t point_count() const { return point_count_; }
     /// Points by dense label, or tetrahedra where they have the labels.
@@ -47,9 +46,9 @@ public:
 private:
     void make_all();
     void require_memory(std::uint64_t held) const;
-    void shape_strips(const RankedTetrahedra& tetrahedra);
+    void shape_lattice(const RankedTetrahedra& tetrahedra);
     void mesh(RankedTetrahedra& tetrahedra);
-    void gather_layers();
+    void shape_strips_of_faces();
 
     TetrahedronReader& reader_;
     TetrahedronOptions options_;
@@ -59,9 +58,9 @@ private:
     LabelOracle oracle_;
     std::uint64_t point_count_ = 0, tetrahedron_count_ = 0;
     std::vector<std::uint64_t> samples_;
-    double high_ = HUGE_VAL;  // where the last strip ends, if there is a side of a box
+    double high_ = HUGE_VAL;  // end of the last strip, if the hull is a box
     SpilledStrips spilled_;
-    std::vector<StripRange> layers_;  // of thin strips, one a cell of the lattice: what a strip is to others
+    std::vector<StripRange> strips_;  // each a range of thin strips, which have one cell of the lattice each
     std::uint32_t strips_read_ = 0;
 };
 

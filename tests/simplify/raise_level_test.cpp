@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "stream/weld.h"
+#include "stream/merger.h"
 #include "support/digest.h"
 #include "support/runs.h"
 
@@ -14,11 +14,11 @@ namespace {
 /// The unsimplified model as one batch.
 Chunk whole(test::ArrayVolume& volume) {
     Reconstruction made = test::run(volume);
-    return Weld(made.mesh).take_apart();
+    return Merger(made.mesh).take_apart();
 }
 Mesh mesh_of(const Chunk& batch) {
     Mesh mesh;
-    Weld(mesh).add(batch);
+    Merger(mesh).add(batch);
     return mesh;
 }
 TilePlan plan_of(const test::ArrayVolume& volume) { return {volume.info().lattice, kSweepZ, 8, 8}; }

@@ -4,8 +4,8 @@
 
 #include "cells/label_census.h"
 #include "cells/strip_mesher.h"
-#include "stream/smoothing.h"
-#include "stream/weld.h"
+#include "smooth/smoother.h"
+#include "stream/merger.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "volume/section_window.h"
@@ -19,8 +19,8 @@ struct Batch {
         : lattice(volume.info().lattice) {
         volume.rewind();
         LabelTable labels;
-        std::optional<Smoothing> smoothing;
-        if (smooth.passes > 0) smoothing.emplace(smooth, LayerOrder{.axis = 2, .thickness = lattice.spacing.z});
+        std::optional<Smoother> smoothing;
+        if (smooth.passes > 0) smoothing.emplace(smooth, ChunkOrder{.axis = 2, .thickness = lattice.spacing.z});
         SectionWindow window(volume, labels);
         StripMesher mesher(lattice, kSweepZ, {});
         LabelCensus census(lattice, kSweepZ, {});
@@ -32,14 +32,14 @@ struct Batch {
                 whole.append(strip);
                 continue;
             }
-            smoothing->add(strip, window.is_last(), window.sections_read() - 1);
+            EXPECT_TRUE(smoothing->add(strip, window.is_last(), window.sections_read() - 1));
             while (smoothing->next(strip)) whole.append(strip);
         }
         oracle = census.oracle();
     }
     Mesh mesh() const {
         Mesh made;
-        Weld(made).add(whole);
+        Merger(made).add(whole);
         return made;
     }
 
@@ -135,7 +135,7 @@ TEST(Tiles, leave_carried_and_open_vertices_as_they_are) {
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, kSweepZ, {});
     Mesh mesh;
-    Weld weld(mesh);
+    Merger merger(mesh);
     Chunk run;
     const TilePlan plan{volume.info().lattice, kSweepZ, 3, 8};
     for (std::uint32_t strip = 0; window.advance(); ++strip) {
@@ -145,12 +145,12 @@ TEST(Tiles, leave_carried_and_open_vertices_as_they_are) {
         if (strip % 3 != 2) continue;
         std::vector<Vec3> open;
         for (std::uint32_t v : run.open)
-            open.push_back(v < run.carried ? weld.front()[v].position : run.vertices[v - run.carried].position);
-        decimate_tiles(run, weld.front(), {strip - 2.0, strip + 1.0}, plan,
+            open.push_back(v < run.carried ? merger.front()[v].position : run.vertices[v - run.carried].position);
+        decimate_tiles(run, merger.front(), {strip - 2.0, strip + 1.0}, plan,
                        {.cost_level = 1e-2, .keep_share = 0, .threads = 1, .decimate = {}});
-        weld.add(run);
-        ASSERT_EQ(weld.front().size(), open.size());
-        for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(weld.front()[n].position, open[n]);
+        merger.add(run);
+        ASSERT_EQ(merger.active_count(), open.size());
+        for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(merger.front()[n].position, open[n]);
         run.clear();
     }
     test::expect_sound(check(mesh));

@@ -127,18 +127,18 @@ TEST(Parts, end_in_the_last_layer_that_they_reach) {
     add_vertices(window, 6);
     window.faces.push_back({{0, 1, 2}, {0, 1}});
     window.faces.push_back({{3, 4, 5}, {0, 1}});
-    window.end_layer();
-    parts.add_layer(window, 0);
+    window.end_chunk();
+    parts.add_chunk(window, 0);
     add_vertices(window, 2);
     window.faces.push_back({{4, 6, 5}, {0, 1}});
     window.faces.push_back({{6, 7, 5}, {0, 1}});
-    window.end_layer();
-    parts.add_layer(window, 1);
+    window.end_chunk();
+    parts.add_chunk(window, 1);
     EXPECT_THAT(parts.that_end_in(window, 0), ElementsAre(2));
     add_vertices(window, 3);
     window.faces.push_back({{7, 6, 10}, {0, 1}});
-    window.end_layer();
-    parts.add_layer(window, 2);
+    window.end_chunk();
+    parts.add_chunk(window, 2);
     EXPECT_THAT(parts.that_end_in(window, 1), IsEmpty());
     EXPECT_THAT(parts.that_end_in(window, 2), ElementsAre(8, 9, 10)) << "vertices without faces are parts, too";
     EXPECT_EQ(parts.root(3), 10u);
@@ -151,28 +151,28 @@ TEST(Parts, are_joined_by_a_face_that_comes_late) {
     add_vertices(window, 6);
     window.faces.push_back({{0, 1, 2}, {0, 1}});
     window.faces.push_back({{3, 4, 5}, {0, 1}});
-    window.end_layer();
-    parts.add_layer(window, 0);
+    window.end_chunk();
+    parts.add_chunk(window, 0);
     EXPECT_THAT(parts.that_end_in(window, 0), ElementsAre(2, 5));
     add_vertices(window, 1);
     window.faces.push_back({{1, 4, 6}, {0, 1}});
-    window.end_layer();
-    parts.add_layer(window, 1);
+    window.end_chunk();
+    parts.add_chunk(window, 1);
     EXPECT_THAT(parts.that_end_in(window, 0), IsEmpty());
     EXPECT_THAT(parts.that_end_in(window, 1), ElementsAre(6));
     for (std::uint32_t v = 0; v < 7; ++v) EXPECT_EQ(parts.root(v), 6u);
 }
 
 TEST(Parts, whose_first_vertices_were_let_go_are_still_one) {
-    // A ribbon, one face a layer.
+    // A ribbon, one face a chunk.
     SurfaceWindow window;
     Parts parts;
     add_vertices(window, 2);
     for (std::uint32_t n = 2; n < 500; ++n) {
         add_vertices(window, 1);
         window.faces.push_back({{n - 2, n - 1, n}, {0, 1}});
-        window.end_layer();
-        parts.add_layer(window, n - 2);
+        window.end_chunk();
+        parts.add_chunk(window, n - 2);
         if (n < 4) continue;
         EXPECT_THAT(parts.that_end_in(window, n - 3), IsEmpty());
         parts.drop_before(n - 2);

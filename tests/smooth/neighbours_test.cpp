@@ -236,7 +236,7 @@ TEST(Neighbours, do_not_depend_on_threads) {
     const Mesh mesh = run(test::noise_volume({11, 11, 11}, 3, 2)).mesh;
     const Surface one(mesh);
     Neighbours many(false);
-    many.add_layer(one.window, LayerStars(one.window, 0), 3);
+    many.add_chunk(one.window, ChunkStars(one.window, 0), 3);
     ASSERT_GT(mesh.vertex_end(), 2u * 2048) << "one thread does it all";
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
         EXPECT_TRUE(std::ranges::equal(many.of(v), one.neighbours.of(v)));

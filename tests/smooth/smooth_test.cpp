@@ -60,7 +60,7 @@ TEST(Smooth, makes_the_passes_of_the_equation) {
                 relax(surface.window, surface.neighbours, surface.window.vertices_of(0), relax_factor(options, pass),
                       places[pass % 2], places[1 - pass % 2], 1);
             const SmoothReport report = smooth(mesh, options);
-            EXPECT_EQ(report.stepped_back, 0u);
+            EXPECT_EQ(report.backtracked, 0u);
             EXPECT_EQ(report.vertex_passes, std::uint64_t{passes} * mesh.vertex_count());
             test::for_vertices(mesh, [&](VertexId v) { EXPECT_EQ(mesh.position(v), places[passes % 2][index(v)]); });
         }
@@ -183,7 +183,7 @@ TEST(Smooth, the_numbers_of_vertices_and_faces_do_not_matter) {
         ASSERT_EQ(test::surface_digest(first), test::surface_digest(second));
         const SmoothReport one = smooth(first, options), other = smooth(second, options);
         EXPECT_EQ(test::surface_digest(first), test::surface_digest(second));
-        EXPECT_EQ(one.stepped_back, other.stepped_back);
+        EXPECT_EQ(one.backtracked, other.backtracked);
         EXPECT_EQ(one.crossing_pairs, other.crossing_pairs);
     };
     for (const SmoothOptions& options : {SmoothOptions{}, {.filter = SmoothFilter::kLaplacian, .passes = 100}}) {
@@ -202,7 +202,7 @@ TEST(Smooth, threads_do_not_matter) {
         const SmoothReport by_one = smooth(one, {.filter = filter, .threads = 1}),
                            by_many = smooth(many, {.filter = filter, .threads = 3});
         EXPECT_EQ(test::digest(one), test::digest(many));
-        EXPECT_EQ(by_one.stepped_back, by_many.stepped_back);
+        EXPECT_EQ(by_one.backtracked, by_many.backtracked);
         EXPECT_EQ(by_one.crossing_pairs, by_many.crossing_pairs);
         EXPECT_EQ(by_one.rms_displacement, by_many.rms_displacement);
     }
@@ -238,8 +238,8 @@ TEST(SmoothReport, says_what_was_done) {
     EXPECT_DOUBLE_EQ(report.largest_displacement, most);
     EXPECT_NEAR(report.rms_displacement, std::sqrt(sum / mesh.vertex_count()), 1e-9);
     EXPECT_GT(report.low_quality_faces, 0u);
-    EXPECT_GT(report.stepped_back, 0u);
-    EXPECT_LT(report.stepped_back, report.vertices);
+    EXPECT_GT(report.backtracked, 0u);
+    EXPECT_LT(report.backtracked, report.vertices);
     for (const RegionReport& region : was.regions)
         EXPECT_NEAR(report.volume_before.at(region.label), region.volume, 1e-9);
     for (const RegionReport& region : is.regions)

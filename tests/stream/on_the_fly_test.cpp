@@ -19,12 +19,12 @@ ReconstructOptions with_budget(std::uint64_t target, std::uint64_t budget) {
     return options;
 }
 
-TEST(Equivalence, strips_per_batch_changes_nothing_while_the_budget_does_not_bind) {
+TEST(Equivalence, strips_per_chunk_changes_nothing_while_the_budget_does_not_bind) {
     for (std::uint64_t target : {1000000u, 1500u}) {
         test::ArrayVolume volume = test::grain_volume({16, 15, 14}, 8, 1);
         ReconstructOptions options = with_budget(target, 10000000);
         const Reconstruction one = run(volume, options);
-        options.strips_per_batch = 1000;
+        options.strips_per_chunk = 1000;
         const Reconstruction all = run(volume, options);
         EXPECT_EQ(test::digest(one.mesh), test::digest(all.mesh));
         EXPECT_EQ(one.report.verdicts, all.report.verdicts);
@@ -97,7 +97,7 @@ TEST(OnTheFly, every_sweep_and_batch_stays_sound) {
         for (std::uint32_t strips : {1u, 3u}) {
             test::ArrayVolume volume = test::grain_volume({18, 20, 22}, 9, 3).spaced({1, 2, 5}).swept(sweep);
             ReconstructOptions options = with_budget(2000, 5000);
-            options.strips_per_batch = strips;
+            options.strips_per_chunk = strips;
             test::expect_sound(run(volume, options).report.check);
         }
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "stream/weld.h"
+#include "stream/merger.h"
 #include "support/digest.h"
 #include "support/meshes.h"
 
@@ -43,10 +43,10 @@ std::vector<Chunk> read_all(SpilledStrips& strips, const std::vector<StripRange>
 
 Mesh welded(const std::vector<Chunk>& batches) {
     Mesh mesh;
-    Weld weld(mesh);
-    for (const Chunk& batch : batches) weld.add(batch);
-    EXPECT_TRUE(weld.front().empty()) << "nothing is open in the end";
-    weld.release_all();
+    Merger merger(mesh);
+    for (const Chunk& batch : batches) merger.add(batch);
+    EXPECT_TRUE(merger.front().empty()) << "nothing is open in the end";
+    merger.release_all();
     return mesh;
 }
 
@@ -103,7 +103,7 @@ TEST(SpilledStrips, batches_finalize_each_vertex_with_the_last_of_its_faces) {
             SpilledStrips strips(0);
             spill(strips, mesh, per_strip);
             batches_of_vertices(read_all(strips, one_by_one(strips)));
-            batches_of_vertices(read_all(strips, strips.layers()));
+            batches_of_vertices(read_all(strips, strips.strips_for_smoothing()));
         }
 }
 
@@ -113,7 +113,8 @@ TEST(SpilledStrips, any_cut_into_batches_gives_the_same_surface_and_so_after_rew
         spill(strips, mesh);
         const Mesh whole = welded(read_all(strips, {{0, strips.strip_count()}}));
         EXPECT_EQ(whole.face_count(), strips.face_count());
-        for (const std::vector<StripRange>& ranges : {one_by_one(strips), strips.layers(), one_by_one(strips)}) {
+        for (const std::vector<StripRange>& ranges :
+             {one_by_one(strips), strips.strips_for_smoothing(), one_by_one(strips)}) {
             const Mesh mesh = welded(read_all(strips, ranges));
             EXPECT_EQ(test::surface_digest(mesh), test::surface_digest(whole));
             EXPECT_EQ(mesh.vertex_count(), whole.vertex_count());
@@ -130,7 +131,7 @@ TEST(SpilledStrips, no_vertex_has_faces_in_more_than_two_layers) {
         for (std::uint32_t per_strip : {1u, 7u, kPerStrip}) {
             SpilledStrips strips(0);
             spill(strips, mesh, per_strip);
-            const std::vector<StripRange> layers = strips.layers();
+            const std::vector<StripRange> layers = strips.strips_for_smoothing();
             std::uint32_t next = 0;
             for (StripRange layer : layers) {
                 EXPECT_EQ(layer.first, next);
@@ -171,7 +172,7 @@ TEST(SpilledStrips, layers_are_as_thin_as_the_reach_of_vertices_allows) {
     ends(0, 3);
     ends(2, 3);
     strips.finish(true);
-    const auto layers = strips.layers();
+    const auto layers = strips.strips_for_smoothing();
     ASSERT_EQ(layers.size(), 3u);
     EXPECT_EQ(layers[0].end, 1u);
     EXPECT_EQ(layers[1].end, 4u);
@@ -193,7 +194,7 @@ TEST(SpilledStrips, strips_without_faces_give_batches_without_faces) {
                 testing::ElementsAre(0, 1, 0));
     SpilledStrips none(0);
     none.finish(true);
-    EXPECT_TRUE(none.layers().empty());
+    EXPECT_TRUE(none.strips_for_smoothing().empty());
     EXPECT_EQ(none.face_count(), 0u);
 }
 

@@ -129,12 +129,12 @@ TEST(Equivalence, a_face_budget_that_never_binds_is_none_for_tetrahedra) {
     EXPECT_EQ(test::digest(run(mesh, bounded).mesh), test::digest(run(mesh, free).mesh));
 }
 
-TEST(Equivalence, strips_per_batch_changes_nothing_for_tetrahedra) {
+TEST(Equivalence, strips_per_chunk_changes_nothing_for_tetrahedra) {
     const test::ArrayMesh mesh = bar(30);
     for (ReconstructOptions options : {plain(), ReconstructOptions{.decimate = false, .background = {}}}) {
         const std::uint64_t expected = surface_digest(run(mesh, options).mesh);
         for (std::uint32_t strips : {2u, 5u, 1000u}) {
-            options.strips_per_batch = strips;
+            options.strips_per_chunk = strips;
             EXPECT_EQ(surface_digest(run(mesh, options).mesh), expected);
         }
     }

@@ -12,25 +12,17 @@
 
 namespace regionmesh::test {
 
-/// One layer; numbers are the ids of the model. Requires a model without free places.
+/// One chunk; numbers are the ids of the mesh. Requires a mesh without free places.
 inline SurfaceWindow window_of(const Mesh& mesh) {
     SurfaceWindow window;
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
-        window.origin.push_back(mesh.position(VertexId{v}));
-        window.sides.push_back(mesh[VertexId{v}].sides);
-    }
-    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
-        const auto& v = mesh[FaceId{f}].vertices;
-        window.faces.push_back({{index(v[0]), index(v[1]), index(v[2])}, mesh[FaceId{f}].labels});
-    }
-    window.end_layer();
+    window.add(mesh);
     return window;
 }
 
-/// A window of one layer, and the neighbours in it.
+/// A window of one chunk, and the neighbours in it.
 struct Surface {
     explicit Surface(const Mesh& mesh, bool move_points = false) : window(window_of(mesh)), neighbours(move_points) {
-        neighbours.add_layer(window, LayerStars(window, 0), 1);
+        neighbours.add_chunk(window, ChunkStars(window, 0), 1);
     }
     SurfaceWindow window;
     Neighbours neighbours;

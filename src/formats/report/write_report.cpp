@@ -50,10 +50,10 @@ Json smoothing_json(const Report& report) {
             {"crossing_pairs", done.crossing_pairs},
             {"islands", done.islands},
             {"held_vertices", done.held_vertices},
-            {"stepped_back", done.stepped_back},
+            {"stepped_back", done.backtracked},
             {"largest_displacement", done.largest_displacement},
             {"rms_displacement", done.rms_displacement},
-            {"window_strips", done.window_layers},
+            {"window_strips", done.window_chunks},
             {"window_bytes", done.window_bytes}};
 }
 

@@ -1,4 +1,4 @@
-// The faces round each vertex of a layer.
+// The faces round each vertex of a chunk.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 namespace regionmesh {
 
 /// Corners as face * 4 + place, by vertex.
-class LayerStars {
+class ChunkStars {
 public:
-    /// Requires that the layer after it is in the window, if there is one.
-    LayerStars(const SurfaceWindow& window, std::uint32_t layer);
+    /// Requires that the chunk after it is in the window, if there is one.
+    ChunkStars(const SurfaceWindow& window, std::uint32_t chunk);
 
     NumberRange vertices() const { return vertices_; }
     std::span<const std::uint32_t> of(std::uint32_t v) const {

@@ -1,4 +1,4 @@
-#include "smooth/step_back.h"
+#include "smooth/backtrack.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,15 @@ double height_of_quality(double wanted) {
 /// Vertices of a model, where smoothing took them, and rounds of stepping back.
 struct Rounds {
     Rounds(const Mesh& mesh, const std::vector<Vec3>& places, const SmoothOptions& with = {.threads = 1})
-        : window(test::window_of(mesh)), options(with), rounds(window, stand, options) {
+        : window(test::window_of(mesh)), options(with), rounds(window, steps, options) {
         for (Vec3 p : places) {
             smooth.push_back(p);
             now.push_back(p);
         }
-        stand.level.grow(smooth.end());
-        stand.wanted.grow(smooth.end());
-        stand.smooth = &smooth;
-        stand.now = &now;
+        steps.backtrack.grow(smooth.end());
+        steps.wanted.grow(smooth.end());
+        steps.smooth = &smooth;
+        steps.now = &now;
     }
     ShapeFault fault_of(std::uint32_t f) const {
         Corners before, after;
@@ -53,8 +53,8 @@ struct Rounds {
     SurfaceWindow window;
     SmoothOptions options;
     SlidingArray<Vec3> smooth, now;
-    Stand stand;
-    StepBackRounds rounds;
+    StepLengths steps;
+    BacktrackRounds rounds;
 };
 
 /// The sheet, with vertex 0 gone this far along x; at 1 it meets its neighbour, beyond it has turned two faces over.
@@ -117,25 +117,25 @@ TEST(ShapeFault, does_not_depend_on_scale) {
 
 TEST(SteppedBack, levels_go_from_the_smoothed_place_to_where_it_came_from) {
     const Vec3 origin{1.0 / 3, 0.1, -7}, smooth{0.7, 1e-3, 2};
-    EXPECT_EQ(stepped_back(origin, smooth, 0), smooth);
-    EXPECT_EQ(stepped_back(origin, smooth, kFullyBack), origin);
-    EXPECT_EQ(stepped_back(origin, smooth, 200), origin);
+    EXPECT_EQ(position_at(origin, smooth, 0), smooth);
+    EXPECT_EQ(position_at(origin, smooth, kFullBacktrack), origin);
+    EXPECT_EQ(position_at(origin, smooth, 200), origin);
     double last = 0;
-    for (std::uint8_t level = 1; level <= kFullyBack; ++level) {
-        const double gone = length(stepped_back(origin, smooth, level) - smooth);
+    for (std::uint8_t level = 1; level <= kFullBacktrack; ++level) {
+        const double gone = length(position_at(origin, smooth, level) - smooth);
         EXPECT_NEAR(gone, level / 8.0 * length(origin - smooth), 1e-12);
         EXPECT_GT(gone, last);
         last = gone;
     }
 }
 
-TEST(Stand, puts_a_vertex_at_its_level) {
+TEST(StepLengths, puts_a_vertex_at_its_level) {
     Rounds sheet = pushed(0.8);
-    sheet.stand.set_level(sheet.window, 0, 4);
-    EXPECT_EQ(sheet.stand.level[0], 4);
+    sheet.steps.set_backtrack(sheet.window, 0, 4);
+    EXPECT_EQ(sheet.steps.backtrack[0], 4);
     EXPECT_EQ(sheet.now[0], (Vec3{0.4, 0, 0}));
-    sheet.stand.set_level(sheet.window, 0, 11);
-    EXPECT_EQ(sheet.stand.level[0], kFullyBack);
+    sheet.steps.set_backtrack(sheet.window, 0, 11);
+    EXPECT_EQ(sheet.steps.backtrack[0], kFullBacktrack);
     EXPECT_EQ(sheet.now[0], (Vec3{0, 0, 0}));
     EXPECT_EQ(sheet.smooth[0], (Vec3{0.8, 0, 0})) << "where smoothing took it is not forgotten";
 }
@@ -144,7 +144,7 @@ TEST(StepBack, nothing_moves_where_all_is_sound) {
     Rounds sheet = pushed(0.3);
     sheet.rounds.run(0, 0, true);
     EXPECT_EQ(sheet.rounds.faults().turned + sheet.rounds.faults().low_quality, 0u);
-    for (std::uint32_t v = 0; v < 10; ++v) EXPECT_EQ(sheet.stand.level[v], 0);
+    for (std::uint32_t v = 0; v < 10; ++v) EXPECT_EQ(sheet.steps.backtrack[v], 0);
 }
 
 TEST(StepBack, the_first_round_asks_for_the_first_sound_level) {
@@ -153,13 +153,13 @@ TEST(StepBack, the_first_round_asks_for_the_first_sound_level) {
     sheet.rounds.run(0, 0, true);
     EXPECT_EQ(sheet.rounds.faults().turned, 2u);
     EXPECT_EQ(sheet.rounds.faults().low_quality, 0u);
-    const std::uint8_t level = sheet.stand.level[0];
+    const std::uint8_t level = sheet.steps.backtrack[0];
     for (std::uint32_t f : {0u, 1u}) EXPECT_EQ(sheet.fault_of(f), ShapeFault::kNone);
     for (std::uint32_t v : {1u, 2u, 3u})
-        EXPECT_EQ(sheet.stand.level[v], level) << "all corners of the faulty faces step back";
-    EXPECT_EQ(sheet.stand.level[5], 0);
+        EXPECT_EQ(sheet.steps.backtrack[v], level) << "all corners of the faulty faces step back";
+    EXPECT_EQ(sheet.steps.backtrack[5], 0);
     ASSERT_GT(level, 1);
-    sheet.stand.set_level(sheet.window, 0, level - 1);
+    sheet.steps.set_backtrack(sheet.window, 0, level - 1);
     EXPECT_NE(sheet.fault_of(0), ShapeFault::kNone) << "one level less would not do";
 }
 
@@ -174,14 +174,14 @@ TEST(StepBack, low_quality_is_counted_apart) {
 
 TEST(StepBack, later_rounds_ask_for_two_more_and_count_nothing) {
     Rounds sheet = pushed(1.8);
-    for (std::uint32_t v : {1u, 2u, 3u}) sheet.stand.level[v] = 5;
+    for (std::uint32_t v : {1u, 2u, 3u}) sheet.steps.backtrack[v] = 5;
     sheet.rounds.run(1, 0, true);
-    EXPECT_EQ(sheet.stand.level[0], 2);
-    EXPECT_EQ(sheet.stand.level[1], 7);
-    EXPECT_EQ(sheet.stand.level[5], 0);
+    EXPECT_EQ(sheet.steps.backtrack[0], 2);
+    EXPECT_EQ(sheet.steps.backtrack[1], 7);
+    EXPECT_EQ(sheet.steps.backtrack[5], 0);
     sheet.rounds.run(2, 0, true);
-    EXPECT_EQ(sheet.stand.level[0], 4);
-    EXPECT_EQ(sheet.stand.level[1], kFullyBack);
+    EXPECT_EQ(sheet.steps.backtrack[0], 4);
+    EXPECT_EQ(sheet.steps.backtrack[1], kFullBacktrack);
     EXPECT_EQ(sheet.rounds.faults().turned, 0u);
 }
 
@@ -193,15 +193,15 @@ TEST(StepBack, a_vertex_follows_the_face_that_asks_for_most) {
     ASSERT_EQ(both.fault_of(0), ShapeFault::kTurned);
     ASSERT_EQ(both.fault_of(1), ShapeFault::kTurned);
     both.rounds.run(0, 0, true);
-    EXPECT_GT(both.stand.level[1], both.stand.level[3]);
-    EXPECT_EQ(both.stand.level[0], both.stand.level[1]);
+    EXPECT_GT(both.steps.backtrack[1], both.steps.backtrack[3]);
+    EXPECT_EQ(both.steps.backtrack[0], both.steps.backtrack[1]);
 }
 
 TEST(StepBack, in_layers_gives_what_one_layer_does) {
-    // Two faces side by side, the second in a layer of its own with one new vertex; both turn over.
+    // Two faces side by side, the second in a chunk of its own with one new vertex; both turn over.
     const std::vector<Vec3> from{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
         to{{0, 0, 0}, {1, 0, 0}, {0, -0.3, 0}, {1, -1.5, 0}};
-    const WindowFace faces[2]{{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}};
+    const ChunkFace faces[2]{{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}};
     std::vector<std::uint8_t> levels[2];
     for (bool is_cut : {false, true}) {
         SurfaceWindow window;
@@ -209,7 +209,7 @@ TEST(StepBack, in_layers_gives_what_one_layer_does) {
         for (std::uint32_t v = 0; v < 4; ++v) {
             if (v == 3) {
                 window.faces.push_back(faces[0]);
-                if (is_cut) window.end_layer();
+                if (is_cut) window.end_chunk();
             }
             window.origin.push_back(from[v]);
             window.sides.push_back(0);
@@ -217,22 +217,22 @@ TEST(StepBack, in_layers_gives_what_one_layer_does) {
             now.push_back(to[v]);
         }
         window.faces.push_back(faces[1]);
-        window.end_layer();
-        Stand stand;
-        stand.level.grow(4);
-        stand.wanted.grow(4);
-        stand.smooth = &smooth;
-        stand.now = &now;
+        window.end_chunk();
+        StepLengths steps;
+        steps.backtrack.grow(4);
+        steps.wanted.grow(4);
+        steps.smooth = &smooth;
+        steps.now = &now;
         const SmoothOptions options{.threads = 1};
-        StepBackRounds rounds(window, stand, options);
-        // A round on layer n follows the round before on layer n + 1.
+        BacktrackRounds rounds(window, steps, options);
+        // A round on chunk n follows the round before on chunk n + 1.
         if (is_cut)
-            for (const auto& [round, layer] : {std::pair{0u, 0u}, {0u, 1u}, {1u, 0u}, {1u, 1u}, {2u, 0u}, {2u, 1u}})
-                rounds.run(round, layer, layer == 1);
+            for (const auto& [round, chunk] : {std::pair{0u, 0u}, {0u, 1u}, {1u, 0u}, {1u, 1u}, {2u, 0u}, {2u, 1u}})
+                rounds.run(round, chunk, chunk == 1);
         else
             for (std::uint32_t round = 0; round < 3; ++round) rounds.run(round, 0, true);
         EXPECT_EQ(rounds.faults().turned, 2u);
-        for (std::uint32_t v = 0; v < 4; ++v) levels[is_cut].push_back(stand.level[v]);
+        for (std::uint32_t v = 0; v < 4; ++v) levels[is_cut].push_back(steps.backtrack[v]);
     }
     EXPECT_EQ(levels[0], levels[1]);
     EXPECT_GT(levels[0][3], 0);

@@ -1,10 +1,10 @@
-#include "smooth/stars.h"
+#include "smooth/chunk_stars.h"
 
 namespace regionmesh {
 
-LayerStars::LayerStars(const SurfaceWindow& window, std::uint32_t layer) : vertices_(window.vertices_of(layer)) {
-    NumberRange faces = window.faces_of(layer);
-    if (layer + 1 < window.layer_end()) faces.end = window.faces_of(layer + 1).end;
+ChunkStars::ChunkStars(const SurfaceWindow& window, std::uint32_t chunk) : vertices_(window.vertices_of(chunk)) {
+    NumberRange faces = window.faces_of(chunk);
+    if (chunk + 1 < window.chunk_end()) faces.end = window.faces_of(chunk + 1).end;
     const auto for_corners = [&](auto&& visit) {
         for (std::uint32_t f = faces.first; f < faces.end; ++f)
             for (std::uint32_t place = 0; place < 3; ++place) {

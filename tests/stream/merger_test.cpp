@@ -1,4 +1,4 @@
-#include "stream/weld.h"
+#include "stream/merger.h"
 
 #include <gtest/gtest.h>
 
@@ -11,28 +11,28 @@
 namespace regionmesh {
 namespace {
 
-/// Meshes a volume strip by strip; after each weld calls visit(model, weld, z of the last section).
+/// Meshes a volume strip by strip; after each weld calls visit(model, merger, z of the last section).
 template <class Visit>
 Mesh welded(test::ArrayVolume volume, Visit&& visit) {
     LabelTable labels;
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, kSweepZ, {});
     Mesh mesh;
-    Weld weld(mesh);
+    Merger merger(mesh);
     Chunk batch;
     while (window.advance()) {
         batch.clear();
         mesher.mesh(window.low(), window.high(), batch);
-        weld.add(batch);
-        visit(mesh, weld, window.sections_read() - 1.0);
+        merger.add(batch);
+        visit(mesh, merger, window.sections_read() - 1.0);
     }
     return mesh;
 }
 
 test::ArrayVolume grains() { return test::grain_volume({8, 8, 8}, 6, 2); }
 
-TEST(Weld, the_front_is_what_lies_on_the_last_section_and_is_fixed) {
-    welded(grains(), [](const Mesh& mesh, const Weld&, double z) {
+TEST(Merger, the_front_is_what_lies_on_the_last_section_and_is_fixed) {
+    welded(grains(), [](const Mesh& mesh, const Merger&, double z) {
         std::uint32_t front = 0;
         test::for_vertices(mesh, [&](VertexId v) {
             const bool is_front = mesh.position(v).z == z && z < 7;
@@ -43,39 +43,40 @@ TEST(Weld, the_front_is_what_lies_on_the_last_section_and_is_fixed) {
     });
 }
 
-TEST(Weld, makes_no_vertex_twice) {
-    const Mesh mesh = welded(grains(), [](const Mesh&, const Weld&, double) {});
+TEST(Merger, makes_no_vertex_twice) {
+    const Mesh mesh = welded(grains(), [](const Mesh&, const Merger&, double) {});
     test::expect_sound(check(mesh));
 }
 
-TEST(Weld, follows_a_front_that_got_new_ids) {
-    const Mesh plain = welded(grains(), [](const Mesh&, const Weld&, double) {});
-    const Mesh sorted = welded(grains(), [](Mesh& mesh, Weld& weld, double) { weld.renumber(mesh.sort_spatially()); });
+TEST(Merger, follows_a_front_that_got_new_ids) {
+    const Mesh plain = welded(grains(), [](const Mesh&, const Merger&, double) {});
+    const Mesh sorted =
+        welded(grains(), [](Mesh& mesh, Merger& merger, double) { merger.renumber(mesh.sort_spatially()); });
     EXPECT_EQ(test::surface_digest(sorted), test::surface_digest(plain));
     test::expect_sound(check(sorted));
 }
 
-TEST(Weld, puts_together_what_it_took_apart) {
-    const Mesh plain = welded(grains(), [](const Mesh&, const Weld&, double) {});
-    const Mesh again = welded(grains(), [](Mesh& mesh, Weld& weld, double) {
-        const std::size_t front = weld.front().size();
-        const Chunk whole = weld.take_apart();
+TEST(Merger, puts_together_what_it_took_apart) {
+    const Mesh plain = welded(grains(), [](const Mesh&, const Merger&, double) {});
+    const Mesh again = welded(grains(), [](Mesh& mesh, Merger& merger, double) {
+        const std::size_t front = merger.active_count();
+        const Chunk whole = merger.take_apart();
         EXPECT_EQ(whole.open.size(), front);
         EXPECT_EQ(mesh.face_count(), 0u);
-        weld.add(whole);
+        merger.add(whole);
     });
     EXPECT_EQ(test::surface_digest(again), test::surface_digest(plain));
 }
 
-TEST(Weld, joins_what_was_decimated_up_to_the_front) {
-    const Mesh mesh = welded(grains(), [](Mesh& part, Weld& weld, double z) {
-        weld.renumber(part.sort_spatially());
+TEST(Merger, joins_what_was_decimated_up_to_the_front) {
+    const Mesh mesh = welded(grains(), [](Mesh& part, Merger& merger, double z) {
+        merger.renumber(part.sort_spatially());
         DecimateOptions options;
         options.limits.high.z = z;
         decimate(part, options);
     });
     test::expect_sound(check(mesh));
-    EXPECT_LT(mesh.face_count(), welded(grains(), [](const Mesh&, const Weld&, double) {}).face_count() / 2);
+    EXPECT_LT(mesh.face_count(), welded(grains(), [](const Mesh&, const Merger&, double) {}).face_count() / 2);
 }
 
 TEST(SectionWindow, hands_out_consecutive_sections_with_dense_labels) {

@@ -1,5 +1,5 @@
 // Smoothing on the fly: equivalence, determinism, memory, anisotropy; and that all filters leave a sound model.
-#include "stream/smoothing.h"
+#include "smooth/smoother.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "cells/strip_mesher.h"
 #include "regionmesh/error.h"
 #include "regionmesh/smooth.h"
-#include "stream/weld.h"
+#include "stream/merger.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/strata_list.h"
@@ -71,7 +71,7 @@ TEST(Equivalence, smoothed_strips_do_not_depend_on_how_many_come_at_once) {
         ReconstructOptions options = smoothed({.filter = filter});
         const std::uint64_t one = test::digest(run(volume, options).mesh);
         for (std::uint32_t strips : {3u, 1000u}) {
-            options.strips_per_batch = strips;
+            options.strips_per_chunk = strips;
             EXPECT_EQ(test::digest(run(volume, options).mesh), one);
         }
     }
@@ -144,7 +144,7 @@ TEST(Equivalence, a_volume_of_two_sections_is_smoothed_too) {
 
 /// Meshes, smooths, and calls visit(batch in, batch out) for each pair, in order.
 template <class Visit>
-void for_batches(test::ArrayVolume& volume, Smoothing& smoothing, Visit&& visit) {
+void for_chunks(test::ArrayVolume& volume, Smoother& smoother, Visit&& visit) {
     LabelTable labels;
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, volume.info().sweep, {});
@@ -155,23 +155,23 @@ void for_batches(test::ArrayVolume& volume, Smoothing& smoothing, Visit&& visit)
         in.emplace_back();
         mesher.mesh(window.low(), window.high(), in.back());
         plane += volume.info().lattice.spacing[volume.info().sweep.axes[2]];
-        smoothing.add(in.back(), window.is_last(), plane);
-        while (smoothing.next(out)) {
+        EXPECT_TRUE(smoother.add(in.back(), window.is_last(), plane));
+        while (smoother.next(out)) {
             visit(in.front(), out);
             in.pop_front();
         }
     }
     EXPECT_TRUE(in.empty()) << "after the last strip all come out";
-    EXPECT_FALSE(smoothing.next(out));
+    EXPECT_FALSE(smoother.next(out));
 }
 
-TEST(Smoothing, batches_come_out_as_they_went_in_but_for_places) {
+TEST(Smoother, batches_come_out_as_they_went_in_but_for_places) {
     for (SmoothFilter filter : kFilters) {
         test::ArrayVolume volume = test::noise_volume({5, 5, 12}, 3, 4);
-        Smoothing smoothing({.filter = filter, .passes = 4}, {.thickness = 1});
+        Smoother smoother({.filter = filter, .passes = 4}, {.thickness = 1});
         Mesh mesh;
-        Weld weld(mesh);
-        for_batches(volume, smoothing, [&](const Chunk& in, const Chunk& out) {
+        Merger merger(mesh);
+        for_chunks(volume, smoother, [&](const Chunk& in, const Chunk& out) {
             EXPECT_EQ(out.carried, in.carried);
             EXPECT_EQ(out.open, in.open);
             ASSERT_EQ(out.vertices.size(), in.vertices.size());
@@ -181,22 +181,22 @@ TEST(Smoothing, batches_come_out_as_they_went_in_but_for_places) {
                 EXPECT_EQ(out.faces[f].vertices, in.faces[f].vertices);
                 EXPECT_EQ(out.faces[f].labels, in.faces[f].labels);
             }
-            weld.add(out);
+            merger.add(out);
         });
         test::expect_sound(check(mesh));
     }
 }
 
-TEST(Smoothing, strips_come_out_while_others_go_in) {
+TEST(Smoother, strips_come_out_while_others_go_in) {
     test::ArrayVolume volume = test::noise_volume({5, 5, 60}, 3, 4);
-    Smoothing smoothing({.passes = 4}, {.thickness = 1});
+    Smoother smoother({.passes = 4}, {.thickness = 1});
     int strips = 0;
-    for_batches(volume, smoothing, [&](const Chunk&, const Chunk&) { ++strips; });
+    for_chunks(volume, smoother, [&](const Chunk&, const Chunk&) { ++strips; });
     EXPECT_EQ(strips, 59);
-    EXPECT_LT(smoothing.report().window_layers, 30u);
+    EXPECT_LT(smoother.report().window_chunks, 30u);
 }
 
-TEST(Smoothing, what_is_not_handed_out_lies_beyond_the_floor) {
+TEST(Smoother, what_is_not_handed_out_lies_beyond_the_floor) {
     for (SmoothFilter filter : kFilters)
         for (const Sweep& sweep : {kSweepX, kSweepZ}) {
             const bool is_local = filter != SmoothFilter::kNifpms;
@@ -206,11 +206,11 @@ TEST(Smoothing, what_is_not_handed_out_lies_beyond_the_floor) {
                     .spaced({0.5, 1, 1});
             const int axis = sweep.axes[2];
             const double thickness = volume.info().lattice.spacing[axis];
-            Smoothing smoothing({.filter = filter, .passes = 5, .scale = 0.8}, {.axis = axis, .thickness = thickness});
+            Smoother smoother({.filter = filter, .passes = 5, .scale = 0.8}, {.axis = axis, .thickness = thickness});
             double floor = -HUGE_VAL, last = 0;
-            for_batches(volume, smoothing, [&](const Chunk&, const Chunk& out) {
+            for_chunks(volume, smoother, [&](const Chunk&, const Chunk& out) {
                 for (const ChunkVertex& vertex : out.vertices) ASSERT_GE(vertex.position[axis], floor);
-                floor = smoothing.floor();
+                floor = smoother.safe_high();
                 if (floor < HUGE_VAL) last = floor;
             });
             EXPECT_GT(last, 5 * thickness) << "a floor that stays behind is of no use";
@@ -266,8 +266,8 @@ SmoothReport wall(std::uint32_t sections, const SmoothOptions& smooth) {
 TEST(Memory, smoothing_holds_as_many_strips_however_many_there_are) {
     const auto expect_same_window = [](const SmoothReport& half, const SmoothReport& whole) {
         EXPECT_GT(whole.vertices, half.vertices * 19 / 10);
-        EXPECT_LT(half.window_layers, 50u);
-        EXPECT_EQ(whole.window_layers, half.window_layers);
+        EXPECT_LT(half.window_chunks, 50u);
+        EXPECT_EQ(whole.window_chunks, half.window_chunks);
         EXPECT_LE(whole.window_bytes, half.window_bytes * 11 / 10);
     };
     for (const SmoothOptions& smooth :
@@ -282,7 +282,7 @@ TEST(Memory, smoothing_holds_as_many_strips_however_many_there_are) {
 
 TEST(Memory, more_passes_hold_as_many_more_strips) {
     const auto held = [](std::uint32_t passes) {
-        return run(column(80), smoothed({.passes = passes})).report.smoothing.window_layers;
+        return run(column(80), smoothed({.passes = passes})).report.smoothing.window_chunks;
     };
     EXPECT_LE(held(20) - held(10), 14u);
 }

@@ -5,7 +5,7 @@
 
 #include "base/triangle.h"
 #include "regionmesh/smooth.h"
-#include "smooth/step_back.h"
+#include "smooth/backtrack.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"
@@ -65,7 +65,7 @@ void expect_guarded(const Mesh& before, const SmoothOptions& options) {
     EXPECT_GT(report.rms_displacement, 0) << "nothing was smoothed";
 }
 
-TEST(Settle, what_the_filter_would_cross_does_not_cross) {
+TEST(IntersectionResolver, what_the_filter_would_cross_does_not_cross) {
     for (std::uint32_t labels : {2, 4}) {
         SCOPED_TRACE(std::to_string(labels) + " labels");
         const Mesh before = run(test::noise_volume({8, 8, 8}, labels, 3)).mesh;
@@ -79,11 +79,11 @@ TEST(Settle, what_the_filter_would_cross_does_not_cross) {
         EXPECT_GT(report.turned_faces, 0u);
         EXPECT_GT(report.low_quality_faces, 0u);
         EXPECT_GT(report.crossing_pairs, 0u);
-        EXPECT_GT(report.stepped_back, 0u);
+        EXPECT_GT(report.backtracked, 0u);
     }
 }
 
-TEST(Settle, thin_sheets_stay_apart) {
+TEST(IntersectionResolver, thin_sheets_stay_apart) {
     const Mesh before = run(thin_sheets()).mesh;
     for (SmoothFilter filter : {SmoothFilter::kTaubin, SmoothFilter::kLaplacian, SmoothFilter::kNifpms})
         for (std::uint32_t passes : {20u, 100u}) {
@@ -93,7 +93,7 @@ TEST(Settle, thin_sheets_stay_apart) {
         }
 }
 
-TEST(Settle, keeps_any_quality_that_it_is_asked_for) {
+TEST(IntersectionResolver, keeps_any_quality_that_it_is_asked_for) {
     const Mesh before = run(test::noise_volume({7, 7, 7}, 3, 2)).mesh;
     for (double quality : {0.0, 0.05, 0.13, 0.2}) {
         SCOPED_TRACE("quality " + std::to_string(quality));
@@ -101,12 +101,12 @@ TEST(Settle, keeps_any_quality_that_it_is_asked_for) {
     }
 }
 
-TEST(Settle, a_share_of_the_way_beyond_reason_is_survived) {
+TEST(IntersectionResolver, a_share_of_the_way_beyond_reason_is_survived) {
     const Mesh before = run(test::noise_volume({7, 7, 7}, 3, 2)).mesh;
     expect_guarded(before, {.filter = SmoothFilter::kTaubin, .passes = 60, .lambda = 1, .mu_per_lambda = 1.5});
 }
 
-TEST(Settle, without_its_crossing_test_faces_are_still_not_turned) {
+TEST(IntersectionResolver, without_its_crossing_test_faces_are_still_not_turned) {
     const Mesh before = run(test::noise_volume({8, 8, 8}, 3, 3)).mesh;
     Mesh mesh = test::copy_of(before);
     SmoothOptions options = kHarsh;
@@ -138,7 +138,7 @@ Mesh spike_with_island(double height) {
     return mesh;
 }
 
-TEST(Settle, an_island_that_the_surface_would_sweep_over_stays_inside) {
+TEST(IntersectionResolver, an_island_that_the_surface_would_sweep_over_stays_inside) {
     for (double height : {1.8, 2.5, 3.2}) {
         SCOPED_TRACE("island at height " + std::to_string(height));
         SmoothOptions options{.filter = SmoothFilter::kLaplacian, .passes = 10, .min_quality = 0.01};
@@ -153,7 +153,7 @@ TEST(Settle, an_island_that_the_surface_would_sweep_over_stays_inside) {
     }
 }
 
-TEST(Settle, whichever_vertex_stands_for_an_island_it_stays_inside) {
+TEST(IntersectionResolver, whichever_vertex_stands_for_an_island_it_stays_inside) {
     for (double height : {1.8, 2.5, 3.2})
         for (std::uint64_t seed = 1; seed <= 20; ++seed) {
             SCOPED_TRACE("island at height " + std::to_string(height) + ", seed " + std::to_string(seed));
@@ -163,7 +163,7 @@ TEST(Settle, whichever_vertex_stands_for_an_island_it_stays_inside) {
         }
 }
 
-TEST(Settle, which_vertex_stands_for_an_island_does_not_matter) {
+TEST(IntersectionResolver, which_vertex_stands_for_an_island_does_not_matter) {
     for (std::uint64_t seed : {1, 2, 3}) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const SmoothOptions options{.filter = SmoothFilter::kLaplacian, .passes = 10, .min_quality = 0.01};
@@ -174,14 +174,14 @@ TEST(Settle, which_vertex_stands_for_an_island_does_not_matter) {
     }
 }
 
-TEST(Settle, an_island_that_nothing_sweeps_over_is_none_to_count) {
+TEST(IntersectionResolver, an_island_that_nothing_sweeps_over_is_none_to_count) {
     Mesh mesh = spike_with_island(-0.2);
     const SmoothReport report = smooth(mesh, {.passes = 2, .min_quality = 0.01});
     EXPECT_EQ(report.islands, 0u);
     test::expect_sound(check(mesh, kAllRound));
 }
 
-TEST(Settle, single_samples_in_a_spike_stay_where_the_labels_say) {
+TEST(IntersectionResolver, single_samples_in_a_spike_stay_where_the_labels_say) {
     // A spike of 0, three samples wide, with samples of 2 in it, in a volume of 1.
     std::vector<InputLabel> labels;
     for (int z = 0; z < 14; ++z)
@@ -202,7 +202,7 @@ TEST(Settle, single_samples_in_a_spike_stay_where_the_labels_say) {
         }
 }
 
-TEST(Settle, a_model_that_crosses_itself_is_no_reason_to_give_up) {
+TEST(IntersectionResolver, a_model_that_crosses_itself_is_no_reason_to_give_up) {
     Mesh mesh = test::octahedron();
     test::add_octahedron(mesh, {0.5, 0.1, 0.2}, {1, 1, 1}, 2, 1);
     const std::uint64_t before = count(check(mesh), ViolationKind::kCrossingFaces);
@@ -211,7 +211,7 @@ TEST(Settle, a_model_that_crosses_itself_is_no_reason_to_give_up) {
     EXPECT_LE(count(check(mesh), ViolationKind::kCrossingFaces), before);
 }
 
-TEST(Settle, faces_without_area_are_no_reason_to_give_up) {
+TEST(IntersectionResolver, faces_without_area_are_no_reason_to_give_up) {
     Mesh mesh = run(test::ball_volume({8, 8, 8}, 2.5)).mesh;
     // One vertex is put on another.
     VertexId v{};
@@ -228,7 +228,7 @@ TEST(Settle, faces_without_area_are_no_reason_to_give_up) {
     }
 }
 
-TEST(Settle, smoothing_again_and_again_stays_sound) {
+TEST(IntersectionResolver, smoothing_again_and_again_stays_sound) {
     Mesh mesh = run(test::noise_volume({7, 7, 7}, 4, 6)).mesh;
     for (int time = 0; time < 5; ++time) {
         smooth(mesh, time % 2 ? kHarsh : SmoothOptions{});

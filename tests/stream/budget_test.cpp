@@ -1,4 +1,4 @@
-#include "stream/memory_plan.h"
+#include "stream/budget.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include "cells/strip_mesher.h"
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
+#include "stream/footprint.h"
 #include "support/digest.h"
 #include "support/runs.h"
 
@@ -19,115 +20,115 @@ using test::run;
 using testing::HasSubstr;
 
 /// A volume of 100 x 100 samples a section and so many strips of 1000 faces each, to be decimated to a tenth.
-MemoryDemand even_demand(std::uint32_t strips, std::uint64_t faces = 1000) {
+BudgetDemand even_demand(std::uint32_t strips, std::uint64_t faces = 1000) {
     const VolumeInfo volume = test::solid_volume({100, 100, strips + 1}).info();
     return {.source = volume.source,
-            .lattice = volume.lattice,
-            .sweep = volume.sweep,
             .reading_bytes = reading_bytes(volume),
             .strip_faces = std::vector<std::uint64_t>(strips, faces),
             .window_strips = 32,
             .window_bytes_per_face = 100,
-            .run_strips = 32,
-            .fewest_run_strips = 4,
+            .chunk_strips = 32,
+            .fewest_chunk_strips = 4,
+            .tiles = 25,
+            .tiles_in_flight = 16,
             .target_share = 0.1,
             .tile_share = 0.5,
             .is_decimating = true};
 }
 constexpr std::uint64_t kPlenty = std::uint64_t{1} << 40;
 
-std::uint64_t least(const MemoryDemand& demand) { return plan_memory(kPlenty, demand).least.sum(); }
+std::uint64_t least(const BudgetDemand& demand) { return plan_budget(kPlenty, demand).least.sum(); }
 
-std::string refusal(std::uint64_t memory, const MemoryDemand& demand) {
+std::string refusal(std::uint64_t memory, const BudgetDemand& demand) {
     try {
-        require_memory(plan_memory(memory, demand), demand);
+        require_budget(plan_budget(memory, demand), demand);
     } catch (const Error& error) {
         return error.what();
     }
     return "nothing thrown";
 }
 
-TEST(MemoryPlan, holds_from_the_least_memory_on) {
+TEST(Budget, holds_from_the_least_memory_on) {
     for (std::uint32_t strips : {1u, 7u, 100u}) {
-        MemoryDemand demand = even_demand(strips, 20000);
-        demand.fewest_run_strips = demand.run_strips;
-        const std::uint64_t memory = plan_memory(1, demand).least.sum();
-        EXPECT_TRUE(plan_memory(memory, demand).holds());
-        EXPECT_FALSE(plan_memory(memory - 1, demand).holds());
+        BudgetDemand demand = even_demand(strips, 20000);
+        demand.fewest_chunk_strips = demand.chunk_strips;
+        const std::uint64_t memory = plan_budget(1, demand).least.sum();
+        EXPECT_TRUE(plan_budget(memory, demand).holds());
+        EXPECT_FALSE(plan_budget(memory - 1, demand).holds());
         EXPECT_EQ(refusal(memory, demand), "nothing thrown");
     }
 }
 
-TEST(MemoryPlan, a_refusal_says_how_much_would_do_and_what_to_change) {
-    const MemoryDemand demand = even_demand(100, 20000);
+TEST(Budget, a_refusal_says_how_much_would_do_and_what_to_change) {
+    const BudgetDemand demand = even_demand(100, 20000);
     const std::string text = refusal(20'000'000, demand);
     EXPECT_THAT(text, HasSubstr("--memory 20 MB"));
     EXPECT_THAT(text, HasSubstr("needs at least"));
     EXPECT_THAT(text, HasSubstr("--smooth"));
-    MemoryDemand whole = demand;
+    BudgetDemand whole = demand;
     whole.target_share = 0.9;
     whole.tile_share = 1;
     EXPECT_THAT(refusal(20'000'000, whole), HasSubstr("lower target"));
 }
 
-TEST(MemoryPlan, runs_are_shortened_only_where_the_usual_do_not_fit) {
-    MemoryDemand demand = even_demand(128, 20000);
+TEST(Budget, runs_are_shortened_only_where_the_usual_do_not_fit) {
+    BudgetDemand demand = even_demand(128, 20000);
     demand.window_strips = 0;
     const std::uint64_t memory = least(demand);
-    EXPECT_EQ(plan_memory(memory, demand).run_strips, 32u);
-    EXPECT_EQ(plan_memory(memory, demand).in_flight, 16u);
-    const MemoryPlan leaner = plan_memory(memory - 1, demand);
+    EXPECT_EQ(plan_budget(memory, demand).chunk_strips, 32u);
+    EXPECT_EQ(plan_budget(memory, demand).in_flight, 16u);
+    const Budget leaner = plan_budget(memory - 1, demand);
     EXPECT_TRUE(leaner.holds());
     EXPECT_LT(leaner.in_flight, 16u) << "which does not change the result";
-    EXPECT_EQ(leaner.run_strips, 32u);
-    const MemoryPlan shorter = plan_memory(memory / 2, demand);
+    EXPECT_EQ(leaner.chunk_strips, 32u);
+    const Budget shorter = plan_budget(memory / 2, demand);
     EXPECT_TRUE(shorter.holds());
-    EXPECT_EQ(shorter.run_strips, 16u);
-    EXPECT_EQ(plan_memory(1, demand).run_strips, 4u);
+    EXPECT_EQ(shorter.chunk_strips, 16u);
+    EXPECT_EQ(plan_budget(1, demand).chunk_strips, 4u);
 }
 
-TEST(MemoryPlan, more_sections_need_no_more) {
+TEST(Budget, more_sections_need_no_more) {
     // A target of so many faces; its share falls as the sections grow more.
-    MemoryDemand demand = even_demand(100);
+    BudgetDemand demand = even_demand(100);
     const std::uint64_t once = least(demand);
     for (std::uint32_t times : {2u, 4u, 16u}) {
-        MemoryDemand more = even_demand(100 * times);
+        BudgetDemand more = even_demand(100 * times);
         more.target_share = demand.target_share / times;
         EXPECT_LE(least(more), once + once / 100) << times << " times the sections";
     }
 }
 
-TEST(MemoryPlan, the_window_counts_the_strips_that_it_will_hold) {
-    MemoryDemand even = even_demand(100), uneven = even;
+TEST(Budget, the_window_counts_the_strips_that_it_will_hold) {
+    BudgetDemand even = even_demand(100), uneven = even;
     even.target_share = uneven.target_share = 0;
     std::fill(uneven.strip_faces.begin() + 40, uneven.strip_faces.begin() + 60, 5000);
-    const MemoryNeed a = plan_memory(kPlenty, even).least, b = plan_memory(kPlenty, uneven).least;
+    const MemoryNeed a = plan_budget(kPlenty, even).least, b = plan_budget(kPlenty, uneven).least;
     EXPECT_EQ(a.window, 32u * 1000 * 100);
     EXPECT_EQ(b.window, (20u * 5000 + 12 * 1000) * 100);
 }
 
-TEST(MemoryPlan, what_is_not_taken_otherwise_is_the_models) {
-    const MemoryDemand demand = even_demand(64);
-    const MemoryPlan small = plan_memory(200'000'000, demand), large = plan_memory(300'000'000, demand);
+TEST(Budget, what_is_not_taken_otherwise_is_the_models) {
+    const BudgetDemand demand = even_demand(64);
+    const Budget small = plan_budget(200'000'000, demand), large = plan_budget(300'000'000, demand);
     EXPECT_EQ(large.face_budget(1) - small.face_budget(1), 1'000'000u);
     EXPECT_EQ(small.room_before(1, 500), small.face_budget(1) - 500);
-    EXPECT_LE(large.room_before(1, 0) * kMeshBytesPerFace + large.runs[1].gathering, 300'000'000u);
-    EXPECT_EQ(plan_memory(kPlenty, demand).face_budget(0), kMostFaces);
+    EXPECT_LE(large.room_before(1, 0) * kMeshBytesPerFace + large.chunks[1].gathering, 300'000'000u);
+    EXPECT_EQ(plan_budget(kPlenty, demand).face_budget(0), kMostFaces);
 }
 
-TEST(MemoryPlan, a_face_budget_that_is_asked_for_stands) {
-    MemoryDemand demand = even_demand(64);
+TEST(Budget, a_face_budget_that_is_asked_for_stands) {
+    BudgetDemand demand = even_demand(64);
     demand.asked_budget = 5000;
-    const MemoryPlan plan = plan_memory(1, demand);
+    const Budget plan = plan_budget(1, demand);
     EXPECT_TRUE(plan.holds());
     EXPECT_EQ(plan.face_budget(1), 5000u);
     EXPECT_EQ(plan.room_before(1, 2000), 3000u);
 }
 
-TEST(MemoryPlan, the_next_run_is_expected_to_keep_as_much_as_the_last) {
-    MemoryDemand demand = even_demand(64);
+TEST(Budget, the_next_run_is_expected_to_keep_as_much_as_the_last) {
+    BudgetDemand demand = even_demand(64);
     std::fill(demand.strip_faces.begin() + 32, demand.strip_faces.end(), 3000);
-    EXPECT_EQ(plan_memory(kPlenty, demand).expected_faces(1, 10000), 30000u);
+    EXPECT_EQ(plan_budget(kPlenty, demand).expected_faces(1, 10000), 30000u);
 }
 
 TEST(Census, counts_the_faces_of_each_strip) {

@@ -1,0 +1,47 @@
+// Every tuned constant of smoothing, with the measurement that chose it.
+#pragma once
+
+#include <cstdint>
+
+namespace regionmesh::smoothing {
+
+// Backtracking (smooth/backtrack.h, docs/smoothing.md, "The guard").
+
+/// The way from a vertex's smoothed position back to its origin is divided into this number of steps.
+inline constexpr std::uint8_t kFullBacktrack = 8;
+/// Rounds over the faces before intersections are resolved, and the steps that a faulty face asks for after the first
+/// round, which finds its steps exactly.
+inline constexpr std::uint32_t kRounds = 3;
+inline constexpr std::uint8_t kRoundStep = 2;
+/// Steps that the corners of a faulty face go back while intersections are resolved.
+inline constexpr std::uint8_t kResolveStep = 2;
+/// Without --min-quality, faces still may not become needles whose normal is lost in rounding.
+inline constexpr double kLeastQuality = 1e-4;
+
+// Reach along the sweep, in units of the larger of scale and chunk thickness (docs/smoothing.md, "Holding"). A vertex
+// that would go farther is stopped and counted; no run of docs/smoothing.md has one.
+
+/// One unit, and one more per this number of passes.
+inline constexpr double kTaubinPassesPerUnit = 20, kLaplacianPassesPerUnit = 10;
+
+// Volumes (smooth/preserve_volume.cpp; docs/smoothing.md, "Volumes": IN100 needs 8 rounds, decimated to a tenth 5).
+
+inline constexpr std::uint32_t kMostVolumeRounds = 30;
+/// Relative drift at which another round gains nothing.
+inline constexpr double kEnoughDrift = 1e-9;
+/// Per round, in typical edges: the mean displacement that a region may ask of its boundary, and the longest
+/// displacement of a vertex.
+inline constexpr double kMostAsked = 0.05, kLongestStep = 0.2;
+/// A region that gets less than this share of the volume that it asks for, kPatience rounds in succession, is given up:
+/// it would only push its neighbours about.
+inline constexpr double kLeastGain = 0.3;
+inline constexpr int kPatience = 4;
+/// Rounds for which a vertex that backtracked is not moved.
+inline constexpr std::uint8_t kRestRounds = 3;
+
+// Items of a task for one thread. Any value gives the same result.
+
+inline constexpr std::uint32_t kNeighbourTask = 2048, kRelaxTask = 4096, kNifpmsTask = 256;  // vertices
+inline constexpr std::uint32_t kRoundTask = 4096, kCrossingTask = 512;                       // faces
+
+}  // namespace regionmesh::smoothing

@@ -1,0 +1,123 @@
+#include "stream/budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/megabytes.h"
+#include "regionmesh/error.h"
+#include "stream/footprint.h"
+#include "stream/tuning.h"
+
+namespace regionmesh {
+namespace {
+
+/// Faces of the strips from `first` to before `end`, for all windows of strips.
+class StripSums {
+public:
+    explicit StripSums(const std::vector<std::uint64_t>& faces) : sums_(1, 0) {
+        for (std::uint64_t count : faces) sums_.push_back(sums_.back() + count);
+    }
+    std::uint64_t size() const { return sums_.size() - 1; }
+    std::uint64_t operator()(std::uint64_t first, std::uint64_t end) const {
+        return sums_[std::min(end, size())] - sums_[std::min(first, size())];
+    }
+
+private:
+    std::vector<std::uint64_t> sums_;
+};
+
+std::uint64_t share_of(std::uint64_t faces, double share) {
+    return static_cast<std::uint64_t>(std::ceil(static_cast<double>(faces) * share));
+}
+
+/// Bytes per face of a chunk of strips while it is worked on.
+std::uint64_t chunk_bytes_per_face(const BudgetDemand& demand, std::uint32_t tiles_in_flight) {
+    if (demand.tile_share >= 1) return kChunkBytesPerFace;
+    // Some tiles have half as many faces again as the average.
+    const std::uint64_t in_flight = std::min<std::uint64_t>(demand.tiles, tiles_in_flight + tiles_in_flight / 2);
+    return kChunkBytesPerFace + kTilesBytesPerFace + kTileBytesPerFace * in_flight / demand.tiles;
+}
+
+/// Bytes of the window when all strips before this one have left it.
+std::uint64_t window_at(const BudgetDemand& demand, const StripSums& faces, std::uint64_t strip) {
+    return faces(strip, strip + demand.window_strips) * demand.window_bytes_per_face;
+}
+
+Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32_t chunk_strips,
+                   std::uint32_t in_flight) {
+    Budget budget{.memory = memory,
+                  .chunk_strips = chunk_strips,
+                  .in_flight = in_flight,
+                  .chunks = {},
+                  .least = {},
+                  .asked_budget = demand.asked_budget};
+    const StripSums faces(demand.strip_faces);
+    const std::uint64_t reading = demand.reading_bytes, per_face = chunk_bytes_per_face(demand, in_flight);
+    const std::uint64_t working = demand.is_decimating ? kWorkBytesPerFace : kMeshBytesPerFace;
+    const auto note = [&](const MemoryNeed& need) {
+        if (need.sum() > budget.least.sum()) budget.least = need;
+    };
+    for (std::uint64_t first = 0; first < faces.size(); first += chunk_strips) {
+        const std::uint64_t end = std::min(first + chunk_strips, faces.size());
+        const std::uint64_t before = faces(0, first), own = faces(first, end);
+        std::uint64_t window = 0;
+        for (std::uint64_t strip = first; strip < end; ++strip)
+            window = std::max(window, window_at(demand, faces, strip));
+        const std::uint64_t window_after = window_at(demand, faces, end), chunk = own * per_face;
+        budget.chunks.push_back({before, own, reading + window + chunk, reading + window_after});
+        const std::uint64_t kept = share_of(before, demand.target_share), left = share_of(own, demand.tile_share);
+        note({reading, window, chunk, kept * kMeshBytesPerFace});
+        note({reading, window_after, 0, (kept + left) * working});
+    }
+    const std::uint64_t last =
+        kMeshBytesPerFace + std::max(kCheckBytesPerFace, demand.preserves_volume ? kPreserveBytesPerFace : 0);
+    note({kProcessBytes, 0, 0, share_of(faces(0, faces.size()), demand.target_share) * last});
+    return budget;
+}
+
+}  // namespace
+
+std::uint64_t Budget::face_budget(std::size_t chunk) const {
+    if (asked_budget) return std::min(*asked_budget, kMostFaces);
+    return std::min((memory - std::min(memory, chunks[chunk].merged)) / kWorkBytesPerFace, kMostFaces);
+}
+
+std::uint64_t Budget::room_before(std::size_t chunk, std::uint64_t chunk_faces) const {
+    const std::uint64_t after = face_budget(chunk), room = after - std::min(after, chunk_faces);
+    if (asked_budget) return room;
+    return std::min(room, (memory - std::min(memory, chunks[chunk].gathering)) / kMeshBytesPerFace);
+}
+
+std::uint64_t Budget::expected_faces(std::size_t chunk, std::uint64_t chunk_faces) const {
+    const double growth = static_cast<double>(chunks[chunk].faces) /
+                          static_cast<double>(std::max<std::uint64_t>(chunks[chunk - 1].faces, 1));
+    return std::min(chunks[chunk].faces,
+                    static_cast<std::uint64_t>(std::ceil(growth * static_cast<double>(chunk_faces))));
+}
+
+/// Tries fewer tiles in flight before shorter chunks: only the latter change the result.
+Budget plan_budget(std::uint64_t memory, const BudgetDemand& demand) {
+    Budget budget = plan_chunks(memory, demand, demand.chunk_strips, demand.tiles_in_flight);
+    for (std::uint32_t strips = demand.chunk_strips; !budget.holds() && strips >= demand.fewest_chunk_strips;
+         strips /= 2)
+        if (Budget leaner = plan_chunks(memory, demand, strips, stream::kFewestInFlight);
+            leaner.least.sum() < budget.least.sum())
+            budget = std::move(leaner);
+    return budget;
+}
+
+void require_budget(const Budget& budget, const BudgetDemand& demand) {
+    if (budget.holds()) return;
+    const MemoryNeed& need = budget.least;
+    std::string text = "--memory " + megabytes(budget.memory) + ": " + demand.source + " needs at least " +
+                       megabytes(need.sum()) + ": " + megabytes(need.reading) + " for reading, ";
+    if (need.window > 0) text += megabytes(need.window) + " for smoothing, ";
+    if (need.chunk > 0) text += megabytes(need.chunk) + " for a chunk of strips, ";
+    text += megabytes(need.mesh) + " for the model; raise --memory to that";
+    if (need.mesh > need.sum() / 2) text += demand.is_decimating ? ", or set a lower target" : ", or set a target";
+    if (need.window > need.sum() / 4) text += ", or lower --smooth";
+    if (need.mesh <= need.sum() / 2) text += ", or change --sweep";
+    throw Error(ErrorCode::kInput, text);
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,21 @@
+// The share of a chunk in the volumes of the regions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/chunk.h"
+#include "mesh/region_volumes.h"
+
+namespace regionmesh {
+
+/// Adds the cones over all faces (mesh/region_volumes.h); `carried` are the vertices that the chunk carries.
+inline void add_volumes(const Chunk& chunk, std::span<const ChunkVertex> carried, std::vector<double>& volumes) {
+    const auto position = [&](std::uint32_t local) {
+        return local < chunk.carried ? carried[local].position : chunk.vertices[local - chunk.carried].position;
+    };
+    for (const auto& [v, labels] : chunk.faces)
+        add_cone(volumes, labels, position(v[0]), position(v[1]), position(v[2]));
+}
+
+}  // namespace regionmesh

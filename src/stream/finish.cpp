@@ -1,0 +1,32 @@
+#include "stream/finish.h"
+
+#include "regionmesh/preserve_volume.h"
+#include "stream/stage_options.h"
+
+namespace regionmesh {
+
+void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log) {
+    if (!options.preserve_volume) return;
+    const Timer timer = log.time("preserve volume");
+    const std::vector<double>& before = result.report.unsmoothed_volumes;
+    WantedVolumes wanted(before.begin(), before.end());
+    for (Label label : result.background)
+        if (label < wanted.size()) wanted[label].reset();
+    result.report.preserved = preserve_volumes(result.mesh, wanted, smooth_options(options, scale));
+}
+
+void check_result(Reconstruction& result, std::optional<LabelOracle> oracle, const ReconstructOptions& options,
+                  RunLog& log) {
+    log.report_progress("check");
+    const Timer timer = log.time("check");
+    CheckOptions check_options;
+    check_options.boundary_is_open = !options.cap;
+    check_options.background = result.background;
+    check_options.oracle = std::move(oracle);
+    check_options.crossing = options.intersect_check;
+    check_options.threads = options.threads;
+    check_options.label_text = [&](Label label) { return result.labels.text(result.labels.input(label)); };
+    result.report.check = check(result.mesh, check_options);
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,19 @@
+// The last stages, on the finished mesh: preserve volumes, place in space, check.
+#pragma once
+
+#include <optional>
+
+#include "regionmesh/reconstruct.h"
+#include "stream/face_source.h"
+#include "stream/run_log.h"
+
+namespace regionmesh {
+
+/// Gives the regions the volumes that they had before smoothing and decimation, where the options ask for it.
+void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log);
+
+/// Checks the mesh as it will be written.
+void check_result(Reconstruction& result, std::optional<LabelOracle> oracle, const ReconstructOptions& options,
+                  RunLog& log);
+
+}  // namespace regionmesh

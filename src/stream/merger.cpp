@@ -1,0 +1,60 @@
+#include "stream/merger.h"
+
+#include <cassert>
+
+namespace regionmesh {
+
+void Merger::add(const Chunk& chunk) {
+    assert(chunk.carried == active_.size());
+    ids_ = active_;
+    const auto is_pinned = [](SideSet sides) { return (sides & kPinned) != 0; };
+    for (VertexId v : active_) mesh_[v].is_fixed = is_pinned(mesh_[v].sides);
+    for (const ChunkVertex& vertex : chunk.vertices)
+        ids_.push_back(mesh_.add_vertex(vertex.position, vertex.sides, is_pinned(vertex.sides)));
+    for (const ChunkFace& face : chunk.faces)
+        mesh_.add_face(ids_[face.vertices[0]], ids_[face.vertices[1]], ids_[face.vertices[2]], face.labels[0],
+                       face.labels[1]);
+    active_.clear();
+    for (std::uint32_t local : chunk.open) active_.push_back(ids_[local]);
+    for (VertexId v : active_) mesh_[v].is_fixed = true;
+}
+
+Chunk Merger::take_apart() {
+    Chunk chunk;
+    std::vector<std::uint32_t> locals(mesh_.vertex_end());
+    chunk.vertices.reserve(mesh_.vertex_count());
+    for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
+        const Vertex& vertex = mesh_[VertexId{v}];
+        if (!vertex.is_alive) continue;
+        locals[v] = static_cast<std::uint32_t>(chunk.vertices.size());
+        chunk.vertices.push_back({vertex.position, vertex.sides});
+    }
+    chunk.faces.reserve(mesh_.face_count());
+    for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
+        if (!mesh_.is_alive(FaceId{f})) continue;
+        const auto& corners = mesh_[FaceId{f}].vertices;
+        chunk.faces.push_back({{locals[index(corners[0])], locals[index(corners[1])], locals[index(corners[2])]},
+                               mesh_[FaceId{f}].labels});
+    }
+    for (VertexId v : active_) chunk.open.push_back(locals[index(v)]);
+    active_.clear();
+    mesh_ = {};
+    return chunk;
+}
+
+std::uint64_t Merger::release_all() {
+    std::uint64_t pinned = 0;
+    for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
+        Vertex& vertex = mesh_[VertexId{v}];
+        pinned += vertex.is_alive && (vertex.sides & kPinned) != 0;
+        vertex.is_fixed = false;
+        vertex.sides &= static_cast<SideSet>(~kPinned);
+    }
+    return pinned;
+}
+
+void Merger::renumber(const std::vector<VertexId>& new_ids) {
+    for (VertexId& v : active_) v = new_ids[index(v)];
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,89 @@
+#include "stream/plan.h"
+
+#include <algorithm>
+
+#include "simplify/simplify_boxes.h"
+#include "smooth/filter.h"
+#include "stream/footprint.h"
+#include "stream/tuning.h"
+
+namespace regionmesh {
+namespace {
+
+/// Tiles of a chunk: columns along the sweep.
+std::uint32_t tile_count(const TilePlan& tiles) {
+    std::uint32_t count = 1;
+    for (int a = 0; a < 2; ++a)
+        count *= (tiles.lattice.size[tiles.sweep.axes[a]] + tiles.tile_cells - 1) / tiles.tile_cells;
+    return count;
+}
+
+/// Strips of a chunk where memory does not limit them: as many as make a tile, or as asked for without tiles.
+std::uint32_t strips_per_chunk(const SourceShape& shape, const TilePlan& tiles, const ReconstructOptions& options) {
+    if (!is_decimating(options)) return options.strips_per_chunk;
+    const std::uint64_t cells = std::max(shape.lattice.size[shape.axis()], 2u) - 1;
+    return std::max(static_cast<std::uint32_t>(std::uint64_t{tiles.run_strips} * shape.strip_count / cells), 1u);
+}
+
+BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vector<std::uint64_t> strip_faces,
+                       const TilePlan& tiles, const ReconstructOptions& options) {
+    BudgetDemand demand{.source = shape.name,
+                        .reading_bytes = shape.reading_bytes,
+                        .strip_faces = std::move(strip_faces),
+                        .chunk_strips = strips_per_chunk(shape, tiles, options),
+                        .tiles = tile_count(tiles),
+                        .tiles_in_flight = kTilesInFlight};
+    demand.fewest_chunk_strips = demand.chunk_strips;
+    demand.window_bytes_per_face = kWindowBytesPerFace + filter_bytes_per_face(options.smooth.filter);
+    demand.is_decimating = is_decimating(options);
+    demand.preserves_volume = options.preserve_volume;
+    demand.asked_budget = options.face_budget;
+    const bool is_counted = !demand.strip_faces.empty();
+    if (!is_counted) demand.strip_faces = guessed_strip_faces(shape.lattice, shape.sweep);
+    if (!demand.is_decimating) {
+        // The size of the mesh is not taken from a guess, which may be far too high.
+        demand.target_share = is_counted ? 1 : 0;
+        return demand;
+    }
+    demand.fewest_chunk_strips = std::min(demand.chunk_strips, stream::kFewestStrips);
+    demand.target_share = is_counted ? std::min(target.share(), 1.0) : 0;
+    const double left = shape.strip_overlap > 0 ? stream::kLeftByTilesOfLongFaces : stream::kLeftByTiles;
+    if (const double share = target.share() * stream::kTileMargin; share < 1) demand.tile_share = std::max(share, left);
+    return demand;
+}
+
+}  // namespace
+
+bool is_decimating(const ReconstructOptions& options) {
+    return options.decimate && (options.target_faces || options.reduce || options.max_error);
+}
+
+std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep) {
+    const auto& size = lattice.size;
+    const auto& axes = sweep.axes;
+    const std::uint64_t strips = std::max(size[axes[2]], 1u) - 1;
+    return std::vector<std::uint64_t>(strips, std::uint64_t{size[axes[0]]} * size[axes[1]]);
+}
+
+Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::uint32_t window_strips,
+               const ReconstructOptions& options) {
+    Plan plan{.target = {options.target_faces, options.reduce, {}},
+              .tiles = plan_tiles(shape.lattice, shape.sweep),
+              .budget = {},
+              .oracle = {},
+              .is_decimating = is_decimating(options)};
+    std::vector<std::uint64_t> strip_faces;
+    if (counted) {
+        plan.target.total = counted->face_count;
+        plan.oracle = std::move(counted->oracle);
+        strip_faces = std::move(counted->strip_faces);
+    }
+    BudgetDemand demand = demand_of(shape, plan.target, std::move(strip_faces), plan.tiles, options);
+    demand.window_strips = window_strips;
+    plan.budget = plan_budget(options.memory, demand);
+    require_budget(plan.budget, demand);
+    plan.tiles.run_strips = plan.budget.chunk_strips;
+    return plan;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,34 @@
+// What is decided before the sections are read for the mesh: target, tiles and budget.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "regionmesh/reconstruct.h"
+#include "simplify/tiles.h"
+#include "stream/budget.h"
+#include "stream/face_source.h"
+#include "stream/target.h"
+
+namespace regionmesh {
+
+struct Plan {
+    Target target;
+    TilePlan tiles;
+    Budget budget;
+    std::optional<LabelOracle> oracle;  // from the first pass, if there was one
+    bool is_decimating = false;
+};
+
+/// `counted` is what the first pass over the input counted, if there was one; `window_strips` is the number of strips
+/// that smoothing holds, 0 without smoothing. Throws Error(kInput) where --memory cannot be kept.
+Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::uint32_t window_strips,
+               const ReconstructOptions& options);
+
+/// Is there anything to decimate to?
+bool is_decimating(const ReconstructOptions& options);
+
+/// One face per sample in each strip: a guess where nothing was counted.
+std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep);
+
+}  // namespace regionmesh

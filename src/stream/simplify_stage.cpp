@@ -1,0 +1,97 @@
+#include "stream/simplify_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simplify/raise_level.h"
+#include "stream/stage_options.h"
+#include "stream/tuning.h"
+
+namespace regionmesh {
+
+SimplifyStage::SimplifyStage(Mesh& mesh, const Plan& plan, const ReconstructOptions& options, const SourceShape& shape,
+                             RunLog& log)
+    : mesh_(mesh), plan_(plan), options_(options), shape_(shape), log_(log), budget_(plan.budget) {}
+
+void SimplifyStage::merge(Chunk& chunk, std::uint64_t initial_faces) {
+    {
+        const Timer timer = log_.time("reconstruct");
+        merger_.add(chunk);
+    }
+    ++merged_chunks_;
+    initial_faces_ += initial_faces;
+    chunk_faces_ = chunk.faces.size();
+    chunk = {};
+    give_back_freed_memory();
+    log_.note_bytes(mesh_.face_count(), mesh_.bytes());
+}
+
+void SimplifyStage::keep_within_budget(double safe_high) {
+    const std::uint32_t next = merged_chunks_;
+    const std::uint64_t face_budget = budget_.face_budget(next),
+                        room = budget_.room_before(next, budget_.expected_faces(next, chunk_faces_));
+    if (!plan_.is_decimating || mesh_.face_count() <= room) return;
+    const std::uint64_t goal =
+        std::max(plan_.target.so_far(initial_faces_), std::min(room, face_budget * stream::kGoalTenths / 10));
+    if (mesh_.face_count() <= goal) return;
+    raise_threshold(goal, safe_high);
+    stopped_ = StopReason::kTarget;
+    if (mesh_.face_count() > room) {
+        merger_.renumber(mesh_.sort_spatially());
+        give_back_freed_memory();
+        trim(goal, safe_high, false);
+        give_back_freed_memory();
+    }
+    // Where topology or the largest error forbid more, the mesh may grow.
+    if (stopped_ != StopReason::kTarget && mesh_.face_count() > room)
+        budget_.asked_budget = std::uint64_t{mesh_.face_count()} * stream::kGrowthHalves / 2;
+}
+
+void SimplifyStage::bring_to_target() {
+    if (!plan_.is_decimating) {
+        log_.report().stopped = "none asked";
+        return;
+    }
+    log_.report_progress("decimate");
+    const std::uint64_t goal = plan_.target.of(log_.report().initial_faces);
+    raise_threshold(goal, HUGE_VAL);
+    mesh_.sort_spatially();
+    trim(goal, HUGE_VAL, true);
+    log_.report().stopped = to_string(stopped_);
+}
+
+/// Brings the mesh near the goal, tile by tile: mesh -> chunk -> tiles -> chunk -> mesh.
+void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
+    const Timer timer = log_.time("raise level");
+    const TileOptions tile_options{.cost_level = 0,
+                                   .keep_share = 0,
+                                   .threads = options_.threads,
+                                   .in_flight = budget_.in_flight,
+                                   .decimate = decimate_options(options_, shape_.scale)};
+    const std::size_t held = mesh_.face_count(), mesh_bytes = mesh_.bytes();
+    Chunk whole = merger_.take_apart();
+    log_.note_bytes(held, mesh_bytes + whole.vertices.size() * sizeof(ChunkVertex) + held * sizeof(ChunkFace));
+    give_back_freed_memory();
+    log_.add(raise_level(whole, plan_.tiles, {.goal_faces = goal, .high = safe_high, .tiles = tile_options}).verdicts);
+    merger_.add(whole);
+    give_back_freed_memory();
+}
+
+/// Brings the mesh to the goal exactly, with one heap over all edges.
+void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
+    const Timer timer = log_.time("decimate");
+    DecimateOptions own = decimate_options(options_, shape_.scale);
+    own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
+    own.refresh = is_last;
+    own.limits.high[shape_.axis()] = safe_high;
+    own.on_progress = [&] { log_.report_progress(is_last ? "decimate" : "reconstruct"); };
+    const std::uint64_t held = mesh_.face_count();
+    const std::size_t mesh_bytes = mesh_.bytes();
+    const DecimateResult done = decimate(mesh_, own);
+    log_.add(done.verdicts);
+    log_.report().refreshes += done.refreshes;
+    stopped_ = done.stopped;
+    log_.note_bytes(held, mesh_bytes + done.bytes);
+}
+
+}  // namespace regionmesh

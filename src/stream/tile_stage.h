@@ -1,0 +1,23 @@
+// Decimates each chunk in tiles, before it is merged (docs/tiles.md, "The first stage").
+#pragma once
+
+#include "stream/gatherer.h"
+#include "stream/plan.h"
+
+namespace regionmesh {
+
+class TileStage {
+public:
+    TileStage(const Plan& plan, const ReconstructOptions& options, double scale, RunLog& log);
+
+    /// Decimates the chunk that was gathered last, up to a fixed cost, and never below what the target leaves.
+    void run(Chunk& chunk, const Gatherer& gatherer);
+
+private:
+    const Plan& plan_;
+    TileOptions tile_options_;
+    RunLog& log_;
+    bool is_on_;
+};
+
+}  // namespace regionmesh

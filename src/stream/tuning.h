@@ -1,0 +1,57 @@
+// Every tuned constant of the stream, with the measurement that chose it.
+#pragma once
+
+#include <cstdint>
+
+namespace regionmesh::stream {
+
+// Tiles (docs/tiles.md).
+
+/// Tiles make collapses up to this cost, in units of spacing^4. Of 0.001, 0.01, 0.03 and 0.1 it is the largest with
+/// the volume error of the smaller ones (docs/tiles.md, "How far").
+inline constexpr double kTileCost = 3e-2;
+/// Tiles stop at this multiple of the share of faces that the target leaves, so that the last collapses are ranked over
+/// the whole mesh.
+inline constexpr double kTileMargin = 1.25;
+/// Zero-cost collapses stop at this multiple of the share, where the target leaves more than kFreeFrom.
+inline constexpr double kFreeMargin = 1.02, kFreeFrom = 0.45;
+
+// The budget (docs/memory.md, "The plan").
+
+/// Chunks are not shortened below this number of strips: nearly all vertices of their tiles would be locked.
+inline constexpr std::uint32_t kFewestStrips = 4;
+/// Tiles in flight where memory is short.
+inline constexpr std::uint32_t kFewestInFlight = 4;
+/// The plan assumes that tiles leave this share of a chunk at most, whatever the target. Measured: 1/7 to 1/3; more for
+/// noise.
+inline constexpr double kLeftByTiles = 0.5;
+/// The same where faces reach over several strips (tetrahedra): tiles then find few faces inside their box.
+inline constexpr double kLeftByTilesOfLongFaces = 0.99;
+/// A mesh that exceeds its budget is decimated to this number of tenths of it, so that the heap is not built after
+/// every chunk.
+inline constexpr std::uint64_t kGoalTenths = 6;
+/// Where topology or --max-error keep the mesh above its budget, the budget becomes this number of halves of the faces
+/// held.
+inline constexpr std::uint64_t kGrowthHalves = 3;
+
+// Smoothing.
+
+/// Strips by which the window grows where it was too short; doubled each time (label patterns of no instrument need
+/// it).
+inline constexpr std::uint32_t kExtraStrips = 8;
+
+// Volumes.
+
+/// --preserve-volume moves vertices after decimation: decimation keeps faces above --min-quality by this factor.
+inline constexpr double kQualityMargin = 1.1;
+
+// Tetrahedra (docs/unstructured.md).
+
+/// Share of --memory for each external sort, and the most that makes it faster.
+inline constexpr std::uint64_t kSortShare = 8, kMostSortBytes = std::uint64_t{256} << 20;
+/// Most cells of the lattice of strips per tetrahedron, where most of the box is empty.
+inline constexpr double kMostCells = 8;
+/// Most strips along an axis, since each takes some bytes.
+inline constexpr double kMostStrips = 1 << 16;
+
+}  // namespace regionmesh::stream
