@@ -1,4 +1,4 @@
-// What the sections hold, counted without making a face.
+// Counts labels, faces and invariants of sections, without making a face.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace regionmesh {
 struct Census {
     LabelTable labels;
     std::vector<std::uint64_t> samples;      // by dense label
-    std::uint64_t face_count = 0;            // of the unsimplified model
-    std::vector<std::uint64_t> strip_faces;  // the same, strip by strip
+    std::uint64_t face_count = 0;            // before simplification
+    std::vector<std::uint64_t> strip_faces;  // the same, by strip
     LabelOracle oracle;
 };
 
 struct CensusOptions {
-    bool cap = true;                        // as ReconstructOptions has it
-    std::vector<InputLabel> background{0};  // the same
+    bool cap = true;                        // as in ReconstructOptions
+    std::vector<InputLabel> background{0};  // likewise
     std::optional<Sweep> sweep = {};        // of tetrahedra
 };
 
@@ -31,7 +31,7 @@ Census count_labels(SectionReader& reader, const CensusOptions& options = {});
 /// An empty table for the labels of a volume.
 LabelTable table_for(const VolumeInfo& volume);
 
-/// Background labels known before reading get the first dense numbers.
+/// Gives the background labels the first dense numbers, in their order, and returns these.
 std::vector<Label> dense_background(const std::vector<InputLabel>& background, LabelTable& labels);
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-// How much memory a run takes, foreseen from the size of a volume.
+// Estimates the memory of a run from the size of a volume.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace regionmesh {
 
-/// Bytes that the process holds with a model of `faces` faces that it simplifies, reading and meshing included.
+/// Bytes that the process holds while it simplifies a mesh of `faces` faces, including reading and meshing.
 std::uint64_t expected_bytes(const VolumeInfo& volume, std::uint64_t faces);
 
 }  // namespace regionmesh

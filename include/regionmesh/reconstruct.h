@@ -1,4 +1,4 @@
-// The whole way from sections, or tetrahedra, to a checked model.
+// From labelled sections, or tetrahedra, to a checked mesh.
 #pragma once
 
 #include <cstdint>
@@ -16,27 +16,27 @@
 
 namespace regionmesh {
 
-/// What a run is asked for. The words are those of the command line.
+/// Options of a run. The words are those of the command line.
 struct ReconstructOptions {
-    std::optional<std::uint64_t> target_faces = {};  // decimate to at most so many faces
-    std::optional<double> reduce = {};               // or remove this share of them, 0 to 1
-    std::optional<double> max_error = {};            // or as far as the rms distance allows, in the unit of the spacing
-    SmoothOptions smooth = {};                       // scale, quality, tests and threads are those of the run
-    double min_quality = 0.1;                        // of every face that smoothing or decimation touches
-    double perturbation = 1e-7;                      // P 4.5
-    bool preserve_volume = false;  // in the end, give every region the volume it had before smoothing and decimation
-    bool decimate = true;          // false: the plain reconstruction, whatever the targets say
+    std::optional<std::uint64_t> target_faces = {};  // decimate to this number of faces or fewer
+    std::optional<double> reduce = {};               // or remove this share of the faces, 0 to 1
+    std::optional<double> max_error = {};            // or up to this rms distance, in the unit of the spacing
+    SmoothOptions smooth = {};                       // its scale, quality, tests and threads are set from the run
+    double min_quality = 0.1;                        // of every face that smoothing or decimation changes
+    double perturbation = 1e-7;                      // of costs: share of scale^4, hashed from the edge (P 4.5)
+    bool preserve_volume = false;  // finally give each region its volume before smoothing and decimation
+    bool decimate = true;          // false: no decimation, even with a target
     bool intersect_check = true;
     bool cap = true;                                // --boundary cap; false: open
     std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
-    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process is to stay within
-    std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of one derived from memory
-    std::uint32_t threads = 0;                      // at work at a time; 0: one per core. The result is the same
-    std::uint32_t strips_per_chunk = 1;  // strips meshed before they are merged; tiles set it where there are any
-    std::optional<Sweep> sweep = {};     // of tetrahedra, along the longest side if not given; sections have their own
+    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the process stays within
+    std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of deriving it from memory
+    std::uint32_t threads = 0;                      // 0: one per core. The result does not depend on it
+    std::uint32_t strips_per_chunk = 1;  // strips meshed before they are merged; decimation in tiles sets its own
+    std::optional<Sweep> sweep = {};     // of tetrahedra; default: along the longest side. Sections have their own
 };
 
-/// Where a run is; for a progress line.
+/// State of a run, for a progress line.
 struct Progress {
     const char* stage = "";
     std::uint32_t strips_read = 0, strip_count = 0;
@@ -50,17 +50,18 @@ struct Reconstruction {
     Report report;
 };
 
-/// Reads all sections, builds the model on the fly within its memory, decimates it to the target and checks it. Reads
-/// them twice where that is possible, first to count faces and to plan memory; with more than one thread on a thread of
-/// its own, one call at a time. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what
-/// the reader throws; after the first pass Error(kInput) for a target beyond what memory allows. Deterministic.
+/// Reads all sections, builds the mesh on the fly within the memory, decimates it to the target and checks it. Sections
+/// that can be read twice are read first to count faces and to plan memory. With more than one thread, the reader is
+/// called on a thread of its own, one call at a time. Throws Error(kInput) for a volume with fewer than two samples
+/// along an axis and, after the first pass, for a target that does not fit in the memory; and whatever the reader
+/// throws. Deterministic.
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},
                            const std::function<void(const Progress&)>& on_progress = {});
 
-/// The same from labelled tetrahedra (P 3.9): they are sorted along the sweep, their faces put aside on disk (in
-/// TMPDIR) and read back in order, so that memory holds the points, but no more of the tetrahedra than of sections.
-/// Lengths and qualities are those of the space in which z is scaled; the model is checked as it is written, without
-/// that. Throws what rank_tetrahedra() and the reader throw, and Error(kOutput) for a full disk.
+/// The same from labelled tetrahedra (P 3.9). They are sorted along the sweep; their faces are spilled to disk (in
+/// TMPDIR) and read back in order, so that memory holds all points, but only the active tetrahedra. Lengths and
+/// qualities are measured with z scaled; the mesh is checked as it is written, without the scale. Throws Error(kInput)
+/// for invalid tetrahedra, Error(kOutput) for a full disk, and whatever the reader throws.
 Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& options = {},
                            const std::function<void(const Progress&)>& on_progress = {});
 

@@ -1,4 +1,4 @@
-// What a run did and what it made, as plain data; io/write_report.h writes it as JSON.
+// The report of a run, as plain data; regionmesh/write_report.h writes it as JSON.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 namespace regionmesh {
 
 struct Report {
-    std::uint64_t initial_faces = 0;  // of the unsimplified model, whether or not it ever existed at once
+    std::uint64_t initial_faces = 0;  // before simplification, whether or not they ever existed at once
     std::uint64_t initial_vertices = 0;
     std::uint64_t final_faces = 0;
     std::uint64_t final_vertices = 0;
     std::map<std::string, double> seconds;  // by stage, and "total"
     std::uint64_t peak_bytes = 0;           // largest resident size of the process
     std::uint64_t peak_faces = 0;           // most faces held at once
-    double bytes_per_face = 0;              // model and decimation together, at the largest, over the faces then held
+    double bytes_per_face = 0;              // of mesh and decimation at their peak, over the faces held then
     SmoothReport smoothing;
-    std::vector<double> unsmoothed_volumes;  // by dense label, length^3; empty where nobody asked
+    std::vector<double> unsmoothed_volumes;  // by dense label, length^3; empty if not needed
     PreserveReport preserved;
-    std::uint64_t pinned_vertices = 0;  // of tetrahedra that touch themselves: left as they came
+    std::uint64_t pinned_vertices = 0;  // where tetrahedra touch themselves: not moved, not collapsed
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
     std::string stopped;  // why decimation ended: "target", "max_error", "topology", "none asked"

@@ -1,4 +1,4 @@
-// Smoothing of a model that is wholly in core.
+// Smooths a mesh in core.
 #pragma once
 
 #include "regionmesh/mesh.h"
@@ -7,8 +7,8 @@
 
 namespace regionmesh {
 
-/// Moves the vertices in place, but for fixed ones; ids stay. The same passes and the same guard as in the stream. A
-/// model that has faults keeps them where it cannot do better. Deterministic.
+/// Moves the vertices in place, except fixed ones; ids stay. Passes and guard are those of reconstruct(). Violations
+/// that the mesh has before may stay; no new ones are added. Deterministic.
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options);
 
 }  // namespace regionmesh

@@ -1,5 +1,5 @@
-// Kuhn's triangulation of the lattice: six tetrahedra a cell round the diagonal (0,0,0)-(1,1,1), which match inside the
-// cell and across cells (DESIGN 4).
+// Kuhn's triangulation of the lattice: six tetrahedra per cell round the diagonal (0,0,0)-(1,1,1), which match inside
+// the cell and across cells (docs/reconstruct.md).
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// A step from a node to another of the same cell: bit a set means +1 along axis a. 0 stays, 7 crosses the cell.
+/// A step between two nodes of a cell: bit a set means +1 along axis a. 0 stays, 7 crosses the cell.
 using Step = int;
 
 /// Every simplex of the triangulation is a base node and a kind: the increasing chain of steps to its other nodes.

@@ -37,7 +37,7 @@ void LabelCensus::add(std::span<const Label> low, std::span<const Label> high, b
             for (std::uint32_t i = 0; i < width_; ++i) look_at(low, high, is_last, i, j);
             continue;
         }
-        // Inside the row only mixed cells count; its ends lie on sides of the box.
+        // Only mixed cells count, and the two ends of the row, which lie on sides of the box.
         const std::size_t row = std::size_t{j} * width_;
         mixed_.find(&low[row], &low[row + width_], &high[row], &high[row + width_]);
         look_at(low, high, is_last, 0, j);
@@ -54,7 +54,7 @@ void LabelCensus::look_at(std::span<const Label> low, std::span<const Label> hig
                           std::uint32_t j) {
     const bool has_i = i + 1 < width_, has_j = j + 1 < height_;
     const std::size_t a = std::size_t{j} * width_ + i;
-    // Beyond the box the node itself stands in; `available` says which steps there are.
+    // Beyond the box the node itself is used; `available` has the steps that exist.
     const std::size_t b = a + (has_i ? 1 : 0), row = has_j ? width_ : 0;
     const Corners labels{low[a], low[b], low[a + row], low[b + row], high[a], high[b], high[a + row], high[b + row]};
     Label difference = 0;
@@ -115,7 +115,7 @@ void LabelCensus::count_caps(const Corners& labels, unsigned sides) {
     }
 }
 
-/// A corner alone has one face of its label, two of a label that two corners have make two, three make one.
+/// A corner alone gives one face with its label; two corners with the same label give two, three give one.
 void LabelCensus::count_triangle(Label a, Label b, Label c) {
     const auto count = [&](Label label, std::uint64_t faces) {
         if (!options_.is_background(label)) faces_ += faces;

@@ -1,4 +1,4 @@
-// Counts on the labels alone, section by section: what the model must be, and how large it will be.
+// Counts on the labels alone, section by section: the invariants of the mesh, and its number of faces.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 namespace regionmesh {
 
 /// The Euler characteristic of region r's boundary is 2 (N0 - N1 + N2 - N3), where Ni counts the i-simplices of Kuhn's
-/// lattice whose corners all have label r. Round a node whose cell has one label only these cancel: only mixed cells
-/// are looked at. Faces are counted by case, without making them.
+/// lattice whose corners all have label r. At a node whose cell has one label they cancel, so only mixed cells are
+/// visited. Faces are counted by case, without making them.
 class LabelCensus {
 public:
     LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions options);
@@ -23,7 +23,7 @@ public:
     /// Counts the strip between two consecutive sections; `is_last` when `high` is the last section.
     void add(std::span<const Label> low, std::span<const Label> high, bool is_last);
 
-    /// Faces of the unsimplified model so far.
+    /// Faces before simplification, so far.
     std::uint64_t face_count() const { return faces_; }
     LabelOracle oracle() const;
 

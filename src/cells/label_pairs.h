@@ -1,4 +1,4 @@
-// Which labels meet?
+// The pairs of labels that meet.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// A set of pairs of labels; most often the one asked to be added is the one added last.
+/// A set of pairs of labels. Adding the pair that was added last is fast, and the most frequent case.
 class LabelPairs {
 public:
     void add(Label a, Label b) {

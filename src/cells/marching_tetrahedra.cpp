@@ -37,7 +37,7 @@ CasePatch patch(std::initializer_list<CornerSet> vertices, int first, int second
     return made;
 }
 
-/// Cuts patches as is best where the corners are.
+/// Cuts the patches along the better diagonals for these corners.
 template <std::size_t N>
 void cut(const std::vector<CasePatch>& patches, const std::array<Vec3, N>& corners, bool mirrors,
          std::vector<CaseFace>& faces) {
@@ -50,7 +50,7 @@ void cut(const std::vector<CasePatch>& patches, const std::array<Vec3, N>& corne
     }
 }
 
-/// The patches for labels given as small numbers; the rule in words is in DESIGN 4.
+/// The patches for labels given as small numbers; docs/reconstruct.md has the rule in words.
 std::vector<CasePatch> patches_of(const std::array<int, 4>& label) {
     std::vector<CasePatch> patches;
     std::array<std::vector<int>, 4> groups;  // corners by label
@@ -82,8 +82,8 @@ std::vector<CasePatch> patches_of(const std::array<int, 4>& label) {
     return patches;
 }
 
-/// The corners of a regular tetrahedron. Which way a face turns is invariant under affine maps up to their sign, and
-/// here every patch lies square to the line between the corners it separates.
+/// The corners of a regular tetrahedron. The orientation of a face is invariant under affine maps of positive
+/// determinant, and here every patch is perpendicular to the line between the corners that it separates.
 constexpr std::array<Vec3, 4> kRegular{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 
 double volume(const std::array<Vec3, 4>& p) { return dot(area_vector(p[0], p[1], p[2]), p[3] - p[0]); }

@@ -15,25 +15,25 @@ namespace regionmesh {
 using CornerSet = std::uint8_t;
 
 /// One face: each vertex is the centroid of a simplex; the face separates the labels of corners `first` and `second`,
-/// and its normal points from first to second. On a triangle of the box `second` is meaningless: the exterior.
+/// and its normal points from first to second. On a triangle of the box `second` is not used: it is the exterior.
 struct CaseFace {
     std::array<CornerSet, 3> vertices;
     std::uint8_t first, second;
 };
 
-/// What separates two corners' labels: a triangle, or a quad that is yet to be cut. `turns` says that it looks from
-/// second to first in a tetrahedron whose corners are in the order of the first one's of Kuhn's (orientation() > 0).
+/// The patch between two labels: a triangle, or a quad that is not cut yet. `turns`: its normal points from second to
+/// first in a tetrahedron with the orientation of the first of Kuhn's (orientation() > 0).
 struct CasePatch {
-    std::array<CornerSet, 4> vertices;  // in the order in which they go round
+    std::array<CornerSet, 4> vertices;  // in cyclic order
     std::uint8_t vertex_count;          // 3 or 4
     std::uint8_t first, second;
     bool turns;
 
-    /// Its faces, of a quad those on both sides of the diagonal from vertex `start`, 0 or 1.
+    /// The faces of the patch; a quad is cut along the diagonal from vertex `start`, 0 or 1.
     int cut(int start, bool turn, std::array<CaseFace, 2>& faces) const;
 };
 
-/// From which vertex of a quad, 0 or 1, the diagonal is to go: that which gives the better worst quality; 0 in a draw.
+/// The vertex of a quad, 0 or 1, whose diagonal gives the higher minimum quality; 0 in a draw.
 int better_cut(const std::array<Vec3, 4>& quad);
 
 /// Which corners share a label: bit e set when the two corners of pair e differ. Pairs 01 02 03 12 13 23.
@@ -51,17 +51,18 @@ inline unsigned triangle_pattern(Label a, Label b, Label c) {
 using TetrahedronPatches = std::array<std::vector<CasePatch>, 64>;
 TetrahedronPatches make_tetrahedron_patches();
 
-/// Those of a triangle on the hull: one triangle, a triangle and a quad, or three quads, turned as the corners are.
+/// The patches of a triangle on the hull: one triangle, a triangle and a quad, or three quads, oriented like the
+/// corners.
 using TrianglePatches = std::array<std::vector<CasePatch>, 8>;
 TrianglePatches make_triangle_patches();
 
 /// All cases of the tetrahedron with corners at the given steps: 0, 2, 2 (one against three, two against two), 5 or 12
-/// faces for 1 to 4 labels: 1, 2, 5, 12. Quads are cut along the diagonal that gives the better worst quality at unit
-/// spacing. Patterns that no labels make are empty.
+/// faces for 1 to 4 labels: 1, 2, 5, 12. Quads are cut along the diagonal that gives the higher minimum quality at
+/// unit spacing. Patterns that no labels make are empty.
 using TetrahedronCases = std::array<std::vector<CaseFace>, 64>;
 TetrahedronCases make_tetrahedron_cases(const std::array<Step, 4>& corners);
 
-/// All cases of a lattice triangle on the box: 1, 3 or 6 faces for 1, 2 or 3 labels, turned as the corners are.
+/// All cases of a lattice triangle on the box: 1, 3 or 6 faces for 1, 2 or 3 labels, oriented like the corners.
 using TriangleCases = std::array<std::vector<CaseFace>, 8>;
 TriangleCases make_triangle_cases(const std::array<Step, 3>& corners);
 

@@ -1,4 +1,4 @@
-// Which cells of a row have more than one label?
+// Finds the cells of a row that have more than one label.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace regionmesh {
 
-/// The cells of a row whose eight labels are not all the same. Most cells of most volumes are not among them.
+/// The cells of a row whose eight labels are not all the same: few of the cells of most volumes.
 class MixedCells {
 public:
     explicit MixedCells(std::uint32_t cells) : cells_(cells), mixed_((cells + 7) / 8 * 8, 0) {}
 
-    /// a, b, c, d are the four rows of samples round the cells, one sample more than cells each. Plain or-ed loops,
-    /// which compilers vectorise.
+    /// a, b, c, d are the four rows of samples round the cells, each one sample longer than the row of cells. A plain
+    /// loop of ors, which compilers vectorise.
     void find(const Label* a, const Label* b, const Label* c, const Label* d) {
         for (std::uint32_t i = 0; i < cells_; ++i) {
             const Label x = a[i];
@@ -24,7 +24,7 @@ public:
         }
     }
 
-    /// Calls visit(i) for each of them, in order; eight that are not are passed over at once.
+    /// Calls visit(i) for each mixed cell, in order. Skips eight cells at a time.
     template <class Visit>
     void for_each(Visit&& visit) const {
         for (std::uint32_t first = 0; first < cells_; first += 8) {

@@ -8,22 +8,15 @@
 #include "base/exact_predicates.h"
 #include "base/megabytes.h"
 #include "base/triangle.h"
+#include "cells/tuning.h"
 #include "regionmesh/error.h"
 
 namespace regionmesh {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 14;  // tetrahedra asked for at a time
+using namespace cells;
+
 constexpr Label kMostLabels = 0x7FFFFFFF;
-
-/// That a point takes while it is ranked: its place, its label as it came and dense, its number and rank.
-constexpr double kRankingBytesPerPoint = 48;
-
-/// And while faces are made; and the front, for each point across the sweep: as measured.
-constexpr double kMeshingBytesPerPoint = 32, kFrontBytes = 4000;
-
-/// The program, and what it sorts with at the least.
-constexpr std::uint64_t kLeastBytes = std::uint64_t{24} << 20;
 
 [[noreturn]] void fail(const TetrahedronReader& reader, const std::string& text) {
     throw Error(ErrorCode::kInput, reader.info().source + ": " + text);
@@ -38,7 +31,7 @@ Sweep longest(const Box& box) {
     return best;
 }
 
-/// Points in a layer across the sweep, as thick as they are apart, if they fill the box evenly.
+/// Points in a slab across the sweep, one point spacing thick, if points fill the box evenly.
 double points_across(const Box& box, const Sweep& sweep, double points) {
     const Vec3 size = box.high - box.low;
     const double length = size[sweep.axes[2]],
@@ -48,15 +41,15 @@ double points_across(const Box& box, const Sweep& sweep, double points) {
 
 void require_memory(const TetrahedronReader& reader, std::uint64_t points, double across, std::uint64_t memory) {
     const auto count = static_cast<double>(points);
-    const double meshing = kMeshingBytesPerPoint * count + kFrontBytes * across;
+    const double meshing = kMeshingBytesPerPoint * count + kActiveBytes * across;
     const auto needed = kLeastBytes + static_cast<std::uint64_t>(std::max(kRankingBytesPerPoint * count, meshing));
     if (needed <= memory) return;
     throw Error(ErrorCode::kInput, "--memory " + megabytes(memory) + ": " + reader.info().source + " needs at least " +
                                        megabytes(needed) + " for its " + std::to_string(points) +
-                                       " points; give so much");
+                                       " points; raise --memory to that");
 }
 
-/// By place along the sweep, then of the other coordinates.
+/// By position along the sweep, then by the other coordinates.
 struct SweepOrder {
     Sweep sweep;
     std::weak_ordering operator()(const Vec3& p, const Vec3& q) const {
@@ -67,8 +60,8 @@ struct SweepOrder {
     }
 };
 
-/// Gives points their ranks; returns those by the reader's numbers. Places are sorted where they are: with as many
-/// again all would take half as much more.
+/// Ranks the points; returns the ranks by the reader's numbers. Positions are sorted in place: a second copy would take
+/// half as much memory again.
 std::vector<std::uint32_t> rank_points(const TetrahedronReader& reader, LabelledPoints given, LabelTable& labels,
                                        RankedPoints& ranked) {
     const bool has_labels = !given.labels.empty();

@@ -1,4 +1,4 @@
-// Tetrahedra and their points in the order in which the sweep meets them (P 3.9).
+// Tetrahedra and their points, sorted along the sweep (P 3.9).
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace regionmesh {
 
-/// Points by rank: in order of their places along the sweep, then of the other coordinates. All that lie at one place
-/// are one.
+/// Points by rank: sorted by position along the sweep, then by the other coordinates. Points at the same position are
+/// one point.
 struct RankedPoints {
     struct Other {
         std::uint32_t point;
@@ -28,19 +28,19 @@ struct RankedPoints {
 
     Sweep sweep;
     std::vector<Vec3> positions;
-    std::vector<Label> labels;                        // dense; none where the tetrahedra have them
-    std::vector<std::uint32_t> points;                // the reader's numbers; of several at one place the first
-    std::unordered_map<std::uint32_t, Other> others;  // by rank: a point there with another label
-    Box box;                                          // round those that tetrahedra have
+    std::vector<Label> labels;                        // dense; empty where the tetrahedra have labels
+    std::vector<std::uint32_t> points;                // the reader's numbers; of points at one position the first
+    std::unordered_map<std::uint32_t, Other> others;  // by rank: a point at that position with another label
+    Box box;                                          // round the points that tetrahedra use
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(positions.size()); }
     double along(std::uint32_t rank) const { return positions[rank][sweep.axes[2]]; }
 };
 
-/// In order of their lowest corners.
+/// Sorted by their lowest corners.
 struct RankedTetrahedron {
     std::array<std::uint32_t, 4> corners;  // ranks, increasing
-    Label label : 31;                      // dense, where tetrahedra have them
+    Label label : 31;                      // dense, where tetrahedra have labels
     std::uint32_t is_mirrored : 1;         // orientation() < 0 in the order of ranks
 
     friend bool operator<(const RankedTetrahedron& a, const RankedTetrahedron& b) { return a.corners < b.corners; }
@@ -49,21 +49,22 @@ struct RankedTetrahedron {
 struct RankedTetrahedra {
     RankedPoints points;
     ExternalSort<RankedTetrahedron> sorted;
-    double six_volumes = 0;  // of all of them together, six times
+    double six_volumes = 0;  // six times the total volume
 
-    /// Length of the edge of a cube that six of them fill: the spacing, where they are those of a lattice.
+    /// Edge length of a cube that six average tetrahedra fill. Equals the spacing where they come from a lattice.
     double spacing() const;
 };
 
 struct RankOptions {
-    std::optional<Sweep> sweep = {};  // along the longest side of the box round all points if not given
-    std::uint64_t sort_bytes = std::uint64_t{64} << 20;  // held beside the points
-    std::uint64_t memory = std::uint64_t{2} << 30;       // that points may take
+    std::optional<Sweep> sweep = {};                     // default: along the longest side of the box round all points
+    std::uint64_t sort_bytes = std::uint64_t{64} << 20;  // in addition to the points
+    std::uint64_t memory = std::uint64_t{2} << 30;       // bytes that points may take
 };
 
-/// Takes all that a reader has; labels of points get their numbers in the order of ranks. Throws Error(kInput): naming
-/// both points of two labels at one place of a tetrahedron, a tetrahedron that is flat or has corners that are not
-/// there; for more points than memory can hold; where there are no tetrahedra, or none that has a volume in numbers.
+/// Reads all points and tetrahedra; labels of points get their dense numbers in the order of ranks. Throws
+/// Error(kInput) for two labels at one position of a tetrahedron (both points are named), for a tetrahedron that is
+/// flat or has corners that do not exist, for more points than memory holds, and where no tetrahedron has a volume
+/// above rounding.
 RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, const RankOptions& options = {});
 
 }  // namespace regionmesh

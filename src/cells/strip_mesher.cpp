@@ -102,12 +102,12 @@ void StripMesher::plan_triangles() {
     }
 }
 
-void StripMesher::mesh(std::span<const Label> low, std::span<const Label> high, Chunk& batch) {
+void StripMesher::mesh(std::span<const Label> low, std::span<const Label> high, Chunk& chunk) {
     assert(strip_ + 1 < count_ && low.size() == std::size_t{width_} * height_ && high.size() == low.size());
     low_ = low;
     high_ = high;
-    batch_ = &batch;
-    batch.carried = static_cast<std::uint32_t>(touched_[0].size());
+    chunk_ = &chunk;
+    chunk.carried = static_cast<std::uint32_t>(touched_[0].size());
     std::fill(rows_[0].begin(), rows_[0].end(), 0);
     for (std::uint32_t j = 0; j + 1 < height_; ++j) {
         std::fill(rows_[1].begin(), rows_[1].end(), 0);
@@ -154,7 +154,7 @@ void StripMesher::mesh_cell(std::uint32_t i, std::uint32_t j) {
                 made.vertices[n] = number - 1;
             }
             made.labels = {corner[face.first], corner[face.second]};
-            batch_->faces.push_back(made);
+            chunk_->faces.push_back(made);
         }
     }
 }
@@ -171,12 +171,12 @@ void StripMesher::cap_side(std::uint32_t i, std::uint32_t j, int side) {
             ChunkFace made;
             for (int n = 0; n < 3; ++n) made.vertices[n] = vertex(plan.simplices[face.vertices[n]], i, j);
             made.labels = {inside, outside};
-            batch_->faces.push_back(made);
+            chunk_->faces.push_back(made);
         }
     }
 }
 
-/// Number of the vertex of a simplex in the batch, made when first asked for.
+/// Number of the vertex of a simplex in the chunk; makes the vertex at its first use.
 std::uint32_t StripMesher::vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j) {
     const std::size_t cell = (std::size_t{j} * width_ + i) * kPlaneSlots + place.offset;
     std::uint32_t* number = nullptr;
@@ -200,7 +200,7 @@ std::uint32_t StripMesher::vertex(const SimplexPlace& place, std::uint32_t i, st
         *number = make_vertex(place, i, j) + 1;
         if (place.table == Table::kHighPlane) {
             touched_[1].push_back(static_cast<std::uint32_t>(cell));
-            batch_->open.push_back(*number - 1);
+            chunk_->active.push_back(*number - 1);
         }
         if (place.table == Table::kLowPlane) touched_[0].push_back(static_cast<std::uint32_t>(cell));
     }
@@ -221,20 +221,20 @@ std::uint32_t StripMesher::make_vertex(const SimplexPlace& place, std::uint32_t 
         if (node == 0) made.sides |= SideSet(1 << 2 * axis);
         if (node + 1 == size[a]) made.sides |= SideSet(1 << (2 * axis + 1));
     }
-    batch_->vertices.push_back(made);
-    return batch_->carried + static_cast<std::uint32_t>(batch_->vertices.size()) - 1;
+    chunk_->vertices.push_back(made);
+    return chunk_->carried + static_cast<std::uint32_t>(chunk_->vertices.size()) - 1;
 }
 
 void StripMesher::roll_rows() { std::swap(rows_[0], rows_[1]); }
 
-/// The high section becomes the low one of the next strip: its vertices are the first of the next batch.
+/// The high section becomes the low one of the next strip: its vertices are carried by the next chunk.
 void StripMesher::roll_planes() {
     for (std::uint32_t place : touched_[0]) planes_[0][place] = 0;
     touched_[0].clear();
     std::swap(planes_[0], planes_[1]);
     std::swap(touched_[0], touched_[1]);
     for (std::uint32_t n = 0; n < touched_[0].size(); ++n) planes_[0][touched_[0][n]] = n + 1;
-    if (strip_ + 2 == count_) batch_->open.clear();
+    if (strip_ + 2 == count_) chunk_->active.clear();
 }
 
 }  // namespace regionmesh

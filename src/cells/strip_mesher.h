@@ -1,4 +1,4 @@
-// Sections in, faces out: the strip between two consecutive sections at a time (P 3.1-3.3).
+// Turns sections into faces, one strip between two consecutive sections at a time (P 3.1-3.3).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace regionmesh {
 
 struct StripOptions {
-    bool cap = true;  // split the lattice triangles on the six sides of the box into faces (DESIGN 4)
+    bool cap = true;                     // split the lattice triangles on the six sides of the box into faces
     std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
 
     bool is_background(Label label) const {
@@ -24,8 +24,8 @@ struct StripOptions {
     }
 };
 
-/// Meshes strips. Vertices are welded by lattice key: a base node and one of 26 kinds, looked up in flat tables that
-/// cover two sections (kinds in the plane of a section) and two rows (all others); 48 bytes a sample of a section.
+/// Meshes strips. A vertex is found by its lattice key, a base node and one of 26 kinds, in flat tables that cover two
+/// sections (kinds in the plane of a section, kBytesPerSample) and two rows (all other kinds).
 /// Positions are origin + (index + centroid) * spacing, in the axes of the lattice; its direction is not applied.
 class StripMesher {
     static constexpr int kPlaneSlots = 6;  // node, 3 edges, 2 triangles in the plane of a section
@@ -35,15 +35,15 @@ public:
     /// Requires at least two samples along every axis.
     StripMesher(const Lattice& lattice, Sweep sweep, StripOptions options);
 
-    /// Meshes the strip between sections `strip` and `strip + 1`, appending to an empty batch; strips come in order.
-    void mesh(std::span<const Label> low, std::span<const Label> high, Chunk& batch);
+    /// Meshes the strip between sections `strip` and `strip + 1`, appending to an empty chunk. Strips come in order.
+    void mesh(std::span<const Label> low, std::span<const Label> high, Chunk& chunk);
 
     std::size_t bytes() const;
     /// Of a section: two planes of vertex numbers.
     static constexpr std::uint64_t kBytesPerSample = 2 * kPlaneSlots * sizeof(std::uint32_t);
 
 private:
-    /// Where the number of a vertex is kept: one of four tables, and the place in it relative to the cell.
+    /// The table that holds the number of a vertex, and the place in it relative to the cell.
     enum class Table : std::uint8_t { kLowPlane, kHighPlane, kRow, kNextRow, kNowhere };
     struct SimplexPlace {
         Table table;
@@ -84,7 +84,7 @@ private:
 
     std::uint32_t strip_ = 0;
     std::span<const Label> low_, high_;
-    Chunk* batch_ = nullptr;
+    Chunk* chunk_ = nullptr;
     std::vector<std::uint32_t> planes_[2];  // vertex number + 1, 0 for none yet
     std::vector<std::uint32_t> rows_[2];
     std::vector<std::uint32_t> touched_[2];  // places in planes_ that are not 0

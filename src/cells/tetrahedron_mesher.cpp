@@ -12,7 +12,7 @@ namespace {
 
 constexpr CornerSet kWhole = 0b1111;
 constexpr std::array<std::uint8_t, 16> kSizes{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // of sets of corners
-constexpr std::uint8_t kMostLabels = 4, kManyLabels = 5;  // that meet at a vertex of a generic model; any more
+constexpr std::uint8_t kMostLabels = 4, kManyLabels = 5;  // labels at a vertex of a generic mesh; more than that
 constexpr std::uint32_t kMostVertices = kNoRank - 1;
 
 /// The corners of a set, as a key.
@@ -30,7 +30,7 @@ std::span<const std::uint32_t> corners_of(const SimplexKey& key) {
 
 bool is_triangle(const SimplexKey& key) { return key[2] != kNoRank; }
 
-/// Looks out of the tetrahedron when the corners but one are in the order of ranks?
+/// Does the face opposite this corner, in the order of ranks, point out of the tetrahedron?
 bool is_outward_but(int opposite, bool is_mirrored) { return (opposite % 2 == 1) == is_mirrored; }
 
 }  // namespace
@@ -51,19 +51,19 @@ void TetrahedronMesher::begin_strip(std::uint32_t strip) {
 
 std::uint64_t TetrahedronMesher::bytes() const {
     return simplices_.bytes() + label_uses_.bytes() + made_.vertices.capacity() * sizeof(ChunkVertex) +
-           made_.faces.capacity() * sizeof(ChunkFace) + ended_.capacity() * sizeof(VertexEnd);
+           made_.faces.capacity() * sizeof(ChunkFace) + finalized_.capacity() * sizeof(FinalizedVertex);
 }
 
 void TetrahedronMesher::add(const RankedTetrahedron& tetrahedron) {
-    const Places places = open_simplices(tetrahedron);
+    const Places places = find_simplices(tetrahedron);
     if (has_cell_labels_)
         count_cell(tetrahedron, places);
     else
         mesh(tetrahedron, places);
 }
 
-/// Finds its edges and triangles, with labels of tetrahedra its nodes, too; those that are new are counted.
-TetrahedronMesher::Places TetrahedronMesher::open_simplices(const RankedTetrahedron& tetrahedron) {
+/// Finds its edges and triangles, and its nodes where tetrahedra have the labels. Counts the new ones.
+TetrahedronMesher::Places TetrahedronMesher::find_simplices(const RankedTetrahedron& tetrahedron) {
     Places places;
     for (CornerSet set = 1; set < kWhole; ++set) {
         const int size = kSizes[set];
@@ -91,7 +91,7 @@ TetrahedronMesher::Places TetrahedronMesher::open_simplices(const RankedTetrahed
     return places;
 }
 
-/// The first tetrahedron at a triangle leaves its label, the second makes a face where its own differs.
+/// The first tetrahedron at a triangle notes its label; the second makes a face where its own label differs.
 void TetrahedronMesher::meet_triangle(const RankedTetrahedron& tetrahedron, int opposite, std::uint32_t place) {
     const SimplexKey key = simplices_[place].corners;
     Note& note = simplices_[place].note;
@@ -181,19 +181,19 @@ void TetrahedronMesher::count_cell(const RankedTetrahedron& tetrahedron, const P
     }
 }
 
-void TetrahedronMesher::close_before(std::uint32_t rank) {
-    for (; closed_ < rank; ++closed_) {
-        // Caps need the vertices of edges and nodes, which end then.
-        simplices_.for_lowest(closed_, [&](std::uint32_t place) {
-            if (is_triangle(simplices_[place].corners)) close_triangle(place);
+void TetrahedronMesher::finalize_before(std::uint32_t rank) {
+    for (; finalized_ranks_ < rank; ++finalized_ranks_) {
+        // Caps need the vertices of edges and nodes, so these are finalized after the triangles.
+        simplices_.for_lowest(finalized_ranks_, [&](std::uint32_t place) {
+            if (is_triangle(simplices_[place].corners)) finalize_triangle(place);
         });
-        if (has_cell_labels_) count_boundary(closed_);
-        simplices_.for_lowest(closed_, [&](std::uint32_t place) { finish(place); });
-        simplices_.drop(closed_);
+        if (has_cell_labels_) count_boundary(finalized_ranks_);
+        simplices_.for_lowest(finalized_ranks_, [&](std::uint32_t place) { finish(place); });
+        simplices_.drop(finalized_ranks_);
     }
 }
 
-void TetrahedronMesher::close_triangle(std::uint32_t place) {
+void TetrahedronMesher::finalize_triangle(std::uint32_t place) {
     if (simplices_[place].note.seen > 1) return;
     const SimplexKey key = simplices_[place].corners;
     simplices_[place].note.is_on_hull = true;
@@ -207,7 +207,7 @@ void TetrahedronMesher::close_triangle(std::uint32_t place) {
     if (options_.cap) cap(place, key);
 }
 
-/// The faces between the exterior and what lies behind a triangle on the hull.
+/// The faces between the exterior and the regions at a triangle on the hull.
 void TetrahedronMesher::cap(std::uint32_t place, const SimplexKey& key) {
     const bool turn = !simplices_[place].note.is_outward;
     const std::array<std::uint32_t, 4> corners{key[0], key[turn ? 2 : 1], key[turn ? 1 : 2], kNoRank};
@@ -249,7 +249,7 @@ void TetrahedronMesher::count_boundary(std::uint32_t rank) {
 
 void TetrahedronMesher::finish(std::uint32_t place) {
     const Note& note = simplices_[place].note;
-    if (note.vertex != kNoRank) ended_.push_back({note.vertex, note.last_strip, note.is_on_hull, note.is_shared});
+    if (note.vertex != kNoRank) finalized_.push_back({note.vertex, note.last_strip, note.is_on_hull, note.is_shared});
 }
 
 /// The vertex of a node, an edge or a triangle, which is used by a face of the strip.
@@ -261,10 +261,10 @@ std::uint32_t TetrahedronMesher::vertex(std::uint32_t place) {
     return simplex.note.vertex;
 }
 
-/// That of four labels.
+/// The vertex of a tetrahedron with four labels.
 std::uint32_t TetrahedronMesher::inner_vertex(const RankedTetrahedron& tetrahedron) {
     const std::uint32_t number = make_vertex(tetrahedron.corners);
-    ended_.push_back({.vertex = number, .last_strip = strip_, .is_on_hull = false, .is_shared = false});
+    finalized_.push_back({.vertex = number, .last_strip = strip_, .is_on_hull = false, .is_shared = false});
     return number;
 }
 
@@ -275,7 +275,7 @@ std::uint32_t TetrahedronMesher::make_vertex(std::span<const std::uint32_t> corn
     return made_.first_vertex + static_cast<std::uint32_t>(made_.vertices.size()) - 1;
 }
 
-/// From the first corner: so places far from the origin lose nothing, and those of a lattice are what it says.
+/// Summed relative to the first corner, so that positions far from the origin lose no precision.
 Vec3 TetrahedronMesher::centroid(std::span<const std::uint32_t> corners) const {
     const Vec3 first = points_.positions[corners[0]];
     Vec3 sum;

@@ -8,15 +8,15 @@ void Chunk::append(const Chunk& next) {
         return;
     }
     const std::uint32_t first_new = carried + static_cast<std::uint32_t>(vertices.size());
-    const std::vector<std::uint32_t> joint = std::move(open);
+    const std::vector<std::uint32_t> joint = std::move(active);
     const auto here = [&](std::uint32_t local) {
         return local < next.carried ? joint[local] : first_new + local - next.carried;
     };
     vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
     for (const ChunkFace& face : next.faces)
         faces.push_back({{here(face.vertices[0]), here(face.vertices[1]), here(face.vertices[2])}, face.labels});
-    open.clear();
-    for (std::uint32_t local : next.open) open.push_back(here(local));
+    active.clear();
+    for (std::uint32_t local : next.active) active.push_back(here(local));
 }
 
 }  // namespace regionmesh

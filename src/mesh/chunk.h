@@ -23,13 +23,13 @@ struct ChunkFace {
 static_assert(sizeof(ChunkFace) == 20);
 
 /// Vertices have numbers local to the chunk. The first `carried` are the active vertices of the chunk before, in the
-/// order of its list `open`; then come `vertices`. The vertices in `open` are still active: chunks to come may add
-/// faces to them. All others are finalized (P 3.4).
+/// order of its list `active`; then come `vertices`. Chunks to come may add faces to the vertices in `active`. All
+/// others are finalized (P 3.4).
 struct Chunk {
     std::uint32_t carried = 0;
     std::vector<ChunkVertex> vertices;
     std::vector<ChunkFace> faces;
-    std::vector<std::uint32_t> open;
+    std::vector<std::uint32_t> active;
 
     /// Appends the chunk that follows: its carried vertices are the active ones of this chunk.
     void append(const Chunk& next);
@@ -38,7 +38,7 @@ struct Chunk {
         carried = 0;
         vertices.clear();
         faces.clear();
-        open.clear();
+        active.clear();
     }
 };
 

@@ -23,7 +23,7 @@ BoxedFaces::BoxedFaces(const Chunk& batch, std::span<const ChunkVertex> carried,
     const auto face_count = static_cast<std::uint32_t>(batch.faces.size());
     place_.assign(batch.carried + batch.vertices.size(), kNone);
     std::fill(place_.begin(), place_.begin() + batch.carried, kRim);
-    for (std::uint32_t local : batch.open) place_[local] = kRim;
+    for (std::uint32_t local : batch.active) place_[local] = kRim;
     for (std::uint32_t n = 0; n < batch.vertices.size(); ++n)
         if (batch.vertices[n].sides & kPinned) place_[batch.carried + n] = kRim;
     part_faces_ = std::max(kChunkFaces, face_count / kMostChunks + 1);

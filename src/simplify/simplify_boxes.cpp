@@ -37,12 +37,12 @@ DecimateResult decimate_tile(Tile& tile, BoxedFaces& faces, std::uint32_t box, c
 
 TileResult decimate_boxes(BoxedFaces& faces, const TileOptions& options) {
     const Chunk& batch = faces.batch();
-    TileResult result{.left = {.carried = batch.carried, .vertices = faces.rim_vertices(), .faces = {}, .open = {}}};
+    TileResult result{.left = {.carried = batch.carried, .vertices = faces.rim_vertices(), .faces = {}, .active = {}}};
     Chunk& left = result.left;
     // Room that nothing is written to costs nothing.
     left.vertices.reserve(batch.vertices.size());
     left.faces.reserve(batch.faces.size());
-    for (std::uint32_t local : batch.open) left.open.push_back(faces.rim_number(local));
+    for (std::uint32_t local : batch.active) left.active.push_back(faces.rim_number(local));
     std::vector<Tile> tiles(std::max(options.in_flight, 1u));
     std::vector<DecimateResult> done(tiles.size());
     const auto work = [&](std::uint32_t box, std::uint32_t place) {

@@ -8,7 +8,7 @@
 namespace regionmesh {
 namespace {
 
-/// False for a tetrahedron without volume: it sweeps nothing.
+/// False for a tetrahedron without volume.
 bool is_in_or_on_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
     const int side = orientation(a, b, c, d);
     return side != 0 && side * orientation(a, b, c, q) >= 0 && side * orientation(a, d, b, q) >= 0 &&
@@ -16,7 +16,7 @@ bool is_in_or_on_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
 }
 
 bool meets_segment(const std::array<Vec3, 3>& t, Vec3 p, Vec3 q) {
-    if (p == q) return false;  // a point that stays; surfaces do not touch before they move
+    if (p == q) return false;  // the point stays, and surfaces do not touch before they move
     const int at_p = orientation(t[0], t[1], t[2], p), at_q = orientation(t[0], t[1], t[2], q);
     if (at_p != 0 && at_p == at_q) return false;
     const int a = orientation(p, q, t[0], t[1]), b = orientation(p, q, t[1], t[2]), c = orientation(p, q, t[2], t[0]);

@@ -5,11 +5,12 @@
 #include "base/hash.h"
 #include "base/parallel_for.h"
 #include "mesh/label_set.h"
+#include "smooth/tuning.h"
 
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kTaskSize = 2048;  // vertices
+using smoothing::kNeighbourTask;
 
 void add_sides(LabelSet& set, SideSet sides) {
     for (int side = 0; side < kSideCount; ++side)
@@ -44,12 +45,13 @@ private:
         if (star.empty()) return true;
         const auto& labels = window_.faces[star[0] >> 2].labels;
         const Label low = std::min(labels[0], labels[1]), high = std::max(labels[0], labels[1]);
-        std::uint64_t sum = 0;  // of what comes after v in its faces less what comes before: 0 where the star is closed
+        std::uint64_t sum =
+            0;  // hashes of the vertices after v in its faces, less those before: 0 if the star is closed
         for (std::uint32_t corner : star) {
             const ChunkFace& face = window_.faces[corner >> 2];
             if (std::min(face.labels[0], face.labels[1]) != low || std::max(face.labels[0], face.labels[1]) != high)
                 return false;
-            // Seen from the lower label all faces go round the same way.
+            // Seen from the lower label, all faces have the same orientation.
             const std::uint32_t place = corner & 3, step = face.labels[0] == low ? 1 : 2;
             const std::uint32_t after = face.vertices[(place + step) % 3];
             found_.push_back(after);
@@ -93,7 +95,7 @@ private:
                 ++at->uses;
             }
         }
-        // Where the surface ends on the box (not capped, or background), the sides steps for the faces not made there.
+        // Where the surface ends on the box (not capped, or background), the sides count as the faces not made there.
         for (Spoke& spoke : spokes_) {
             if (spoke.uses >= spoke.labels.size()) continue;
             const SideSet common = window_.sides[v] & window_.sides[spoke.vertex];
@@ -112,11 +114,11 @@ private:
 
 void Neighbours::add_chunk(const SurfaceWindow& window, const ChunkStars& stars, std::uint32_t threads) {
     const NumberRange vertices = stars.vertices();
-    std::vector<SlidingLists> parts((vertices.size() + kTaskSize - 1) / kTaskSize);
+    std::vector<SlidingLists> parts((vertices.size() + kNeighbourTask - 1) / kNeighbourTask);
     parallel_for(static_cast<std::uint32_t>(parts.size()), threads, [&](std::uint32_t n) {
         Finder finder(window, move_points_);
-        const std::uint32_t first = vertices.first + n * kTaskSize;
-        for (std::uint32_t v = first; v < std::min(vertices.end, first + kTaskSize); ++v)
+        const std::uint32_t first = vertices.first + n * kNeighbourTask;
+        for (std::uint32_t v = first; v < std::min(vertices.end, first + kNeighbourTask); ++v)
             parts[n].push_back(finder.find(v, stars.of(v)));
     });
     for (const SlidingLists& part : parts)

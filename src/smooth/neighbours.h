@@ -1,4 +1,4 @@
-// Which vertices a vertex is smoothed by (P 4.2).
+// The neighbours that a vertex is smoothed with (P 4.2).
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace regionmesh {
 
-/// Neighbours of v are the w joined to it by an edge with all the labels of v: their label sets hold that of v. Inside
-/// an interface these are all neighbours, on a line the two along it. A point where lines end has none and stays,
-/// unless `move_points`: then it has the ends of its lines. Where the surface ends outside the sides of the box,
-/// vertices have none. Neighbours come in the order of their places, so that sums over them do not depend on numbers.
+/// Neighbours of v are the vertices joined to it by an edge that has all the labels of v. Inside an interface these are
+/// all adjacent vertices, on a triple line the two along it. A quadruple point has none and stays, unless
+/// `move_points`: then it has the next vertices of its lines. Vertices where the surface ends inside the box have none.
+/// Neighbours are sorted by position, so that sums over them do not depend on vertex numbers.
 class Neighbours {
 public:
     explicit Neighbours(bool move_points) : move_points_(move_points) {}
 
-    /// Appends the neighbours of a chunk's vertices. Layers come in order.
+    /// Appends the neighbours of the vertices of a chunk. Chunks come in order.
     void add_chunk(const SurfaceWindow& window, const ChunkStars& stars, std::uint32_t threads);
 
     std::span<const std::uint32_t> of(std::uint32_t v) const { return lists_.of(v); }

@@ -20,15 +20,15 @@ bool is_before(Vec3 p, Vec3 q) { return p.x != q.x ? p.x < q.x : p.y != q.y ? p.
 
 double gaussian(double square, double sigma) { return std::exp(-square / (2 * sigma * sigma)); }
 
-/// A face, or an edge of a line, that speaks for the surface near a vertex.
+/// A face, or an edge of a line, that predicts the position of a near vertex.
 struct Witness {
     Vec3 middle;
     double size;            // area or length
-    FaceId face = kNoFace;  // or the ends of an edge
+    FaceId face = kNoFace;  // or else the ends of an edge
     std::uint32_t from = 0, to = 0;
 };
 
-/// A small set of numbers that is emptied at once.
+/// A small set of numbers that is cleared in constant time.
 class SmallSet {
 public:
     void clear() {
@@ -38,7 +38,7 @@ public:
         }
         held_ = 0;
     }
-    /// False when the number was there.
+    /// False if the number was in the set.
     bool add(std::uint32_t n) {
         if (2 * held_ >= slots_.size()) grow();
         Slot& slot = find(n);
@@ -79,8 +79,8 @@ public:
               const SlidingArray<Nifpms::FaceMeasure>& measures)
         : window_(window), neighbours_(neighbours), stars_(stars), measures_(measures) {}
 
-    /// Faces of the interface of v, or edges of its line, that a path within `reach` joins to it; in the order of their
-    /// places. None for points, and for vertices without neighbours.
+    /// Faces of the interface of v, or edges of its line, that a path within `reach` connects with it; sorted by
+    /// position. None for quadruple points, and for vertices without neighbours.
     const std::vector<Witness>& near(std::uint32_t v, double reach) {
         found_.clear();
         const auto own = neighbours_.of(v);
@@ -148,7 +148,7 @@ private:
     SmallSet seen_faces_, seen_vertices_;
 };
 
-/// Where p comes to lie on an edge with the direction of the mollified places.
+/// Projection of p on an edge with the direction of its mollified positions.
 Vec3 projected_on_line(Vec3 p, Vec3 middle, Vec3 direction) {
     const double square = length2(direction);
     return square > 0 ? middle + dot(p - middle, direction) / square * direction : p;
@@ -163,7 +163,7 @@ void Nifpms::note_stars(const ChunkStars& stars) {
 void Nifpms::note_chunk(std::uint32_t chunk) {
     const NumberRange faces = input_.window.faces_of(chunk);
     for (std::uint32_t f = faces.first; f < faces.end; ++f) {
-        // In the order of their places, so that nothing depends on where a face begins.
+        // Sorted by position, so that the result does not depend on the first vertex of a face.
         std::array<Vec3, 3> p;
         for (int n = 0; n < 3; ++n) p[n] = input_.window.origin[input_.window.faces[f].vertices[n]];
         std::sort(p.begin(), p.end(), is_before);

@@ -19,14 +19,14 @@ using namespace smoothing;
 
 constexpr std::uint8_t kForEver = 255;  // rounds of rest of a vertex that may never move
 constexpr int kMostLabels = 4;
-constexpr double kRounding = 1e-10;  // of sums of volumes, relative
+constexpr double kRounding = 1e-10;  // relative rounding error of sums of volumes
 
-/// How the volumes of the regions at a vertex change as it moves.
+/// Gradients of the volumes of the regions at a vertex.
 struct Gradient {
     std::array<Label, kMostLabels> labels;
     std::array<Vec3, kMostLabels> of;
     int size = 0;
-    double area = 0;  // a third of that of the star
+    double area = 0;  // a third of the area of the star
 };
 
 class Preserving {
@@ -52,12 +52,12 @@ public:
     }
 
 private:
-    /// In the game: to be brought to its volume, and not given up.
+    /// Has a wanted volume, and is not given up.
     bool is_wanted(Label label) const {
         return label < wanted_.size() && wanted_[label] && stalled_[label] < kPatience;
     }
 
-    /// What each region misses, and what it asks for in the next round.
+    /// Notes the volume that each region is missing, and the volume that it asks for in the next round.
     void note_missing() {
         const std::vector<double> volumes = region_volumes(mesh_);
         const std::vector<double> most = most_asked();
@@ -79,8 +79,8 @@ private:
         balance();
     }
 
-    /// Where all space is regions, what they miss sums to nothing but rounding, and so must what they ask for: the
-    /// largest one makes up for it.
+    /// Without background the missing volumes sum to zero up to rounding, and so must the volumes asked for: the
+    /// largest region takes the difference.
     void balance() {
         Label largest = 0;
         double missing = 0, asked = 0, all = 0;
@@ -100,7 +100,7 @@ private:
         return true;
     }
 
-    /// By region: the area of its boundary times the longest way on average.
+    /// By region: the area of its boundary times the most mean displacement.
     std::vector<double> most_asked() const {
         std::vector<double> most(wanted_.size());
         for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
@@ -113,7 +113,7 @@ private:
         return most;
     }
 
-    /// Vertices that the guard held back are let be for some rounds.
+    /// Vertices that backtracked rest for some rounds.
     void hold(const std::vector<std::uint8_t>& levels) {
         for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
             if (rest_[v] == kForEver) continue;
@@ -124,7 +124,7 @@ private:
         }
     }
 
-    /// A hull that is no box was moved by decimation, and may move back.
+    /// Decimation has moved the vertices of a hull that is not a box; so they may move back.
     SideSet kept_sides(VertexId v) const { return mesh_[v].sides & static_cast<SideSet>(~kOnHull); }
 
     Gradient gradient(VertexId v) const {

@@ -29,7 +29,7 @@ std::vector<double> RegionMatrix::product(const std::vector<double>& x) const {
 
 std::vector<double> RegionMatrix::solve(const std::vector<double>& b) const {
     constexpr double kTolerance = 1e-10;
-    // A direction that the matrix all but sends to nothing: what is left of b lies there.
+    // Below this curvature a direction is in the null space: the rest of b cannot be reached.
     constexpr double kNull = 1e-15;
     const std::size_t size = b.size();
     const auto dot = [](const std::vector<double>& a, const std::vector<double>& c) {

@@ -1,4 +1,4 @@
-// A symmetric matrix over pairs of regions that share something, and the solution of its equations.
+// A sparse symmetric matrix over pairs of regions, and a solver.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ public:
     void add(std::uint32_t row, std::uint32_t column, double value);
 
     /// x with matrix * x = b, by conjugate gradients scaled by the diagonal. Rows whose diagonal is 0 are left out.
-    /// Where the matrix is singular and b lies in its range, any solution does and one is found.
+    /// Returns one of the solutions where the matrix is singular and b lies in its range.
     std::vector<double> solve(const std::vector<double>& b) const;
 
 private:

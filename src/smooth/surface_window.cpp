@@ -34,7 +34,7 @@ void SurfaceWindow::add(const Chunk& chunk) {
     }
     for (const auto& [v, labels] : chunk.faces) faces.push_back({{number(v[0]), number(v[1]), number(v[2])}, labels});
     std::vector<std::uint32_t> active;
-    for (std::uint32_t local : chunk.open) active.push_back(number(local));
+    for (std::uint32_t local : chunk.active) active.push_back(number(local));
     end_chunk(active);
 }
 
@@ -72,7 +72,7 @@ void SurfaceWindow::copy_out(std::uint32_t chunk, const SlidingArray<Vec3>& posi
         const auto& [v, labels] = faces[f];
         out.faces.push_back({{local(v[0]), local(v[1]), local(v[2])}, labels});
     }
-    for (std::uint32_t v : active_.of(chunk)) out.open.push_back(local(v));
+    for (std::uint32_t v : active_.of(chunk)) out.active.push_back(local(v));
 }
 
 void SurfaceWindow::drop_before(std::uint32_t chunk) {

@@ -21,7 +21,7 @@ bool Gatherer::next(Chunk& chunk) {
     for (const ChunkVertex& vertex : chunk.vertices) reach_ = std::max(reach_, vertex.position[source.shape().axis()]);
     carried_ = std::move(active_);
     active_.clear();
-    for (std::uint32_t local : chunk.open)
+    for (std::uint32_t local : chunk.active)
         active_.push_back(local < chunk.carried ? carried_[local] : chunk.vertices[local - chunk.carried]);
     return true;
 }

@@ -15,7 +15,7 @@ void Merger::add(const Chunk& chunk) {
         mesh_.add_face(ids_[face.vertices[0]], ids_[face.vertices[1]], ids_[face.vertices[2]], face.labels[0],
                        face.labels[1]);
     active_.clear();
-    for (std::uint32_t local : chunk.open) active_.push_back(ids_[local]);
+    for (std::uint32_t local : chunk.active) active_.push_back(ids_[local]);
     for (VertexId v : active_) mesh_[v].is_fixed = true;
 }
 
@@ -36,7 +36,7 @@ Chunk Merger::take_apart() {
         chunk.faces.push_back({{locals[index(corners[0])], locals[index(corners[1])], locals[index(corners[2])]},
                                mesh_[FaceId{f}].labels});
     }
-    for (VertexId v : active_) chunk.open.push_back(locals[index(v)]);
+    for (VertexId v : active_) chunk.active.push_back(locals[index(v)]);
     active_.clear();
     mesh_ = {};
     return chunk;

@@ -1,10 +1,12 @@
 // The whole story: from sections, or tetrahedra, to a checked mesh. Each stage has a header of its own.
 //
 //   read -> cells -> smooth -> tiles -> merge -> simplify -> check
+#include "stream/pipeline.h"
+
 #include <optional>
+#include <string>
 
 #include "regionmesh/error.h"
-#include "regionmesh/reconstruct.h"
 #include "stream/chunk_volumes.h"
 #include "stream/finish.h"
 #include "stream/gatherer.h"
@@ -94,6 +96,8 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     return run;
 }
 
+}  // namespace
+
 /// Runs until smoothing holds enough strips. In the end it holds all, and cannot be stuck.
 Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options, const OnProgress& on_progress) {
     double total = 0;
@@ -113,8 +117,6 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
                                                "cannot be read again; smooth with fewer passes");
     }
 }
-
-}  // namespace
 
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options, const OnProgress& on_progress) {
     std::optional<ReadAhead> ahead;

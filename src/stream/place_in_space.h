@@ -1,4 +1,4 @@
-// From the axes of the lattice to space.
+// Transforms a mesh from the axes of the lattice to space.
 #pragma once
 
 #include "regionmesh/lattice.h"
@@ -6,16 +6,14 @@
 
 namespace regionmesh {
 
-/// The lattice to mesh on: positions are index times spacing, and an origin is added at once where no direction matrix
-/// comes between.
+/// The lattice for meshing: positions are index times spacing, plus the origin if the direction matrix is the identity.
 inline Lattice meshing_lattice(const Lattice& lattice) {
     Lattice result = lattice;
     if (!lattice.is_axis_aligned()) result.origin = {};
     return result;
 }
 
-/// Applies the direction of the lattice, and its origin where the direction is not that of the axes; faces are turned
-/// where it mirrors.
+/// Applies direction and origin of the lattice where the direction is not the identity. Flips the faces if it mirrors.
 void place_in_space(Mesh& mesh, const Lattice& lattice);
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-// Reading and inflating beside the work: the next section is read while the last one is worked on.
+// Reads and decompresses the next section while the last one is worked on.
 #pragma once
 
 #include <condition_variable>
@@ -11,10 +11,10 @@
 
 namespace regionmesh {
 
-/// Hands out the sections of another reader, which a thread of its own reads one section ahead. What that reader throws
-/// is thrown by `next` in place of the section, after all sections before it, and again if asked again. Nothing is read
-/// before the first `next`. Holds one section. The other reader is called by one thread at a time, and stands anywhere
-/// after this one is gone.
+/// Returns the sections of another reader, which a thread of its own reads one section ahead. An exception of that
+/// reader is thrown by `next` in place of the section, after all sections before it, and again at later calls. Nothing
+/// is read before the first `next`. Holds one section. The other reader is called by one thread at a time; its position
+/// is not defined after this object is destroyed.
 class ReadAhead final : public SectionReader {
 public:
     explicit ReadAhead(SectionReader& reader) : reader_(reader), info_(reader.info()) {}
@@ -37,7 +37,7 @@ private:
     std::thread thread_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    // All below belongs to the thread while is_wanted_, to the caller while it is not.
+    // All members below belong to the thread while is_wanted_, and else to the caller.
     std::vector<InputLabel> section_;
     bool is_wanted_ = false, is_stopping_ = false;
     bool is_end_ = false;  // no section follows: the last one was read, or reading failed

@@ -26,9 +26,9 @@ void SpilledStrips::add(const MeshedStrip& strip, double top) {
     file_.append_items(std::span<const ChunkFace>(strip.faces));
 }
 
-void SpilledStrips::add_end(const VertexEnd& end) {
+void SpilledStrips::add_finalized(const FinalizedVertex& end) {
     if (!end.is_shared && !end.is_on_hull && !end.is_pinned) return;
-    ends_.add(end);
+    finalized_.add(end);
     if (!end.is_shared) return;
     const auto after = std::upper_bound(strips_.begin(), strips_.end(), end.vertex,
                                         [](std::uint32_t vertex, const Strip& s) { return vertex < s.first_vertex; });
@@ -39,7 +39,7 @@ void SpilledStrips::add_end(const VertexEnd& end) {
 
 void SpilledStrips::finish(bool hull_is_box) {
     hull_is_box_ = hull_is_box;
-    ends_.finish();
+    finalized_.finish();
     rewind();
 }
 
@@ -72,8 +72,8 @@ std::vector<StripRange> SpilledStrips::strips_for_smoothing() const {
 
 void SpilledStrips::rewind() {
     active_.clear();
-    ends_.rewind();
-    has_end_ = ends_.next(next_end_);
+    finalized_.rewind();
+    has_finalized_ = finalized_.next(next_finalized_);
 }
 
 SideSet SpilledStrips::sides_of(SideSet of_box, bool is_on_hull, bool is_pinned) const {
@@ -97,16 +97,16 @@ void SpilledStrips::read(StripRange strips, Chunk& chunk) {
     for (std::uint32_t n = 0; n < before.size(); ++n) {
         if (before[n].last_strip < strips.end) continue;
         active_.push_back(before[n]);
-        chunk.open.push_back(n);
+        chunk.active.push_back(n);
     }
     const std::uint32_t end_vertex = first_vertex + static_cast<std::uint32_t>(chunk.vertices.size());
-    for (; has_end_ && next_end_.vertex < end_vertex; has_end_ = ends_.next(next_end_)) {
-        const std::uint32_t n = next_end_.vertex - first_vertex;
+    for (; has_finalized_ && next_finalized_.vertex < end_vertex; has_finalized_ = finalized_.next(next_finalized_)) {
+        const std::uint32_t n = next_finalized_.vertex - first_vertex;
         ChunkVertex& vertex = chunk.vertices[n];
-        vertex.sides = sides_of(vertex.sides, next_end_.is_on_hull, next_end_.is_pinned);
-        if (!next_end_.is_shared || next_end_.last_strip < strips.end) continue;
-        active_.push_back({next_end_.vertex, next_end_.last_strip});
-        chunk.open.push_back(chunk.carried + n);
+        vertex.sides = sides_of(vertex.sides, next_finalized_.is_on_hull, next_finalized_.is_pinned);
+        if (!next_finalized_.is_shared || next_finalized_.last_strip < strips.end) continue;
+        active_.push_back({next_finalized_.vertex, next_finalized_.last_strip});
+        chunk.active.push_back(chunk.carried + n);
     }
 }
 

@@ -21,12 +21,12 @@ struct StripRange {
 /// active vertices.
 class SpilledStrips {
 public:
-    explicit SpilledStrips(std::uint64_t sort_bytes) : ends_(sort_bytes) {}
+    explicit SpilledStrips(std::uint64_t sort_bytes) : finalized_(sort_bytes) {}
 
-    /// Strips come in order, each with the vertices that have ended since the one before. `top` is the highest vertex
+    /// Strips come in order, each with the vertices finalized since the one before. `top` is the highest vertex
     /// along the sweep.
     void add(const MeshedStrip& strip, double top);
-    void add_end(const VertexEnd& end);
+    void add_finalized(const FinalizedVertex& end);
     /// After the last strip. Vertices on the hull lie on sides of a box, or else on no side but kHull.
     void finish(bool hull_is_box);
 
@@ -42,7 +42,7 @@ public:
     /// The faces of the strips that come next, as one chunk.
     void read(StripRange strips, Chunk& chunk);
     std::uint64_t bytes() const {
-        return strips_.capacity() * sizeof(Strip) + active_.capacity() * sizeof(Active) + ends_.bytes();
+        return strips_.capacity() * sizeof(Strip) + active_.capacity() * sizeof(Active) + finalized_.bytes();
     }
 
 private:
@@ -61,10 +61,10 @@ private:
 
     TemporaryFile file_;
     std::vector<Strip> strips_;
-    ExternalSort<VertexEnd> ends_;
+    ExternalSort<FinalizedVertex> finalized_;
     bool hull_is_box_ = true;
-    VertexEnd next_end_{};
-    bool has_end_ = false;
+    FinalizedVertex next_finalized_{};
+    bool has_finalized_ = false;
     std::vector<Active> active_;  // after the strips read, in order of vertices
 };
 

@@ -9,7 +9,7 @@ StarWatch::StarWatch(const StripOptions& options) {
     options_.background = options.background;
 }
 
-/// All of the exterior is one here, and any vertex may be on the hull until it is judged.
+/// All exterior labels are one here, and any vertex may be on the hull until it is judged.
 void StarWatch::add(const MeshedStrip& strip) {
     std::uint32_t number = strip.first_vertex;
     for (const ChunkVertex& vertex : strip.vertices) {
@@ -27,15 +27,15 @@ void StarWatch::add(const MeshedStrip& strip) {
     }
 }
 
-void StarWatch::judge(std::span<VertexEnd> ended) {
+void StarWatch::judge(std::span<FinalizedVertex> finalized) {
     GenericStar generic(mesh_, options_);
-    for (VertexEnd& end : ended) {
+    for (FinalizedVertex& end : finalized) {
         const VertexId v = ids_.at(end.vertex);
         mesh_[v].sides = end.is_on_hull ? kOnHull : SideSet{0};
         end.is_pinned = generic.fault(v) != StarFault::kNone;
         is_judged_[index(v)] = true;
     }
-    judged_ += static_cast<std::uint32_t>(ended.size());
+    judged_ += static_cast<std::uint32_t>(finalized.size());
     if (2 * judged_ > mesh_.vertex_count()) pack();
 }
 

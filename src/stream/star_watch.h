@@ -1,4 +1,4 @@
-// Finds vertices round which a surface that comes in strips is not generic.
+// Finds the vertices with a non-generic star in a surface that comes in strips.
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,22 @@
 namespace regionmesh {
 
 /// Meshes may touch themselves, and where tetrahedra have the labels any number of regions may meet at a node. Such
-/// vertices are pinned, as fix_unsound() does in a model that is whole. Holds the faces of vertices that have not
-/// ended.
+/// vertices are pinned, as fix_unsound() does in a whole mesh. Holds the faces of vertices that are not finalized.
 class StarWatch {
 public:
     explicit StarWatch(const StripOptions& options);
 
     void add(const MeshedStrip& strip);
-    /// Pins those of the vertices ended whose stars are not generic. All their faces must have been added.
-    void judge(std::span<VertexEnd> ended);
+    /// Pins the finalized vertices whose stars are not generic. All their faces must have been added.
+    void judge(std::span<FinalizedVertex> finalized);
 
 private:
-    /// Begins anew with the faces that somebody still needs, once most are not.
+    /// Drops the faces that are not needed any more, once these are the most.
     void pack();
 
     CheckOptions options_;
     Mesh mesh_;
-    std::unordered_map<std::uint32_t, VertexId> ids_;  // of vertices that have not been forgotten
+    std::unordered_map<std::uint32_t, VertexId> ids_;  // of the vertices held
     std::vector<std::uint32_t> numbers_;               // by id
     std::vector<bool> is_judged_;                      // by id
     std::uint32_t judged_ = 0;

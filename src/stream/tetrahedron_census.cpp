@@ -5,7 +5,7 @@
 namespace regionmesh {
 
 TetrahedronCensus count_labels(TetrahedronReader& reader, const CensusOptions& options) {
-    constexpr std::uint64_t kAnyMemory = std::uint64_t{1} << 62;  // no model is held
+    constexpr std::uint64_t kAnyMemory = std::uint64_t{1} << 62;  // no mesh is held
     TetrahedronFaces source(
         reader, {.cap = options.cap, .background = options.background, .sweep = options.sweep, .memory = kAnyMemory});
     FaceCount counted = *source.count();

@@ -22,7 +22,7 @@ std::uint32_t cells_along(double length, double spacing) {
     return static_cast<std::uint32_t>(std::max(std::ceil(length / spacing - 1e-9), 1.0));
 }
 
-/// Round the box, with cells as large as a cube that six tetrahedra fill.
+/// A lattice round the box, with cells as large as a cube that six tetrahedra fill.
 Lattice lattice_round(const Box& box, double spacing, double tetrahedra) {
     const Vec3 size = box.high - box.low;
     const auto cells = [&] {
@@ -76,7 +76,7 @@ void TetrahedronFaces::shape_lattice(const RankedTetrahedra& tetrahedra) {
     shape_.lattice = lattice_round(box, spacing, static_cast<double>(tetrahedron_count_));
 }
 
-/// One pass over the tetrahedra in the order of the sweep; each strip goes to disk when it is made.
+/// One pass over the tetrahedra in the order of the sweep; each strip is spilled when it is made.
 void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
     const RankedPoints& points = tetrahedra.points;
     const StripOptions options{.cap = options_.cap, .background = background_};
@@ -93,16 +93,16 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
         spilled_.add(mesher.strip(), top);
         if (!reader_.info().hull_is_convex) {
             watch.add(mesher.strip());
-            watch.judge(mesher.ended());
+            watch.judge(mesher.finalized());
         }
-        for (const VertexEnd& end : mesher.ended()) {
-            spilled_.add_end(end);
+        for (const FinalizedVertex& end : mesher.finalized()) {
+            spilled_.add_finalized(end);
             pinned += end.is_pinned;
         }
-        mesher.ended().clear();
+        mesher.finalized().clear();
         mesher.begin_strip(++strip);
     };
-    // Labels of tetrahedra get their numbers in the order of ranks, too.
+    // Labels of tetrahedra get their dense numbers in the order of ranks, too.
     const bool has_cell_labels = reader_.info().has_cell_labels;
     LabelTable in_order(labels_.is_unsigned());
     dense_background(options_.background, in_order);
@@ -110,7 +110,7 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
     while (tetrahedra.sorted.next(tetrahedron)) {
         if (has_cell_labels) tetrahedron.label = in_order.dense(labels_.input(tetrahedron.label));
         const std::uint32_t lowest = tetrahedron.corners[0];
-        mesher.close_before(lowest);
+        mesher.finalize_before(lowest);
         const double along = (points.along(lowest) - low) / thickness;
         const auto own = std::min(static_cast<std::uint32_t>(std::floor(along + 1e-9)), thin_strips - 1);
         while (strip < own) end_strip();
@@ -118,12 +118,12 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
         if (has_cell_labels) ++samples_[tetrahedron.label];
     }
     if (has_cell_labels) labels_ = std::move(in_order);
-    mesher.close_all();
+    mesher.finalize_all();
     while (strip < thin_strips) end_strip();
     spilled_.finish(mesher.hull_is_box());
     if (mesher.hull_is_box()) high_ = points.box.high[shape_.axis()];
     oracle_ = mesher.oracle();
-    // Where the hull touches itself, the boundary of a region is not twice the region.
+    // Where the hull touches itself, the formula for the boundary of a region does not hold.
     if (!has_cell_labels && pinned > 0) oracle_.euler.clear();
 }
 

@@ -36,10 +36,10 @@ TEST(StripMesher, strips_share_the_vertices_of_their_section) {
     mesher.mesh(section, section, first);
     mesher.mesh(section, section, second);
     EXPECT_EQ(first.carried, 0u);
-    EXPECT_GT(first.open.size(), 0u);
-    for (std::uint32_t open : first.open) EXPECT_EQ(first.vertices[open].position.z, 1);
-    EXPECT_EQ(second.carried, first.open.size());
-    EXPECT_TRUE(second.open.empty()) << "nothing comes after the last strip";
+    EXPECT_GT(first.active.size(), 0u);
+    for (std::uint32_t v : first.active) EXPECT_EQ(first.vertices[v].position.z, 1);
+    EXPECT_EQ(second.carried, first.active.size());
+    EXPECT_TRUE(second.active.empty()) << "nothing comes after the last strip";
     for (const ChunkVertex& vertex : second.vertices) EXPECT_GT(vertex.position.z, 1);
 }
 

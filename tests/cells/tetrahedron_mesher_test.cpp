@@ -22,7 +22,7 @@ using testing::HasSubstr;
 struct Meshed {
     LabelTable labels;
     MeshedStrip strip;
-    std::vector<VertexEnd> ended;
+    std::vector<FinalizedVertex> ended;
     LabelOracle oracle;
     bool hull_is_box;
 };
@@ -33,11 +33,11 @@ Meshed meshed(ArrayMesh mesh, const StripOptions& options = {}) {
     RankedTetrahedra ranked = rank_tetrahedra(mesh, labels, {.sweep = kSweepZ});
     TetrahedronMesher mesher(ranked.points, mesh, options);
     for (RankedTetrahedron t; ranked.sorted.next(t);) {
-        mesher.close_before(t.corners[0]);
+        mesher.finalize_before(t.corners[0]);
         mesher.add(t);
     }
-    mesher.close_all();
-    return {std::move(labels), mesher.strip(), mesher.ended(), mesher.oracle(), mesher.hull_is_box()};
+    mesher.finalize_all();
+    return {std::move(labels), mesher.strip(), mesher.finalized(), mesher.oracle(), mesher.hull_is_box()};
 }
 
 std::string refusal(ArrayMesh mesh) {
@@ -53,7 +53,7 @@ std::string refusal(ArrayMesh mesh) {
 /// All of the exterior is one unless the hull is a box.
 Mesh mesh_of(const Meshed& made) {
     std::vector<bool> is_on_hull(made.strip.vertices.size());
-    for (const VertexEnd& end : made.ended) is_on_hull[end.vertex] = end.is_on_hull;
+    for (const FinalizedVertex& end : made.ended) is_on_hull[end.vertex] = end.is_on_hull;
     Mesh mesh;
     for (std::size_t n = 0; n < made.strip.vertices.size(); ++n)
         mesh.add_vertex(made.strip.vertices[n].position, made.hull_is_box ? made.strip.vertices[n].sides
@@ -330,7 +330,7 @@ TEST(TetrahedronMesher, every_vertex_ends_once_and_knows_whether_it_is_on_the_hu
             if (is_exterior(face.labels[1]))
                 for (std::uint32_t v : face.vertices) is_outer[v] = true;
         std::vector<int> ends(made.strip.vertices.size());
-        for (const VertexEnd& end : made.ended) {
+        for (const FinalizedVertex& end : made.ended) {
             ++ends[end.vertex];
             EXPECT_EQ(end.is_on_hull, is_outer[end.vertex]);
             EXPECT_FALSE(end.is_shared);

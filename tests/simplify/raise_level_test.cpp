@@ -61,8 +61,8 @@ TEST(RaiseLevel, leaves_open_vertices_and_what_reaches_beyond_as_they_are) {
     Chunk batch = whole(volume);
     constexpr double kHigh = 20.25;
     std::vector<Vec3> open;
-    for (std::uint32_t v = 0; v < batch.vertices.size(); v += 97) batch.open.push_back(v);
-    for (std::uint32_t v : batch.open) open.push_back(batch.vertices[v].position);
+    for (std::uint32_t v = 0; v < batch.vertices.size(); v += 97) batch.active.push_back(v);
+    for (std::uint32_t v : batch.active) open.push_back(batch.vertices[v].position);
     const auto faces_beyond = [&] {
         std::size_t count = 0;
         for (const ChunkFace& face : batch.faces)
@@ -76,8 +76,8 @@ TEST(RaiseLevel, leaves_open_vertices_and_what_reaches_beyond_as_they_are) {
     raise_level(batch, plan_of(volume), options);
     EXPECT_LT(batch.faces.size(), before * 3 / 4);
     EXPECT_EQ(faces_beyond(), beyond);
-    ASSERT_EQ(batch.open.size(), open.size());
-    for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(batch.vertices[batch.open[n]].position, open[n]);
+    ASSERT_EQ(batch.active.size(), open.size());
+    for (std::size_t n = 0; n < open.size(); ++n) EXPECT_EQ(batch.vertices[batch.active[n]].position, open[n]);
     test::expect_sound(check(mesh_of(batch)));
 }
 

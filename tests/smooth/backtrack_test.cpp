@@ -28,7 +28,7 @@ double height_of_quality(double wanted) {
     return high;
 }
 
-/// Vertices of a model, where smoothing took them, and rounds of stepping back.
+/// Vertices of a mesh, their smoothed positions, and rounds of backtracking.
 struct Rounds {
     Rounds(const Mesh& mesh, const std::vector<Vec3>& places, const SmoothOptions& with = {.threads = 1})
         : window(test::window_of(mesh)), options(with), rounds(window, steps, options) {
@@ -115,21 +115,21 @@ TEST(ShapeFault, does_not_depend_on_scale) {
         }
 }
 
-TEST(SteppedBack, levels_go_from_the_smoothed_place_to_where_it_came_from) {
+TEST(PositionAt, goes_from_the_smoothed_position_to_the_origin) {
     const Vec3 origin{1.0 / 3, 0.1, -7}, smooth{0.7, 1e-3, 2};
     EXPECT_EQ(position_at(origin, smooth, 0), smooth);
     EXPECT_EQ(position_at(origin, smooth, kFullBacktrack), origin);
     EXPECT_EQ(position_at(origin, smooth, 200), origin);
     double last = 0;
-    for (std::uint8_t level = 1; level <= kFullBacktrack; ++level) {
-        const double gone = length(position_at(origin, smooth, level) - smooth);
-        EXPECT_NEAR(gone, level / 8.0 * length(origin - smooth), 1e-12);
+    for (std::uint8_t steps = 1; steps <= kFullBacktrack; ++steps) {
+        const double gone = length(position_at(origin, smooth, steps) - smooth);
+        EXPECT_NEAR(gone, steps / 8.0 * length(origin - smooth), 1e-12);
         EXPECT_GT(gone, last);
         last = gone;
     }
 }
 
-TEST(StepLengths, puts_a_vertex_at_its_level) {
+TEST(StepLengths, move_a_vertex_as_far_as_it_backtracks) {
     Rounds sheet = pushed(0.8);
     sheet.steps.set_backtrack(sheet.window, 0, 4);
     EXPECT_EQ(sheet.steps.backtrack[0], 4);
@@ -140,30 +140,30 @@ TEST(StepLengths, puts_a_vertex_at_its_level) {
     EXPECT_EQ(sheet.smooth[0], (Vec3{0.8, 0, 0})) << "where smoothing took it is not forgotten";
 }
 
-TEST(StepBack, nothing_moves_where_all_is_sound) {
+TEST(Backtrack, nothing_moves_where_all_is_sound) {
     Rounds sheet = pushed(0.3);
     sheet.rounds.run(0, 0, true);
     EXPECT_EQ(sheet.rounds.faults().turned + sheet.rounds.faults().low_quality, 0u);
     for (std::uint32_t v = 0; v < 10; ++v) EXPECT_EQ(sheet.steps.backtrack[v], 0);
 }
 
-TEST(StepBack, the_first_round_asks_for_the_first_sound_level) {
+TEST(Backtrack, the_first_round_requests_the_fewest_valid_steps) {
     Rounds sheet = pushed(1.8);
     EXPECT_EQ(sheet.fault_of(0), ShapeFault::kTurned);
     sheet.rounds.run(0, 0, true);
     EXPECT_EQ(sheet.rounds.faults().turned, 2u);
     EXPECT_EQ(sheet.rounds.faults().low_quality, 0u);
-    const std::uint8_t level = sheet.steps.backtrack[0];
+    const std::uint8_t needed = sheet.steps.backtrack[0];
     for (std::uint32_t f : {0u, 1u}) EXPECT_EQ(sheet.fault_of(f), ShapeFault::kNone);
     for (std::uint32_t v : {1u, 2u, 3u})
-        EXPECT_EQ(sheet.steps.backtrack[v], level) << "all corners of the faulty faces step back";
+        EXPECT_EQ(sheet.steps.backtrack[v], needed) << "all corners of the faulty faces backtrack";
     EXPECT_EQ(sheet.steps.backtrack[5], 0);
-    ASSERT_GT(level, 1);
-    sheet.steps.set_backtrack(sheet.window, 0, level - 1);
-    EXPECT_NE(sheet.fault_of(0), ShapeFault::kNone) << "one level less would not do";
+    ASSERT_GT(needed, 1);
+    sheet.steps.set_backtrack(sheet.window, 0, needed - 1);
+    EXPECT_NE(sheet.fault_of(0), ShapeFault::kNone) << "one step less is not enough";
 }
 
-TEST(StepBack, low_quality_is_counted_apart) {
+TEST(Backtrack, low_quality_is_counted_apart) {
     Rounds sheet = pushed(0.95);
     ASSERT_EQ(sheet.fault_of(0), ShapeFault::kQuality);
     sheet.rounds.run(0, 0, true);
@@ -172,7 +172,7 @@ TEST(StepBack, low_quality_is_counted_apart) {
     EXPECT_EQ(sheet.fault_of(0), ShapeFault::kNone);
 }
 
-TEST(StepBack, later_rounds_ask_for_two_more_and_count_nothing) {
+TEST(Backtrack, later_rounds_ask_for_two_more_and_count_nothing) {
     Rounds sheet = pushed(1.8);
     for (std::uint32_t v : {1u, 2u, 3u}) sheet.steps.backtrack[v] = 5;
     sheet.rounds.run(1, 0, true);
@@ -185,8 +185,8 @@ TEST(StepBack, later_rounds_ask_for_two_more_and_count_nothing) {
     EXPECT_EQ(sheet.rounds.faults().turned, 0u);
 }
 
-TEST(StepBack, a_vertex_follows_the_face_that_asks_for_most) {
-    // Vertex 0 is shared by a face that needs many levels and one that needs few.
+TEST(Backtrack, a_vertex_follows_the_face_that_asks_for_most) {
+    // Vertex 0 is shared by a face that needs many steps and one that needs few.
     const Mesh mesh =
         test::shape({{0, 0, 0}, {1, 0.5, 0}, {1, -0.5, 0}, {-1, -0.5, 0}, {-1, 0.5, 0}}, {{{0, 2, 1}}, {{0, 4, 3}}});
     Rounds both(mesh, {{0, 0, 0}, {-4, 0.5, 0}, {-4, -0.5, 0}, {0.2, -0.5, 0}, {0.2, 0.5, 0}});
@@ -197,12 +197,12 @@ TEST(StepBack, a_vertex_follows_the_face_that_asks_for_most) {
     EXPECT_EQ(both.steps.backtrack[0], both.steps.backtrack[1]);
 }
 
-TEST(StepBack, in_layers_gives_what_one_layer_does) {
+TEST(Backtrack, in_layers_gives_what_one_layer_does) {
     // Two faces side by side, the second in a chunk of its own with one new vertex; both turn over.
     const std::vector<Vec3> from{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
         to{{0, 0, 0}, {1, 0, 0}, {0, -0.3, 0}, {1, -1.5, 0}};
     const ChunkFace faces[2]{{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}};
-    std::vector<std::uint8_t> levels[2];
+    std::vector<std::uint8_t> steps_of[2];
     for (bool is_cut : {false, true}) {
         SurfaceWindow window;
         SlidingArray<Vec3> smooth, now;
@@ -232,11 +232,11 @@ TEST(StepBack, in_layers_gives_what_one_layer_does) {
         else
             for (std::uint32_t round = 0; round < 3; ++round) rounds.run(round, 0, true);
         EXPECT_EQ(rounds.faults().turned, 2u);
-        for (std::uint32_t v = 0; v < 4; ++v) levels[is_cut].push_back(steps.backtrack[v]);
+        for (std::uint32_t v = 0; v < 4; ++v) steps_of[is_cut].push_back(steps.backtrack[v]);
     }
-    EXPECT_EQ(levels[0], levels[1]);
-    EXPECT_GT(levels[0][3], 0);
-    EXPECT_GE(levels[0][1], levels[0][0]);
+    EXPECT_EQ(steps_of[0], steps_of[1]);
+    EXPECT_GT(steps_of[0][3], 0);
+    EXPECT_GE(steps_of[0][1], steps_of[0][0]);
 }
 
 }  // namespace

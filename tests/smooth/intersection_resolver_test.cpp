@@ -1,4 +1,5 @@
-// The guard: what the filter alone would turn over, spoil, cross or sweep away stays sound (DESIGN 8).
+// The guard: no face turns over, loses its quality, crosses another or sweeps over an island, as the filter alone
+// would let it.
 #include <gtest/gtest.h>
 
 #include <cmath>

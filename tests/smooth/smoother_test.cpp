@@ -1,4 +1,4 @@
-// Smoothing on the fly: equivalence, determinism, memory, anisotropy; and that all filters leave a sound model.
+// Smoothing on the fly: equivalence, determinism, memory, anisotropy; and all filters leave a valid mesh.
 #include "smooth/smoother.h"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ ReconstructOptions smoothed(const SmoothOptions& smooth = {}) {
     return {.smooth = smooth, .decimate = false, .background = {}};
 }
 
-/// What reconstruct(smooth) is: the filter and its rounds of stepping back on the whole of the plain model. What is
-/// left to settle after them settles strip by strip: there other vertices may step back than in core.
+/// The filter and its rounds of backtracking on the whole mesh, as reconstruct() does them strip by strip. What is
+/// left of intersections is resolved strip by strip: there other vertices may backtrack than in core.
 Mesh smoothed_in_core(test::ArrayVolume& volume, ReconstructOptions options) {
     const Vec3 spacing = volume.info().lattice.spacing;
     SmoothOptions smooth_options = options.smooth;
@@ -140,9 +140,9 @@ TEST(Equivalence, a_volume_of_two_sections_is_smoothed_too) {
     }
 }
 
-// Batch by batch.
+// Chunk by chunk.
 
-/// Meshes, smooths, and calls visit(batch in, batch out) for each pair, in order.
+/// Meshes, smooths, and calls visit(chunk in, chunk out) for each pair, in order.
 template <class Visit>
 void for_chunks(test::ArrayVolume& volume, Smoother& smoother, Visit&& visit) {
     LabelTable labels;
@@ -165,7 +165,7 @@ void for_chunks(test::ArrayVolume& volume, Smoother& smoother, Visit&& visit) {
     EXPECT_FALSE(smoother.next(out));
 }
 
-TEST(Smoother, batches_come_out_as_they_went_in_but_for_places) {
+TEST(Smoother, chunks_come_out_as_they_went_in_but_for_places) {
     for (SmoothFilter filter : kFilters) {
         test::ArrayVolume volume = test::noise_volume({5, 5, 12}, 3, 4);
         Smoother smoother({.filter = filter, .passes = 4}, {.thickness = 1});
@@ -173,7 +173,7 @@ TEST(Smoother, batches_come_out_as_they_went_in_but_for_places) {
         Merger merger(mesh);
         for_chunks(volume, smoother, [&](const Chunk& in, const Chunk& out) {
             EXPECT_EQ(out.carried, in.carried);
-            EXPECT_EQ(out.open, in.open);
+            EXPECT_EQ(out.active, in.active);
             ASSERT_EQ(out.vertices.size(), in.vertices.size());
             ASSERT_EQ(out.faces.size(), in.faces.size());
             for (std::size_t v = 0; v < in.vertices.size(); ++v) EXPECT_EQ(out.vertices[v].sides, in.vertices[v].sides);
@@ -196,7 +196,7 @@ TEST(Smoother, strips_come_out_while_others_go_in) {
     EXPECT_LT(smoother.report().window_chunks, 30u);
 }
 
-TEST(Smoother, what_is_not_handed_out_lies_beyond_the_floor) {
+TEST(Smoother, the_safe_interval_ends_before_all_surface_not_handed_out) {
     for (SmoothFilter filter : kFilters)
         for (const Sweep& sweep : {kSweepX, kSweepZ}) {
             const bool is_local = filter != SmoothFilter::kNifpms;
@@ -207,13 +207,13 @@ TEST(Smoother, what_is_not_handed_out_lies_beyond_the_floor) {
             const int axis = sweep.axes[2];
             const double thickness = volume.info().lattice.spacing[axis];
             Smoother smoother({.filter = filter, .passes = 5, .scale = 0.8}, {.axis = axis, .thickness = thickness});
-            double floor = -HUGE_VAL, last = 0;
+            double safe_high = -HUGE_VAL, last = 0;
             for_chunks(volume, smoother, [&](const Chunk&, const Chunk& out) {
-                for (const ChunkVertex& vertex : out.vertices) ASSERT_GE(vertex.position[axis], floor);
-                floor = smoother.safe_high();
-                if (floor < HUGE_VAL) last = floor;
+                for (const ChunkVertex& vertex : out.vertices) ASSERT_GE(vertex.position[axis], safe_high);
+                safe_high = smoother.safe_high();
+                if (safe_high < HUGE_VAL) last = safe_high;
             });
-            EXPECT_GT(last, 5 * thickness) << "a floor that stays behind is of no use";
+            EXPECT_GT(last, 5 * thickness) << "the safe interval does not follow the sweep";
         }
 }
 

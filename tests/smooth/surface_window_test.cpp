@@ -14,11 +14,11 @@ using testing::ElementsAre;
 Chunk chunk_of_ribbon(std::uint32_t n) {
     Chunk chunk;
     for (double x : {0.0, 1.0}) chunk.vertices.push_back({{x, 0, double(n)}});
-    chunk.open = {0, 1};
+    chunk.active = {0, 1};
     if (n == 0) return chunk;
     chunk.carried = 2;
     chunk.faces = {{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}};
-    chunk.open = {2, 3};
+    chunk.active = {2, 3};
     return chunk;
 }
 
@@ -68,7 +68,7 @@ TEST(SurfaceWindow, gives_back_each_chunk_with_other_positions) {
         window.drop_before(n);
         window.copy_out(n, positions, out);
         EXPECT_EQ(out.carried, in.carried);
-        EXPECT_EQ(out.open, in.open);
+        EXPECT_EQ(out.active, in.active);
         ASSERT_EQ(out.faces.size(), in.faces.size());
         for (std::size_t f = 0; f < in.faces.size(); ++f) EXPECT_EQ(out.faces[f].vertices, in.faces[f].vertices);
         ASSERT_EQ(out.vertices.size(), 2u);
@@ -96,7 +96,7 @@ TEST(ChunkStars, are_the_same_when_the_layers_before_were_let_go) {
 
 TEST(ChunkStars, of_a_vertex_without_faces_are_empty) {
     SurfaceWindow window = ribbon(2);
-    window.add({.carried = 2, .vertices = {{}}, .faces = {}, .open = {}});
+    window.add({.carried = 2, .vertices = {{}}, .faces = {}, .active = {}});
     EXPECT_TRUE(ChunkStars(window, 2).of(4).empty());
 }
 

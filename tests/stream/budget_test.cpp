@@ -145,9 +145,9 @@ TEST(Census, counts_the_faces_of_each_strip) {
     }
     ASSERT_EQ(census.strip_faces.size(), 9u);
     for (std::size_t n = 0; n < 9; ++n) {
-        Chunk batch;
-        mesher.mesh(sections[n], sections[n + 1], batch);
-        EXPECT_EQ(census.strip_faces[n], batch.faces.size()) << "strip " << n;
+        Chunk chunk;
+        mesher.mesh(sections[n], sections[n + 1], chunk);
+        EXPECT_EQ(census.strip_faces[n], chunk.faces.size()) << "strip " << n;
     }
 }
 

@@ -11,19 +11,19 @@
 namespace regionmesh {
 namespace {
 
-/// Meshes a volume strip by strip; after each weld calls visit(model, merger, z of the last section).
+/// Meshes a volume strip by strip; after each strip calls visit(model, merger, z of the last section).
 template <class Visit>
-Mesh welded(test::ArrayVolume volume, Visit&& visit) {
+Mesh merged(test::ArrayVolume volume, Visit&& visit) {
     LabelTable labels;
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, kSweepZ, {});
     Mesh mesh;
     Merger merger(mesh);
-    Chunk batch;
+    Chunk chunk;
     while (window.advance()) {
-        batch.clear();
-        mesher.mesh(window.low(), window.high(), batch);
-        merger.add(batch);
+        chunk.clear();
+        mesher.mesh(window.low(), window.high(), chunk);
+        merger.add(chunk);
         visit(mesh, merger, window.sections_read() - 1.0);
     }
     return mesh;
@@ -31,52 +31,52 @@ Mesh welded(test::ArrayVolume volume, Visit&& visit) {
 
 test::ArrayVolume grains() { return test::grain_volume({8, 8, 8}, 6, 2); }
 
-TEST(Merger, the_front_is_what_lies_on_the_last_section_and_is_fixed) {
-    welded(grains(), [](const Mesh& mesh, const Merger&, double z) {
-        std::uint32_t front = 0;
+TEST(Merger, active_vertices_lie_on_the_last_section_and_are_fixed) {
+    merged(grains(), [](const Mesh& mesh, const Merger&, double z) {
+        std::uint32_t active = 0;
         test::for_vertices(mesh, [&](VertexId v) {
-            const bool is_front = mesh.position(v).z == z && z < 7;
-            EXPECT_EQ(mesh[v].is_fixed, is_front);
-            front += is_front;
+            const bool is_active = mesh.position(v).z == z && z < 7;
+            EXPECT_EQ(mesh[v].is_fixed, is_active);
+            active += is_active;
         });
-        EXPECT_EQ(front == 0, z == 7) << "at the end nothing is open";
+        EXPECT_EQ(active == 0, z == 7) << "at the end no vertex is active";
     });
 }
 
 TEST(Merger, makes_no_vertex_twice) {
-    const Mesh mesh = welded(grains(), [](const Mesh&, const Merger&, double) {});
+    const Mesh mesh = merged(grains(), [](const Mesh&, const Merger&, double) {});
     test::expect_sound(check(mesh));
 }
 
-TEST(Merger, follows_a_front_that_got_new_ids) {
-    const Mesh plain = welded(grains(), [](const Mesh&, const Merger&, double) {});
+TEST(Merger, follows_active_vertices_that_got_new_ids) {
+    const Mesh plain = merged(grains(), [](const Mesh&, const Merger&, double) {});
     const Mesh sorted =
-        welded(grains(), [](Mesh& mesh, Merger& merger, double) { merger.renumber(mesh.sort_spatially()); });
+        merged(grains(), [](Mesh& mesh, Merger& merger, double) { merger.renumber(mesh.sort_spatially()); });
     EXPECT_EQ(test::surface_digest(sorted), test::surface_digest(plain));
     test::expect_sound(check(sorted));
 }
 
 TEST(Merger, puts_together_what_it_took_apart) {
-    const Mesh plain = welded(grains(), [](const Mesh&, const Merger&, double) {});
-    const Mesh again = welded(grains(), [](Mesh& mesh, Merger& merger, double) {
-        const std::size_t front = merger.active_count();
+    const Mesh plain = merged(grains(), [](const Mesh&, const Merger&, double) {});
+    const Mesh again = merged(grains(), [](Mesh& mesh, Merger& merger, double) {
+        const std::size_t active = merger.active_count();
         const Chunk whole = merger.take_apart();
-        EXPECT_EQ(whole.open.size(), front);
+        EXPECT_EQ(whole.active.size(), active);
         EXPECT_EQ(mesh.face_count(), 0u);
         merger.add(whole);
     });
     EXPECT_EQ(test::surface_digest(again), test::surface_digest(plain));
 }
 
-TEST(Merger, joins_what_was_decimated_up_to_the_front) {
-    const Mesh mesh = welded(grains(), [](Mesh& part, Merger& merger, double z) {
+TEST(Merger, merges_into_a_mesh_that_was_decimated_up_to_its_active_vertices) {
+    const Mesh mesh = merged(grains(), [](Mesh& part, Merger& merger, double z) {
         merger.renumber(part.sort_spatially());
         DecimateOptions options;
         options.limits.high.z = z;
         decimate(part, options);
     });
     test::expect_sound(check(mesh));
-    EXPECT_LT(mesh.face_count(), welded(grains(), [](const Mesh&, const Merger&, double) {}).face_count() / 2);
+    EXPECT_LT(mesh.face_count(), merged(grains(), [](const Mesh&, const Merger&, double) {}).face_count() / 2);
 }
 
 TEST(SectionWindow, hands_out_consecutive_sections_with_dense_labels) {

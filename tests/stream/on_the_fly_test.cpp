@@ -92,7 +92,7 @@ TEST(OnTheFly, a_ball_of_few_faces_that_has_outgrown_its_first_box_stays_sound) 
     test::expect_sound(run(test::ball_volume({14, 14, 14}, 4.5), options).report.check);
 }
 
-TEST(OnTheFly, every_sweep_and_batch_stays_sound) {
+TEST(OnTheFly, every_sweep_and_chunk_stays_sound) {
     for (const Sweep& sweep : {kSweepX, kSweepY, kSweepZ})
         for (std::uint32_t strips : {1u, 3u}) {
             test::ArrayVolume volume = test::grain_volume({18, 20, 22}, 9, 3).spaced({1, 2, 5}).swept(sweep);

@@ -23,7 +23,7 @@ void spill(SpilledStrips& strips, test::ArrayMesh mesh, std::uint32_t per_strip 
     TetrahedronMesher mesher(ranked.points, mesh, {});
     test::mesh_in_strips(ranked, mesher, per_strip, [&] {
         strips.add(mesher.strip(), 0);
-        for (const VertexEnd& end : mesher.ended()) strips.add_end(end);
+        for (const FinalizedVertex& end : mesher.finalized()) strips.add_finalized(end);
     });
     strips.finish(mesher.hull_is_box());
 }
@@ -35,59 +35,59 @@ std::vector<StripRange> one_by_one(const SpilledStrips& strips) {
 }
 
 std::vector<Chunk> read_all(SpilledStrips& strips, const std::vector<StripRange>& ranges) {
-    std::vector<Chunk> batches;
+    std::vector<Chunk> chunks;
     strips.rewind();
-    for (StripRange range : ranges) strips.read(range, batches.emplace_back());
-    return batches;
+    for (StripRange range : ranges) strips.read(range, chunks.emplace_back());
+    return chunks;
 }
 
-Mesh welded(const std::vector<Chunk>& batches) {
+Mesh merged(const std::vector<Chunk>& chunks) {
     Mesh mesh;
     Merger merger(mesh);
-    for (const Chunk& batch : batches) merger.add(batch);
-    EXPECT_TRUE(merger.front().empty()) << "nothing is open in the end";
+    for (const Chunk& chunk : chunks) merger.add(chunk);
+    EXPECT_EQ(merger.active_count(), 0u) << "no vertex is active at the end";
     merger.release_all();
     return mesh;
 }
 
-/// The batches in which each vertex has faces, by vertices in the order in which they come; fails where a batch breaks
+/// The chunks in which each vertex has faces, by vertices in the order in which they come; fails where a chunk breaks
 /// what Chunk promises.
-std::vector<std::set<std::size_t>> batches_of_vertices(const std::vector<Chunk>& batches) {
-    std::vector<std::set<std::size_t>> batches_of;
-    std::vector<std::size_t> finalized_in, open, made_in;
-    for (std::size_t b = 0; b < batches.size(); ++b) {
-        const Chunk& batch = batches[b];
-        EXPECT_EQ(batch.carried, open.size());
-        std::vector<std::size_t> local = open;  // through numbers
-        for (std::size_t n = 0; n < batch.vertices.size(); ++n) {
-            local.push_back(batches_of.size());
-            batches_of.emplace_back();
+std::vector<std::set<std::size_t>> chunks_of_vertices(const std::vector<Chunk>& chunks) {
+    std::vector<std::set<std::size_t>> chunks_of;
+    std::vector<std::size_t> finalized_in, active, made_in;
+    for (std::size_t b = 0; b < chunks.size(); ++b) {
+        const Chunk& chunk = chunks[b];
+        EXPECT_EQ(chunk.carried, active.size());
+        std::vector<std::size_t> local = active;  // through numbers
+        for (std::size_t n = 0; n < chunk.vertices.size(); ++n) {
+            local.push_back(chunks_of.size());
+            chunks_of.emplace_back();
             finalized_in.push_back(b);
             made_in.push_back(b);
         }
-        for (std::size_t v : open) finalized_in[v] = b;
-        for (const ChunkFace& face : batch.faces)
+        for (std::size_t v : active) finalized_in[v] = b;
+        for (const ChunkFace& face : chunk.faces)
             for (std::uint32_t v : face.vertices) {
                 if (v >= local.size()) {
                     ADD_FAILURE() << "a face of a vertex that is not there";
-                    return batches_of;
+                    return chunks_of;
                 }
-                batches_of[local[v]].insert(b);
+                chunks_of[local[v]].insert(b);
             }
-        open.clear();
-        EXPECT_EQ(std::set(batch.open.begin(), batch.open.end()).size(), batch.open.size()) << "open once";
-        for (std::uint32_t v : batch.open) open.push_back(local.at(v));
+        active.clear();
+        EXPECT_EQ(std::set(chunk.active.begin(), chunk.active.end()).size(), chunk.active.size()) << "active once";
+        for (std::uint32_t v : chunk.active) active.push_back(local.at(v));
     }
-    EXPECT_TRUE(open.empty());
-    for (std::size_t v = 0; v < batches_of.size(); ++v) {
-        if (batches_of[v].empty()) {
+    EXPECT_TRUE(active.empty());
+    for (std::size_t v = 0; v < chunks_of.size(); ++v) {
+        if (chunks_of[v].empty()) {
             ADD_FAILURE() << "vertex " << v << " has no faces";
             continue;
         }
-        EXPECT_EQ(*batches_of[v].rbegin(), finalized_in[v]) << "finalized with the last of its faces";
-        EXPECT_EQ(*batches_of[v].begin(), made_in[v]);
+        EXPECT_EQ(*chunks_of[v].rbegin(), finalized_in[v]) << "finalized with the last of its faces";
+        EXPECT_EQ(*chunks_of[v].begin(), made_in[v]);
     }
-    return batches_of;
+    return chunks_of;
 }
 
 std::vector<test::ArrayMesh> meshes() {
@@ -96,33 +96,33 @@ std::vector<test::ArrayMesh> meshes() {
             test::cell_mesh_of(test::grain_volume({5, 6, 8}, 4, 4))};
 }
 
-TEST(SpilledStrips, batches_finalize_each_vertex_with_the_last_of_its_faces) {
+TEST(SpilledStrips, chunks_finalize_each_vertex_with_the_last_of_its_faces) {
     for (const test::ArrayMesh& mesh : meshes())
         for (std::uint32_t per_strip : {1u, 7u, kPerStrip, 100000u}) {
             SCOPED_TRACE(std::to_string(per_strip) + " tetrahedra a strip");
             SpilledStrips strips(0);
             spill(strips, mesh, per_strip);
-            batches_of_vertices(read_all(strips, one_by_one(strips)));
-            batches_of_vertices(read_all(strips, strips.strips_for_smoothing()));
+            chunks_of_vertices(read_all(strips, one_by_one(strips)));
+            chunks_of_vertices(read_all(strips, strips.strips_for_smoothing()));
         }
 }
 
-TEST(SpilledStrips, any_cut_into_batches_gives_the_same_surface_and_so_after_rewinding) {
+TEST(SpilledStrips, any_cut_into_chunks_gives_the_same_surface_and_so_after_rewinding) {
     for (const test::ArrayMesh& mesh : meshes()) {
         SpilledStrips strips(0);
         spill(strips, mesh);
-        const Mesh whole = welded(read_all(strips, {{0, strips.strip_count()}}));
+        const Mesh whole = merged(read_all(strips, {{0, strips.strip_count()}}));
         EXPECT_EQ(whole.face_count(), strips.face_count());
         for (const std::vector<StripRange>& ranges :
              {one_by_one(strips), strips.strips_for_smoothing(), one_by_one(strips)}) {
-            const Mesh mesh = welded(read_all(strips, ranges));
+            const Mesh mesh = merged(read_all(strips, ranges));
             EXPECT_EQ(test::surface_digest(mesh), test::surface_digest(whole));
             EXPECT_EQ(mesh.vertex_count(), whole.vertex_count());
         }
         SpilledStrips fewer(0);
         spill(fewer, mesh, 100000);
         EXPECT_EQ(fewer.strip_count(), 1u);
-        EXPECT_EQ(test::surface_digest(welded(read_all(fewer, {{0, 1}}))), test::surface_digest(whole));
+        EXPECT_EQ(test::surface_digest(merged(read_all(fewer, {{0, 1}}))), test::surface_digest(whole));
     }
 }
 
@@ -139,8 +139,8 @@ TEST(SpilledStrips, no_vertex_has_faces_in_more_than_two_layers) {
                 next = layer.end;
             }
             EXPECT_EQ(next, strips.strip_count());
-            for (const std::set<std::size_t>& batches : batches_of_vertices(read_all(strips, layers)))
-                EXPECT_LE(*batches.rbegin() - *batches.begin(), 1u);
+            for (const std::set<std::size_t>& chunks : chunks_of_vertices(read_all(strips, layers)))
+                EXPECT_LE(*chunks.rbegin() - *chunks.begin(), 1u);
             if (per_strip == 1) {
                 EXPECT_GT(layers.size(), 3u) << "more than what the test is about";
             }
@@ -156,12 +156,12 @@ MeshedStrip strip_of(std::uint32_t first, std::uint32_t count, const std::vector
 
 TEST(SpilledStrips, layers_are_as_thin_as_the_reach_of_vertices_allows) {
     SpilledStrips strips(0);
-    const VertexEnd end{.vertex = 0, .last_strip = 0, .is_on_hull = false, .is_shared = true};
+    const FinalizedVertex end{.vertex = 0, .last_strip = 0, .is_on_hull = false, .is_shared = true};
     const auto ends = [&](std::uint32_t vertex, std::uint32_t last) {
-        VertexEnd made = end;
+        FinalizedVertex made = end;
         made.vertex = vertex;
         made.last_strip = last;
-        strips.add_end(made);
+        strips.add_finalized(made);
     };
     strips.add(strip_of(0, 2, {0, 1}), 1);
     strips.add(strip_of(2, 0, {1}), 7);
@@ -183,14 +183,14 @@ TEST(SpilledStrips, layers_are_as_thin_as_the_reach_of_vertices_allows) {
     EXPECT_EQ(strips.top_of({4, 4}), -HUGE_VAL);
 }
 
-TEST(SpilledStrips, strips_without_faces_give_batches_without_faces) {
+TEST(SpilledStrips, strips_without_faces_give_chunks_without_faces) {
     SpilledStrips strips(0);
     strips.add(strip_of(0, 0, {}), 0);
     strips.add(strip_of(0, 1, {0}), 0);
     strips.add(strip_of(1, 0, {}), 0);
     strips.finish(true);
-    const std::vector<Chunk> batches = read_all(strips, one_by_one(strips));
-    EXPECT_THAT(std::vector({batches[0].faces.size(), batches[1].faces.size(), batches[2].faces.size()}),
+    const std::vector<Chunk> chunks = read_all(strips, one_by_one(strips));
+    EXPECT_THAT(std::vector({chunks[0].faces.size(), chunks[1].faces.size(), chunks[2].faces.size()}),
                 testing::ElementsAre(0, 1, 0));
     SpilledStrips none(0);
     none.finish(true);
@@ -205,8 +205,9 @@ TEST(SpilledStrips, sides_are_those_of_a_box_or_else_the_hull) {
         for (ChunkVertex& vertex : strip.vertices) vertex.sides = 1 << 2;
         for (int n = 0; n < 2; ++n) strip.faces[n].labels[1] = exterior(n ? kHull : 2);
         strips->add(strip, 0);
-        strips->add_end({.vertex = 0, .last_strip = 0, .is_on_hull = true, .is_shared = false});
-        strips->add_end({.vertex = 2, .last_strip = 0, .is_on_hull = false, .is_shared = false, .is_pinned = true});
+        strips->add_finalized({.vertex = 0, .last_strip = 0, .is_on_hull = true, .is_shared = false});
+        strips->add_finalized(
+            {.vertex = 2, .last_strip = 0, .is_on_hull = false, .is_shared = false, .is_pinned = true});
         strips->finish(strips == &box);
     }
     const auto of_box = read_all(box, {{0, 1}})[0].vertices, of_hull = read_all(bent, {{0, 1}})[0].vertices;

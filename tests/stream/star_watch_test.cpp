@@ -34,14 +34,14 @@ Watched watched(ArrayMesh mesh, const StripOptions& options = {}, std::uint32_t 
     std::uint32_t ended = 0;
     test::mesh_in_strips(ranked, mesher, per_strip, [&] {
         watch.add(mesher.strip());
-        watch.judge(mesher.ended());
+        watch.judge(mesher.finalized());
         for (const ChunkVertex& vertex : mesher.strip().vertices) result.whole.add_vertex(vertex.position);
         for (const ChunkFace& face : mesher.strip().faces) {
             const auto& v = face.vertices;
             result.whole.add_face(VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}, face.labels[0],
                                   is_exterior(face.labels[1]) ? exterior(kHull) : face.labels[1]);
         }
-        for (const VertexEnd& end : mesher.ended()) {
+        for (const FinalizedVertex& end : mesher.finalized()) {
             if (end.is_pinned) result.pinned.insert(end.vertex);
             if (end.is_on_hull) result.whole[VertexId{end.vertex}].sides = kOnHull;
             ++ended;

@@ -55,22 +55,22 @@ ArrayMesh by_cells(const ArrayMesh& mesh);
 using KeepsCell = std::function<bool(std::uint32_t, std::uint32_t, std::uint32_t)>;
 ArrayMesh carved(const ArrayMesh& mesh, Size size, const KeepsCell& keeps);
 
-/// Meshes them in strips of so many tetrahedra each; end_strip() takes what the mesher has made of one.
+/// Meshes them in strips of `per_strip` tetrahedra each; end_strip() takes the strip from the mesher.
 template <class EndStrip>
 void mesh_in_strips(RankedTetrahedra& ranked, TetrahedronMesher& mesher, std::uint32_t per_strip,
                     EndStrip&& end_strip) {
     std::uint32_t count = 0, strip = 0;
     const auto end = [&] {
         end_strip();
-        mesher.ended().clear();
+        mesher.finalized().clear();
         mesher.begin_strip(++strip);
     };
     for (RankedTetrahedron t; ranked.sorted.next(t);) {
-        mesher.close_before(t.corners[0]);
+        mesher.finalize_before(t.corners[0]);
         if (++count % per_strip == 0) end();
         mesher.add(t);
     }
-    mesher.close_all();
+    mesher.finalize_all();
     end();
 }
 

@@ -1,4 +1,4 @@
-// The nodes, edges and triangles that tetrahedra still to come may have.
+// The active nodes, edges and triangles: those that tetrahedra to come may share.
 #pragma once
 
 #include <array>
@@ -15,18 +15,18 @@ namespace regionmesh {
 using SimplexKey = std::array<std::uint32_t, 3>;
 inline constexpr std::uint32_t kNoRank = 0xFFFFFFFFu;
 
-/// Finds what is noted of a simplex by its corners: open addressing, by hash. Simplices are let go of by their lowest
-/// corner, in order: so many bytes are held as the front of the tetrahedra is wide.
+/// Notes by simplex: a hash table with open addressing over the corners. Simplices are released by their lowest corner,
+/// in order, so the bytes held are proportional to the width of the active set.
 template <class Note>
-class OpenSimplices {
+class ActiveSimplices {
 public:
     struct Simplex {
         SimplexKey corners;
-        std::uint32_t next;  // of those with the same lowest corner, or of free places
+        std::uint32_t next;  // with the same lowest corner, or of the free places
         Note note;
     };
 
-    /// The place of what is noted of a simplex; a note like new where there was none.
+    /// The place of the note of a simplex; a default note where there was none.
     std::uint32_t find_or_add(const SimplexKey& corners, bool* is_new = nullptr) {
         if (2 * (used_ + 1) > table_.size()) grow();
         std::size_t at = first_slot(corners);
@@ -53,7 +53,7 @@ public:
         }
     }
 
-    /// Lets go of all whose lowest corner is `rank`. Ranks are let go of in order.
+    /// Releases all simplices whose lowest corner is `rank`. Ranks are released in order.
     void drop(std::uint32_t rank) {
         if (rank >= heads_.end()) heads_.grow(rank + 1, kNone);
         for (std::uint32_t place = heads_[rank]; place != kNone;) {
@@ -99,7 +99,7 @@ private:
         return place;
     }
 
-    /// Others that were put behind it move up, so that no gap parts them from their first slot.
+    /// Moves up the entries behind it, so that no gap separates them from their first slot.
     void erase(std::uint32_t place) {
         std::size_t gap = first_slot(simplices_[place].corners);
         while (table_[gap] != place) gap = (gap + 1) & mask();

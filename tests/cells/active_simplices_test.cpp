@@ -1,4 +1,4 @@
-#include "cells/open_simplices.h"
+#include "cells/active_simplices.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace regionmesh {
 namespace {
 
-using Simplices = OpenSimplices<std::uint64_t>;
+using Simplices = ActiveSimplices<std::uint64_t>;
 
 /// A node, an edge or a triangle near a rank.
 SimplexKey random_key(test::Random& random, std::uint32_t lowest, std::uint32_t reach) {
@@ -28,7 +28,7 @@ std::set<SimplexKey> keys_of_lowest(Simplices& simplices, std::uint32_t rank) {
     return keys;
 }
 
-TEST(OpenSimplices, notes_are_found_as_in_a_map_while_the_front_moves) {
+TEST(ActiveSimplices, notes_are_found_as_in_a_map_while_the_sweep_moves) {
     for (std::uint32_t reach : {2u, 7u, 40u}) {
         test::Random random(reach);
         Simplices simplices;
@@ -58,7 +58,7 @@ TEST(OpenSimplices, notes_are_found_as_in_a_map_while_the_front_moves) {
     }
 }
 
-TEST(OpenSimplices, many_keys_that_differ_in_one_corner_only_are_kept_apart) {
+TEST(ActiveSimplices, many_keys_that_differ_in_one_corner_only_are_kept_apart) {
     for (int corner = 0; corner < 3; ++corner) {
         Simplices simplices;
         const auto key = [&](std::uint32_t n) {
@@ -71,7 +71,7 @@ TEST(OpenSimplices, many_keys_that_differ_in_one_corner_only_are_kept_apart) {
     }
 }
 
-TEST(OpenSimplices, what_was_let_go_of_makes_room) {
+TEST(ActiveSimplices, what_was_let_go_of_makes_room) {
     Simplices simplices;
     std::size_t bytes = 0;
     for (std::uint32_t rank = 0; rank < 3000; ++rank) {
@@ -82,7 +82,7 @@ TEST(OpenSimplices, what_was_let_go_of_makes_room) {
     EXPECT_LE(simplices.bytes(), 2 * bytes);
 }
 
-TEST(OpenSimplices, ranks_may_be_let_go_of_that_have_nothing) {
+TEST(ActiveSimplices, ranks_may_be_let_go_of_that_have_nothing) {
     Simplices simplices;
     for (std::uint32_t rank = 0; rank < 10; ++rank) simplices.drop(rank);
     simplices[simplices.find_or_add({12, kNoRank, kNoRank})].note = 5;
@@ -93,7 +93,7 @@ TEST(OpenSimplices, ranks_may_be_let_go_of_that_have_nothing) {
     EXPECT_EQ(simplices[simplices.find_or_add({12, kNoRank, kNoRank})].note, 5u);
 }
 
-TEST(OpenSimplices, a_visit_may_add_others) {
+TEST(ActiveSimplices, a_visit_may_add_others) {
     Simplices simplices;
     for (std::uint32_t n = 1; n < 100; ++n) simplices.find_or_add({0, n, kNoRank});
     int visits = 0;
