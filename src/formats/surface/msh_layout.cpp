@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "formats/surface/corners.h"
+#include "formats/surface/file_surface.h"
+#include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/vtk/label_array.h"
 
@@ -69,7 +69,7 @@ MshView read_view(MshStream& stream, bool is_cell) {
 
 void add_position(const MshStream& stream, MshNodes& nodes, Vec3 p, double scale_z) {
     p.z *= scale_z;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+    if (!is_finite(p))
         stream.fail(fmt::format("node {} has a coordinate that is not finite",
                                 nodes.tags[static_cast<std::uint32_t>(nodes.positions.size())]));
     nodes.positions.push_back(p);
@@ -82,7 +82,7 @@ Vec3 read_place(MshStream& stream) {
 }
 
 void add_tag(const MshStream& stream, MshTags& tags, std::uint64_t tag) {
-    if (tags.size() == kMostPoints) stream.fail("more than 2^32 - 1 nodes or values; that many cannot be read");
+    if (tags.size() == kMostPoints) stream.fail("more than 2^32 - 2 nodes or values; that many cannot be read");
     tags.add(tag);
 }
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "formats/surface/corners.h"
 #include "formats/surface/msh_elements.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
+#include "formats/surface/file_surface.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/vtk/vtu_cells.h"
 
@@ -44,21 +44,19 @@ VtuReader::VtuReader(const std::filesystem::path& path, const TetrahedraOptions&
 }
 
 void VtuReader::read_points(const VtuPiece& piece, LabelledPoints& points) const {
-    const pugi::xml_node array = piece.node.child("Points").child("DataArray");
-    if (std::string_view(array.attribute("NumberOfComponents").value()) != "3")
-        fail(grid_.path, "needs an array of points with three components");
-    VtkNumbers numbers(grid_.path, grid_.tags, array, 3 * piece.points);
+    VtkNumbers numbers = points_of(grid_.xml, piece.node, piece.points);
     for (std::uint64_t i = 0; i < piece.points; ++i) {
-        Vec3 p;
-        for (int axis = 0; axis < 3; ++axis) p[axis] = numbers.real();
+        Vec3 p = numbers.point();
         p.z *= info_.scale_z;
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            fail(grid_.path, fmt::format("point {} has a coordinate that is not finite", points.positions.size()));
+        if (!is_finite(p))
+            grid_.xml.fail(fmt::format("point {} has a coordinate that is not finite", points.positions.size()));
         points.positions.push_back(p);
     }
+    numbers.finish();
     if (info_.has_cell_labels) return;
-    VtkNumbers labels(grid_.path, grid_.tags, grid_.label_array(piece), piece.points);
+    VtkNumbers labels(grid_.xml, grid_.label_array(piece), piece.points);
     for (std::uint64_t i = 0; i < piece.points; ++i) points.labels.push_back(labels.integer());
+    labels.finish();
 }
 
 LabelledPoints VtuReader::take_points() {

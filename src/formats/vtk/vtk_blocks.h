@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/vtk/vtk_xml_tags.h"
+#include "formats/vtk/vtk_xml.h"
 
 namespace regionmesh::formats {
 

@@ -7,14 +7,14 @@
 #include <string_view>
 #include <utility>
 
-#include "formats/surface/corners.h"
+#include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
-#include "formats/vtk/vtk_arrays.h"
 
 namespace regionmesh::formats {
 namespace {
 
 constexpr std::int64_t kTetrahedron = 10;
+constexpr std::uint64_t kMostCells = 0xFFFFFFFFu;
 constexpr std::int64_t kDuplicateOrHidden = 1 | 32;  // of vtkGhostType: cells of another piece, or taken out
 
 /// VTK's cells of two dimensions at most: linear, quadratic, and of Lagrange and Bezier.
@@ -31,71 +31,45 @@ constexpr std::array<std::pair<std::int64_t, const char*>, 8> kSolids{{{11, "a v
                                                                        {78, "a Bezier tetrahedron"}}};
 constexpr std::array<std::int64_t, 3> kCurvedTetrahedra{24, 71, 78};
 
-std::uint64_t components(pugi::xml_node array) {
-    const std::string_view text = array.attribute("NumberOfComponents").value();
-    return text.empty() ? 1 : parse_size(text).value_or(0);
-}
-
-std::vector<MeshArray> arrays_of(pugi::xml_node piece) {
+/// The arrays that may have the labels: no numbers of cells and points that the grid declares.
+std::vector<MeshArray> label_candidates(pugi::xml_node piece) {
     std::vector<MeshArray> arrays;
-    for (const bool is_cell : {true, false}) {
-        const pugi::xml_node data = piece.child(is_cell ? "CellData" : "PointData");
-        const std::string_view ids = data.attribute("GlobalIds").value();
-        for (const pugi::xml_node node : data.children("DataArray")) {
-            const std::string name = node.attribute("Name").value(), type = node.attribute("type").value();
-            if (!is_vtk_integer(type) && !is_vtk_real(type)) continue;
-            if (!ids.empty() && name == ids) continue;
-            arrays.push_back({name, is_cell, is_vtk_integer(type), type, components(node)});
-        }
-    }
+    for (const pugi::xml_node node : arrays_of(piece, true))
+        if (const std::string_view ids = node.parent().attribute("GlobalIds").value();
+            ids.empty() || node.attribute("Name").value() != ids)
+            arrays.push_back(describe(node));
     return arrays;
 }
 
 }  // namespace
 
-VtuGrid::VtuGrid(const std::filesystem::path& file) : path(file), tags(InputFile(file)) {
-    const pugi::xml_node grid = tags.root().child("UnstructuredGrid");
-    if (!grid) fail(path, "is no VTK XML file with UnstructuredGrid, as tetrahedra need");
-    const auto count = [&](pugi::xml_node piece, const char* name) {
-        const std::string_view text = piece.attribute(name).value();
-        const auto number = text.empty() ? 0 : parse_size(text);
-        if (!number || *number > kMostPoints)
-            fail(path, fmt::format("{} is '{}': a count below 2^32 is needed", name, shown(text)));
-        return *number;
-    };
-    for (const pugi::xml_node node : grid.children("Piece")) {
-        const VtuPiece piece{node, count(node, "NumberOfPoints"), count(node, "NumberOfCells"), point_count};
+VtuGrid::VtuGrid(const std::filesystem::path& file) : xml(file, "UnstructuredGrid") {
+    for (const pugi::xml_node node : xml.dataset().children("Piece")) {
+        const VtuPiece piece{node, xml.count(node, "NumberOfPoints", kMostPoints),
+                             xml.count(node, "NumberOfCells", kMostCells), point_count};
         if (piece.cells == 0) continue;
         point_count += piece.points;
         cell_count += piece.cells;
         pieces.push_back(piece);
     }
-    if (point_count > kMostPoints) fail(path, fmt::format("has {} points; 2^32 - 1 can be read", point_count));
-    if (cell_count == 0) fail(path, "has no cells; write it with tetrahedra");
+    if (point_count > kMostPoints) xml.fail(fmt::format("has {} points; 2^32 - 2 can be read", point_count));
+    if (cell_count == 0) xml.fail("has no cells; write it with tetrahedra");
 }
 
 void VtuGrid::choose_labels(const std::string& wanted) {
-    const std::vector<MeshArray> arrays = arrays_of(pieces[0].node);
-    labels = arrays[choose_label_array(path, arrays, wanted)];
+    const std::vector<MeshArray> arrays = label_candidates(pieces[0].node);
+    labels = arrays[choose_label_array(xml.path(), arrays, wanted)];
     for (const VtuPiece& piece : pieces)
-        if (label_array(piece).attribute("type").value() != labels.type || components(label_array(piece)) != 1)
-            fail(path, fmt::format("array '{}' is not the same in all pieces; write the grid as one piece",
-                                   shown(labels.name)));
+        if (const MeshArray other = describe(label_array(piece)); other.type != labels.type || other.components != 1)
+            xml.fail(fmt::format("array '{}' is not the same in all pieces; write the grid as one piece",
+                                 shown(labels.name)));
 }
 
 pugi::xml_node VtuGrid::label_array(const VtuPiece& piece) const {
     return array_named(piece.node.child(labels.is_cell ? "CellData" : "PointData"), labels.name.c_str());
 }
 
-VtkNumbers VtuGrid::open(pugi::xml_node parent, const char* name, std::optional<std::uint64_t> count) const {
-    const pugi::xml_node array = array_named(parent, name);
-    if (!array) fail(path, fmt::format("needs the array '{}' in {}", name, parent.empty() ? "Cells" : parent.name()));
-    return {path, tags, array, count};
-}
-
-void VtuCells::fail(const std::string& text) const {
-    formats::fail(grid_.path, fmt::format("cell {} {}", cell(), text));
-}
+void VtuCells::fail(const std::string& text) const { grid_.xml.fail(fmt::format("cell {} {}", cell(), text)); }
 
 void VtuCells::refuse(std::int64_t type) const {
     const auto found = std::find_if(kSolids.begin(), kSolids.end(), [&](const auto& s) { return s.first == type; });
@@ -111,13 +85,14 @@ void VtuCells::open_piece(const VtuPiece& piece) {
     left_ = piece.cells;
     offset_ = 0;
     const pugi::xml_node cells = piece.node.child("Cells"), data = piece.node.child("CellData");
-    types_.emplace(grid_.open(cells, "types", left_));
+    const auto array = [&](const char* name) { return grid_.xml.required_array(cells, name); };
+    types_.emplace(grid_.xml, array("types"), left_);
     ghosts_.reset();
-    if (array_named(data, "vtkGhostType")) ghosts_.emplace(grid_.open(data, "vtkGhostType", left_));
+    if (const auto ghosts = array_named(data, "vtkGhostType")) ghosts_.emplace(grid_.xml, ghosts, left_);
     if (depth_ == Depth::kTypes) return;
-    offsets_.emplace(grid_.open(cells, "offsets", left_));
-    corners_.emplace(grid_.open(cells, "connectivity", std::nullopt));
-    if (grid_.labels.is_cell) labels_.emplace(grid_.path, grid_.tags, grid_.label_array(piece), left_);
+    offsets_.emplace(grid_.xml, array("offsets"), left_);
+    corners_.emplace(grid_.xml, array("connectivity"), std::nullopt);
+    if (grid_.labels.is_cell) labels_.emplace(grid_.xml, grid_.label_array(piece), left_);
 }
 
 bool VtuCells::next(LabelledTetrahedron& tetrahedron) {

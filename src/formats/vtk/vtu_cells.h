@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "formats/vtk/label_array.h"
 #include "formats/vtk/vtk_numbers.h"
 #include "regionmesh/tetrahedron_reader.h"
 
@@ -20,7 +19,7 @@ struct VtuPiece {
     std::uint64_t first_point = 0;
 };
 
-/// The tags of a file. Throws Error(kInput) that names the file.
+/// The pieces of a file. Throws Error(kInput) that names the file.
 struct VtuGrid {
     explicit VtuGrid(const std::filesystem::path& file);
 
@@ -28,11 +27,9 @@ struct VtuGrid {
 
     /// The array with labels in one of the pieces.
     pugi::xml_node label_array(const VtuPiece& piece) const;
-    VtkNumbers open(pugi::xml_node parent, const char* name, std::optional<std::uint64_t> count) const;
 
-    std::filesystem::path path;
-    VtkXmlTags tags;
-    std::vector<VtuPiece> pieces;  // with cells
+    VtkXml xml;
+    std::vector<VtuPiece> pieces;  // that have cells
     MeshArray labels;
     std::uint64_t point_count = 0, cell_count = 0;
 };
