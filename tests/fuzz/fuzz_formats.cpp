@@ -7,159 +7,158 @@
 #include <cstdlib>
 
 #include "boreholes/point_table.h"
-"formats/surface/tetrahedron_formats.h"
+#include "formats/surface/tetrahedron_formats.h"
 #include "regionmesh/fix_unsound.h"
 #include "regionmesh/label_names_file.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/simplify.h"
 
-    namespace regionmesh::fuzz {
-    namespace {
+namespace regionmesh::fuzz {
+namespace {
 
-    namespace fs = std::filesystem;
+namespace fs = std::filesystem;
 
-    constexpr std::size_t kMostSections = 40;
-    constexpr std::size_t kMostSamples = std::size_t{1} << 20;  // a section's own memory is the caller's choice
+constexpr std::size_t kMostSections = 40;
+constexpr std::size_t kMostSamples = std::size_t{1} << 20;  // a section's own memory is the caller's choice
 
-    void pull_sections(SectionReader& reader) {
-        const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
-        if (samples > kMostSamples) return;
-        std::vector<InputLabel> section(samples);
-        for (std::size_t count = 0; count < kMostSections && reader.next(section); ++count) continue;
+void pull_sections(SectionReader& reader) {
+    const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
+    if (samples > kMostSamples) return;
+    std::vector<InputLabel> section(samples);
+    for (std::size_t count = 0; count < kMostSections && reader.next(section); ++count) continue;
+}
+
+void read_volume(const fs::path& path, ReadOptions options, Random& random) {
+    constexpr std::array kSweeps{SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
+    if (random.one_in(2)) options.sweep = kSweeps[random.below(3)];
+    if (random.one_in(4)) options.layer = static_cast<std::uint32_t>(random.below(3));
+    const auto reader = open_sections({path}, options);
+    pull_sections(*reader);
+    if (!reader->info().can_rewind) return;
+    reader->rewind();
+    pull_sections(*reader);
+}
+
+void volume(const fs::path& path, Random& random) { read_volume(path, {}, random); }
+
+/// One of the datasets of the seeds, which hold several.
+void hdf5(const fs::path& path, Random& random) {
+    constexpr std::array kDatasets{"",
+                                   "/contiguous/uint16",
+                                   "/big/gzip_int32",
+                                   "/packed/offset_uint16",
+                                   "/missing",
+                                   "/enum",
+                                   "/int24",
+                                   "/exported_data",
+                                   "/resolution",
+                                   "/one",
+                                   "/contiguous",
+                                   "/packed/sums_uint16"};
+    const std::string dataset = kDatasets[random.below(kDatasets.size())];
+    read_volume(dataset.empty() ? path : fs::path(path.string() + ":" + dataset), {}, random);
+}
+
+/// Bare samples: what may be wrong is what the options say.
+void raw(const fs::path& path, Random& random) {
+    ReadOptions options;
+    options.raw_type = static_cast<SampleType>(random.below(9));
+    options.raw_size.emplace();
+    for (std::uint32_t& size : *options.raw_size)
+        size = static_cast<std::uint32_t>(random.one_in(8) ? random.next() >> random.below(64) : 1 + random.below(6));
+    if (random.one_in(2)) {
+        options.raw_type = SampleType::kU8;
+        options.raw_size = {static_cast<std::uint32_t>(fs::file_size(path)), 1, 1};
     }
+    read_volume(path, options, random);
+}
 
-    void read_volume(const fs::path& path, ReadOptions options, Random& random) {
-        constexpr std::array kSweeps{SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
-        if (random.one_in(2)) options.sweep = kSweeps[random.below(3)];
-        if (random.one_in(4)) options.layer = static_cast<std::uint32_t>(random.below(3));
-        const auto reader = open_sections({path}, options);
-        pull_sections(*reader);
-        if (!reader->info().can_rewind) return;
-        reader->rewind();
-        pull_sections(*reader);
+constexpr std::uint32_t kMostFaces = 2000;  // of what is worked on
+
+/// What can be read is also checked and decimated: no surface may be too odd.
+void mesh(const fs::path& path, Random& random) {
+    ReadMeshOptions options{.orient = random.one_in(2)};
+    if (random.one_in(2)) options.weld = random.one_in(2) ? 0 : 0.01;
+    MeshFile file = read_mesh(path, options);
+    if (file.mesh.face_count() > kMostFaces) return;
+    check(file.mesh, {.threads = 1});
+    file.mesh.sort_spatially();
+    fix_unsound(file.mesh, {.threads = 1});
+    decimate(file.mesh, {.target_faces = file.mesh.face_count() / 4});
+}
+
+constexpr std::size_t kMostTetrahedra = std::size_t{1} << 22;
+
+/// Labels by the reader's choice, or by a name that some seeds have.
+void tetrahedra(const fs::path& path, Random& random) {
+    constexpr std::array kArrays{"region", "tissue", "gmsh:geometrical", "label", "temperature"};
+    TetrahedraOptions options;
+    if (random.one_in(3)) options.array = kArrays[random.below(kArrays.size())];
+    if (random.one_in(4)) options.scale_z = 1e300;
+    const auto reader =
+        path.extension() == ".msh" ? formats::open_msh(path, options) : formats::open_vtu(path, options);
+    const LabelledPoints points = reader->take_points();
+    if (!points.positions.empty()) reader->name_of_point(static_cast<std::uint32_t>(points.positions.size() - 1));
+    std::vector<LabelledTetrahedron> some(1 + random.below(1000));
+    std::size_t count = 0;
+    while (const std::size_t got = count < kMostTetrahedra ? reader->next(some) : 0) {
+        for (std::size_t i = 0; i < got; ++i)
+            for (const std::uint32_t corner : some[i].corners)
+                if (corner >= points.positions.size()) std::abort();
+        count += got;
     }
+    if (count > 0) reader->name_of_tetrahedron(count - 1);
+}
 
-    void volume(const fs::path& path, Random& random) { read_volume(path, {}, random); }
+void names(const fs::path& path, Random&) { read_label_names(path); }
 
-    /// One of the datasets of the seeds, which hold several.
-    void hdf5(const fs::path& path, Random& random) {
-        constexpr std::array kDatasets{"",
-                                       "/contiguous/uint16",
-                                       "/big/gzip_int32",
-                                       "/packed/offset_uint16",
-                                       "/missing",
-                                       "/enum",
-                                       "/int24",
-                                       "/exported_data",
-                                       "/resolution",
-                                       "/one",
-                                       "/contiguous",
-                                       "/packed/sums_uint16"};
-        const std::string dataset = kDatasets[random.below(kDatasets.size())];
-        read_volume(dataset.empty() ? path : fs::path(path.string() + ":" + dataset), {}, random);
-    }
+/// Drill holes are cut by a step that makes few points of them.
+void points(const fs::path& path, Random& random) {
+    constexpr std::array kColumns{"1,2,3,4", "x=1,y=2,label=4",         "z=1,x=4", "hole=1,top=5,bottom=6",
+                                  "name=5",  "label=lith,hole=Hole_ID", "x"};
+    TetrahedraOptions options;
+    if (random.one_in(2)) options.columns = kColumns[random.below(kColumns.size())];
+    const formats::PointTable table = formats::read_point_table(path, options);
+    if (random.one_in(2)) return;
+    double farthest = 0;
+    for (const Vec3& position : table.points.positions) farthest = std::max(farthest, std::abs(position.z));
+    options.step = farthest / 20;
+    formats::read_point_table(path, options);
+}
 
-    /// Bare samples: what may be wrong is what the options say.
-    void raw(const fs::path& path, Random& random) {
-        ReadOptions options;
-        options.raw_type = static_cast<SampleType>(random.below(9));
-        options.raw_size.emplace();
-        for (std::uint32_t& size : *options.raw_size)
-            size =
-                static_cast<std::uint32_t>(random.one_in(8) ? random.next() >> random.below(64) : 1 + random.below(6));
-        if (random.one_in(2)) {
-            options.raw_type = SampleType::kU8;
-            options.raw_size = {static_cast<std::uint32_t>(fs::file_size(path)), 1, 1};
-        }
-        read_volume(path, options, random);
-    }
+}  // namespace
 
-    constexpr std::uint32_t kMostFaces = 2000;  // of what is worked on
-
-    /// What can be read is also checked and decimated: no surface may be too odd.
-    void mesh(const fs::path& path, Random& random) {
-        ReadMeshOptions options{.orient = random.one_in(2)};
-        if (random.one_in(2)) options.weld = random.one_in(2) ? 0 : 0.01;
-        MeshFile file = read_mesh(path, options);
-        if (file.mesh.face_count() > kMostFaces) return;
-        check(file.mesh, {.threads = 1});
-        file.mesh.sort_spatially();
-        fix_unsound(file.mesh, {.threads = 1});
-        decimate(file.mesh, {.target_faces = file.mesh.face_count() / 4});
-    }
-
-    constexpr std::size_t kMostTetrahedra = std::size_t{1} << 22;
-
-    /// Labels by the reader's choice, or by a name that some seeds have.
-    void tetrahedra(const fs::path& path, Random& random) {
-        constexpr std::array kArrays{"region", "tissue", "gmsh:geometrical", "label", "temperature"};
-        TetrahedraOptions options;
-        if (random.one_in(3)) options.array = kArrays[random.below(kArrays.size())];
-        if (random.one_in(4)) options.scale_z = 1e300;
-        const auto reader =
-            path.extension() == ".msh" ? formats::open_msh(path, options) : formats::open_vtu(path, options);
-        const LabelledPoints points = reader->take_points();
-        if (!points.positions.empty()) reader->name_of_point(static_cast<std::uint32_t>(points.positions.size() - 1));
-        std::vector<LabelledTetrahedron> some(1 + random.below(1000));
-        std::size_t count = 0;
-        while (const std::size_t got = count < kMostTetrahedra ? reader->next(some) : 0) {
-            for (std::size_t i = 0; i < got; ++i)
-                for (const std::uint32_t corner : some[i].corners)
-                    if (corner >= points.positions.size()) std::abort();
-            count += got;
-        }
-        if (count > 0) reader->name_of_tetrahedron(count - 1);
-    }
-
-    void names(const fs::path& path, Random&) { read_label_names(path); }
-
-    /// Drill holes are cut by a step that makes few points of them.
-    void points(const fs::path& path, Random& random) {
-        constexpr std::array kColumns{"1,2,3,4", "x=1,y=2,label=4",         "z=1,x=4", "hole=1,top=5,bottom=6",
-                                      "name=5",  "label=lith,hole=Hole_ID", "x"};
-        TetrahedraOptions options;
-        if (random.one_in(2)) options.columns = kColumns[random.below(kColumns.size())];
-        const formats::PointTable table = formats::read_point_table(path, options);
-        if (random.one_in(2)) return;
-        double farthest = 0;
-        for (const Vec3& position : table.points.positions) farthest = std::max(farthest, std::abs(position.z));
-        options.step = farthest / 20;
-        formats::read_point_table(path, options);
-    }
-
-    }  // namespace
-
-    std::span<const Format> formats() {
-        static const std::array kFormats{
-            Format{"npy", "npy", {".npy"}, volume},
-            Format{"nifti", "nifti", {".nii", ".gz"}, volume},
-            Format{"tiff", "tiff", {".tif"}, volume},
-            Format{"png", "png", {".png"}, volume},
-            Format{"raw", "nrrd", {".raw"}, raw},
-            Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
-            Format{"meta", "meta", {".mha", ".mhd"}, volume},
-            Format{"vti", "vti", {".vti"}, volume},
-            Format{"inr", "inr", {".inr", ".gz"}, volume},
-            Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
-            Format{"points", "points", {".csv", ".tsv"}, points},
-            Format{"hdf5", "chunked", {".h5"}, hdf5},
-            Format{"dream3d", "chunked", {".dream3d"}, volume},
-            Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
-            Format{"zarr3", "chunked/zarr3", {}, volume, ".zarr"},
-            Format{"ome", "chunked/ome", {}, volume, ".zarr"},
-            Format{"n5", "chunked/n5", {}, volume, ".n5"},
-            Format{"vtp", "", {".vtp"}, mesh},
-            Format{"vtu", "surfaces", {".vtu"}, mesh},
-            Format{"vtu_mesh", "meshes", {".vtu"}, tetrahedra},
-            Format{"msh_mesh", "meshes", {".msh"}, tetrahedra},
-            Format{"ply", "ply", {".ply"}, mesh},
-            Format{"plies", "surfaces", {".ply"}, mesh},
-            Format{"stl", "surfaces", {".stl"}, mesh},
-            Format{"obj", "surfaces", {".obj"}, mesh},
-            Format{"dream3d_faces", "surfaces", {".dream3d"}, mesh},
-        };
-        return kFormats;
-    }
+std::span<const Format> formats() {
+    static const std::array kFormats{
+        Format{"npy", "npy", {".npy"}, volume},
+        Format{"nifti", "nifti", {".nii", ".gz"}, volume},
+        Format{"tiff", "tiff", {".tif"}, volume},
+        Format{"png", "png", {".png"}, volume},
+        Format{"raw", "nrrd", {".raw"}, raw},
+        Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
+        Format{"meta", "meta", {".mha", ".mhd"}, volume},
+        Format{"vti", "vti", {".vti"}, volume},
+        Format{"inr", "inr", {".inr", ".gz"}, volume},
+        Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
+        Format{"points", "points", {".csv", ".tsv"}, points},
+        Format{"hdf5", "chunked", {".h5"}, hdf5},
+        Format{"dream3d", "chunked", {".dream3d"}, volume},
+        Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
+        Format{"zarr3", "chunked/zarr3", {}, volume, ".zarr"},
+        Format{"ome", "chunked/ome", {}, volume, ".zarr"},
+        Format{"n5", "chunked/n5", {}, volume, ".n5"},
+        Format{"vtp", "", {".vtp"}, mesh},
+        Format{"vtu", "surfaces", {".vtu"}, mesh},
+        Format{"vtu_mesh", "meshes", {".vtu"}, tetrahedra},
+        Format{"msh_mesh", "meshes", {".msh"}, tetrahedra},
+        Format{"ply", "ply", {".ply"}, mesh},
+        Format{"plies", "surfaces", {".ply"}, mesh},
+        Format{"stl", "surfaces", {".stl"}, mesh},
+        Format{"obj", "surfaces", {".obj"}, mesh},
+        Format{"dream3d_faces", "surfaces", {".dream3d"}, mesh},
+    };
+    return kFormats;
+}
 
 }  // namespace regionmesh::fuzz
