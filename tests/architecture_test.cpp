@@ -75,7 +75,6 @@ const std::map<std::string, std::string> kRoomOfHeader{
     {"output_file.h", "formats"},
     {"read_sections.h", "formats"},
     {"read_tetrahedra.h", "formats"},
-    {"write_compare.h", "formats"},
     {"write_report.h", "formats"},
 };
 

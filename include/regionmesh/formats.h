@@ -6,5 +6,4 @@
 #include "regionmesh/output_file.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
-#include "regionmesh/write_compare.h"
 #include "regionmesh/write_report.h"

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "boreholes/delaunay_program.h"
+#include "formats/surface/tetrahedron_formats.h"
 #include "regionmesh/error.h"
+#include "volume/exact_grid.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -143,6 +145,12 @@ std::unique_ptr<TetrahedronReader> open_points(PointTable table, const Tetrahedr
         throw Error(ErrorCode::kInput, table.info.source + ": " + std::to_string(count) +
                                            (count == 1 ? " point" : " points") + "; tetrahedra need at least four");
     return std::make_unique<DelaunayReader>(std::move(table), find_delaunay(options.delaunay));
+}
+
+std::unique_ptr<TetrahedronReader> open_table(const std::filesystem::path& path, const TetrahedraOptions& options) {
+    PointTable table = read_point_table(path, options);
+    move_to_exact_grid(table.points.positions);
+    return open_points(std::move(table), options);
 }
 
 }  // namespace regionmesh::formats

@@ -3,10 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "boreholes/point_table.h"
 #include "formats/piped_program.h"
-#include "formats/surface/tetrahedron_formats.h"
 
 namespace regionmesh::formats {
 
@@ -39,5 +43,8 @@ private:
     std::optional<std::uint64_t> left_;  // tetrahedra; unknown before the header
     std::vector<Corners> piece_;
 };
+
+/// Points of a table and their Delaunay tetrahedra. Throws Error(kInput) for fewer than four points.
+std::unique_ptr<TetrahedronReader> open_points(PointTable table, const TetrahedraOptions& options);
 
 }  // namespace regionmesh::formats

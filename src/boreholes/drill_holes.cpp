@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "formats/input_file.h"
+#include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
 
 namespace regionmesh::formats {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "boreholes/point_table.h"
 #include "boreholes/table_labels.h"
-#include "formats/surface/tetrahedron_formats.h"
 
 namespace regionmesh::formats {
 
@@ -36,8 +36,5 @@ void refuse_overlaps(const DrillHoles& holes, const TableLabels& labels);
 /// than `step`, or the middle of each without one. Each gets its interval's row, and as label the number that
 /// TableLabels gave it. Throws before it appends any where there would be more points than kMostPoints.
 void append_points(const DrillHoles& holes, std::optional<double> step, PointTable& table);
-
-/// No table may have more points: the core counts them in 32 bits, and keeps the highest number for itself.
-inline constexpr std::uint64_t kMostPoints = 0xFFFFFFFEu;
 
 }  // namespace regionmesh::formats

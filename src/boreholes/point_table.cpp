@@ -1,3 +1,5 @@
+#include "boreholes/point_table.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "boreholes/csv_rows.h"
 #include "boreholes/drill_holes.h"
 #include "boreholes/table_columns.h"
 #include "boreholes/table_labels.h"
 #include "formats/surface/tetrahedron_formats.h"
+#include "formats/text/csv_rows.h"
 #include "formats/text/header_text.h"
 
 namespace regionmesh::formats {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "boreholes/csv_rows.h"
+#include "formats/text/csv_rows.h"
 
 namespace regionmesh::formats {
 

@@ -13,33 +13,15 @@
 namespace regionmesh::formats {
 namespace {
 
-/// A whole number as bits, and whether only an unsigned or only a signed one has them. Programs that know of no
-/// missing integers write "3.0".
-struct Whole {
-    std::uint64_t bits = 0;
-    bool is_negative = false, is_large = false;
-};
-
-std::optional<Whole> parse_label(std::string_view text) {
-    const std::size_t point = text.find('.');
-    if (point != std::string_view::npos && point > 0 &&
-        text.find_first_not_of('0', point + 1) == std::string_view::npos)
-        text = text.substr(0, point);
-    if (const auto number = parse_integer(text)) return Whole{static_cast<std::uint64_t>(*number), *number < 0, false};
-    if (const auto number = parse_size(text)) return Whole{*number, false, true};
-    return std::nullopt;
-}
-
-/// Nothing where they are no numbers of one type.
+/// Nothing where they are no numbers of one type: some below 0, or some above 2^63 - 1, but not both.
 std::optional<std::vector<InputLabel>> numbers_of(const TextTable& texts, bool& is_unsigned) {
     std::vector<InputLabel> labels(texts.size());
     bool has_negative = false, has_large = false;
     for (std::uint32_t i = 0; i < texts.size(); ++i) {
-        const auto label = parse_label(texts.text(i));
+        const auto label = parse_table_label(texts.text(i));
         if (!label) return std::nullopt;
-        labels[i] = static_cast<InputLabel>(label->bits);
-        has_negative |= label->is_negative;
-        has_large |= label->is_large;
+        labels[i] = *label;
+        (texts.text(i).starts_with('-') ? has_negative : has_large) |= *label < 0;
     }
     if (has_negative && has_large) return std::nullopt;
     is_unsigned = has_large;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <pugixml.hpp>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "formats/input_file.h"
+#include "formats/text/csv_rows.h"
 #include "formats/text/header_text.h"
 #include "regionmesh/error.h"
 
@@ -26,127 +26,91 @@ using formats::trim;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
 constexpr std::size_t kMostColumns = 1000;
-constexpr std::string_view kBlanks = " \t\r\v\f";
-constexpr char kAnyBlanks = ' ';  // the delimiter of tables without one
+constexpr char kBlank = ' ';  // the separator of tables without another
 
 struct Row {
-    std::size_t line;
+    std::uint64_t number;
     std::vector<std::string> fields;
 };
 
-/// A whole number; spreadsheets may add ".0". Beyond the signed ones, the bits of an unsigned one.
-std::optional<InputLabel> parse_label(std::string_view text) {
-    if (const std::size_t point = text.find('.'); point != std::string_view::npos && point > 0) {
-        if (text.find_first_not_of('0', point + 1) != std::string_view::npos) return std::nullopt;
-        text = text.substr(0, point);
-    }
-    const char* const end = text.data() + text.size();
-    InputLabel label = 0;
-    std::uint64_t bits = 0;
-    if (const auto [stop, error] = std::from_chars(text.data(), end, label); error == std::errc{} && stop == end)
-        return label;
-    if (const auto [stop, error] = std::from_chars(text.data(), end, bits); error == std::errc{} && stop == end)
-        return static_cast<InputLabel>(bits);
-    return std::nullopt;
-}
-
-bool is_label(std::string_view text) { return parse_label(text).has_value(); }
+bool is_label(std::string_view text) { return formats::parse_table_label(text).has_value(); }
 
 bool is_number(std::string_view text) {
-    if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return false;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error != std::errc::invalid_argument && end == text.data() + text.size();
+    return text.find_first_not_of("0123456789+-.eE") == std::string_view::npos && formats::parse_real(text).has_value();
 }
 
-/// The table on its way from text to names.
+/// The same lines, those with comments empty.
+std::string without_comments(std::string_view text) {
+    std::string kept;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n')), words = trim(line);
+        const bool is_comment = words.starts_with('#') || words.starts_with('%') || words.starts_with("//");
+        if (!is_comment) kept += line;
+        kept += '\n';
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+    }
+    return kept;
+}
+
+/// Turns the text of a table into names.
 class TableReader {
 public:
-    TableReader(const fs::path& path, std::string_view text) : path_(path), text_(text) {}
+    TableReader(const fs::path& path, std::string_view text) : path_(path), text_(without_comments(text)) {}
 
     LabelNames read();
 
 private:
-    void split_lines();
-    Row split(std::size_t number, std::string_view line) const;
+    std::vector<Row> split(char separator) const;
+    bool find_rows(char separator);
     void join_words();
     std::optional<std::size_t> column_by_header(const Row& header, std::span<const std::string_view> words,
                                                 bool has_labels, std::optional<std::size_t> other) const;
     std::optional<std::size_t> first_column(bool has_labels) const;
     bool column_has(std::size_t column, bool (*is_wanted)(std::string_view)) const;
-    [[noreturn]] void refuse(std::size_t line, const std::string& text) const {
-        formats::fail(path_, fmt::format("line {}: {}", line, text));
+    [[noreturn]] void refuse(std::uint64_t row, const std::string& text) const {
+        formats::fail(path_, fmt::format("row {}: {}", row, text));
     }
 
     const fs::path& path_;
-    std::string_view text_;
-    char delimiter_ = kAnyBlanks;
+    std::string text_;
     std::vector<Row> rows_;
 };
 
-Row TableReader::split(std::size_t number, std::string_view line) const {
-    Row row{number, {}};
-    const auto skip_blanks = [&] {
-        while (!line.empty() && line[0] != delimiter_ && kBlanks.find(line[0]) != std::string_view::npos)
-            line.remove_prefix(1);
-    };
-    if (delimiter_ == kAnyBlanks) line = trim(line);
-    while (true) {
-        skip_blanks();
-        std::string field;
-        if (!line.empty() && line[0] == '"') {
-            std::size_t i = 1;
-            for (; i < line.size(); ++i) {
-                if (line[i] == '"' && (i + 1 == line.size() || line[i + 1] != '"')) break;
-                if (line[i] == '"') ++i;
-                field += line[i];
-            }
-            if (i >= line.size()) refuse(number, "a quote is not closed; close it");
-            line.remove_prefix(i + 1);
-        }
-        const std::size_t end = delimiter_ == kAnyBlanks ? line.find_first_of(kBlanks) : line.find(delimiter_);
-        field += trim(line.substr(0, end));
-        row.fields.push_back(std::move(field));
-        if (end == std::string_view::npos) return row;
-        line.remove_prefix(end + 1);
-        if (delimiter_ == kAnyBlanks) line = trim(line);
+std::vector<Row> TableReader::split(char separator) const {
+    std::string text = text_;
+    if (separator == kBlank)
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return c == '\t' || c == '\v' || c == '\f'; }, kBlank);
+    std::vector<Row> rows;
+    for (formats::CsvRows found(formats::InputFile(path_), std::move(text), separator); found.next();) {
+        if (found.field_count() > kMostColumns) refuse(found.number(), "has more than 1000 columns: no table of names");
+        Row row{found.number(), {}};
+        for (std::size_t i = 0; i < found.field_count(); ++i)
+            if (separator != kBlank || !found.field(i).empty()) row.fields.emplace_back(found.field(i));
+        rows.push_back(std::move(row));
     }
+    return rows;
 }
 
-/// A delimiter stands on every line, and on the last, which is no header, it sets a label apart no worse than blanks
-/// do.
-void TableReader::split_lines() {
-    std::vector<std::pair<std::size_t, std::string_view>> lines;
-    std::size_t number = 0;
+/// A separator stands in every row, and in the last, which is no header, it separates a label no worse than blanks do.
+bool TableReader::find_rows(char separator) {
     for (std::string_view rest = text_; !rest.empty();) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
-        const std::string_view line = rest.substr(0, end), words = trim(line);
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-        ++number;
-        const bool is_comment = words.empty() || words[0] == '#' || words[0] == '%' || words.starts_with("//");
-        if (!is_comment) lines.emplace_back(number, line);
+        const std::string_view line = formats::take_line(rest);
+        if (!trim(line).empty() && line.find(separator) == std::string_view::npos) return false;
     }
-    const auto separates = [&](char delimiter) {
-        delimiter_ = delimiter;
-        const auto has_it = [&](const auto& line) { return line.second.find(delimiter) != std::string_view::npos; };
-        if (lines.empty() || !std::all_of(lines.begin(), lines.end(), has_it)) return false;
-        const auto& [at, line] = lines.back();
-        const Row last = split(at, line);
-        return std::any_of(last.fields.begin(), last.fields.end(), is_label) ||
-               !is_label(formats::split_words(line)[0]);
-    };
-    if (!separates('\t') && !separates(';') && !separates(',')) delimiter_ = kAnyBlanks;
-    for (const auto& [at, line] : lines) {
-        rows_.push_back(split(at, line));
-        if (rows_.back().fields.size() > kMostColumns) refuse(at, "has more than 1000 columns: no table of names");
-    }
+    rows_ = split(separator);
+    if (rows_.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.fields.size() < 2; }))
+        return false;
+    const std::vector<std::string>& last = rows_.back().fields;
+    const auto words = formats::split_words(last[0]);
+    return std::any_of(last.begin(), last.end(), is_label) || words.empty() || !is_label(words[0]);
 }
 
-/// In a table without delimiters a row becomes its label and its name: all words from the first that is no number.
+/// In a table without separators a row becomes its label and its name: all words from the first that is no number.
 /// Numbers behind the names, as many as every row has, are no part of them where they are colours (three or more), or
 /// where names differ without them ("1 Precentral_L 2001", but not "1 Brodmann area 4").
 void TableReader::join_words() {
-    if (!rows_.empty() && !parse_label(rows_[0].fields[0])) rows_.erase(rows_.begin());  // a header
+    if (!rows_.empty() && !is_label(rows_[0].fields[0])) rows_.erase(rows_.begin());  // a header
     std::size_t dropped = SIZE_MAX;
     for (const Row& row : rows_) {
         std::size_t numbers = 0;
@@ -169,7 +133,7 @@ void TableReader::join_words() {
     }
     for (Row& row : rows_) {
         const std::string name = name_of(row, dropped);
-        if (name.empty()) refuse(row.line, "has no name behind the label; write 'label,name'");
+        if (name.empty()) refuse(row.number, "has no name behind the label; write 'label,name'");
         row.fields = {row.fields[0], name};
     }
 }
@@ -191,10 +155,8 @@ std::optional<std::size_t> TableReader::column_by_header(const Row& header, std:
                                                          bool has_labels, std::optional<std::size_t> other) const {
     for (const std::string_view word : words) {
         for (std::size_t column = 0; column < header.fields.size(); ++column) {
-            std::string found;
-            for (const char c : header.fields[column])
-                if (std::isalnum(static_cast<unsigned char>(c)))
-                    found += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            std::string found = formats::lower(header.fields[column]);
+            std::erase_if(found, [](unsigned char c) { return !std::isalnum(c); });
             if (found == word && column != other && (!has_labels || column_has(column, is_label))) return column;
         }
     }
@@ -206,8 +168,10 @@ LabelNames TableReader::read() {
                                                                  "id",    "key",        "number",  "roi"};
     static constexpr std::array<std::string_view, 9> kNameWords{
         "name", "labelname", "regionname", "structurename", "region", "structure", "label", "description", "text"};
-    split_lines();
-    if (delimiter_ == kAnyBlanks) join_words();
+    if (!find_rows('\t') && !find_rows(';') && !find_rows(',')) {
+        rows_ = split(kBlank);
+        join_words();
+    }
     std::optional<Row> header;
     if (!rows_.empty() && std::none_of(rows_[0].fields.begin(), rows_[0].fields.end(), is_label)) {
         header = rows_[0];
@@ -224,17 +188,17 @@ LabelNames TableReader::read() {
     LabelNames result;
     for (const Row& row : rows_) {
         if (row.fields.size() <= std::max(*labels, *names))
-            refuse(row.line,
+            refuse(row.number,
                    fmt::format("has {} columns where others have more; write 'label,name'", row.fields.size()));
-        const auto label = parse_label(row.fields[*labels]);
+        const auto label = formats::parse_table_label(row.fields[*labels]);
         if (!label)
-            refuse(row.line,
+            refuse(row.number,
                    fmt::format("'{}' is no label; a whole number is needed", row.fields[*labels].substr(0, 40)));
         const std::string name = formats::one_line(row.fields[*names]);
         if (name.empty()) continue;
         const auto [known, is_new] = result.emplace(*label, name);
         if (!is_new && known->second != name)
-            refuse(row.line, fmt::format("label {} is called '{}' and '{}'; keep one", *label, known->second, name));
+            refuse(row.number, fmt::format("label {} is called '{}' and '{}'; keep one", *label, known->second, name));
     }
     return result;
 }
@@ -248,7 +212,7 @@ LabelNames read_xml(const fs::path& path, const std::string& text) {
     LabelNames result;
     for (const pugi::xml_node node : atlas.child("data").children("label")) {
         const pugi::xml_attribute index = node.attribute("index");
-        const auto label = parse_label(trim(index ? index.value() : node.child_value("index")));
+        const auto label = formats::parse_table_label(trim(index ? index.value() : node.child_value("index")));
         const std::string name = formats::one_line(index ? node.child_value() : node.child_value("name"));
         if (!label) formats::fail(path, fmt::format("the label of '{}' is no whole number; mend it", name));
         if (!name.empty())

@@ -31,11 +31,7 @@ std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& 
     const std::string name = formats::extension(path);
     if (name == ".vtu") return formats::open_vtu(path, options);
     if (name == ".msh") return formats::open_msh(path, options);
-    if (name == ".csv" || name == ".tsv") {
-        formats::PointTable table = formats::read_point_table(path, options);
-        move_to_exact_grid(table.points.positions);
-        return formats::open_points(std::move(table), options);
-    }
+    if (name == ".csv" || name == ".tsv") return formats::open_table(path, options);
     formats::fail(path, "not a table of points (.csv .tsv) or a mesh of tetrahedra (.vtu .msh)");
 }
 

@@ -1,3 +1,5 @@
+#include "boreholes/point_table.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "formats/surface/tetrahedron_formats.h"
 #include "formats/temporary_folder.h"
 #include "regionmesh/error.h"
 #include "support/paths.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "regionmesh/write_compare.h"
+#include "regionmesh/write_report.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 

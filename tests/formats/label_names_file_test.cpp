@@ -99,19 +99,19 @@ TEST_F(LabelNamesFile, xml_atlases_are_read) {
                 ElementsAre(Pair(2001, "Precentral_L")));
 }
 
-TEST_F(LabelNamesFile, errors_name_the_line) {
+TEST_F(LabelNamesFile, errors_name_the_row) {
     EXPECT_THAT(failure_of(""), HasSubstr("holds no labels and names"));
     EXPECT_THAT(failure_of("label,name\n"), HasSubstr("holds no labels and names"));
-    EXPECT_THAT(failure_of("label,name\n1,a\nb,c\n"), HasSubstr("line 3: 'b' is no label"));
-    EXPECT_THAT(failure_of("label,name\n1.5,a\n"), HasSubstr("line 2: '1.5' is no label"));
+    EXPECT_THAT(failure_of("label,name\n1,a\nb,c\n"), HasSubstr("row 3: 'b' is no label"));
+    EXPECT_THAT(failure_of("label,name\n1.5,a\n"), HasSubstr("row 2: '1.5' is no label"));
     EXPECT_THAT(failure_of("label,name\n99999999999999999999,a\n"), HasSubstr("is no label"));
-    EXPECT_THAT(failure_of("label,name\n1,a\n1,b\n"), HasSubstr("line 3: label 1 is called 'a' and 'b'"));
+    EXPECT_THAT(failure_of("label,name\n1,a\n1,b\n"), HasSubstr("row 3: label 1 is called 'a' and 'b'"));
     EXPECT_THAT(failure_of("label,area\n1,2.5\n2,3.5\n"), HasSubstr("no column of names"));
-    EXPECT_THAT(failure_of("0 1000 2000\n1 1000 2000\n"), HasSubstr("line 1: has no name"));
-    EXPECT_THAT(failure_of("1,a,b\n2,\"c\n"), HasSubstr("line 2: a quote is not closed"));
-    EXPECT_THAT(failure_of("x,y,label,name\n1,2\n"), HasSubstr("line 2: has 2 columns"));
+    EXPECT_THAT(failure_of("0 1000 2000\n1 1000 2000\n"), HasSubstr("row 1: has no name"));
+    EXPECT_THAT(failure_of("1,a,b\n2,\"c\n"), HasSubstr("row 2: a quote is not closed"));
+    EXPECT_THAT(failure_of("x,y,label,name\n1,2\n"), HasSubstr("row 2: has 2 columns"));
     EXPECT_THAT(failure_of(std::string("1,a\0b\n", 6)), HasSubstr("is no text"));
-    EXPECT_THAT(failure_of(std::string(1000, ',') + "\n1,1\n"), HasSubstr("more than 1000 columns"));
+    EXPECT_THAT(failure_of(std::string(1000, ',') + "x\n1,1\n"), HasSubstr("more than 1000 columns"));
     EXPECT_THAT(failure_of("<atlas>"), HasSubstr("is no whole XML"));
     EXPECT_THAT(failure_of("<atlas/>"), HasSubstr("holds no names"));
     EXPECT_THAT(failure_of("<atlas><data><label index=\"x\">a</label></data></atlas>"), HasSubstr("no whole number"));

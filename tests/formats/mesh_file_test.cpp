@@ -293,7 +293,7 @@ TEST_F(MeshFileTest, missing_files_and_folders_are_input_errors) {
         std::filesystem::create_directory(path(name));
         failure_of(path(name));
     }
-    EXPECT_THAT(failure_of(path("m.vtp")), HasSubstr("cannot be read"));
+    EXPECT_THAT(failure_of(path("m.vtp")), HasSubstr("is a directory"));
     EXPECT_THAT(failure_of(path("m.ply")), HasSubstr("is a directory"));
     EXPECT_THAT(failure_of(path("none.ply")), HasSubstr("no such file"));
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "boreholes/point_table.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "regionmesh/fix_unsound.h"
 #include "regionmesh/label_names_file.h"

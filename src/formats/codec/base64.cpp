@@ -7,6 +7,7 @@ namespace regionmesh {
 namespace {
 
 constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::size_t kTextBytes = std::size_t{64} << 10;  // held of the text
 constexpr char kPadding = '=';
 
 // Two letters at a time: the text of every number of twelve bits.
@@ -76,14 +77,30 @@ std::string base64(std::span<const std::byte> bytes) {
     return text;
 }
 
-// Reads the next four letters, spaces between them or not, into the waiting bytes.
-bool Base64Decoder::read_group() {
+namespace formats {
+
+/// The next byte that is no white space; '<' at the end of the text.
+char Base64Stream::next_letter() {
+    while (true) {
+        if (next_ == text_.size()) {
+            text_.resize(std::min<std::uint64_t>(kTextBytes, end_ - place_));
+            text_.resize(file_.read(place_, std::as_writable_bytes(std::span(text_))));
+            place_ += text_.size();
+            next_ = 0;
+            if (text_.empty()) return '<';
+        }
+        if (text_[next_] == '<') return '<';
+        const char letter = text_[next_++];
+        if (!is_space(letter)) return letter;
+    }
+}
+
+/// Decodes the next four letters into the waiting bytes.
+bool Base64Stream::read_group() {
     std::uint32_t bits = 0;
     int letters = 0, padding = 0;
     while (letters + padding < 4) {
-        while (place_ < text_.size() && is_space(text_[place_])) ++place_;
-        if (place_ == text_.size()) return false;
-        const char letter = text_[place_++];
+        const char letter = next_letter();
         const std::uint8_t value = value_of(letter);
         if (letter == kPadding && letters >= 2) {
             ++padding;
@@ -92,8 +109,7 @@ bool Base64Decoder::read_group() {
             ++letters;
             bits = bits << 6 | value;
         } else {
-            place_ = text_.size();
-            has_failed_ = true;
+            problem_ = "the base64 text ends early or is damaged; fetch the file again";
             return false;
         }
     }
@@ -103,16 +119,16 @@ bool Base64Decoder::read_group() {
     return true;
 }
 
-std::size_t Base64Decoder::read(std::span<std::byte> bytes) {
+std::size_t Base64Stream::read(std::span<std::byte> bytes) {
     std::size_t done = 0;
-    while (done < bytes.size()) {
+    while (done < bytes.size() && problem_.empty()) {
         if (waiting_begin_ < waiting_count_) {
             bytes[done++] = waiting_[waiting_begin_++];
             continue;
         }
-        for (; done + 3 <= bytes.size() && place_ + 4 <= text_.size(); done += 3, place_ += 4) {
-            const std::uint32_t a = value_of(text_[place_]), b = value_of(text_[place_ + 1]),
-                                c = value_of(text_[place_ + 2]), d = value_of(text_[place_ + 3]);
+        for (; done + 3 <= bytes.size() && next_ + 4 <= text_.size(); done += 3, next_ += 4) {
+            const std::uint32_t a = value_of(text_[next_]), b = value_of(text_[next_ + 1]),
+                                c = value_of(text_[next_ + 2]), d = value_of(text_[next_ + 3]);
             if ((a | b | c | d) & kNoLetter) break;
             take_group(a << 18 | b << 12 | c << 6 | d, &bytes[done]);
         }
@@ -121,4 +137,13 @@ std::size_t Base64Decoder::read(std::span<std::byte> bytes) {
     return done;
 }
 
+void Base64Stream::rewind() {
+    place_ = begin_;
+    text_.clear();
+    next_ = 0;
+    waiting_begin_ = waiting_count_ = 0;
+    problem_.clear();
+}
+
+}  // namespace formats
 }  // namespace regionmesh

@@ -1,18 +1,24 @@
 #include "formats/codec/byte_reader.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <span>
+#include <utility>
 
 namespace regionmesh::formats {
 namespace {
 
 constexpr std::size_t kChunk = 1 << 20, kLongestLine = 1 << 24;
-constexpr std::string_view kSpaces = " \t\r\n\v\f";
 
 }  // namespace
+
+ByteReader::ByteReader(InputFile file, std::uint64_t begin, std::uint64_t end, std::string_view separators)
+    : file_(std::move(file)),
+      bytes_end_(std::min(end, file_.size())),
+      offset_(std::min(begin, bytes_end_)),
+      taken_(offset_) {
+    for (const char c : separators) separates_[static_cast<unsigned char>(c)] = true;
+}
 
 /// Reads on; false at the end of the file.
 bool ByteReader::fill() {
@@ -22,8 +28,8 @@ bool ByteReader::fill() {
         begin_ = 0;
     }
     if (end_ == buffer_.size()) buffer_.resize(std::max(kChunk, 2 * buffer_.size()));
-    const std::size_t count =
-        file_.read(offset_, std::as_writable_bytes(std::span(buffer_.data() + end_, buffer_.size() - end_)));
+    const std::size_t wanted = std::min<std::uint64_t>(buffer_.size() - end_, bytes_end_ - offset_);
+    const std::size_t count = file_.read(offset_, std::as_writable_bytes(std::span(buffer_.data() + end_, wanted)));
     end_ += count;
     offset_ += count;
     return count > 0;
@@ -66,23 +72,17 @@ std::optional<std::string_view> ByteReader::take_line() {
 }
 
 std::optional<std::string_view> ByteReader::take_word() {
-    for (;;) {
-        const std::string_view bytes = held();
-        const std::size_t first = std::min(bytes.find_first_not_of(kSpaces), bytes.size());
-        lines_ += static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.begin() + first, '\n'));
-        drop(first);
-        if (first < bytes.size()) break;
-        if (!fill()) return std::nullopt;
+    const auto separates = [&](std::size_t at) { return separates_[static_cast<unsigned char>(buffer_[at])]; };
+    for (;; drop(1)) {
+        if (begin_ == end_ && !fill()) return std::nullopt;
+        if (!separates(begin_)) break;
+        lines_ += buffer_[begin_] == '\n';
     }
-    std::size_t size = held().find_first_of(kSpaces);
-    while (size == std::string_view::npos) {
-        const std::size_t seen = held().size();
-        if (seen >= kLongestLine) fail_line("holds a word that is too long");
-        if (!fill()) {
-            size = seen;
-            break;
-        }
-        size = held().find_first_of(kSpaces, seen);
+    std::size_t size = 1;
+    for (;; ++size) {
+        if (size >= kLongestLine) fail_line("holds a word that is too long");
+        if (begin_ + size == end_ && !fill()) break;
+        if (separates(begin_ + size)) break;
     }
     const std::string_view word = held().substr(0, size);
     drop(size);
@@ -113,42 +113,6 @@ void ByteReader::fail(const std::string& text) const { formats::fail(path(), tex
 
 void ByteReader::fail_line(const std::string& text) const {
     formats::fail(path(), "line " + std::to_string(lines_) + ": " + text);
-}
-
-std::string_view take_word(std::string_view& line) {
-    line.remove_prefix(std::min(line.find_first_not_of(kSpaces), line.size()));
-    const std::string_view word = line.substr(0, line.find_first_of(kSpaces));
-    line.remove_prefix(word.size());
-    return word;
-}
-
-std::optional<double> to_real(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-    // Numbers that are too small for a double are as good as none.
-    if (error == std::errc::result_out_of_range) {
-        const std::size_t power = word.find_first_of("eE");
-        if (power == std::string_view::npos || word.substr(power + 1, 1) != "-") return std::nullopt;
-        value = 0;
-    } else if (error != std::errc{}) {
-        return std::nullopt;
-    }
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-std::optional<std::int64_t> to_integer(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const char* const last = word.data() + word.size();
-    std::int64_t value = 0;
-    auto result = std::from_chars(word.data(), last, value);
-    if (result.ec == std::errc::result_out_of_range) {
-        std::uint64_t bits = 0;
-        result = std::from_chars(word.data(), last, bits);
-        value = static_cast<std::int64_t>(bits);
-    }
-    return result.ec == std::errc{} && result.ptr == last ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace regionmesh::formats

@@ -1,6 +1,7 @@
-// A file read from its beginning to its end, as bytes, lines or words.
+// A file, or a part of it, read from its beginning to its end as bytes, lines or words.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -8,21 +9,33 @@
 #include <string>
 #include <string_view>
 
+#include "formats/codec/numbers.h"
 #include "formats/input_file.h"
 
 namespace regionmesh::formats {
+
+inline constexpr std::string_view kBlanks = " \t\r\n\v\f", kBlanksAndCommas = " \t\r\n\v\f,";
 
 /// Holds a megabyte at a time, or the longest line where that is more. What it hands out is good until the next call.
 class ByteReader {
 public:
     /// Throws Error(kInput) as InputFile does.
-    explicit ByteReader(const std::filesystem::path& path) : file_(path) {}
+    explicit ByteReader(const std::filesystem::path& path) : ByteReader(InputFile(path)) {}
+    /// Reads the bytes from `begin` to `end`, or to the end of the file. Words end at blanks, and at commas where
+    /// `separators` says so.
+    explicit ByteReader(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX,
+                        std::string_view separators = kBlanks);
 
     const std::filesystem::path& path() const { return file_.path(); }
     std::uint64_t size() const { return file_.size(); }
     /// Bytes not yet taken.
-    std::uint64_t left() const { return file_.size() - taken_; }
+    std::uint64_t left() const { return bytes_end_ - taken_; }
 
+    /// A number of type T. Throws where the file ends before.
+    template <class T>
+    T take_number(bool is_big_endian) {
+        return load<T>(take(sizeof(T)).data(), is_big_endian);
+    }
     /// The next `count` bytes, at most a megabyte. Throws where the file ends before.
     std::string_view take(std::size_t count);
     /// The same, which stay to be taken.
@@ -53,16 +66,10 @@ private:
 
     InputFile file_;
     std::string buffer_;
-    std::size_t begin_ = 0, end_ = 0;
+    std::uint64_t bytes_end_;            // in the file
+    std::array<bool, 256> separates_{};  // words, by byte
+    std::size_t begin_ = 0, end_ = 0;    // in buffer_
     std::uint64_t offset_ = 0, taken_ = 0, lines_ = 0;
 };
-
-/// Takes the first word off a line; empty at its end.
-std::string_view take_word(std::string_view& line);
-
-/// A finite number, with a sign or without; none where the word is not one as a whole.
-std::optional<double> to_real(std::string_view word);
-/// An integer of 64 bits; above 2^63 - 1 the bits of an unsigned one.
-std::optional<std::int64_t> to_integer(std::string_view word);
 
 }  // namespace regionmesh::formats

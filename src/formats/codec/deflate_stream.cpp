@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <new>
-#include <utility>
 
 namespace regionmesh::formats {
 namespace {
@@ -14,8 +14,7 @@ constexpr std::array<std::byte, 2> kMagic{std::byte{0x1f}, std::byte{0x8b}};
 
 }  // namespace
 
-DeflateStream::DeflateStream(InputFile file, std::uint64_t begin)
-    : file_(std::move(file)), packed_(kPackedBytes), begin_(begin), packed_offset_(begin) {
+DeflateStream::DeflateStream(std::unique_ptr<ByteStream> packed) : packed_(std::move(packed)), buffer_(kPackedBytes) {
     if (inflateInit2(&stream_, kAnyWrapper) != Z_OK) throw std::bad_alloc();
 }
 
@@ -24,23 +23,25 @@ DeflateStream::~DeflateStream() { inflateEnd(&stream_); }
 void DeflateStream::rewind() {
     inflateReset(&stream_);
     stream_.avail_in = 0;
-    packed_offset_ = begin_;
+    packed_->rewind();
     is_at_end_ = false;
     problem_.clear();
 }
 
+/// Reads on behind the bytes that are not yet inflated.
 bool DeflateStream::refill() {
-    const std::size_t count = file_.read(packed_offset_, packed_);
-    packed_offset_ += count;
-    stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
-    stream_.avail_in = static_cast<uInt>(count);
+    const std::size_t left = stream_.avail_in;
+    if (left > 0) std::memmove(buffer_.data(), stream_.next_in, left);
+    const std::size_t count = packed_->read(std::span(buffer_).subspan(left));
+    stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
+    stream_.avail_in = static_cast<uInt>(left + count);
     return count > 0;
 }
 
-/// What follows the last member and is not one itself (padding, most often) is passed over, as gzip does.
+/// Bytes behind the last member that are no member (padding, most often) are ignored, as gzip does.
 bool DeflateStream::begin_next_member() {
-    std::array<std::byte, kMagic.size()> start{};
-    const bool is_member = file_.read(packed_offset_ - stream_.avail_in, start) == start.size() && start == kMagic;
+    if (stream_.avail_in < kMagic.size()) refill();
+    const bool is_member = stream_.avail_in >= kMagic.size() && std::memcmp(stream_.next_in, kMagic.data(), 2) == 0;
     if (is_member) inflateReset(&stream_);
     return is_member;
 }

@@ -1,12 +1,14 @@
-// A deflated stream in a file, with the wrapper of gzip or of zlib, inflated forward in bounded memory.
+// A deflated stream, with the wrapper of gzip or of zlib, inflated forward in bounded memory.
 #pragma once
 
 #include <zlib.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/codec/byte_stream.h"
@@ -16,7 +18,9 @@ namespace regionmesh::formats {
 /// Streams of several gzip members are read as one. Check sums are verified as their members end.
 class DeflateStream final : public ByteStream {
 public:
-    explicit DeflateStream(InputFile file, std::uint64_t begin = 0);
+    explicit DeflateStream(InputFile file, std::uint64_t begin = 0)
+        : DeflateStream(std::make_unique<PlainStream>(std::move(file), begin)) {}
+    explicit DeflateStream(std::unique_ptr<ByteStream> packed);
     DeflateStream(const DeflateStream&) = delete;
     DeflateStream& operator=(const DeflateStream&) = delete;
     ~DeflateStream() override;
@@ -33,10 +37,8 @@ private:
     bool refill();
     bool begin_next_member();
 
-    InputFile file_;
-    std::vector<std::byte> packed_;
-    std::uint64_t begin_;
-    std::uint64_t packed_offset_;
+    std::unique_ptr<ByteStream> packed_;
+    std::vector<std::byte> buffer_;  // of packed_
     z_stream stream_{};
     bool is_at_end_ = false;
     std::string problem_;

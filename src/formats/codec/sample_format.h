@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "formats/codec/numbers.h"
 #include "regionmesh/section_reader.h"
 
 namespace regionmesh::formats {
@@ -12,6 +13,10 @@ struct SampleFormat {
     SampleType type = SampleType::kU8;
     bool is_big_endian = false;
 };
+
+/// How a sample is stored: both enumerations list the integers in the same order.
+NumberType number_type(SampleType type);
+SampleType sample_type(NumberType integer);
 
 /// Bytes of a stored sample. kU1 takes one byte here; images with packed bits have their own way (image_shape.h).
 std::size_t sample_bytes(SampleType type);

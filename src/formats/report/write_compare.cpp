@@ -1,4 +1,4 @@
-#include "regionmesh/write_compare.h"
+#include "regionmesh/write_report.h"
 
 #include "formats/report/json_parts.h"
 

@@ -1,9 +1,23 @@
 #include "formats/surface/file_surface.h"
 
+#include <fmt/format.h>
+
+#include "formats/input_file.h"
+#include "formats/text/header_text.h"
+
 namespace regionmesh {
 
-void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners,
-                 const std::array<InputLabel, 2>& labels) {
+void add_point(FileSurface& surface, Vec3 point, const std::filesystem::path& path) {
+    if (!is_finite(point))
+        formats::fail(path, fmt::format("point {} has a coordinate that is not finite", surface.points.size()));
+    if (surface.points.size() >= kMostVertices) formats::fail(path, "has more points than a model can hold");
+    surface.points.push_back(point);
+}
+
+void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, const std::array<InputLabel, 2>& labels,
+                 const std::filesystem::path& path) {
+    if (surface.faces.size() + corners.size() - 2 > kMostFaces)
+        formats::fail(path, "has more faces than a model can hold");
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         surface.faces.push_back({corners[a], corners[b], corners[c]});
         surface.labels.push_back(labels);
@@ -19,6 +33,26 @@ void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners,
         }
     }
     for (std::size_t n = 2; n < corners.size(); ++n) add(0, n - 1, n);
+}
+
+Vec3 take_point(const formats::ByteReader& file, std::string_view& line) {
+    Vec3 point;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string_view word = formats::take_word(line);
+        const auto value = formats::parse_finite(word);
+        if (!value) file.fail_line(fmt::format("'{}' stands where a coordinate belongs", formats::shown(word)));
+        point[axis] = *value;
+    }
+    return point;
+}
+
+void read_comment(FileSurface& surface, std::string_view comment) {
+    const std::string_view word = formats::take_word(comment);
+    const auto label = formats::parse_label(formats::take_word(comment));
+    if (!label) return;
+    const std::string name = formats::one_line(comment);
+    if (word == "exterior_label") surface.exterior_label = *label;
+    if (word == "region" && !name.empty()) surface.names.try_emplace(*label, name);
 }
 
 void append(FileSurface& surface, const FileSurface& other) {

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "formats/codec/byte_reader.h"
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/vec3.h"
@@ -33,9 +37,22 @@ inline constexpr std::int64_t kFirstHullType = 10;
 inline constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) - 1;
 inline constexpr std::uint64_t kMostVertices = (std::uint64_t{1} << 32) - 1;
 
+inline bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// Throws Error(kInput) naming the file where a coordinate is not finite, or the model would have too many vertices.
+void add_point(FileSurface& surface, Vec3 point, const std::filesystem::path& path);
+
 /// Adds a polygon of three or more corners as triangles with these labels: a quad is cut along its shorter diagonal,
-/// the others go fan-wise from their first corner.
-void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, const std::array<InputLabel, 2>& labels);
+/// the others fan-wise from their first corner. Throws Error(kInput) naming the file where the model would have too
+/// many faces.
+void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, const std::array<InputLabel, 2>& labels,
+                 const std::filesystem::path& path);
+
+/// Three coordinates in a line of text, taken off its front. Throws Error(kInput) that names the line.
+Vec3 take_point(const formats::ByteReader& file, std::string_view& line);
+
+/// The comments of our own text files: "exterior_label -1", "region 3 liver". Others are ignored.
+void read_comment(FileSurface& surface, std::string_view comment);
 
 /// Appends the points of `other`, and its faces with their labels.
 void append(FileSurface& surface, const FileSurface& other);

@@ -44,6 +44,12 @@ public:
     std::string label_text(Label label) const;
     /// The name given to a label; empty where there is none.
     std::string name(Label label) const;
+    /// Calls visit(label, name) for each label that has a name, in the order of files.
+    template <class Visit>
+    void for_names(Visit&& visit) const {
+        for (const Label label : ordered_labels())
+            if (const std::string text = name(label); !text.empty()) visit(label, text);
+    }
     /// 2, 3 or 4 labels round the vertex, where each side of the box it lies on counts as one; 10 more on the box.
     std::uint8_t node_type(VertexId v) const;
 

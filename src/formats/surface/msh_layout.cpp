@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
-#include "formats/surface/corners.h"
+#include "formats/surface/file_surface.h"
+#include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/vtk/label_array.h"
 
@@ -69,7 +70,7 @@ MshView read_view(MshStream& stream, bool is_cell) {
 
 void add_position(const MshStream& stream, MshNodes& nodes, Vec3 p, double scale_z) {
     p.z *= scale_z;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+    if (!is_finite(p))
         stream.fail(fmt::format("node {} has a coordinate that is not finite",
                                 nodes.tags[static_cast<std::uint32_t>(nodes.positions.size())]));
     nodes.positions.push_back(p);
@@ -82,7 +83,7 @@ Vec3 read_place(MshStream& stream) {
 }
 
 void add_tag(const MshStream& stream, MshTags& tags, std::uint64_t tag) {
-    if (tags.size() == kMostPoints) stream.fail("more than 2^32 - 1 nodes or values; that many cannot be read");
+    if (tags.size() == kMostPoints) stream.fail("more than 2^32 - 2 nodes or values; that many cannot be read");
     tags.add(tag);
 }
 
@@ -120,6 +121,44 @@ void note_place(const MshStream& stream, const std::string& name, MshPlace& plac
 }
 
 }  // namespace
+
+void MshTags::add(std::uint64_t tag) {
+    if (count_ == 0) first_ = tag;
+    if (tags_.empty() && tag != first_ + count_) {
+        tags_.resize(count_);
+        std::iota(tags_.begin(), tags_.end(), first_);
+    }
+    if (!tags_.empty()) tags_.push_back(tag);
+    ++count_;
+}
+
+std::optional<std::uint64_t> MshTags::finish() {
+    if (!std::is_sorted(tags_.begin(), tags_.end())) {
+        order_.resize(tags_.size());
+        std::iota(order_.begin(), order_.end(), 0u);
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) { return tags_[a] < tags_[b]; });
+    }
+    const auto tag_at = [&](std::size_t i) { return tags_[order_.empty() ? i : order_[i]]; };
+    for (std::size_t i = 1; i < tags_.size(); ++i)
+        if (tag_at(i) == tag_at(i - 1)) return tag_at(i);
+    return std::nullopt;
+}
+
+std::optional<std::uint32_t> MshTags::find(std::uint64_t tag) const {
+    if (tags_.empty()) {
+        if (tag < first_ || tag - first_ >= count_) return std::nullopt;
+        return static_cast<std::uint32_t>(tag - first_);
+    }
+    if (order_.empty()) {
+        const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
+        if (found == tags_.end() || *found != tag) return std::nullopt;
+        return static_cast<std::uint32_t>(found - tags_.begin());
+    }
+    const auto found = std::lower_bound(order_.begin(), order_.end(), tag,
+                                        [&](std::uint32_t i, std::uint64_t wanted) { return tags_[i] < wanted; });
+    if (found == order_.end() || tags_[*found] != tag) return std::nullopt;
+    return *found;
+}
 
 std::int64_t without_sign(std::int64_t tag) { return tag < 0 && tag != INT64_MIN ? -tag : tag; }
 

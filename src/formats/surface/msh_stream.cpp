@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "formats/text/header_text.h"
@@ -26,7 +23,7 @@ MshStream::MshStream(const std::filesystem::path& path) : reader_(path) {
     for (; section && *section == "Comments"; section = next_section()) skip_section(*section);
     if (section != "MeshFormat") fail("$MeshFormat is needed first");
     const std::string version(text_word());
-    const double number = to_real(version).value_or(0);
+    const double number = parse_finite(version).value_or(0);
     is_version_4_ = number == 4.1;
     if (!is_version_4_ && !(number >= 2 && number < 3)) fail(fmt::format("is MSH {}; {}", shown(version), kSaveAgain));
     is_binary_ = text_integer() == 1;
@@ -34,12 +31,10 @@ MshStream::MshStream(const std::filesystem::path& path) : reader_(path) {
         fail(fmt::format("numbers of {} bytes: 8 are needed; {}", bytes, kSaveAgain));
     line();
     if (is_binary_) {
-        std::int32_t one = binary<std::int32_t>();
-        if (one != 1) {
-            is_big_endian_ = true;
-            one = std::bit_cast<std::int32_t>(__builtin_bswap32(static_cast<std::uint32_t>(one)));
-        }
-        if (one != 1) fail("has not the number 1 in $MeshFormat, which shows the order of bytes");
+        const std::string one(reader_.take(4));
+        is_big_endian_ = load<std::int32_t>(one.data(), true) == 1;
+        if (load<std::int32_t>(one.data(), is_big_endian_) != 1)
+            fail("has not the number 1 in $MeshFormat, which shows the order of bytes");
     }
     end_section(*section);
 }
@@ -64,17 +59,6 @@ void MshStream::skip_section(const std::string& name) {
 
 void MshStream::end_section(const std::string& name) {
     if (text_word() != "$End" + name) fail(fmt::format("$End{} is needed here", name));
-}
-
-template <class Number>
-Number MshStream::binary() {
-    char bytes[sizeof(Number)];
-    const std::string_view taken = reader_.take(sizeof(Number));
-    std::copy(taken.begin(), taken.end(), bytes);
-    if (is_big_endian_) std::reverse(bytes, bytes + sizeof(Number));
-    Number number;
-    std::memcpy(&number, bytes, sizeof(Number));
-    return number;
 }
 
 std::string_view MshStream::text_word() {
@@ -116,11 +100,10 @@ std::uint64_t MshStream::size() {
 double MshStream::real() {
     if (is_binary_) return binary<double>();
     const std::string_view word = text_word();
-    if (const auto number = to_real(word)) return *number;
-    const std::string letters = lower(word);
-    if (letters.find("nan") == std::string::npos && letters.find("inf") == std::string::npos)
+    if (const auto number = parse_real(word)) return *number;
+    if (lower(word).find("inf") == std::string::npos)
         fail(fmt::format("'{}' stands where a number is needed", shown(word)));
-    return std::numeric_limits<double>::quiet_NaN();
+    return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace regionmesh::formats

@@ -53,7 +53,9 @@ public:
 
 private:
     template <class Number>
-    Number binary();
+    Number binary() {
+        return reader_.take_number<Number>(is_big_endian_);
+    }
 
     ByteReader reader_;
     bool is_in_line_ = false;  // a word was taken, but not the end of its line

@@ -1,17 +1,176 @@
+// Labelled tetrahedra in a Gmsh mesh.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
-#include "formats/surface/corners.h"
-#include "formats/surface/msh_elements.h"
+#include "formats/surface/msh_layout.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/vtk/label_array.h"
 
 namespace regionmesh::formats {
 namespace {
+
+constexpr std::int64_t kTetrahedron = 4;
+
+struct ElementType {
+    std::int64_t number;
+    std::uint64_t nodes;     // 0: a solid that is no tetrahedron of four nodes
+    const char* name = "";   // of a solid
+    bool is_curved = false;  // a tetrahedron of higher order
+};
+
+/// Flat elements of first and second order, and what solids are called.
+constexpr ElementType kTypes[] = {
+    {4, 4},
+    {2, 3},
+    {3, 4},
+    {1, 2},
+    {15, 1},
+    {8, 3},
+    {9, 6},
+    {10, 9},
+    {16, 8},
+    {5, 0, "a hexahedron"},
+    {6, 0, "a prism"},
+    {7, 0, "a pyramid"},
+    {11, 0, "a tetrahedron of 10 nodes", true},
+    {29, 0, "a tetrahedron of 20 nodes", true},
+    {30, 0, "a tetrahedron of 35 nodes", true},
+    {31, 0, "a tetrahedron of 56 nodes", true},
+};
+
+struct MshTetrahedron {
+    std::uint64_t tag = 0;
+    std::int64_t physical = 0;  // tag of the first physical group; 0 where there is none
+    std::int64_t entity = 0;    // tag of the volume
+    std::array<std::uint64_t, 4> nodes{};
+};
+
+/// Passes through $Elements. Elements of less than three dimensions are passed over, other solids refused. Gmsh writes
+/// an element of several physical groups once for each in MSH 2: only the first of these is handed out.
+class MshElements {
+public:
+    /// Holds a reference to the layout.
+    MshElements(const std::filesystem::path& path, const MshLayout& layout);
+
+    /// False once there are no more.
+    bool next(MshTetrahedron& tetrahedron);
+
+private:
+    bool next_element(MshTetrahedron& element);
+    bool begin_block();
+    void read_tags(MshTetrahedron& element, std::int64_t count);
+    std::uint64_t node_count(std::uint64_t tag) const;
+
+    MshStream stream_;
+    const MshLayout& layout_;
+    std::uint64_t blocks_ = 0;          // MSH 4: not yet begun
+    std::uint64_t elements_ = 0;        // MSH 2: not yet read
+    std::uint64_t left_ = 0;            // of the block
+    std::int64_t type_ = 0, tags_ = 0;  // of the elements of the block; how many tags each has, MSH 2
+    MshTetrahedron block_;              // what all elements of the block have
+    std::array<std::uint64_t, 4> last_{};
+    bool has_ended_ = false;
+};
+
+MshElements::MshElements(const std::filesystem::path& path, const MshLayout& layout) : stream_(path), layout_(layout) {
+    stream_.go_to(layout.elements);
+    if (!stream_.is_version_4()) {
+        elements_ = stream_.count_line();
+        return;
+    }
+    blocks_ = stream_.size();
+    for (int n = 0; n < 3; ++n) stream_.size();  // how many elements, least tag, greatest
+}
+
+std::uint64_t MshElements::node_count(std::uint64_t tag) const {
+    const ElementType* found = nullptr;
+    for (const ElementType& type : kTypes) {
+        if (type.number != type_) continue;
+        if (type.nodes > 0) return type.nodes;
+        found = &type;
+        break;
+    }
+    stream_.fail(fmt::format("element {} is {}: {}", tag, found ? found->name : fmt::format("of type {}", type_),
+                             !found || found->is_curved
+                                 ? "write the mesh with elements of first order, gmsh -order 1"
+                                 : "split the cells into tetrahedra; Gmsh meshes without recombining make them"));
+}
+
+/// False at the end.
+bool MshElements::begin_block() {
+    if (stream_.is_version_4()) {
+        if (blocks_ == 0) return false;
+        --blocks_;
+        const std::int64_t dimension = stream_.integer();
+        block_.entity = stream_.integer();
+        type_ = stream_.integer();
+        left_ = stream_.size();
+        const auto physical = layout_.physical_tags.find(block_.entity);
+        block_.physical = dimension == 3 && physical != layout_.physical_tags.end() ? physical->second : 0;
+        return true;
+    }
+    if (elements_ == 0) return false;
+    if (!stream_.is_binary()) {
+        left_ = 1;  // the type follows the tag of each
+        return true;
+    }
+    type_ = stream_.integer();
+    left_ = stream_.size();
+    tags_ = stream_.integer();
+    if (left_ > elements_) stream_.fail(fmt::format("a block of {} elements, where {} are left", left_, elements_));
+    return true;
+}
+
+void MshElements::read_tags(MshTetrahedron& element, std::int64_t count) {
+    for (std::int64_t n = 0; n < count; ++n) {
+        const std::int64_t tag = stream_.integer();
+        if (n == 0) element.physical = without_sign(tag);
+        if (n == 1) element.entity = tag;
+    }
+}
+
+/// False at the end; only the first four nodes are kept.
+bool MshElements::next_element(MshTetrahedron& element) {
+    while (left_ == 0)
+        if (!begin_block()) return false;
+    --left_;
+    element = block_;
+    element.tag = stream_.size();
+    if (!stream_.is_version_4()) {
+        --elements_;
+        if (!stream_.is_binary()) {
+            type_ = stream_.integer();
+            tags_ = stream_.integer();
+        }
+        read_tags(element, tags_);
+    }
+    const std::uint64_t nodes = node_count(element.tag);
+    for (std::uint64_t n = 0; n < nodes; ++n) {
+        const std::uint64_t node = stream_.size();
+        if (n < element.nodes.size()) element.nodes[n] = node;
+    }
+    return true;
+}
+
+bool MshElements::next(MshTetrahedron& tetrahedron) {
+    if (has_ended_) return false;
+    while (next_element(tetrahedron)) {
+        if (type_ != kTetrahedron) continue;
+        const bool is_repeated = !stream_.is_version_4() && tetrahedron.nodes == last_;
+        last_ = tetrahedron.nodes;
+        if (!is_repeated) return true;
+    }
+    stream_.end_section("Elements");
+    has_ended_ = true;
+    return false;
+}
 
 constexpr const char* kPhysical = "gmsh:physical";
 constexpr const char* kGeometrical = "gmsh:geometrical";

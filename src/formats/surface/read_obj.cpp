@@ -1,4 +1,6 @@
 // Wavefront OBJ: shared points, polygons in groups.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -41,9 +43,9 @@ private:
 
     void read_line(std::string_view rest) {
         const std::string_view word = formats::take_word(rest);
-        if (word == "v") return read_point(rest);
+        if (word == "v") return add_point(surface_, take_point(file_, rest), file_.path());
         if (word == "f") return read_face(rest);
-        if (word == "#") return read_comment(rest);
+        if (word == "#") return read_comment(surface_, rest);
         const auto at = std::find(kGroupWords.begin(), kGroupWords.end(), word);
         if (at == kGroupWords.end()) return;
         const std::size_t kind = static_cast<std::size_t>(at - kGroupWords.begin());
@@ -51,42 +53,19 @@ private:
         current_[kind] = groups_.add(formats::one_line(rest), false);
     }
 
-    /// What our own files say beside.
-    void read_comment(std::string_view rest) {
-        const std::string_view word = formats::take_word(rest), number = formats::take_word(rest);
-        const auto label = formats::to_integer(number);
-        if (!label) return;
-        if (word == "exterior_label") surface_.exterior_label = *label;
-        if (word == "region" && !formats::one_line(rest).empty())
-            surface_.names.try_emplace(*label, formats::one_line(rest));
-    }
-
-    void read_point(std::string_view rest) {
-        Vec3 point;
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::string_view word = formats::take_word(rest);
-            const auto value = formats::to_real(word);
-            if (!value) file_.fail_line("'" + text_of(word) + "' stands where a coordinate belongs");
-            point[axis] = *value;
-        }
-        surface_.points.push_back(point);
-        if (surface_.points.size() > kMostVertices) file_.fail("has more points than a model can hold");
-    }
-
     /// Corners are "7", "7/1", "7/1/2" or "7//2", from 1; below 0 they count from the last point back.
     void read_face(std::string_view rest) {
         corners_.clear();
         for (std::string_view word = formats::take_word(rest); !word.empty(); word = formats::take_word(rest)) {
-            const auto number = formats::to_integer(word.substr(0, word.find('/')));
+            const auto number = formats::parse_label(word.substr(0, word.find('/')));
             const auto count = static_cast<std::int64_t>(surface_.points.size());
             if (!number || *number == 0 || *number > count || *number < -count)
-                file_.fail_line("a face names point '" + text_of(word) + "' of " + std::to_string(count));
+                file_.fail_line(fmt::format("a face names point '{}' of {}", formats::shown(word), count));
             corners_.push_back(static_cast<std::uint32_t>(*number > 0 ? *number - 1 : count + *number));
         }
         if (corners_.size() < 3) file_.fail_line("a face has fewer than three corners");
-        add_polygon(surface_, corners_, {0, 0});
+        add_polygon(surface_, corners_, {0, 0}, file_.path());
         kinds_.resize(surface_.faces.size(), current_);
-        if (surface_.faces.size() > kMostFaces) file_.fail("has more faces than a model can hold");
     }
 
     FileSurface finish() {
@@ -97,8 +76,6 @@ private:
         groups_.put_labels(surface_);
         return std::move(surface_);
     }
-
-    static std::string text_of(std::string_view word) { return std::string(word.substr(0, 40)); }
 
     formats::ByteReader file_;
     FileSurface surface_;

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -17,7 +15,7 @@
 namespace regionmesh {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are taken as they lie in the file");
+using formats::NumberType;
 
 /// Labels behind a face and before it.
 constexpr std::array<std::array<std::string_view, 2>, 7> kPairs{{{"label_first", "label_second"},
@@ -39,34 +37,16 @@ class PlyNumbers {
 public:
     PlyNumbers(formats::ByteReader& file, PlyEncoding encoding) : file_(file), encoding_(encoding) {}
 
-    double take(PlyType type) {
+    double take(NumberType type) {
         if (encoding_ == PlyEncoding::kText) return take_text();
-        char bytes[8];
         const std::size_t size = bytes_of(type);
-        std::memcpy(bytes, file_.take(size).data(), size);
-        if (encoding_ == PlyEncoding::kBigEndian) std::reverse(bytes, bytes + size);
-        switch (type) {
-            case PlyType::kInt8:
-                return as<std::int8_t>(bytes);
-            case PlyType::kUint8:
-                return as<std::uint8_t>(bytes);
-            case PlyType::kInt16:
-                return as<std::int16_t>(bytes);
-            case PlyType::kUint16:
-                return as<std::uint16_t>(bytes);
-            case PlyType::kInt32:
-                return as<std::int32_t>(bytes);
-            case PlyType::kUint32:
-                return as<std::uint32_t>(bytes);
-            case PlyType::kFloat32:
-                return as<float>(bytes);
-            case PlyType::kFloat64:
-                return as<double>(bytes);
-        }
-        return 0;
+        double number = 0;
+        load_all(reinterpret_cast<const std::byte*>(file_.take(size).data()), size, type,
+                 encoding_ == PlyEncoding::kBigEndian, std::span(&number, 1));
+        return number;
     }
     /// A whole number from 0 to `most`.
-    std::uint64_t take_count(PlyType type, std::uint64_t most) {
+    std::uint64_t take_count(NumberType type, std::uint64_t most) {
         const double value = take(type);
         if (!(value >= 0 && value <= static_cast<double>(most)) || value != std::floor(value))
             file_.fail(fmt::format("has a list of {} numbers", value));
@@ -74,17 +54,11 @@ public:
     }
 
 private:
-    template <class T>
-    static double as(const char* bytes) {
-        T value;
-        std::memcpy(&value, bytes, sizeof(T));
-        return static_cast<double>(value);
-    }
     double take_text() {
         const auto word = file_.take_word();
         if (!word) file_.fail("ends too early: it was cut short");
-        const auto value = formats::to_real(*word);
-        if (!value) file_.fail_line("'" + formats::one_line(word->substr(0, 40)) + "' stands where a number belongs");
+        const auto value = formats::parse_finite(*word);
+        if (!value) file_.fail_line(fmt::format("'{}' stands where a number belongs", formats::shown(*word)));
         return *value;
     }
 
@@ -140,16 +114,12 @@ void PlyReader::read_points(const PlyElement& element, PlyNumbers& numbers) {
         if (!place || element.properties[*place].count_type) file_.fail("has vertices without x, y and z");
         places[axis] = *place;
     }
-    auto type = element.find("node_type");
-    if (type && element.properties[*type].count_type) type.reset();
-    if (element.count > kMostVertices) file_.fail("has more vertices than a model can hold");
+    const std::size_t type = element.find("node_type").value_or(element.properties.size());
+    const bool has_type = type < element.properties.size() && !element.properties[type].count_type;
     for (std::uint64_t n = 0; n < element.count; ++n) {
         take_element(element, std::nullopt, numbers);
-        const Vec3 point{values_[places[0]], values_[places[1]], values_[places[2]]};
-        if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-            file_.fail("vertex " + std::to_string(n) + " has a coordinate that is not finite");
-        surface_.points.push_back(point);
-        if (type) surface_.is_on_hull.push_back(values_[*type] >= kFirstHullType);
+        add_point(surface_, {values_[places[0]], values_[places[1]], values_[places[2]]}, file_.path());
+        if (has_type) surface_.is_on_hull.push_back(values_[type] >= kFirstHullType);
     }
 }
 
@@ -178,11 +148,11 @@ InputLabel PlyReader::label_at(const LabelPlaces& places, int side, std::uint64_
     const double low = values_[*places.low[side]];
     // Integers of 32 bits are exact, and numbers in text may have more digits than a double.
     if (low != std::floor(low) || std::abs(low) > 0x1p53)
-        file_.fail("face " + std::to_string(face) + " has a label that is no integer");
+        file_.fail(fmt::format("face {} has a label that is no integer", face));
     if (!places.high[side]) return static_cast<InputLabel>(low);
     const double high = values_[*places.high[side]];
     if (!(low >= 0 && low < 0x1p32 && high >= 0 && high < 0x1p32) || high != std::floor(high))
-        file_.fail("face " + std::to_string(face) + " has a label whose two words are not of 32 bits");
+        file_.fail(fmt::format("face {} has a label whose two words are not of 32 bits", face));
     return static_cast<InputLabel>(static_cast<std::uint64_t>(high) << 32 | static_cast<std::uint64_t>(low));
 }
 
@@ -202,19 +172,15 @@ void PlyReader::read_faces(const PlyElement& element, PlyNumbers& numbers) {
             corners_.push_back(static_cast<std::uint32_t>(v));
         }
         if (corners_.size() < 3) file_.fail(fmt::format("face {} has {} corners", n, corners_.size()));
-        if (places.low[0])
-            add_polygon(surface_, corners_, {label_at(places, 0, n), label_at(places, 1, n)});
-        else
-            add_polygon(surface_, corners_, {whole, 0});
-        if (surface_.faces.size() > kMostFaces) file_.fail("has more faces than a model can hold");
+        std::array<InputLabel, 2> labels{whole, 0};
+        if (places.low[0]) labels = {label_at(places, 0, n), label_at(places, 1, n)};
+        add_polygon(surface_, corners_, labels, file_.path());
     }
     if (!places.low[0]) groups_.put_labels(surface_);
 }
 
 FileSurface PlyReader::read() {
-    const PlyHeader header = read_ply_header(file_);
-    surface_.exterior_label = header.exterior_label;
-    surface_.names = header.names;
+    const PlyHeader header = read_ply_header(file_, surface_);
     PlyNumbers numbers(file_, header.encoding);
     bool has_points = false, has_faces = false;
     for (const PlyElement& element : header.elements) {
@@ -234,7 +200,7 @@ FileSurface PlyReader::read() {
     if (!has_faces) file_.fail("has no faces behind its vertices");
     const bool is_binary = header.encoding != PlyEncoding::kText;
     if (is_binary && header.elements.back().name == "face" && file_.left() > 0)
-        file_.fail("has " + std::to_string(file_.left()) + " bytes more than its header promises");
+        file_.fail(fmt::format("has {} bytes more than its header promises", file_.left()));
     return std::move(surface_);
 }
 

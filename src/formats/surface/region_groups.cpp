@@ -2,8 +2,8 @@
 #include <optional>
 #include <set>
 
-#include "formats/codec/byte_reader.h"
 #include "formats/surface/file_surface.h"
+#include "formats/text/header_text.h"
 
 namespace regionmesh {
 namespace {
@@ -22,13 +22,13 @@ std::optional<Told> told_by(std::string_view name, InputLabel exterior) {
     if (word.starts_with("interface_")) {
         word.remove_prefix(10);
         const std::size_t cut = word.find('_');
-        const auto first = formats::to_integer(word.substr(0, cut));
-        const auto second = cut == std::string_view::npos ? std::nullopt : formats::to_integer(word.substr(cut + 1));
+        const auto first = formats::parse_label(word.substr(0, cut));
+        const auto second = cut == std::string_view::npos ? std::nullopt : formats::parse_label(word.substr(cut + 1));
         if (first && second) return Told{{*first, *second}, {}};
         return std::nullopt;
     }
     if (word.starts_with("region_")) word.remove_prefix(7);
-    const auto label = formats::to_integer(word);
+    const auto label = formats::parse_label(word);
     if (!label || *label == exterior) return std::nullopt;
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
     return Told{{*label, exterior}, std::string(rest)};

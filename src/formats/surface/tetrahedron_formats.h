@@ -1,27 +1,24 @@
 // One opener a format; open_tetrahedra chooses among them.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "regionmesh/read_tetrahedra.h"
 
 namespace regionmesh::formats {
 
-/// What a table of points says, before there are tetrahedra.
-struct PointTable {
-    TetrahedraInfo info;
-    LabelledPoints points;
-    std::vector<std::uint32_t> rows;  // of each point; the header is row 1
-};
+/// Points are counted in 32 bits; the core keeps the highest number for itself.
+inline constexpr std::uint64_t kMostPoints = 0xFFFFFFFEu;
 
-/// A table of points, or of drill holes with intervals.
-PointTable read_point_table(const std::filesystem::path& path, const TetrahedraOptions& options);
+inline bool has_repeated_corner(const std::array<std::uint32_t, 4>& c) {
+    return c[0] == c[1] || c[0] == c[2] || c[0] == c[3] || c[1] == c[2] || c[1] == c[3] || c[2] == c[3];
+}
 
-/// Points of a table, and their Delaunay tetrahedra, which regionmesh-delaunay makes.
-std::unique_ptr<TetrahedronReader> open_points(PointTable table, const TetrahedraOptions& options);
+/// A table of labelled points or drill holes (src/boreholes defines it): their Delaunay tetrahedra.
+std::unique_ptr<TetrahedronReader> open_table(const std::filesystem::path& path, const TetrahedraOptions& options);
 
 /// A VTK unstructured grid of tetrahedra; its faces, lines and vertices are passed over.
 std::unique_ptr<TetrahedronReader> open_vtu(const std::filesystem::path& path, const TetrahedraOptions& options);

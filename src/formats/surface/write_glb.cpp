@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "formats/codec/number_writer.h"
 #include "formats/report/json_parts.h"
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
@@ -19,12 +18,9 @@
 namespace regionmesh {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "glTF is little endian, and numbers go as they lie");
-
 constexpr int kFloat = 5126, kUnsignedInt = 5125;            // types of components
 constexpr int kArrayBuffer = 34962, kElementBuffer = 34963;  // what a view of the buffer is for
-constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint64_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
 /// One region: its vertices and its faces, outward. glTF has no normals here: faces are shaded flat, as they are.
 struct Part {
@@ -57,16 +53,20 @@ public:
             throw Error(ErrorCode::kOutput, fmt::format("a .glb holds 4 GiB, and the model takes {} bytes: decimate it "
                                                         "further, or write .vtp",
                                                         total));
-        put({kMagic, kVersion, static_cast<std::uint32_t>(total)});
-        put({static_cast<std::uint32_t>(json.size()), kJsonChunk});
+        formats::NumberWriter numbers(file_);
+        const auto put = [&](std::uint64_t word) { numbers.put(static_cast<std::uint32_t>(word)); };
+        for (const std::uint64_t word : {kMagic, kVersion, total, std::uint64_t{json.size()}, kJsonChunk}) put(word);
+        numbers.flush();
         file_.write(json);
-        put({static_cast<std::uint32_t>(bytes_), kBinaryChunk});
+        put(bytes_);
+        put(kBinaryChunk);
         for (std::size_t n = 0; n < regions_.all().size(); ++n) {
             const Part part = part_of(n);
             for (const VertexId v : part.vertices)
-                for (const float number : position(v)) put({std::bit_cast<std::uint32_t>(number)});
-            put(part.corners);
+                for (const float number : position(v)) numbers.put(number);
+            for (const std::uint32_t corner : part.corners) put(corner);
         }
+        numbers.flush();
     }
 
 private:
@@ -78,10 +78,6 @@ private:
     std::array<float, 3> position(VertexId v) const {
         const Vec3 p = view_.mesh().position(v) - middle_;
         return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-    }
-
-    void put(const std::vector<std::uint32_t>& words) {
-        file_.write({reinterpret_cast<const char*>(words.data()), words.size() * sizeof(std::uint32_t)});
     }
 
     Part part_of(std::size_t group) const {

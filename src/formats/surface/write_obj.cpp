@@ -19,9 +19,9 @@ void write_obj(const FileView& view, OutputFile& file) {
     TextWriter text(file);
     text.line("# g interface_A_B: faces whose normals point from label A to label B");
     text.line("# exterior_label", view.exterior_label());
-    for (const FileRegion& region : regions.all())
-        if (const std::string name = view.name(region.label); !name.empty())
-            text.line("# region", number_of(view, region.label), name);
+    view.for_names([&](Label label, const std::string& name) {
+        if (regions.number(label) > 0) text.line("# region", number_of(view, label), name);
+    });
     view.for_vertices([&](VertexId v) { text.line("v", view.mesh().position(v)); });
     const GroupedFaces faces(view, interfaces.size(),
                              [&](FaceId f, auto&& add) { add(regions.interface_number(f) - 1, view.is_turned(f)); });

@@ -1,8 +1,9 @@
 // STL: triangles without shared vertices, each region a solid of its own.
 #include <array>
 #include <cstdint>
-#include <cstring>
+#include <string>
 
+#include "formats/codec/number_writer.h"
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/text_writer.h"
@@ -46,23 +47,22 @@ void write_stl(const FileView& view, OutputFile& file) {
 
 /// Binary, in single precision: one solid.
 void write_region_stl(const FileView& view, OutputFile& file) {
-    const Mesh& mesh = view.mesh();
-    char head[84] = "binary STL of regionmesh";  // must not begin with "solid"
-    const std::uint32_t count = mesh.face_count();
-    std::memcpy(head + 80, &count, sizeof(count));
-    file.write({head, sizeof(head)});
+    constexpr std::size_t kHeadBytes = 80;
+    std::string head = "binary STL of regionmesh";  // must not begin with "solid"
+    head.resize(kHeadBytes);
+    file.write(head);
+    formats::NumberWriter numbers(file);
+    numbers.put(std::uint32_t{view.mesh().face_count()});
     view.for_faces([&](FaceId f) {
-        const auto vertices = turned_vertices(mesh, f, view.is_turned(f));
         std::array<Vec3, 4> p;
-        for (int place = 0; place < 3; ++place) p[place + 1] = mesh.position(vertices[place]);
+        const auto vertices = turned_vertices(view.mesh(), f, view.is_turned(f));
+        for (int place = 0; place < 3; ++place) p[place + 1] = view.mesh().position(vertices[place]);
         p[0] = unit_normal({p[1], p[2], p[3]});
-        char record[50] = {};
-        for (int n = 0; n < 12; ++n) {
-            const float number = static_cast<float>(p[n / 3][n % 3]);
-            std::memcpy(record + 4 * n, &number, sizeof(number));
-        }
-        file.write({record, sizeof(record)});
+        for (const Vec3& v : p)
+            for (int axis = 0; axis < 3; ++axis) numbers.put(static_cast<float>(v[axis]));
+        numbers.put(std::uint16_t{0});  // attributes: none
     });
+    numbers.flush();
 }
 
 }  // namespace regionmesh

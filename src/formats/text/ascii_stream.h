@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "formats/codec/byte_reader.h"
 #include "formats/codec/byte_stream.h"
 #include "formats/codec/sample_format.h"
 
@@ -16,30 +16,22 @@ inline constexpr SampleFormat kAsciiFormat{.type = SampleType::kI64};
 /// A number takes two letters at least, with the blank behind it, but for the last.
 constexpr std::uint64_t most_ascii_samples(std::uint64_t letters) { return letters / 2 + 1; }
 
-enum class AsciiNumbers { kIntegers, kReals };
-
-/// The numbers in a text between blanks (or commas), each as the eight bytes of a little-endian integer, and beyond the
-/// signed ones the bits of an unsigned one; or each as those of a real, which may be NaN.
+/// The whole numbers in a text between blanks or commas, each as the eight bytes of a little-endian integer; above
+/// 2^63 - 1 the bits of an unsigned one.
 class AsciiStream final : public ByteStream {
 public:
-    explicit AsciiStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX,
-                         AsciiNumbers numbers = AsciiNumbers::kIntegers);
+    explicit AsciiStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX)
+        : begin_(begin), words_(std::move(file), begin, end, kBlanksAndCommas) {}
 
     std::size_t read(std::span<std::byte> bytes) override;
     void rewind() override;
     const std::string& problem() const override { return problem_; }
 
 private:
-    bool next_word();
-    bool refill();
-    bool parse_word();
+    bool take_number();
 
-    InputFile file_;
-    AsciiNumbers numbers_;
-    std::uint64_t begin_, end_, place_;
-    std::vector<char> text_;
-    std::size_t text_place_ = 0;
-    std::string word_;
+    std::uint64_t begin_;
+    ByteReader words_;
     std::byte number_[8];
     std::size_t number_place_ = sizeof number_;
     std::string problem_;

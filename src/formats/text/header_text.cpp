@@ -63,9 +63,42 @@ std::vector<std::string_view> split_words(std::string_view text, std::string_vie
     }
 }
 
+std::string_view take_word(std::string_view& line) {
+    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+    line.remove_prefix(word.size());
+    return word;
+}
+
 std::optional<double> parse_real(std::string_view text) {
-    const auto number = parse_whole<double>(text);
-    return number && std::isinf(*number) ? std::nullopt : number;
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (end != text.data() + text.size() || error == std::errc::invalid_argument || std::isinf(number))
+        return std::nullopt;
+    if (error == std::errc{}) return number;
+    const std::size_t power = text.find_first_of("eE");
+    const bool is_tiny = power != std::string_view::npos && text.substr(power + 1, 1) == "-";
+    return is_tiny ? std::optional(0.0) : std::nullopt;
+}
+
+std::optional<double> parse_finite(std::string_view text) {
+    const auto number = parse_real(text);
+    return number && std::isnan(*number) ? std::nullopt : number;
+}
+
+std::optional<std::int64_t> parse_label(std::string_view text) {
+    if (const auto number = parse_integer(text)) return number;
+    const auto bits = parse_size(text);
+    return bits ? std::optional(static_cast<std::int64_t>(*bits)) : std::nullopt;
+}
+
+std::optional<std::int64_t> parse_table_label(std::string_view text) {
+    const std::size_t point = text.find('.');
+    if (point != std::string_view::npos && point > 0 &&
+        text.find_first_not_of('0', point + 1) == std::string_view::npos)
+        text = text.substr(0, point);
+    return parse_label(text);
 }
 
 std::optional<std::int64_t> parse_integer(std::string_view text) { return parse_whole<std::int64_t>(text); }

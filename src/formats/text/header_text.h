@@ -1,4 +1,4 @@
-// Words and numbers in the text headers of volumes.
+// Words and numbers in text: headers, tables, and lines of text files.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,21 @@ std::string lower(std::string_view text);  // ASCII letters
 /// What stands between blanks, or between any of `separators`.
 std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = " \t\r\n\v\f");
 
-/// The whole of `text` as a number, nothing around it but a plus sign in front. No infinities; NaN only where it is
-/// written as such.
+/// Takes the first word off a line; empty at its end.
+std::string_view take_word(std::string_view& line);
+
+/// The whole of `text` as a number, with or without a plus sign in front; none for any other text. Reals too small for
+/// a double are 0; infinities are none, and NaN only counts where it is written as such.
 std::optional<double> parse_real(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_size(std::string_view text);
+
+/// A real, but not NaN.
+std::optional<double> parse_finite(std::string_view text);
+/// A whole number; above 2^63 - 1 the bits of an unsigned one.
+std::optional<std::int64_t> parse_label(std::string_view text);
+/// A label in a table: programs that know of no missing integers write "3.0".
+std::optional<std::int64_t> parse_table_label(std::string_view text);
 
 /// Several of them between blanks; nothing where one is no number.
 std::optional<std::vector<double>> parse_reals(std::string_view text);

@@ -1,81 +1,139 @@
+// VTK image data: the samples of points, or of cells.
 #include <fmt/format.h>
 
+#include <array>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "formats/array/affine.h"
 #include "formats/array/flat_reader.h"
 #include "formats/array/stream_reader.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
+#include "formats/codec/sample_format.h"
 #include "formats/text/ascii_stream.h"
-#include "formats/vtk/vti_header.h"
-#include "formats/vtk/vtk_blocks.h"
+#include "formats/text/header_text.h"
+#include "formats/vtk/vtk_xml.h"
 #include "regionmesh/label_names_file.h"
+#include "regionmesh/lattice.h"
+#include "regionmesh/section_reader.h"
 
 namespace regionmesh::formats {
 namespace {
 
-namespace fs = std::filesystem;
-using Form = VtiArray::Form;
+struct VtiHeader {
+    Lattice lattice;  // of the samples: points, or centres of cells
+    pugi::xml_node array;
+    SampleType type = SampleType::kU8;
+};
 
-[[noreturn]] void refuse_length(const fs::path& path, const VtiHeader& header, std::uint64_t found,
-                                std::uint64_t needed) {
-    fail(path, fmt::format("array '{}' has {} bytes where its extent needs {}; write the file again", header.array.name,
-                           found, needed));
+/// The active scalars, or else the only array of integers.
+pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece) {
+    const std::vector<pugi::xml_node> all = arrays_of(piece, false);
+    std::vector<MeshArray> arrays;
+    for (const pugi::xml_node node : all) arrays.push_back(describe(node));
+    int count = 0;
+    for (const bool is_active_only : {true, false}) {
+        pugi::xml_node chosen;
+        count = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (!arrays[i].is_integer || arrays[i].components != 1) continue;
+            if (is_active_only && all[i].parent().attribute("Scalars").value() != arrays[i].name) continue;
+            chosen = all[i];
+            ++count;
+        }
+        if (count == 1) return chosen;
+    }
+    xml.fail(fmt::format("has {}; its arrays: {}",
+                         count == 0 ? "no array of integers with one component, as labels need"
+                                    : "several arrays of integers; make the one with labels its active scalars",
+                         list_of(arrays)));
 }
 
-std::unique_ptr<SectionReader> open_compressed(const fs::path& path, const VtiHeader& header, VolumeInfo info,
-                                               const ReadOptions& options, std::uint64_t needed) {
-    check_inflated(path, header.array.end - header.array.begin, needed);
-    auto blocks =
-        std::make_unique<VtkBlocks>(open_stored(path, header.array), open_stored(path, header.array), header.encoding);
-    const auto bytes = blocks->inflated_bytes();
-    if (!bytes) fail(path, fmt::format("array '{}': {}", header.array.name, blocks->problem()));
-    if (*bytes != needed) refuse_length(path, header, *bytes, needed);
-    return open_stream(std::move(blocks), std::move(info),
-                       {.format = {header.array.type, header.encoding.is_big_endian}}, options,
-                       "give --sweep z, or write the file without compression and with raw appended data");
+/// Samples of cells lie at their centres, one fewer on each axis; an axis of one point has one cell, there.
+void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, Lattice& lattice) {
+    const auto numbers = [&](const char* name, std::size_t count, std::vector<double> otherwise) {
+        const std::string_view text = xml.dataset().attribute(name).value();
+        if (text.empty() && !otherwise.empty()) return otherwise;
+        auto found = parse_reals(text);
+        if (!found || found->size() != count)
+            xml.fail(fmt::format("{} is '{}': {} numbers are needed", name, shown(text), count));
+        return *found;
+    };
+    const auto origin = numbers("Origin", 3, {0, 0, 0}), spacing = numbers("Spacing", 3, {1, 1, 1});
+    const auto direction = numbers("Direction", 9, {1, 0, 0, 0, 1, 0, 0, 0, 1});
+    const std::string_view text = piece.attribute("Extent").value();
+    std::vector<std::int64_t> extent;
+    for (const std::string_view word : split_words(text))
+        if (const auto number = parse_integer(word)) extent.push_back(*number);
+    Columns columns;
+    Vec3 first{origin[0], origin[1], origin[2]};
+    std::array<std::uint64_t, 3> size{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        constexpr std::int64_t kMost = std::int64_t{1} << 40;
+        if (extent.size() != 6 || extent[2 * axis] < -kMost || extent[2 * axis + 1] > kMost ||
+            extent[2 * axis + 1] < extent[2 * axis])
+            xml.fail(fmt::format("Extent is '{}': first and last index on each axis are needed", shown(text)));
+        const std::int64_t low = extent[2 * axis], parts = extent[2 * axis + 1] - low;
+        const bool is_between = is_cell && parts > 0;
+        size[axis] = static_cast<std::uint64_t>(is_between ? parts : parts + 1);
+        columns[axis] = spacing[axis] * Vec3{direction[axis], direction[3 + axis], direction[6 + axis]};
+        first += (static_cast<double>(low) + (is_between ? 0.5 : 0)) * columns[axis];
+    }
+    lattice.size = checked_size(xml.path(), size);
+    set_affine(xml.path(), "map to space", "mend Origin, Spacing or Direction", columns, first, lattice);
 }
 
-/// The word in front of an array that is not compressed: its length in bytes.
-void check_word(const fs::path& path, const VtiHeader& header, std::uint64_t needed) {
-    std::array<std::byte, 8> bytes{};
-    const auto stream = open_stored(path, header.array);
-    const std::size_t size = header.encoding.word_bytes;
-    if (stream->read(std::span(bytes).first(size)) < size)
-        fail(path, fmt::format("array '{}': {}", header.array.name, stream->problem()));
-    const std::uint64_t word = decode_word(std::span(bytes).first(size), header.encoding.is_big_endian);
-    if (word != needed) refuse_length(path, header, word, needed);
+/// Throws Error(kInput) naming the file: more than one piece, no array of integers, or several of which none is the
+/// active scalars.
+VtiHeader read_vti_header(const VtkXml& xml) {
+    const pugi::xml_node piece = xml.dataset().child("Piece");
+    if (!piece || piece.next_sibling("Piece")) xml.fail("has no Piece, or several; write it as one piece");
+    VtiHeader header;
+    header.array = choose_array(xml, piece);
+    header.type = sample_type(*vtk_type(header.array));
+    place_in_space(xml, piece, describe(header.array).is_cell, header.lattice);
+    return header;
 }
 
 }  // namespace
 
-std::unique_ptr<SectionReader> open_vti(const fs::path& path, const ReadOptions& options) {
-    InputFile file(path);
-    const VtiHeader header = read_vti_header(file);
-    const VtiArray& array = header.array;
-    const SampleFormat format{array.type, header.encoding.is_big_endian};
-    VolumeInfo info = volume_info(path, "vti", array.type, header.lattice.size);
+std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const ReadOptions& options) {
+    using Form = VtkArrayPlace::Form;
+    const VtkXml xml(path, "ImageData");
+    const VtiHeader header = read_vti_header(xml);
+    const SampleFormat format{header.type, xml.encoding().is_big_endian};
+    VolumeInfo info = volume_info(path, "vti", header.type, header.lattice.size);
     info.lattice = header.lattice;
     info.names = names_beside(path);
-    const std::uint64_t needed = volume_bytes(path, info.lattice.size, sample_bytes(array.type));
-    const std::uint64_t letters = array.end - array.begin;
-    if (array.form == Form::kAscii) {
-        if (most_ascii_samples(letters) < needed / sample_bytes(array.type))
-            fail(path, fmt::format("array '{}' has fewer numbers than its extent needs", array.name));
-        return open_stream(std::make_unique<AsciiStream>(std::move(file), array.begin, array.end), std::move(info),
+    const std::uint64_t needed = volume_bytes(path, info.lattice.size, sample_bytes(header.type));
+    const VtkArrayPlace place = xml.place_of(header.array);
+    const std::uint64_t present = place.end - place.begin;
+    if (place.form == Form::kAscii) {
+        if (most_ascii_samples(present) < needed / sample_bytes(header.type))
+            xml.fail(header.array, "has fewer numbers than its extent needs");
+        return open_stream(std::make_unique<AsciiStream>(InputFile(path), place.begin, place.end), std::move(info),
                            {.format = kAsciiFormat}, options);
     }
-    if (header.encoding.is_compressed) return open_compressed(path, header, std::move(info), options, needed);
-    check_word(path, header, needed);
-    if (array.form == Form::kRaw) {
+    const bool is_compressed = xml.encoding().is_compressed;
+    if (is_compressed) check_inflated(path, present, needed);
+    VtkBytes bytes = xml.open(header.array);
+    const auto require_length = [&](std::uint64_t found) {
+        if (found != needed)
+            xml.fail(header.array,
+                     fmt::format("has {} bytes where its extent needs {}; write the file again", found, needed));
+    };
+    require_length(bytes.count);
+    if (place.form == Form::kRaw && !is_compressed) {
         info.can_sweep = {true, true, true};
-        return open_flat(std::move(file), std::move(info),
-                         {.offset = array.begin + header.encoding.word_bytes, .format = format}, options);
+        return open_flat(InputFile(path), std::move(info), {.offset = place.begin + bytes.offset, .format = format},
+                         options);
     }
-    if (needed > letters / 4 * 3 + 3) refuse_length(path, header, letters / 4 * 3, needed);
-    return open_stream(open_stored(path, array), std::move(info),
-                       {.offset = header.encoding.word_bytes, .format = format}, options,
-                       "give --sweep z, or write the file with raw appended data");
+    const std::uint64_t most = present / 4 * 3 + 3;  // of base64
+    if (!is_compressed && needed > most) require_length(most);
+    return open_stream(std::move(bytes.stream), std::move(info), {.offset = bytes.offset, .format = format}, options,
+                       "give --sweep z, or write the file with raw appended data and without compression");
 }
 
 }  // namespace regionmesh::formats

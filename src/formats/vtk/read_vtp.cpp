@@ -1,30 +1,17 @@
+// Surfaces in VTK XML files: polygons in PolyData, or triangles, quads and polygons in an UnstructuredGrid.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <string>
 #include <vector>
 
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
-#include "formats/vtk/vtk_arrays.h"
-#include "formats/vtk/vtk_xml_file.h"
+#include "formats/vtk/vtk_numbers.h"
 
 namespace regionmesh {
 namespace {
 
-using formats::array_named;
-
-// Reads components in groups of N, which may be spread over two spans.
-template <std::size_t N, class T, class Visit>
-ArraySink<T> by_groups(Visit visit) {
-    return [visit, group = std::array<T, N>{}, filled = std::size_t{0}](std::span<const T> values) mutable {
-        for (const T value : values) {
-            group[filled++] = value;
-            if (filled < N) continue;
-            filled = 0;
-            visit(group);
-        }
-    };
-}
+using namespace formats;
 
 /// Names of the array of two labels a face, the first behind it: ours and VTK's, PyVista's, DREAM.3D's.
 constexpr const char* kLabelArrays[] = {"BoundaryLabels", "boundary_labels", "FaceLabels"};
@@ -32,164 +19,142 @@ constexpr const char* kLabelArrays[] = {"BoundaryLabels", "boundary_labels", "Fa
 /// VTK's numbers of cells that are polygons.
 constexpr std::int64_t kTriangle = 5, kPolygon = 7, kQuad = 9;
 
+constexpr std::int64_t kMostCorners = 1 << 20;
+
 /// Reads the pieces of a file one after the other into one surface.
 class VtkSurfaceReader {
 public:
-    VtkSurfaceReader(const std::filesystem::path& path, const char* type) : file_(path, type) {}
+    VtkSurfaceReader(const std::filesystem::path& path, const char* type) : xml_(path, type) {}
     FileSurface read(bool is_grid);
 
 private:
-    void read_names();
+    void read_names(pugi::xml_node fields);
     void refuse_other_cells(pugi::xml_node piece) const;
-    void read_points(pugi::xml_node piece, std::uint64_t count);
     void read_node_types(pugi::xml_node piece, std::uint64_t count);
     void read_types(pugi::xml_node cells, std::uint64_t count) const;
-    std::uint64_t read_offsets(pugi::xml_node cells, std::uint64_t count);
-    void read_faces(pugi::xml_node cells, std::uint64_t corner_count);
-    void read_labels(pugi::xml_node piece, std::uint64_t count);
+    void read_faces(pugi::xml_node piece, pugi::xml_node cells, std::uint64_t count);
+    pugi::xml_node label_array(pugi::xml_node piece) const;
 
-    VtkXmlFile file_;
+    VtkXml xml_;
     FileSurface surface_;
-    std::uint64_t first_point_ = 0;             // of the piece at hand
-    std::vector<std::uint32_t> corner_counts_;  // of its cells
+    std::uint64_t first_point_ = 0;  // of the current piece
 };
 
-/// Labels and names side by side; other arrays with these names are left.
-void VtkSurfaceReader::read_names() {
-    const pugi::xml_node fields = file_.dataset().child("FieldData"), labels = array_named(fields, "RegionLabels"),
+std::vector<std::string> read_strings(const VtkXml& xml, pugi::xml_node array) {
+    std::vector<std::string> strings;
+    VtkNumbers codes(xml, array, std::nullopt);
+    for (std::string open; !codes.at_end();) {
+        if (const std::int64_t code = codes.integer(); code != 0)
+            open += static_cast<char>(code);
+        else
+            strings.push_back(std::exchange(open, {}));
+    }
+    codes.finish();
+    return strings;
+}
+
+/// Labels and names side by side; other arrays with these names are ignored.
+void VtkSurfaceReader::read_names(pugi::xml_node fields) {
+    const pugi::xml_node labels = array_named(fields, "RegionLabels"),
                          names = fields.find_child_by_attribute("Array", "Name", "RegionNames");
     if (!labels || !names || std::string_view(names.attribute("type").value()) != "String") return;
-    const std::vector<std::string> texts = file_.read_strings(names);
-    if (file_.number(labels, "NumberOfTuples", 0) != texts.size()) return;
-    std::size_t n = 0;
-    file_.read_integers(labels, texts.size(), [&](std::span<const std::int64_t> values) {
-        for (const std::int64_t label : values)
-            if (const std::string name = formats::one_line(texts[n++]); !name.empty()) surface_.names[label] = name;
-    });
+    const std::vector<std::string> texts = read_strings(xml_, names);
+    if (xml_.count(labels, "NumberOfTuples", UINT64_MAX) != texts.size()) return;
+    VtkNumbers numbers = integers_of(xml_, labels, texts.size());
+    for (const std::string& text : texts) {
+        const std::int64_t label = numbers.integer();
+        if (const std::string name = one_line(text); !name.empty()) surface_.names[label] = name;
+    }
+    numbers.finish();
 }
 
 FileSurface VtkSurfaceReader::read(bool is_grid) {
-    read_names();
-    const pugi::xml_node exterior = array_named(file_.dataset().child("FieldData"), "ExteriorLabel");
-    if (exterior)
-        file_.read_integers(exterior, 1, [&](std::span<const std::int64_t> values) {
-            if (!values.empty()) surface_.exterior_label = values[0];
-        });
-    if (!file_.dataset().child("Piece")) file_.fail("has no Piece");
-    for (const pugi::xml_node piece : file_.dataset().children("Piece")) {
+    const pugi::xml_node fields = xml_.dataset().child("FieldData"), exterior = array_named(fields, "ExteriorLabel");
+    read_names(fields);
+    if (exterior) {
+        VtkNumbers number = integers_of(xml_, exterior, 1);
+        surface_.exterior_label = number.integer();
+        number.finish();
+    }
+    if (!xml_.dataset().child("Piece")) xml_.fail("has no Piece");
+    for (const pugi::xml_node piece : xml_.dataset().children("Piece")) {
         if (!is_grid) refuse_other_cells(piece);
-        const std::uint64_t points = file_.number(piece, "NumberOfPoints", 0),
-                            cells = file_.number(piece, is_grid ? "NumberOfCells" : "NumberOfPolys", 0);
-        if (points > kMostVertices - surface_.points.size() || cells > kMostFaces - surface_.faces.size())
-            file_.fail(fmt::format("{} points and {} faces are more than a model can hold", points, cells));
         first_point_ = surface_.points.size();
-        read_points(piece, points);
+        const std::uint64_t points = xml_.count(piece, "NumberOfPoints", kMostVertices - first_point_),
+                            cells = xml_.count(piece, is_grid ? "NumberOfCells" : "NumberOfPolys",
+                                               kMostFaces - surface_.faces.size());
+        if (points > 0) {
+            VtkNumbers numbers = points_of(xml_, piece, points);
+            for (std::uint64_t n = 0; n < points; ++n) add_point(surface_, numbers.point(), xml_.path());
+            numbers.finish();
+        }
         read_node_types(piece, points);
         if (cells == 0) continue;
         const pugi::xml_node node = piece.child(is_grid ? "Cells" : "Polys");
         if (is_grid) read_types(node, cells);
-        read_faces(node, read_offsets(node, cells));
-        read_labels(piece, cells);
+        read_faces(piece, node, cells);
     }
     return std::move(surface_);
 }
 
 void VtkSurfaceReader::refuse_other_cells(pugi::xml_node piece) const {
     for (const char* other : {"NumberOfVerts", "NumberOfLines", "NumberOfStrips"})
-        if (file_.number(piece, other, 0) != 0)
-            file_.fail(
+        if (xml_.count(piece, other, UINT64_MAX) != 0)
+            xml_.fail(
                 fmt::format("{} is not 0: only polygons can be read; vtkTriangleFilter makes them of strips", other));
-}
-
-void VtkSurfaceReader::read_points(pugi::xml_node piece, std::uint64_t count) {
-    const pugi::xml_node array = piece.child("Points").child("DataArray");
-    if (count == 0) return;
-    if (!array || file_.number(array, "NumberOfComponents", 1) != 3)
-        file_.fail("needs an array of points with three components");
-    file_.read_reals(
-        array, 3 * count, by_groups<3, double>([&](const std::array<double, 3>& p) {
-            if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-                file_.fail(fmt::format("point {} has a coordinate that is not finite", surface_.points.size()));
-            surface_.points.push_back({p[0], p[1], p[2]});
-        }));
 }
 
 void VtkSurfaceReader::read_node_types(pugi::xml_node piece, std::uint64_t count) {
     const pugi::xml_node array = array_named(piece.child("PointData"), "NodeType");
-    if (!array || count == 0 || file_.number(array, "NumberOfComponents", 1) != 1) return;
+    if (!array || count == 0 || components(array) != 1) return;
     surface_.is_on_hull.resize(first_point_);
-    file_.read_integers(array, count, [&](std::span<const std::int64_t> types) {
-        for (const std::int64_t type : types) surface_.is_on_hull.push_back(type >= kFirstHullType);
-    });
+    VtkNumbers types = integers_of(xml_, array, count);
+    for (std::uint64_t n = 0; n < count; ++n) surface_.is_on_hull.push_back(types.integer() >= kFirstHullType);
+    types.finish();
 }
 
 void VtkSurfaceReader::read_types(pugi::xml_node cells, std::uint64_t count) const {
-    const pugi::xml_node array = array_named(cells, "types");
-    if (!array) file_.fail("needs the array 'types' in Cells");
-    std::uint64_t cell = 0;
-    file_.read_integers(
-        array, count, by_groups<1, std::int64_t>([&](const std::array<std::int64_t, 1>& type) {
-            if (type[0] != kTriangle && type[0] != kQuad && type[0] != kPolygon)
-                file_.fail(fmt::format("cell {} has VTK's type {}: only triangles, quads and polygons are a surface",
-                                       cell, type[0]));
-            ++cell;
-        }));
+    VtkNumbers types = integers_of(xml_, xml_.required_array(cells, "types"), count);
+    for (std::uint64_t cell = 0; cell < count; ++cell)
+        if (const std::int64_t type = types.integer(); type != kTriangle && type != kQuad && type != kPolygon)
+            xml_.fail(
+                fmt::format("cell {} has VTK's type {}: only triangles, quads and polygons are a surface", cell, type));
+    types.finish();
 }
 
-/// Returns how many corners the cells have together.
-std::uint64_t VtkSurfaceReader::read_offsets(pugi::xml_node cells, std::uint64_t count) {
-    constexpr std::int64_t kMostCorners = 1 << 20;
-    const pugi::xml_node array = array_named(cells, "offsets");
-    if (!array) file_.fail(fmt::format("needs the array 'offsets' in {}", cells.name()));
-    corner_counts_.clear();
-    std::int64_t before = 0;
-    file_.read_integers(array, count, by_groups<1, std::int64_t>([&](const std::array<std::int64_t, 1>& offset) {
-                            if (offset[0] < before || offset[0] - before < 3 || offset[0] - before > kMostCorners)
-                                file_.fail(fmt::format("cell {} is no polygon: its offset is {} after {}",
-                                                       corner_counts_.size(), offset[0], before));
-                            corner_counts_.push_back(static_cast<std::uint32_t>(offset[0] - before));
-                            before = offset[0];
-                        }));
-    return static_cast<std::uint64_t>(before);
-}
-
-void VtkSurfaceReader::read_faces(pugi::xml_node cells, std::uint64_t corner_count) {
-    const pugi::xml_node array = array_named(cells, "connectivity");
-    if (!array) file_.fail(fmt::format("needs the array 'connectivity' in {}", cells.name()));
+/// Each cell gives its labels to all the triangles that are made of it.
+void VtkSurfaceReader::read_faces(pugi::xml_node piece, pugi::xml_node cells, std::uint64_t count) {
+    VtkNumbers offsets = integers_of(xml_, xml_.required_array(cells, "offsets"), count),
+               connectivity = integers_of(xml_, xml_.required_array(cells, "connectivity"), std::nullopt),
+               labels = integers_of(xml_, label_array(piece), 2 * count);
     const std::uint64_t points = surface_.points.size() - first_point_;
     std::vector<std::uint32_t> corners;
-    std::size_t cell = 0;
-    file_.read_integers(array, corner_count, [&](std::span<const std::int64_t> values) {
-        for (const std::int64_t corner : values) {
+    std::int64_t begin = 0;
+    for (std::uint64_t cell = 0; cell < count; ++cell) {
+        const std::int64_t end = offsets.integer();
+        if (end < begin || end - begin < 3 || end - begin > kMostCorners)
+            xml_.fail(fmt::format("cell {} is no polygon: its offset is {} after {}", cell, end, begin));
+        corners.clear();
+        for (; begin < end; ++begin) {
+            const std::int64_t corner = connectivity.integer();
             if (corner < 0 || static_cast<std::uint64_t>(corner) >= points)
-                file_.fail(fmt::format("cell {} names point {} of {}", cell, corner, points));
+                xml_.fail(fmt::format("cell {} names point {} of {}", cell, corner, points));
             corners.push_back(static_cast<std::uint32_t>(first_point_ + static_cast<std::uint64_t>(corner)));
-            if (corners.size() < corner_counts_[cell]) continue;
-            add_polygon(surface_, corners, {});
-            corners.clear();
-            ++cell;
         }
-        if (surface_.faces.size() > kMostFaces) file_.fail("has more faces than a model can hold");
-    });
+        const InputLabel first = labels.integer();
+        add_polygon(surface_, corners, {first, labels.integer()}, xml_.path());
+    }
+    for (VtkNumbers* numbers : {&offsets, &connectivity, &labels}) numbers->finish();
 }
 
-/// Each cell gives its labels to all the triangles that were made of it.
-void VtkSurfaceReader::read_labels(pugi::xml_node piece, std::uint64_t count) {
-    pugi::xml_node array;
-    for (const char* name : kLabelArrays)
-        if (!array) array = array_named(piece.child("CellData"), name);
-    if (!array) file_.fail("needs the cell array 'BoundaryLabels': two integers a face, the labels on its two sides");
-    const std::uint64_t components = file_.number(array, "NumberOfComponents", 1);
-    if (components != 2)
-        file_.fail(fmt::format("its cell array '{}' has {} components: 2 are needed", array.attribute("Name").value(),
-                               components));
-    std::uint64_t made = 0;
-    for (const std::uint32_t corners : corner_counts_) made += corners - 2;
-    std::size_t cell = 0, face = surface_.faces.size() - made;
-    file_.read_integers(array, 2 * count, by_groups<2, std::int64_t>([&](const std::array<InputLabel, 2>& labels) {
-                            for (std::uint32_t n = 2; n < corner_counts_[cell]; ++n) surface_.labels[face++] = labels;
-                            ++cell;
-                        }));
+pugi::xml_node VtkSurfaceReader::label_array(pugi::xml_node piece) const {
+    for (const char* name : kLabelArrays) {
+        const pugi::xml_node array = array_named(piece.child("CellData"), name);
+        if (array && components(array) != 2)
+            xml_.fail(fmt::format("its cell array '{}' has {} components: 2 are needed", name, components(array)));
+        if (array) return array;
+    }
+    xml_.fail("needs the cell array 'BoundaryLabels': two integers a face, the labels on its two sides");
 }
 
 }  // namespace

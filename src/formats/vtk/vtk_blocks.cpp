@@ -3,24 +3,38 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <new>
 #include <utility>
 
 namespace regionmesh::formats {
 namespace {
 
-constexpr std::size_t kPackedBytes = std::size_t{64} << 10;
 constexpr const char* kCutTable = "the table of its blocks is cut short; fetch the file again";
 constexpr std::uint64_t kMostBytes = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-VtkBlocks::VtkBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, const VtkEncoding& encoding)
-    : table_(std::move(table)), blocks_(std::move(blocks)), encoding_(encoding), packed_(kPackedBytes) {
-    if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
-}
+class VtkBlocks::Block final : public ByteStream {
+public:
+    explicit Block(VtkBlocks& all) : all_(all) {}
 
-VtkBlocks::~VtkBlocks() { inflateEnd(&stream_); }
+    std::size_t read(std::span<std::byte> bytes) override {
+        const std::size_t wanted = std::min<std::uint64_t>(bytes.size(), all_.packed_left_);
+        const std::size_t count = all_.blocks_->read(bytes.first(wanted));
+        all_.packed_left_ -= count;
+        return count;
+    }
+    void rewind() override {}
+    const std::string& problem() const override { return all_.blocks_->problem(); }
+
+private:
+    VtkBlocks& all_;
+};
+
+VtkBlocks::VtkBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, const VtkEncoding& encoding)
+    : table_(std::move(table)),
+      blocks_(std::move(blocks)),
+      encoding_(encoding),
+      inflated_(std::make_unique<Block>(*this)) {}
 
 bool VtkBlocks::read_words(std::span<std::uint64_t> words) {
     for (std::uint64_t& word : words) {
@@ -58,19 +72,14 @@ std::optional<std::uint64_t> VtkBlocks::inflated_bytes() {
     return (count_ - 1) * full_bytes_ + last_bytes_;
 }
 
-/// To the check sum; what is left behind it is passed over.
+/// Verifies the check sum; a block that inflates to more than the table says is damaged. Ignores the bytes behind it.
 bool VtkBlocks::end_block() {
-    Bytef nothing = 0;
-    while (is_open_) {
-        if (stream_.avail_in == 0 && !refill()) return false;
-        stream_.next_out = &nothing;
-        stream_.avail_out = 0;
-        const int status = inflate(&stream_, Z_NO_FLUSH);
-        is_open_ = status != Z_STREAM_END;
-        if (!is_open_ || (status == Z_OK && stream_.avail_in == 0)) continue;
+    std::byte more;
+    if (is_open_ && (inflated_.read(std::span(&more, 1)) > 0 || !inflated_.finish())) {
         problem_ = "a compressed block is damaged; fetch the file again";
         return false;
     }
+    is_open_ = false;
     if (blocks_->skip(std::exchange(packed_left_, 0))) return true;
     problem_ = blocks_->problem();
     return false;
@@ -86,20 +95,7 @@ bool VtkBlocks::begin_block() {
     packed_left_ = size;
     left_ = ++next_ == count_ ? last_bytes_ : full_bytes_;
     is_open_ = true;
-    inflateReset(&stream_);
-    stream_.avail_in = 0;
-    return true;
-}
-
-bool VtkBlocks::refill() {
-    const std::size_t wanted = std::min<std::uint64_t>(packed_.size(), packed_left_);
-    if (wanted == 0 || blocks_->read(std::span(packed_).first(wanted)) < wanted) {
-        problem_ = wanted == 0 ? "a compressed block ends early; write the file again" : blocks_->problem();
-        return false;
-    }
-    packed_left_ -= wanted;
-    stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
-    stream_.avail_in = static_cast<uInt>(wanted);
+    inflated_.rewind();
     return true;
 }
 
@@ -111,16 +107,13 @@ std::size_t VtkBlocks::read(std::span<std::byte> bytes) {
             if (!begin_block()) break;
             continue;
         }
-        if (stream_.avail_in == 0 && !refill()) break;
-        const std::size_t wanted = std::min<std::uint64_t>({bytes.size() - done, left_, std::uint64_t{1} << 30});
-        stream_.next_out = reinterpret_cast<Bytef*>(bytes.data() + done);
-        stream_.avail_out = static_cast<uInt>(wanted);
-        const int status = inflate(&stream_, Z_NO_FLUSH);
-        done += wanted - stream_.avail_out;
-        left_ -= wanted - stream_.avail_out;
-        if (status == Z_STREAM_END) is_open_ = false;
-        if ((status != Z_OK && status != Z_BUF_ERROR && status != Z_STREAM_END) || (!is_open_ && left_ > 0))
-            problem_ = "a compressed block is damaged; fetch the file again";
+        const std::size_t wanted = std::min<std::uint64_t>(bytes.size() - done, left_);
+        const std::size_t count = inflated_.read(bytes.subspan(done, wanted));
+        done += count;
+        left_ -= count;
+        if (count < wanted)
+            problem_ =
+                blocks_->problem().empty() ? "a compressed block is damaged; fetch the file again" : blocks_->problem();
     }
     return done;
 }

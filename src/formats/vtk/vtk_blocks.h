@@ -1,15 +1,14 @@
 // Compressed arrays of VTK XML files.
 #pragma once
 
-#include <zlib.h>
-
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "formats/vtk/vtk_xml_tags.h"
+#include "formats/codec/deflate_stream.h"
+#include "formats/vtk/vtk_xml.h"
 
 namespace regionmesh::formats {
 
@@ -19,9 +18,6 @@ class VtkBlocks final : public ByteStream {
 public:
     /// Both streams begin at the array: one reads the table while the other reads blocks.
     VtkBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, const VtkEncoding& encoding);
-    VtkBlocks(const VtkBlocks&) = delete;
-    VtkBlocks& operator=(const VtkBlocks&) = delete;
-    ~VtkBlocks() override;
 
     /// How many bytes the array says it inflates to; nothing where it does not say it, or that is more than 63 bits.
     std::optional<std::uint64_t> inflated_bytes();
@@ -32,11 +28,13 @@ public:
     const std::string& problem() const override { return problem_; }
 
 private:
+    /// The compressed bytes of one block.
+    class Block;
+
     bool read_words(std::span<std::uint64_t> words);
     bool begin();
     bool begin_block();
     bool end_block();
-    bool refill();
 
     std::unique_ptr<ByteStream> table_, blocks_;
     VtkEncoding encoding_;
@@ -45,9 +43,8 @@ private:
     std::uint64_t next_ = 0;         // block
     std::uint64_t left_ = 0;         // bytes of the open block, inflated
     std::uint64_t packed_left_ = 0;  // and compressed, not yet taken from the stream
-    bool is_open_ = false;           // a block, whose check sum was not yet met
-    z_stream stream_{};
-    std::vector<std::byte> packed_;
+    bool is_open_ = false;           // a block, whose check sum was not yet verified
+    DeflateStream inflated_;         // of the open block
     std::string problem_;
 };
 

@@ -3,104 +3,76 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <string_view>
-#include <utility>
 
-#include "formats/text/ascii_stream.h"
 #include "formats/text/header_text.h"
-#include "formats/vtk/label_array.h"
-#include "formats/vtk/vtk_arrays.h"
-#include "formats/vtk/vtk_blocks.h"
 
 namespace regionmesh::formats {
 namespace {
 
 constexpr std::size_t kNumbersHeld = std::size_t{8} << 10;
 
-template <class Bits, class Real>
-void decode_reals(std::span<const std::byte> bytes, bool is_big_endian, std::span<double> reals) {
-    for (std::size_t i = 0; i < reals.size(); ++i)
-        reals[i] = std::bit_cast<Real>(
-            static_cast<Bits>(decode_word(bytes.subspan(i * sizeof(Real), sizeof(Real)), is_big_endian)));
-}
-
 }  // namespace
 
-bool is_vtk_integer(std::string_view type) { return vtk_integer_type(type).has_value(); }
-bool is_vtk_real(std::string_view type) { return type == "Float32" || type == "Float64"; }
-
-VtkNumbers::VtkNumbers(const std::filesystem::path& path, const VtkXmlTags& tags, pugi::xml_node array,
-                       std::optional<std::uint64_t> count)
-    : path_(path), name_(array.attribute("Name").value()), count_(count) {
+VtkNumbers::VtkNumbers(const VtkXml& xml, pugi::xml_node array, std::optional<std::uint64_t> count)
+    : xml_(xml), array_(array) {
     const std::string_view type = array.attribute("type").value();
-    is_real_ = is_vtk_real(type);
-    if (!is_real_ && !is_vtk_integer(type)) fail(fmt::format("has type '{}': numbers are needed", shown(type)));
-    const VtkArrayPlace place = tags.place_of(array);
-    format_ = {vtk_integer_type(type).value_or(SampleType::kI64), tags.encoding().is_big_endian};
-    bytes_each_ = !is_real_ ? sample_bytes(format_.type) : type == "Float32" ? sizeof(float) : sizeof(double);
+    const auto known = type == "String" ? NumberType::kUint8 : vtk_type(array);
+    if (!known) fail(fmt::format("has type '{}': numbers are needed", shown(type)));
+    type_ = *known;
+    is_real_ = formats::is_real(type_);
+    const VtkArrayPlace place = xml.place_of(array);
     if (place.form == VtkArrayPlace::Form::kAscii) {
-        format_ = kAsciiFormat;
-        bytes_each_ = sizeof(double);
-        stream_ = std::make_unique<AsciiStream>(InputFile(path), place.begin, place.end,
-                                                is_real_ ? AsciiNumbers::kReals : AsciiNumbers::kIntegers);
-    } else if (tags.encoding().is_compressed) {
-        begin_compressed(place, tags.encoding());
-    } else {
-        begin_plain(place, tags.encoding().word_bytes);
+        words_.emplace(InputFile(xml.path()), place.begin, place.end);
+        return;
     }
+    VtkBytes bytes = xml.open(array);
+    stream_ = std::move(bytes.stream);
+    if (!stream_->skip(bytes.offset)) fail(stream_->problem());
+    count_ = bytes.count / bytes_of(type_);
+    if (bytes.count % bytes_of(type_) != 0)
+        fail(fmt::format("has {} bytes, {} of which are a number", bytes.count, bytes_of(type_)));
+    if (count && *count_ != *count) fail(fmt::format("has {} numbers where {} are needed", *count_, *count));
 }
 
-void VtkNumbers::begin_plain(const VtkArrayPlace& place, std::size_t word_bytes) {
-    stream_ = open_stored(path_, place);
-    std::array<std::byte, 8> word{};
-    const auto bytes = std::span(word).first(word_bytes);
-    if (stream_->read(bytes) < bytes.size()) fail(stream_->problem());
-    check_bytes(decode_word(bytes, format_.is_big_endian));
-}
-
-void VtkNumbers::begin_compressed(const VtkArrayPlace& place, const VtkEncoding& encoding) {
-    auto blocks = std::make_unique<VtkBlocks>(open_stored(path_, place), open_stored(path_, place), encoding);
-    const auto bytes = blocks->inflated_bytes();
-    if (!bytes) fail(blocks->problem());
-    stream_ = std::move(blocks);
-    check_bytes(*bytes);
-}
-
-void VtkNumbers::check_bytes(std::uint64_t bytes) {
-    const std::uint64_t numbers = bytes / bytes_each_;
-    if (bytes % bytes_each_ != 0) fail(fmt::format("has {} bytes, {} of which are a number", bytes, bytes_each_));
-    if (count_ && *count_ != numbers) fail(fmt::format("has {} numbers where {} are needed", numbers, *count_));
-    count_ = numbers;
-}
-
-void VtkNumbers::fail(const std::string& text) const {
-    formats::fail(path_, fmt::format("array '{}': {}", name_, text));
-}
-
-void VtkNumbers::refill() {
-    const std::uint64_t left = count_ ? *count_ - taken_ : kNumbersHeld;
-    if (left == 0) fail(fmt::format("has {} numbers, and more are needed", taken_));
-    const std::size_t wanted = std::min<std::uint64_t>(left, kNumbersHeld);
-    bytes_.resize(wanted * bytes_each_);
-    held_ = stream_->read(bytes_) / bytes_each_;
-    if (held_ == 0) fail(stream_->problem());
-    if (is_real_) {
-        reals_.resize(held_);
-        const auto decode =
-            bytes_each_ == sizeof(float) ? decode_reals<std::uint32_t, float> : decode_reals<std::uint64_t, double>;
-        decode(bytes_, format_.is_big_endian, reals_);
+/// False at the end.
+bool VtkNumbers::refill() {
+    next_ = held_ = 0;
+    if (words_) {
+        const auto word = words_->take_word();
+        if (!word) return false;
+        const auto real = is_real_ ? parse_real(*word) : std::nullopt;
+        const auto integer = is_real_ ? std::nullopt : parse_label(*word);
+        if (!real && !integer)
+            fail(fmt::format("has '{}' where a{} number belongs", shown(*word), is_real_ ? " finite" : " whole"));
+        reals_.assign(1, real.value_or(0));
+        integers_.assign(1, integer.value_or(0));
+        held_ = 1;
     } else {
-        integers_.resize(held_);
-        decode_samples(bytes_.data(), bytes_each_, format_, integers_);
+        const std::size_t each = bytes_of(type_), wanted = std::min<std::uint64_t>(*count_ - taken_, kNumbersHeld);
+        if (wanted == 0) return false;
+        bytes_.resize(wanted * each);
+        if (stream_->read(bytes_) < bytes_.size()) fail(stream_->problem());
+        const bool is_big_endian = xml_.encoding().is_big_endian;
+        if (is_real_) {
+            reals_.resize(wanted);
+            load_all(bytes_.data(), each, type_, is_big_endian, std::span(reals_));
+        } else {
+            integers_.resize(wanted);
+            load_all(bytes_.data(), each, type_, is_big_endian, std::span(integers_));
+        }
+        held_ = wanted;
     }
     taken_ += held_;
-    next_ = 0;
+    return true;
+}
+
+void VtkNumbers::require_number() {
+    if (next_ == held_ && !refill()) fail(fmt::format("has {} numbers, and more are needed", taken_));
 }
 
 std::int64_t VtkNumbers::integer() {
-    if (next_ == held_) refill();
+    require_number();
     const std::size_t i = next_++;
     if (!is_real_) return integers_[i];
     const auto whole = whole_number(reals_[i]);
@@ -109,18 +81,43 @@ std::int64_t VtkNumbers::integer() {
 }
 
 double VtkNumbers::real() {
-    if (next_ == held_) refill();
+    require_number();
     const std::size_t i = next_++;
     return is_real_ ? reals_[i] : static_cast<double>(integers_[i]);
 }
 
+Vec3 VtkNumbers::point() {
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis) p[axis] = real();
+    return p;
+}
+
 void VtkNumbers::skip(std::uint64_t count) {
     while (count > 0) {
-        if (next_ == held_) refill();
+        require_number();
         const std::size_t part = std::min<std::uint64_t>(count, held_ - next_);
         next_ += part;
         count -= part;
     }
+}
+
+bool VtkNumbers::at_end() { return next_ == held_ && !refill(); }
+
+void VtkNumbers::finish() {
+    if (!at_end()) fail("has more numbers than the file announces");
+    if (stream_ && !stream_->finish()) fail(stream_->problem());
+}
+
+VtkNumbers integers_of(const VtkXml& xml, pugi::xml_node array, std::optional<std::uint64_t> count) {
+    if (const auto type = vtk_type(array); type && is_real(*type))
+        xml.fail(array, fmt::format("has type '{}': integers are needed", array.attribute("type").value()));
+    return {xml, array, count};
+}
+
+VtkNumbers points_of(const VtkXml& xml, pugi::xml_node piece, std::uint64_t count) {
+    const pugi::xml_node array = piece.child("Points").child("DataArray");
+    if (!array || components(array) != 3) xml.fail("needs an array of points with three components");
+    return {xml, array, 3 * count};
 }
 
 }  // namespace regionmesh::formats

@@ -2,52 +2,58 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "formats/codec/sample_format.h"
-#include "formats/vtk/vtk_xml_tags.h"
+#include "formats/codec/byte_reader.h"
+#include "formats/vtk/vtk_xml.h"
+#include "regionmesh/vec3.h"
 
 namespace regionmesh::formats {
-
-/// Whether arrays of that type of VTK's can be read, and hold integers.
-bool is_vtk_integer(std::string_view type);
-bool is_vtk_real(std::string_view type);
 
 /// Holds 64 KiB of the array at a time. Throws Error(kInput) that names file and array.
 class VtkNumbers {
 public:
-    /// An array that says it has other than `count` numbers is an error; ascii does not say it.
-    VtkNumbers(const std::filesystem::path& path, const VtkXmlTags& tags, pugi::xml_node array,
-               std::optional<std::uint64_t> count);
+    /// Throws where the array says that it has other than `count` numbers; ascii arrays do not say it. Refers to `xml`.
+    VtkNumbers(const VtkXml& xml, pugi::xml_node array, std::optional<std::uint64_t> count);
 
     /// The next number. An integer keeps its bits; where integers are needed, a real must be whole and below 2^53.
     std::int64_t integer();
     double real();
+    /// Three reals.
+    Vec3 point();
     void skip(std::uint64_t count);
 
-private:
-    void begin_plain(const VtkArrayPlace& place, std::size_t word_bytes);
-    void begin_compressed(const VtkArrayPlace& place, const VtkEncoding& encoding);
-    void check_bytes(std::uint64_t bytes);
-    void refill();
-    [[noreturn]] void fail(const std::string& text) const;
+    /// Whether all numbers were taken.
+    bool at_end();
+    /// To be called after the last number: throws where there are more, or where a check sum does not agree.
+    void finish();
 
-    std::filesystem::path path_;
-    std::string name_;
+private:
+    bool refill();
+    void require_number();
+    [[noreturn]] void fail(const std::string& text) const { xml_.fail(array_, text); }
+
+    const VtkXml& xml_;
+    pugi::xml_node array_;
+    NumberType type_;
     bool is_real_;
-    SampleFormat format_;     // of integers
-    std::size_t bytes_each_;  // in the stream
-    std::unique_ptr<ByteStream> stream_;
-    std::optional<std::uint64_t> count_;  // ascii without a count: none
+    std::optional<std::uint64_t> count_;  // as the array says; none for ascii
+    std::unique_ptr<ByteStream> stream_;  // or, for ascii,
+    std::optional<ByteReader> words_;
     std::uint64_t taken_ = 0;
     std::vector<std::byte> bytes_;
-    std::vector<InputLabel> integers_;  // those at hand, or
+    std::vector<std::int64_t> integers_;  // those at hand, or
     std::vector<double> reals_;
     std::size_t next_ = 0, held_ = 0;
 };
+
+/// The same for an array of integers: throws for one of reals.
+VtkNumbers integers_of(const VtkXml& xml, pugi::xml_node array, std::optional<std::uint64_t> count);
+
+/// The array of points of a piece. Throws where it has not three components.
+VtkNumbers points_of(const VtkXml& xml, pugi::xml_node piece, std::uint64_t count);
 
 }  // namespace regionmesh::formats

@@ -116,14 +116,12 @@ void write_number(std::string_view name, std::int64_t number, OutputFile& file) 
 void write_names(const FileView& view, OutputFile& file) {
     std::string labels, codes;
     int count = 0;
-    for (const Label label : view.ordered_labels()) {
-        const std::string name = view.name(label);
-        if (name.empty()) continue;
+    view.for_names([&](Label label, const std::string& name) {
         ++count;
         labels += fmt::format("{}\n", view.labels().input(label));
         for (const char c : name) codes += fmt::format("{} ", static_cast<unsigned char>(c));
         codes += "0\n";
-    }
+    });
     if (count == 0) return;
     file.write(
         fmt::format("<DataArray type=\"Int64\" Name=\"RegionLabels\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}"

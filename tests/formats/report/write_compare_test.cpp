@@ -1,9 +1,9 @@
-#include "regionmesh/write_compare.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 namespace {

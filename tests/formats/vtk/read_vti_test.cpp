@@ -55,11 +55,11 @@ TEST_F(ReadVtiTest, samples_of_cells_lie_at_their_centres) {
 
 TEST_F(ReadVtiTest, only_integers_with_one_component_are_labels) {
     EXPECT_THAT(refusal({data("vti/bad/float32.vti")}),
-                AllOf(HasSubstr("no array of integers"), HasSubstr("ct (points Float32, 1)"),
-                      HasSubstr("colours (points UInt8, 3)")));
+                AllOf(HasSubstr("no array of integers"), HasSubstr("ct (points, Float32)"),
+                      HasSubstr("colours (points, UInt8, 3 components)")));
     EXPECT_THAT(refusal({data("vti/bad/several.vti")}),
-                AllOf(HasSubstr("several arrays of integers"), HasSubstr("first (points UInt16, 1)"),
-                      HasSubstr("second (points UInt8, 1)")));
+                AllOf(HasSubstr("several arrays of integers"), HasSubstr("first (points, UInt16)"),
+                      HasSubstr("second (points, UInt8)")));
 }
 
 TEST_F(ReadVtiTest, comments_and_other_elements_are_passed_over) {
@@ -77,7 +77,7 @@ TEST_F(ReadVtiTest, bad_files_are_refused_and_say_why) {
     EXPECT_THAT(refusal({data("vti/bad/lz4.vti")}), HasSubstr("compressor 'vtkLZ4DataCompressor': write it with zlib"));
     const std::string extent = "Piece Extent=\"0 4 0 3 0 2\"";
     const std::tuple<std::string, std::string, std::string> cases[] = {
-        {extent, "Piece Extent=\"0 4 0 3 0 3\"", "array 'labels' has 120 bytes where its extent needs 160"},
+        {extent, "Piece Extent=\"0 4 0 3 0 3\"", "array 'labels': has 120 bytes where its extent needs 160"},
         {extent, "Piece Extent=\"0 4 0 3 3 2\"", "Extent is '0 4 0 3 3 2'"},
         {extent, "Piece Extent=\"-9223372036854775808 4 0 3 0 2\"", "Extent is '-9223372036854775808"},
         {extent, "Piece Extent=\"0 4 0 3\"", "Extent is '0 4 0 3'"},
@@ -97,7 +97,7 @@ TEST_F(ReadVtiTest, bad_files_are_refused_and_say_why) {
     for (const auto& [from, to, message] : cases)
         EXPECT_THAT(refusal({changed("raw_uint16.vti", from, to)}), HasSubstr(message)) << to;
     EXPECT_THAT(refusal({changed("zlib_uint16.vti", extent, "Piece Extent=\"0 4 0 3 0 3\"")}),
-                HasSubstr("array 'labels' has 120 bytes where its extent needs 160"));
+                HasSubstr("array 'labels': has 120 bytes where its extent needs 160"));
     EXPECT_THAT(refusal({changed("zlib_uint16.vti", extent, "Piece Extent=\"0 9999 0 9999 0 9999\"")}),
                 HasSubstr("cannot hold the 2000000000000"));
     EXPECT_THAT(refusal({changed("ascii_uint16.vti", extent, "Piece Extent=\"0 4 0 3 0 99\"")}),

@@ -113,22 +113,24 @@ TEST_F(ReadVtp, errors_name_what_is_wrong) {
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {"Name=\"BoundaryLabels\"", "Name=\"Other\"", "needs the cell array 'BoundaryLabels'"},
         {"Components=\"2\"", "Components=\"3\"", "has 3 components: 2 are needed"},
-        {"Int16", "Float64", "array 'BoundaryLabels' has type 'Float64': integers are needed"},
-        {"3 5<", "3<", "array 'BoundaryLabels' is 1 numbers short"},
-        {"3 5<", "3 5 6<", "array 'BoundaryLabels' has more numbers"},
-        {"3 5<", "3 5x<", "has '5x' where a number belongs"},
+        {"Int16", "Float64", "array 'BoundaryLabels': has type 'Float64': integers are needed"},
+        {"3 5<", "3<", "array 'BoundaryLabels': has 1 numbers, and more are needed"},
+        {"3 5<", "3 5 6<", "array 'BoundaryLabels': has more numbers"},
+        {"3 5<", "3 5x<", "has '5x' where a whole number belongs"},
         {">3</DataArray></Polys>", ">2</DataArray></Polys>", "cell 0 is no polygon: its offset is 2 after 0"},
-        {">3</DataArray></Polys>", ">4</DataArray></Polys>", "array 'connectivity' is 1 numbers short"},
+        {">3</DataArray></Polys>", ">4</DataArray></Polys>",
+         "array 'connectivity': has 3 numbers, and more are needed"},
         {"0 1 2<", "0 1 3<", "cell 0 names point 3 of 3"},
         {"0 1 2<", "0 1 -1<", "cell 0 names point -1 of 3"},
         {"1e0", "nan", "point 2 has a coordinate that is not finite"},
         {"NumberOfVerts=\"0\"", "NumberOfVerts=\"1\"", "NumberOfVerts is not 0"},
         {"NumberOfPolys=\"1\"", "NumberOfPolys=\"-1\"", "NumberOfPolys is '-1'"},
-        {"NumberOfPolys=\"1\"", "NumberOfPolys=\"99999999999\"", "more than a model can hold"},
-        {"NumberOfPoints=\"3\"", "NumberOfPoints=\"4000000000\"", "numbers short"},
+        {"NumberOfPolys=\"1\"", "NumberOfPolys=\"99999999999\"",
+         "NumberOfPolys is '99999999999': a count of at most 1073741823"},
+        {"NumberOfPoints=\"3\"", "NumberOfPoints=\"4000000000\"", "array '': has 9 numbers, and more are needed"},
         {"NumberOfVerts=\"0\"", "NumberOfStrips=\"1\"", "NumberOfStrips is not 0"},
         {"type=\"PolyData\"", "type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\"",
-         "compressor vtkLZ4DataCompressor"},
+         "compressor 'vtkLZ4DataCompressor': write it with zlib"},
         {"<PolyData>", "<Poly>", "no XML"},
     };
     for (const auto& [from, to, message] : cases)
@@ -140,20 +142,23 @@ TEST_F(ReadVtp, errors_name_what_is_wrong) {
 
 TEST_F(ReadVtp, sizes_are_held_against_what_is_there) {
     const std::string points = "format=\"ascii\">0 0 0 1 0 0 0.5 1e0 0";
-    // The header of the first promises 4 GiB, of the second 2^31 blocks, of the third one block of 2 GiB in 8 bytes.
+    // The header of the first promises 4 GiB, of the second 2^31 blocks, of the third one block of 2 GiB in 8 bytes, of
+    // the fourth the 36 bytes that are needed in 8, which are no zlib stream.
     EXPECT_THAT(failure_of_text("m.vtp", vtp_text(points, "format=\"binary\">/////w==AAAA")),
-                HasSubstr("is cut short"));
+                HasSubstr("has 4294967295 bytes"));
+    EXPECT_THAT(failure_of_text("m.vtp", vtp_text(points, "format=\"binary\">JAAAAA==AAAA")), HasSubstr("ends early"));
     const std::string zlib = "compressor=\"vtkZLibDataCompressor\"";
     const auto compressed = [&](const std::string& text) {
         std::string whole = vtp_text(points, "format=\"binary\">" + text);
         return whole.insert(whole.find("version"), zlib + " ");
     };
-    EXPECT_THAT(failure_of_text("m.vtp", compressed("AAAAgAAAAAAAAAAAAAAAAA==")), HasSubstr("is cut short"));
+    EXPECT_THAT(failure_of_text("m.vtp", compressed("AAAAgAAAAAAAAAAAAAAAAA==")),
+                HasSubstr("table of its blocks is cut short"));
     EXPECT_THAT(failure_of_text("m.vtp", compressed("AQAAAAAAAIAAAAAACAAAAA==AAAAAAAAAAA=")),
-                HasSubstr("larger than its compressed bytes"));
+                HasSubstr("has 536870912 numbers where 9 are needed"));
     EXPECT_THAT(failure_of_text("m.vtp", compressed("AQAAACQAAAAAAAAACAAAAA==AAAAAAAAAAA=")),
-                HasSubstr("zlib cannot read"));
-    EXPECT_THAT(failure_of_text("m.vtp", compressed("!")), HasSubstr("is cut short"));
+                HasSubstr("block is damaged"));
+    EXPECT_THAT(failure_of_text("m.vtp", compressed("!")), HasSubstr("table of its blocks is cut short"));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-#include "boreholes/csv_rows.h"
+#include "formats/text/csv_rows.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "formats/text/header_text.h"
 
@@ -34,14 +35,33 @@ char find_separator(std::string_view header) {
 
 }  // namespace
 
-CsvRows::CsvRows(const std::filesystem::path& path) : file_(path) {
+CsvRows::CsvRows(const std::filesystem::path& path) : file_(path) { begin(skip_to_header()); }
+
+CsvRows::CsvRows(InputFile file, std::string text, char separator) : file_(std::move(file)), given_(std::move(text)) {
+    begin(separator);
+}
+
+void CsvRows::begin(char separator) {
     csv_init(&parser_, CSV_REPALL_NL);
     csv_set_blk_size(&parser_, 4096);
-    skip_to_header();
+    csv_set_delim(&parser_, static_cast<unsigned char>(separator));
+}
+
+std::size_t CsvRows::read(std::span<std::byte> bytes) {
+    std::size_t count = 0;
+    if (given_) {
+        const auto rest = std::as_bytes(std::span(*given_)).subspan(place_);
+        count = std::min(bytes.size(), rest.size());
+        std::copy_n(rest.begin(), count, bytes.begin());
+    } else {
+        count = file_.read(place_, bytes);
+    }
+    place_ += count;
+    return count;
 }
 
 /// The parser knows of no comments: those before the header, which may hold quotes, are kept from it.
-void CsvRows::skip_to_header() {
+char CsvRows::skip_to_header() {
     std::string head(kMostRowBytes, '\0');
     head.resize(file_.read(0, bytes_of(head)));
     std::string_view rest = head;
@@ -59,7 +79,7 @@ void CsvRows::skip_to_header() {
     }
     if (rest.empty()) fail(file_.path(), "holds no table; write a header like 'x,y,z,label' and rows below it");
     place_ = head.size() - rest.size();
-    csv_set_delim(&parser_, static_cast<unsigned char>(find_separator(rest)));
+    return find_separator(rest);
 }
 
 bool CsvRows::next() {
@@ -103,8 +123,7 @@ bool CsvRows::parse_more() {
     };
     const auto take_row = [](int letter, void* self) noexcept { static_cast<CsvRows*>(self)->end_row(letter); };
     std::array<char, kPartBytes> part;
-    const std::size_t count = file_.read(place_, std::as_writable_bytes(std::span(part)));
-    place_ += count;
+    const std::size_t count = read(std::as_writable_bytes(std::span(part)));
     if (csv_parse(&parser_, part.data(), count, take_field, take_row, this) != count)
         refuse(begun_, csv_strerror(csv_error(&parser_)));
     if (count < part.size()) {
@@ -131,7 +150,7 @@ void CsvRows::check_size() {
     const std::size_t fields = rows_.empty() ? 0 : rows_.back().field_end;
     const std::size_t bytes = fields == 0 ? 0 : field_ends_[fields - 1];
     if (field_ends_.size() - fields > kMostFields)
-        refuse(begun_, fmt::format("has more than {} fields: no table of points", kMostFields));
+        refuse(begun_, fmt::format("has more than {} fields: no such table", kMostFields));
     if (text_.size() - bytes > kMostRowBytes || csv_get_buffer_size(&parser_) > kMostRowBytes)
         refuse(begun_, "is longer than 1 MiB; is a quote not closed?");
 }

@@ -1,4 +1,4 @@
-#include "formats/surface/msh_tags.h"
+#include "formats/surface/msh_layout.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,8 @@ namespace regionmesh::formats {
 class CsvRows {
 public:
     explicit CsvRows(const std::filesystem::path& path);
+    /// The rows of `text`, which came from a file, with that separator between fields.
+    CsvRows(InputFile file, std::string text, char separator);
     ~CsvRows() { csv_free(&parser_); }
     CsvRows(const CsvRows&) = delete;
     CsvRows& operator=(const CsvRows&) = delete;
@@ -47,7 +51,9 @@ private:
         std::size_t field_begin = 0, field_end = 0;  // in field_ends_
     };
 
-    void skip_to_header();
+    void begin(char separator);
+    std::size_t read(std::span<std::byte> bytes);
+    char skip_to_header();
     bool parse_more();
     void drop_used();
     void check_size();
@@ -56,7 +62,8 @@ private:
 
     InputFile file_;
     csv_parser parser_;
-    std::uint64_t place_ = 0;  // in the file, of what is parsed next
+    std::optional<std::string> given_;  // read instead of the file
+    std::uint64_t place_ = 0;           // in the file or the given text, of what is parsed next
     bool is_at_end_ = false;
 
     // Rows that are parsed: their text, and where each field of it ends. Behind them fields of a row not yet whole.
