@@ -1,4 +1,4 @@
-// Every option of the programs, declared once: what the command line, its page in docs/ and bindings are built from.
+// Every option of the programs, declared once. The command line, its page in docs/ and bindings are built from this.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace regionmesh {
 /// The name and the text of each option that is set: {"reduce", "90%"}. A flag has the text "true" or "false".
 using OptionValues = std::vector<std::pair<std::string, std::string>>;
 
-/// What a command is asked for. The defaults of the options are the values that this struct starts with.
+/// The settings of a command. A default-constructed struct holds the defaults of all options.
 struct Settings {
     std::vector<std::string> inputs;    // volume, sections, table or mesh to reconstruct
     std::vector<std::string> models;    // surfaces to read: one, or two to compare
@@ -30,17 +30,17 @@ struct Settings {
     ReadMeshOptions surface;
     bool hull = false;
 
-    ReconstructOptions reconstruct;  // decimate, smooth, check and compare take theirs from it
-    std::optional<double> scale;     // unit of nifpms in smooth; none: the mean edge
+    ReconstructOptions reconstruct;  // the other commands copy from it what they need
+    std::optional<double> scale;     // unit of nifpms in smooth; none: the mean edge length
     std::uint64_t samples = CompareOptions{}.samples;
 
     std::string output, names, report, json, distance;  // files
     bool per_region = false, quiet = false;
 
-    OptionValues given;  // what apply_options() has set
+    OptionValues given;  // set by apply_options()
 };
 
-/// How the value of an option is written, and which type a binding gives it.
+/// Kind of the value of an option: how it is written as text, and its type in a binding.
 enum class OptionKind {
     kFlag,     // no value on the command line; bool
     kCount,    // whole number
@@ -82,12 +82,12 @@ struct OptionSpec {
     bool repeats = false;  // set() adds a value
     char letter = 0;       // short flag; 0: none
 
-    // The rest follows from the member of Settings that the option is bound to.
+    // These follow from the member of Settings that the option is bound to.
     OptionKind kind = OptionKind::kFlag;
     std::string range = {};                    // "0 to 1"; empty: any value of the kind
     std::vector<std::string_view> words = {};  // of kWord
     std::string default_text = {};             // as typed; empty: none
-    /// Throws Error(kUsage) with one line for a text that is no such value or beyond the range.
+    /// Throws Error(kUsage) with one line for a text that is not a value of the kind or is outside the range.
     std::function<void(Settings&, const std::string&)> set = {};
 
     std::string flag() const { return is_argument ? name : "--" + name; }
@@ -121,10 +121,10 @@ InputKind kind_of_input(const std::vector<std::string>& inputs);
 /// Throws Error(kUsage) where an option that was given does not apply to the input, or for two tables or meshes.
 void require_fit(const Settings& settings, const std::vector<std::string>& inputs);
 
-/// "COUNT", "x|y|z|auto", ...: what stands for the value in help texts; empty for flags.
+/// Placeholder of the value in help texts: "COUNT", "auto|x|y|z"; empty for flags.
 std::string value_name(const OptionSpec& option);
 
-/// docs/reference/command-line.md.
+/// The text of docs/reference/command-line.md.
 std::string command_line_page();
 
 }  // namespace regionmesh

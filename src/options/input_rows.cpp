@@ -63,7 +63,7 @@ Rows volume_rows() {
     constexpr std::string_view kGroup = "Input";
     return {
         file_option({.name = "sections",
-                     .help = "the volume, points or mesh that the model was made from: compare with its labels",
+                     .help = "input that the model was made from (volume, points or mesh): compare with its labels",
                      .group = kGroup,
                      .commands = kCheck,
                      .repeats = true},
@@ -74,7 +74,7 @@ Rows volume_rows() {
                      .commands = kVolumeCommands},
                     {"auto", "x", "y", "z"}, choose_sweep),
         option({.name = "spacing",
-                .help = "distance of samples along x, y and z, instead of the spacing in the file",
+                .help = "distance between samples along x, y and z, instead of the spacing in the file",
                 .group = kGroup,
                 .commands = kVolumeCommands,
                 .unit = "length",
@@ -118,7 +118,7 @@ Rows tetrahedra_rows() {
                [](Settings& s) { return &s.tetrahedra.columns; }),
         option(
             {.name = "step",
-             .help = "drill holes: largest distance of the points that replace an interval",
+             .help = "drill holes: largest distance between the points that represent an interval",
              .group = kGroup,
              .commands = kVolumeCommands,
              .unit = "length",

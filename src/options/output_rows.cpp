@@ -51,7 +51,7 @@ Rows run_rows() {
     Rows rows{
         special_option(
             {.name = "memory",
-             .help = "memory that the process may use, such as 500MiB; refused before the work where it is too little",
+             .help = "memory that the process may use, such as 500MiB; too little is refused before the work starts",
              .group = kGroup,
              .commands = kReconstruct,
              .unit = "bytes"},
@@ -60,7 +60,7 @@ Rows run_rows() {
                 s.reconstruct.memory = parse_bytes(flag, text);
             }),
         option({.name = "face-budget",
-                .help = "most faces held at a time, instead of a number derived from --memory",
+                .help = "largest number of faces in memory at a time; derived from --memory if not given",
                 .group = kGroup,
                 .commands = kReconstruct,
                 .unit = "faces"},
