@@ -80,6 +80,16 @@ OptionSpec option(OptionSpec row, Access access, Range range = {}) {
     return row;
 }
 
+/// A flag that sets a bool to false.
+template <class Access>
+OptionSpec inverted_flag(OptionSpec row, Access access) {
+    row.kind = OptionKind::kFlag;
+    row.set = [flag = row.flag(), access](Settings& settings, const std::string& text) {
+        *access(settings) = !parse_flag(flag, text);
+    };
+    return row;
+}
+
 /// An option whose value is the name of a file.
 template <class Access>
 OptionSpec file_option(OptionSpec row, Access access) {

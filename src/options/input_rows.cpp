@@ -16,6 +16,12 @@ void choose_sweep(Settings& settings, std::size_t word) {
     settings.reconstruct.sweep = kSweeps[word];
 }
 
+std::string labels_text(const std::vector<InputLabel>& labels) {
+    std::string text;
+    for (const InputLabel label : labels) text += (text.empty() ? "" : " ") + std::to_string(label);
+    return text;
+}
+
 void add_background(Settings& settings, const std::string& flag, const std::string& text) {
     std::vector<InputLabel>& background = settings.reconstruct.background;
     const bool is_first = std::ranges::none_of(settings.given, [](const auto& v) { return v.first == "background"; });
@@ -74,7 +80,7 @@ Rows volume_rows() {
                      .commands = kVolumeCommands},
                     {"auto", "x", "y", "z"}, choose_sweep),
         option({.name = "spacing",
-                .help = "distance between samples along x, y and z, instead of the spacing in the file",
+                .help = "volumes: distance between samples along x, y and z, instead of the spacing in the file",
                 .group = kGroup,
                 .commands = kVolumeCommands,
                 .unit = "length",
@@ -82,7 +88,7 @@ Rows volume_rows() {
                [](Settings& s) { return &s.volume.spacing; }),
         option(
             {.name = "layer",
-             .help = "which layer, channel or time to read where a file has several; counted from 0",
+             .help = "volumes: which layer, channel or time to read where a file has several; counted from 0",
              .group = kGroup,
              .commands = kVolumeCommands,
              .inputs = kVolumeInput},
@@ -149,12 +155,13 @@ Rows tetrahedra_rows() {
 Rows label_rows() {
     constexpr std::string_view kGroup = "Labels";
     constexpr std::uint32_t kBoxed = kReconstruct | kSurfaceCommands | kInfo;
-    Rows rows{
+    return {
         special_option({.name = "background",
                         .help = "label of empty space, whose faces with the exterior are not made",
                         .group = kGroup,
                         .commands = kBoxed | kConvert | kCompare,
-                        .repeats = true},
+                        .repeats = true,
+                        .default_text = labels_text(Settings{}.reconstruct.background)},
                        OptionKind::kLabel, add_background),
         special_option({.name = "no-background",
                         .help = "every label is a region",
@@ -170,9 +177,6 @@ Rows label_rows() {
                      .commands = kBoxed},
                     {"cap", "open"}, [](Settings& s, std::size_t word) { s.reconstruct.cap = word == 0; }),
     };
-    for (const InputLabel label : Settings{}.reconstruct.background)
-        rows[0].default_text += (rows[0].default_text.empty() ? "" : " ") + std::to_string(label);
-    return rows;
 }
 
 Rows surface_rows() {

@@ -48,13 +48,15 @@ Rows output_rows() {
 
 Rows run_rows() {
     constexpr std::string_view kGroup = "Run";
-    Rows rows{
+    return {
         special_option(
             {.name = "memory",
              .help = "memory that the process may use, such as 500MiB; too little is refused before the work starts",
              .group = kGroup,
              .commands = kReconstruct,
-             .unit = "bytes"},
+             .unit = "bytes",
+             .range = "above 0",
+             .default_text = bytes_text(Settings{}.reconstruct.memory)},
             OptionKind::kBytes,
             [](Settings& s, const std::string& flag, const std::string& text) {
                 s.reconstruct.memory = parse_bytes(flag, text);
@@ -77,9 +79,6 @@ Rows run_rows() {
                 .commands = kWriters | kCheck | kConvert | kCompare},
                [](Settings& s) { return &s.quiet; }),
     };
-    rows[0].default_text = bytes_text(Settings{}.reconstruct.memory);
-    rows[0].range = "above 0";
-    return rows;
 }
 
 }  // namespace regionmesh

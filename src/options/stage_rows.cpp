@@ -22,7 +22,7 @@ void choose_filter(Settings& settings, std::size_t word) {
 
 Rows decimation_rows() {
     constexpr std::string_view kGroup = "Decimation";
-    Rows rows{
+    return {
         option({.name = "target-faces",
                 .help = "stop when at most this number of faces is left",
                 .group = kGroup,
@@ -32,7 +32,8 @@ Rows decimation_rows() {
         special_option({.name = "reduce",
                         .help = "stop when this share of the faces is removed, such as 90%",
                         .group = kGroup,
-                        .commands = kDecimators},
+                        .commands = kDecimators,
+                        .range = Range{0, 1}.text()},
                        OptionKind::kShare,
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            s.reconstruct.reduce = parse_share(flag, text);
@@ -48,17 +49,12 @@ Rows decimation_rows() {
                 .group = kGroup,
                 .commands = kDecimators},
                [](Settings& s) { return &s.reconstruct.perturbation; }),
-        special_option({.name = "no-decimate",
-                        .help = "do not decimate, whatever the targets",
-                        .group = kGroup,
-                        .commands = kReconstruct},
-                       OptionKind::kFlag,
-                       [](Settings& s, const std::string& flag, const std::string& text) {
-                           s.reconstruct.decimate = !parse_flag(flag, text);
-                       }),
+        inverted_flag({.name = "no-decimate",
+                       .help = "do not decimate, whatever the targets",
+                       .group = kGroup,
+                       .commands = kReconstruct},
+                      [](Settings& s) { return &s.reconstruct.decimate; }),
     };
-    rows[1].range = Range{0, 1}.text();
-    return rows;
 }
 
 Rows smoothing_rows() {
@@ -110,14 +106,11 @@ Rows validity_rows() {
                 .group = kGroup,
                 .commands = kWriters},
                [](Settings& s) { return &s.reconstruct.min_quality; }),
-        special_option({.name = "no-intersect-check",
-                        .help = "do not test for crossing faces; faster",
-                        .group = kGroup,
-                        .commands = kWriters},
-                       OptionKind::kFlag,
-                       [](Settings& s, const std::string& flag, const std::string& text) {
-                           s.reconstruct.intersect_check = !parse_flag(flag, text);
-                       }),
+        inverted_flag({.name = "no-intersect-check",
+                       .help = "do not test for crossing faces; faster",
+                       .group = kGroup,
+                       .commands = kWriters},
+                      [](Settings& s) { return &s.reconstruct.intersect_check; }),
     };
 }
 
