@@ -34,6 +34,7 @@ const std::map<std::string, Names> kArrows{
     {"stream", {"base", "mesh", "volume", "cells", "simplify", "smooth", "check"}},
     {"formats", {"base", "mesh", "volume", "check", "compare", "stream"}},
     {"boreholes", {"base", "volume", "formats"}},
+    {"options", {"base", "mesh", "volume", "compare", "stream", "formats"}},
 };
 
 /// The room that a public header belongs to: the one that keeps its promise.
@@ -76,6 +77,7 @@ const std::map<std::string, std::string> kRoomOfHeader{
     {"read_sections.h", "formats"},
     {"read_tetrahedra.h", "formats"},
     {"write_report.h", "formats"},
+    {"options.h", "options"},
 };
 
 /// What a file includes of ours: "regionmesh/mesh.h", "base/hash.h".

@@ -1,32 +1,23 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "input_options.h"
-#include "mesh_options.h"
-#include "tetrahedra_options.h"
+#include "input.h"
+#include "output.h"
 
 namespace regionmesh::cli {
 namespace {
 
-struct Arguments {
-    std::string mesh, json;
-    std::vector<std::string> sections;
-    std::uint32_t threads = 0;
-    bool quiet = false;
-    InputOptions input;
-    TetrahedraArguments tetrahedra;
-    MeshOptions reading;
-};
+constexpr int kListed = 3;  // findings printed of each kind; the JSON has up to CheckOptions::listed
 
-/// The oracle in the dense labels of the model's table; labels that the model does not know get numbers of their own.
+/// The oracle in the dense labels of the model's table; labels that the model does not have are added to it.
 template <class AnyCensus>
 LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
     LabelOracle oracle = census.oracle;
     std::vector<std::int64_t> euler;
     for (Label dense = 0; dense < oracle.euler.size(); ++dense) {
-        const Label there = labels.dense(census.labels.input(dense));
-        if (there >= euler.size()) euler.resize(there + 1, 0);
-        euler[there] = oracle.euler[dense];
+        const Label in_model = labels.dense(census.labels.input(dense));
+        if (in_model >= euler.size()) euler.resize(in_model + 1, 0);
+        euler[in_model] = oracle.euler[dense];
     }
     oracle.euler = std::move(euler);
     return oracle;
@@ -34,54 +25,30 @@ LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
 
 void print_findings(const std::string& name, const CheckReport& report) {
     fmt::print(
-        "{}: {} regions, {} pairs with an interface, {} quadruple points inside, quality {:.3f} at worst, {:.3f} on "
-        "average\n",
+        "{}: {} regions, {} pairs with an interface, {} quadruple points inside, lowest quality {:.3f}, mean {:.3f}\n",
         name, report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
         report.quality.mean);
-    for (int kind = 0; kind < kViolationKindCount; ++kind) {
-        if (!report.counts[kind]) continue;
-        fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.counts[kind]);
-        int shown = 0;
-        for (const Violation& violation : report.violations)
-            if (violation.kind == static_cast<ViolationKind>(kind) && shown++ < 3) fmt::print("  {}\n", violation.text);
-    }
+    print_violations(report, kListed);
     if (report.violation_count() == 0) fmt::print("no violations\n");
     print_orient_hint(report);
 }
 
-int check_command(const Arguments& arguments) {
-    MeshFile file = arguments.reading.read(arguments.mesh);
-    CheckOptions options = arguments.input.check_options(file.labels);
-    options.threads = arguments.threads;
-    if (!arguments.sections.empty()) {
-        options.oracle = with_reader(arguments.sections, arguments.input, arguments.tetrahedra, [&](auto& reader) {
-            return translate(count_labels(reader, arguments.input.census_options()), file.labels);
+}  // namespace
+
+int run_check(const Settings& settings) {
+    const std::string& path = settings.models.front();
+    MeshFile file = read_mesh(path, settings.surface);
+    CheckOptions options = check_options(settings, file.labels);
+    options.threads = settings.reconstruct.threads;
+    if (!settings.sections.empty()) {
+        options.oracle = with_reader(settings, settings.sections, [&](auto& reader) {
+            return translate(count_labels(reader, census_options(settings)), file.labels);
         });
     }
     const CheckReport report = check(file.mesh, options);
-    if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels, file.names));
-    if (!arguments.quiet) print_findings(arguments.mesh, report);
-    return report.violation_count() == 0 ? 0 : 3;
-}
-
-}  // namespace
-
-void add_check(CLI::App& app, Action& action) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand(
-        "check", "looks for cracks, folds, crossings and changes of topology; exit 3 if there are any");
-    command->add_option("model", arguments->mesh, kMeshRead)->required();
-    arguments->reading.add_options(*command);
-    command->add_option("--sections", arguments->sections,
-                        "the volume, points or mesh that the model was made from: compare with its labels");
-    arguments->input.add_volume_options(*command);
-    arguments->input.add_label_options(*command);
-    arguments->tetrahedra.add_options(*command);
-    command->add_option("--json", arguments->json, "findings to write as JSON");
-    command->add_option("--threads", arguments->threads,
-                        "threads at work; one per core if not given. The findings are the same");
-    command->add_flag("--quiet", arguments->quiet, "exit code only");
-    command->callback([arguments, &action] { action = [arguments] { return check_command(*arguments); }; });
+    if (!settings.json.empty()) write_text(settings.json, check_json(report, file.labels, file.names));
+    if (!settings.quiet) print_findings(path, report);
+    return exit_code(report);
 }
 
 }  // namespace regionmesh::cli

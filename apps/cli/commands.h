@@ -1,20 +1,20 @@
-// One function per command; each adds its options to the program and leaves what to run.
+// The commands: one function, in a file of its own, for each row of command_table().
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include "regionmesh/options.h"
 
 namespace regionmesh::cli {
 
-/// Runs a command and returns its exit code: 0 good, 3 check found violations.
-using Action = std::function<int()>;
+/// Exit codes.
+inline constexpr int kGood = 0, kBadInput = 1, kBadUsage = 2, kViolations = 3;
 
-void add_reconstruct(CLI::App& app, Action& action);
-void add_decimate(CLI::App& app, Action& action);
-void add_smooth(CLI::App& app, Action& action);
-void add_check(CLI::App& app, Action& action);
-void add_convert(CLI::App& app, Action& action);
-void add_compare(CLI::App& app, Action& action);
-void add_info(CLI::App& app, Action& action);
+// Each runs a command and returns kGood, or kViolations where the model has some.
+int run_reconstruct(const Settings& settings);
+int run_decimate(const Settings& settings);
+int run_smooth(const Settings& settings);
+int run_check(const Settings& settings);
+int run_convert(const Settings& settings);
+int run_compare(const Settings& settings);
+int run_info(const Settings& settings);
 
 }  // namespace regionmesh::cli

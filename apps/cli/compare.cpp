@@ -4,26 +4,18 @@
 #include <numeric>
 
 #include "commands.h"
-#include "input_options.h"
+#include "input.h"
 
 namespace regionmesh::cli {
 namespace {
 
 constexpr std::size_t kShown = 10;  // rows of a table; the JSON has all
 constexpr std::size_t kNameWidth = 12;
-constexpr std::uint64_t kMostSamples = 1'000'000'000;
-
-struct Arguments {
-    std::string a, b, json, distance, samples = "1000000";
-    std::uint32_t threads = 0;
-    bool quiet = false;
-    InputOptions input;
-};
 
 MeshFile read_faces(const std::string& path) {
     MeshFile file = read_mesh(path);
     if (file.mesh.face_count() == 0)
-        throw Error(ErrorCode::kInput, fmt::format("{}: has no faces: there is nothing to compare", path));
+        throw Error(ErrorCode::kInput, fmt::format("{}: has no faces; there is nothing to compare", path));
     return file;
 }
 
@@ -37,7 +29,7 @@ std::string name_of(const std::vector<Label>& labels, const LabelTable& table) {
     return name;
 }
 
-/// One row of a table: what it is about, what stands before the distances, and these.
+/// One row of a table: a name, measures as text, and distances.
 struct Row {
     std::string name, measures;
     bool is_in_a, is_in_b;
@@ -84,7 +76,7 @@ void print_only(const char* mesh, const char* what, const std::vector<Row>& rows
     if (count > 0) fmt::print("only in {}: {} {}\n", mesh, what, names);
 }
 
-/// What both models have, the farthest apart first; then what only one of them has.
+/// The rows that both models have, the largest rms distance first; then those that only one of them has.
 void print_table(const char* what, const char* measures_head, const std::vector<Row>& rows) {
     std::vector<const Row*> shown;
     for (const Row& row : rows)
@@ -96,7 +88,7 @@ void print_table(const char* what, const char* measures_head, const std::vector<
     fmt::print("\n{:<{}}{}{}\n", what, width, measures_head, kDistanceHead);
     for (std::size_t n = 0; n < count; ++n)
         fmt::print("{:<{}}{}{}\n", shown[n]->name, width, shown[n]->measures, text_of(*shown[n]->distance.both));
-    if (shown.size() > count) fmt::print("and {} more, nearer to each other\n", shown.size() - count);
+    if (shown.size() > count) fmt::print("and {} more with smaller distances\n", shown.size() - count);
     print_only("A", what, rows, &Row::is_in_a, &Row::is_in_b);
     print_only("B", what, rows, &Row::is_in_b, &Row::is_in_a);
 }
@@ -116,12 +108,12 @@ std::string percents(const Histogram& histogram, std::size_t group) {
 void print_quality(const std::array<QualityReport, 2>& quality) {
     constexpr std::size_t kQualityGroup = 2, kAngleGroup = 1;
     constexpr const char* kNames[] = {"A", "B"};
-    fmt::print("\nquality      least  mean   percent of faces from");
+    fmt::print("\nquality     lowest  mean   percent of faces from");
     for (int n = 0; n < 14; ++n) fmt::print("{:>6.2f}", 0.02 * n);
     for (int n = 0; n < 2; ++n)
         fmt::print("\n{}            {:.3f}  {:.3f}                      {}", kNames[n], quality[n].min, quality[n].mean,
                    percents(quality[n].histogram, kQualityGroup));
-    fmt::print("\nangles       least  most   percent of angles from");
+    fmt::print("\nangles      lowest highest percent of angles from");
     for (int n = 0; n < 18; ++n) fmt::print("{:>5}{}", 10 * n, n < 17 ? " " : "");
     for (int n = 0; n < 2; ++n)
         fmt::print("\n{}           {:>6.2f} {:>6.2f}                     {}", kNames[n], quality[n].min_angle,
@@ -129,9 +121,9 @@ void print_quality(const std::array<QualityReport, 2>& quality) {
     fmt::print("\n");
 }
 
-void print_report(const Arguments& arguments, const CompareReport& report) {
-    fmt::print("A  {}: {} faces, {} vertices\n", arguments.a, report.faces[0], report.vertices[0]);
-    fmt::print("B  {}: {} faces, {} vertices\n", arguments.b, report.faces[1], report.vertices[1]);
+void print_report(const Settings& settings, const CompareReport& report) {
+    fmt::print("A  {}: {} faces, {} vertices\n", settings.models[0], report.faces[0], report.vertices[0]);
+    fmt::print("B  {}: {} faces, {} vertices\n", settings.models[1], report.faces[1], report.vertices[1]);
     fmt::print("\n{:<{}}{}\n", "surface", kNameWidth, kDistanceHead);
     fmt::print("{:<{}}{}\n", "A to B", kNameWidth, text_of(*report.distance.a_to_b));
     fmt::print("{:<{}}{}\n", "B to A", kNameWidth, text_of(*report.distance.b_to_a));
@@ -143,52 +135,36 @@ void print_report(const Arguments& arguments, const CompareReport& report) {
     print_quality(report.quality);
 }
 
-int compare_command(const Arguments& arguments) {
-    CompareOptions options{.samples = parse_count("--samples", arguments.samples),
-                           .background = arguments.input.background_labels(),
-                           .vertex_distances = !arguments.distance.empty(),
-                           .threads = arguments.threads};
-    if (options.samples == 0 || options.samples > kMostSamples)
-        throw Error(ErrorCode::kInput,
-                    fmt::format("--samples {}: give a number from 1 to {}", arguments.samples, kMostSamples));
-    if (!arguments.json.empty()) require_writable(arguments.json);
-    if (!arguments.distance.empty()) require_writable_mesh(arguments.distance, {}, true);
-    const MeshFile a = read_faces(arguments.a), b = read_faces(arguments.b);
-    const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels}, options);
-    if (!report.distance.both)
-        throw Error(ErrorCode::kInput,
-                    fmt::format("{}, {}: one of them has no face with an area, but those of the background with the "
-                                "exterior: there is nothing to compare; see --no-background",
-                                arguments.a, arguments.b));
-    if (!arguments.json.empty()) write_text(arguments.json, compare_json(report));
-    if (!arguments.distance.empty()) {
-        WriteOptions write_options{.point_arrays = {{"Distance", report.vertex_distances}}};
-        for (Label label = 0; label < a.labels.size(); ++label)
-            if (std::ranges::find(options.background, a.labels.input(label)) != options.background.end())
-                write_options.background.push_back(label);
-        write_mesh(a.mesh, a.labels, arguments.distance, write_options);
-    }
-    if (!arguments.quiet) print_report(arguments, report);
-    return 0;
+/// A with the distance of each vertex to B.
+void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report) {
+    const std::vector<InputLabel>& background = settings.reconstruct.background;
+    WriteOptions options{.point_arrays = {{"Distance", report.vertex_distances}}};
+    for (Label label = 0; label < a.labels.size(); ++label)
+        if (std::ranges::find(background, a.labels.input(label)) != background.end())
+            options.background.push_back(label);
+    write_mesh(a.mesh, a.labels, settings.distance, options);
 }
 
 }  // namespace
 
-void add_compare(CLI::App& app, Action& action) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand(
-        "compare", "distances between two models: as a whole, by region, by interface, by line; and their measures");
-    command->add_option("a", arguments->a, "labelled surface: .vtp with BoundaryLabels, or .ply of ours")->required();
-    command->add_option("b", arguments->b, "the one to compare it with")->required();
-    command->add_option("--json", arguments->json, "all figures to write as JSON");
-    command->add_option("--samples", arguments->samples, "points on each surface from which distances are taken");
-    command->add_option("--distance", arguments->distance,
-                        ".vtp to write: A with the distance of each vertex to B, point array Distance");
-    arguments->input.add_background_options(*command);
-    command->add_option("--threads", arguments->threads,
-                        "threads at work; one per core if not given. The figures are the same");
-    command->add_flag("--quiet", arguments->quiet, "no table");
-    command->callback([arguments, &action] { action = [arguments] { return compare_command(*arguments); }; });
+int run_compare(const Settings& settings) {
+    if (!settings.json.empty()) require_writable(settings.json);
+    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {}, true);
+    const MeshFile a = read_faces(settings.models[0]), b = read_faces(settings.models[1]);
+    const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
+                                         {.samples = settings.samples,
+                                          .background = settings.reconstruct.background,
+                                          .vertex_distances = !settings.distance.empty(),
+                                          .threads = settings.reconstruct.threads});
+    if (!report.distance.both)
+        throw Error(ErrorCode::kInput,
+                    fmt::format("{}, {}: one of them has no face of positive area, except faces between background and "
+                                "exterior: there is nothing to compare; see --no-background",
+                                settings.models[0], settings.models[1]));
+    if (!settings.json.empty()) write_text(settings.json, compare_json(report));
+    if (!settings.distance.empty()) write_distances(settings, a, report);
+    if (!settings.quiet) print_report(settings, report);
+    return kGood;
 }
 
 }  // namespace regionmesh::cli

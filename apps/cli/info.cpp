@@ -4,19 +4,12 @@
 #include <numeric>
 
 #include "commands.h"
-#include "input_options.h"
-#include "tetrahedra_options.h"
+#include "input.h"
 
 namespace regionmesh::cli {
 namespace {
 
-struct Arguments {
-    std::vector<std::string> inputs;
-    InputOptions input;
-    TetrahedraArguments tetrahedra;
-};
-
-/// `unit` is what has the labels.
+/// `unit` is the thing counted for each label: "samples", "points" or "tetrahedra".
 template <class AnyCensus>
 void print_labels(const AnyCensus& census, const LabelNames& names, const char* unit) {
     std::vector<Label> order;
@@ -40,12 +33,12 @@ int print_info(TetrahedronReader& reader, const CensusOptions& options) {
     const TetrahedronCensus census = count_labels(reader, options);
     fmt::print("file       {} ({})\n", info.source, info.format);
     fmt::print("size       {} points, {} tetrahedra\n", census.point_count, census.tetrahedron_count);
-    fmt::print("spacing    {:.6g} on average{}\n", census.spacing, info.scale_z == 1 ? "" : ", z scaled");
+    fmt::print("spacing    {:.6g} (mean){}\n", census.spacing, info.scale_z == 1 ? "" : ", z scaled");
     fmt::print("sweep      along {}\n", "xyz"[census.sweep.axes[2]]);
     print_labels(census, info.names, info.has_cell_labels ? "tetrahedra" : "points");
     fmt::print("model      {} faces unsimplified; {} pairs of regions with an interface\n", census.face_count,
                census.oracle.region_pairs);
-    return 0;
+    return kGood;
 }
 
 int print_info(SectionReader& reader, const CensusOptions& options) {
@@ -71,27 +64,14 @@ int print_info(SectionReader& reader, const CensusOptions& options) {
                census.oracle.region_pairs);
     fmt::print("memory     {:.0f} MB to hold the whole model; {:.0f} MB with a budget of a fifth of it\n",
                megabytes(census.face_count), megabytes(census.face_count / 5));
-    return 0;
-}
-
-int info_command(const Arguments& arguments) {
-    return with_reader(arguments.inputs, arguments.input, arguments.tetrahedra,
-                       [&](auto& reader) { return print_info(reader, arguments.input.census_options()); });
+    return kGood;
 }
 
 }  // namespace
 
-void add_info(CLI::App& app, Action& action) {
-    auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "size, type, spacing, labels, and what a model will need");
-    command
-        ->add_option("input", arguments->inputs,
-                     "volume, file.h5:/dataset, directory or list of sections, table of points, or mesh of tetrahedra")
-        ->required();
-    arguments->input.add_volume_options(*command);
-    arguments->input.add_label_options(*command);
-    arguments->tetrahedra.add_options(*command);
-    command->callback([arguments, &action] { action = [arguments] { return info_command(*arguments); }; });
+int run_info(const Settings& settings) {
+    return with_reader(settings, settings.inputs,
+                       [&](auto& reader) { return print_info(reader, census_options(settings)); });
 }
 
 }  // namespace regionmesh::cli

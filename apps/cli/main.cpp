@@ -2,22 +2,20 @@
 
 #include <new>
 
+#include "command_line.h"
 #include "commands.h"
 #include "regionmesh/formats.h"
-#include "regionmesh/process.h"
 #include "regionmesh/regionmesh.h"
 
+namespace regionmesh::cli {
 namespace {
 
-constexpr int kBadInput = 1;
-constexpr int kUsage = 2;
-
-int run(const regionmesh::cli::Action& action) {
+int run(const Action& action) {
     try {
         return action();
-    } catch (const regionmesh::Error& error) {
+    } catch (const Error& error) {
         fmt::print(stderr, "regionmesh: {}\n", error.what());
-        return error.code() == regionmesh::ErrorCode::kUsage ? kUsage : kBadInput;
+        return error.code() == ErrorCode::kUsage ? kBadUsage : kBadInput;
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "regionmesh: out of memory; give a smaller --memory or a lower target\n");
     } catch (const std::exception& error) {
@@ -26,29 +24,45 @@ int run(const regionmesh::cli::Action& action) {
     return kBadInput;
 }
 
-}  // namespace
+void add_commands(CLI::App& app, Action& action) {
+    // In the order of command_table().
+    constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth, run_check,
+                                                 run_convert,     run_compare,  run_info};
+    for (std::size_t n = 0; n < command_table().size(); ++n) add_command(app, command_table()[n], kRuns[n], action);
+}
 
-int main(int argc, char** argv) {
-    regionmesh::keep_large_arrays_apart();
+/// A flag that is not in help texts: prints docs/reference/command-line.md and ends.
+void add_page(CLI::App& app) {
+    const auto print_page = [] {
+        fmt::print("{}", command_line_page());
+        throw CLI::Success();
+    };
+    app.add_flag_callback("--help-markdown", print_page)->group("");
+}
+
+int parse_and_run(int argc, char** argv) {
     CLI::App app("Certified multi-region surface models from labelled sections, points and tetrahedra");
     app.name("regionmesh");
     app.set_version_flag("--version", REGIONMESH_VERSION);
     app.require_subcommand(1);
-    regionmesh::cli::Action action;
-    regionmesh::cli::add_reconstruct(app, action);
-    regionmesh::cli::add_decimate(app, action);
-    regionmesh::cli::add_smooth(app, action);
-    regionmesh::cli::add_check(app, action);
-    regionmesh::cli::add_convert(app, action);
-    regionmesh::cli::add_compare(app, action);
-    regionmesh::cli::add_info(app, action);
+    Action action;
+    add_commands(app, action);
+    add_page(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {
         return app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "regionmesh: {}; regionmesh --help lists what there is\n", error.what());
-        return kUsage;
+        fmt::print(stderr, "regionmesh: {}; see regionmesh --help\n", error.what());
+        return kBadUsage;
     }
     return run(action);
+}
+
+}  // namespace
+}  // namespace regionmesh::cli
+
+int main(int argc, char** argv) {
+    regionmesh::keep_large_arrays_apart();
+    return regionmesh::cli::parse_and_run(argc, argv);
 }

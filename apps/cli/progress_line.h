@@ -1,4 +1,4 @@
-// One line on a terminal that says how far a run is; nothing in a pipe.
+// Progress as one line on a terminal; prints nothing into a pipe.
 #pragma once
 
 #include <fmt/core.h>
@@ -22,7 +22,7 @@ public:
         if (now - last_ < std::chrono::milliseconds(100)) return;
         last_ = now;
         const double elapsed = std::chrono::duration<double>(now - start_).count();
-        fmt::print(stderr, "\r\033[K{}: strip {}/{}, {:.2f} M faces read ({:.0f} k/s), {:.2f} M held, {} MB",
+        fmt::print(stderr, "\r\033[K{}: strip {}/{}, {:.2f} M faces read ({:.0f} k/s), {:.2f} M in memory, peak {} MB",
                    progress.stage, progress.strips_read, progress.strip_count,
                    static_cast<double>(progress.faces_read) / 1e6,
                    static_cast<double>(progress.faces_read) / 1e3 / elapsed,

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "base/task_order.h"
+
 namespace regionmesh {
 
 void parallel_for(std::uint32_t count, std::uint32_t threads, const std::function<void(std::uint32_t)>& work) {
@@ -17,7 +19,16 @@ void parallel_for(std::uint32_t count, std::uint32_t threads, const std::functio
     // More than there are cores would run no faster, and oneTBB would say so on stderr.
     const auto cores = static_cast<std::uint32_t>(oneapi::tbb::info::default_concurrency());
     oneapi::tbb::task_arena arena(static_cast<int>(threads == 0 ? cores : std::min(threads, cores)));
-    arena.execute([&] { oneapi::tbb::parallel_for(std::uint32_t{0}, count, work); });
+    TaskOrder begun, ended;
+    begun.happened();
+    arena.execute([&] {
+        oneapi::tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t n) {
+            begun.comes_first();
+            work(n);
+            ended.happened();
+        });
+    });
+    ended.comes_first();
 }
 
 }  // namespace regionmesh

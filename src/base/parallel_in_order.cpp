@@ -5,6 +5,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <vector>
+
+#include "base/task_order.h"
 
 namespace regionmesh {
 
@@ -20,6 +23,9 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
     }
     // Items are begun and finished in order: those in flight follow one another, and have places of their own.
     std::uint32_t next = 0;
+    TaskOrder begun, finished;
+    std::vector<TaskOrder> places(in_flight);  // of an item: its work, then its end, then the next item there
+    begun.happened();
     const auto begin = tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order,
                                                              [&](tbb::flow_control& control) -> std::uint32_t {
                                                                  if (next == count) {
@@ -29,14 +35,23 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
                                                                  return next++;
                                                              });
     const auto work = tbb::make_filter<std::uint32_t, std::uint32_t>(tbb::filter_mode::parallel, [&](std::uint32_t n) {
+        begun.comes_first();
+        places[n % in_flight].comes_first();
         calls.work(n, n % in_flight);
+        places[n % in_flight].happened();
         return n;
     });
-    const auto finish = tbb::make_filter<std::uint32_t, void>(tbb::filter_mode::serial_in_order,
-                                                              [&](std::uint32_t n) { calls.finish(n, n % in_flight); });
+    const auto finish = tbb::make_filter<std::uint32_t, void>(tbb::filter_mode::serial_in_order, [&](std::uint32_t n) {
+        places[n % in_flight].comes_first();
+        finished.comes_first();
+        calls.finish(n, n % in_flight);
+        finished.happened();
+        places[n % in_flight].happened();
+    });
     const auto cores = static_cast<std::uint32_t>(tbb::info::default_concurrency());
     tbb::task_arena arena(static_cast<int>(threads == 0 ? cores : std::min(threads, cores)));
     arena.execute([&] { tbb::parallel_pipeline(in_flight, begin & work & finish); });
+    finished.comes_first();
 }
 
 }  // namespace regionmesh

@@ -146,7 +146,7 @@ TEST_F(Cli, smooth_takes_a_model_and_writes_the_same_without_steps) {
     const Ran ran = run("smooth " + out("steps.vtp") + " -o " + out("m.vtp") + " --scale 1 --report " + out("r.json"));
     EXPECT_EQ(ran.code, 0) << ran.error;
     EXPECT_EQ(ran.error, "");
-    EXPECT_THAT(ran.out, HasSubstr("stepped back"));
+    EXPECT_THAT(ran.out, HasSubstr("backtracked"));
     EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"smoothing\""));
     EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 0);
     EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("direct.vtp")).code, 0);
@@ -178,14 +178,9 @@ TEST_F(Cli, smooth_of_a_broken_model_is_exit_3) {
 TEST_F(Cli, bad_smoothing_is_refused) {
     const std::string to = "-o " + out("m.vtp");
     for (const std::string lambda : {"2", "-0.5", "much", "nan"})
-        expect_refusal("reconstruct " + volume() + to + " --smooth-lambda " + lambda, 1, "--smooth-lambda");
-    for (const std::string passes : {"-1", "many", "2.5", "99999999999"}) {
-        SCOPED_TRACE(passes);
-        const Ran ran = run("reconstruct " + volume() + to + " --smooth " + passes);
-        EXPECT_TRUE(ran.code == 1 || ran.code == 2) << ran.code;
-        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
-        EXPECT_THAT(ran.error, HasSubstr("smooth"));
-    }
+        expect_refusal("reconstruct " + volume() + to + " --smooth-lambda " + lambda, 2, "--smooth-lambda");
+    for (const std::string passes : {"-1", "many", "2.5", "99999999999"})
+        expect_refusal("reconstruct " + volume() + to + " --smooth " + passes, 2, "--smooth " + passes);
     expect_refusal("reconstruct " + volume() + to + " --smooth-filter gaussian", 2, "--smooth-filter");
     expect_refusal("smooth " + path("nothing.vtp").string() + " " + to, 1, "nothing.vtp");
     expect_refusal("smooth " + path("volume.raw").string() + " " + to, 1, "volume.raw");
@@ -194,9 +189,9 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     for (InputLabel label : {5, 7}) labels.dense(label);
     write_mesh(test::octahedron(), labels, path("good.vtp"), {});
     expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.xyz");
-    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 1, "--smooth-lambda");
-    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 1, "--scale");
-    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 1, "--min-quality");
+    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 2, "--smooth-lambda");
+    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 2, "--scale");
+    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 2, "--min-quality");
 }
 
 TEST_F(Cli, layer_chooses_among_layers_and_info_prints_names) {
@@ -206,7 +201,7 @@ TEST_F(Cli, layer_chooses_among_layers_and_info_prints_names) {
     EXPECT_EQ(ran.code, 0) << ran.error;
     EXPECT_THAT(ran.out, HasSubstr("101  1 samples  high\n"));
     EXPECT_THAT(ran.out, Not(HasSubstr("next")));
-    expect_refusal("info " + layers + " --layer x", 1, "--layer x");
+    expect_refusal("info " + layers + " --layer x", 2, "--layer x");
 }
 
 TEST_F(Cli, info_prints_what_a_volume_is) {
@@ -236,18 +231,18 @@ TEST_F(Cli, an_empty_folder_is_exit_1) {
     expect_refusal("reconstruct " + path("sections").string() + " -o " + out("m.vtp"), 1, "sections");
 }
 
-TEST_F(Cli, bad_values_are_exit_1) {
+TEST_F(Cli, bad_values_are_exit_2) {
     const std::string to = "-o " + out("m.vtp");
-    expect_refusal("reconstruct " + volume() + to + " --target-faces many", 1, "many");
-    expect_refusal("reconstruct " + volume() + to + " --target-faces -5", 1, "target-faces");
-    expect_refusal("reconstruct " + volume() + to + " --reduce 150%", 1, "150%");
-    expect_refusal("reconstruct " + volume() + to + " --max-error x", 1, "max-error");
+    expect_refusal("reconstruct " + volume() + to + " --target-faces many", 2, "many");
+    expect_refusal("reconstruct " + volume() + to + " --target-faces -5", 2, "target-faces");
+    expect_refusal("reconstruct " + volume() + to + " --reduce 150%", 2, "150%");
+    expect_refusal("reconstruct " + volume() + to + " --max-error x", 2, "max-error");
     expect_refusal("reconstruct " + volume() + to + " --memory 1", 1, "--memory");
-    expect_refusal("reconstruct " + volume() + to + " --memory 3quarts", 1, "3quarts");
-    expect_refusal("reconstruct " + volume() + to + " --spacing 1,2", 1, "--spacing");
-    expect_refusal("reconstruct " + volume() + to + " --spacing 1,0,1", 1, "--spacing");
-    expect_refusal("reconstruct " + volume() + to + " --background -x", 1, "background");
-    expect_refusal("reconstruct " + path("volume.raw").string() + " --size 9,9 --type uint8 " + to, 1, "--size");
+    expect_refusal("reconstruct " + volume() + to + " --memory 3quarts", 2, "3quarts");
+    expect_refusal("reconstruct " + volume() + to + " --spacing 1,2", 2, "--spacing");
+    expect_refusal("reconstruct " + volume() + to + " --spacing 1,0,1", 2, "--spacing");
+    expect_refusal("reconstruct " + volume() + to + " --background -x", 2, "background");
+    expect_refusal("reconstruct " + path("volume.raw").string() + " --size 9,9 --type uint8 " + to, 2, "--size");
 }
 
 TEST_F(Cli, bad_usage_is_exit_2) {
@@ -335,8 +330,9 @@ TEST_F(Cli, decimate_keeps_what_is_broken_and_says_so) {
     const Ran ran = run("decimate " + path("cracked.vtp").string() + options);
     EXPECT_EQ(ran.code, 3) << ran.error;
     EXPECT_EQ(ran.error, "");
-    EXPECT_THAT(ran.out, HasSubstr("3 vertices and 0 faces left as they came: open_edge"));
-    EXPECT_THAT(ran.out, Not(HasSubstr("worse")));
+    EXPECT_THAT(ran.out,
+                HasSubstr("3 vertices and 0 faces not changed, because of violations in the input: open_edge"));
+    EXPECT_THAT(ran.out, Not(HasSubstr("more violations")));
     EXPECT_LE(read_mesh(out("m.vtp")).mesh.face_count(), 2 * faces / 5);
     EXPECT_EQ(run("decimate " + path("whole.vtp").string() + options).code, 0);
 }
@@ -370,7 +366,7 @@ TEST_F(Cli, convert_refuses_what_it_cannot_use) {
     expect_refusal("convert " + path("nothing.stl").string() + " " + out("m.vtp"), 1, "nothing.stl");
     expect_refusal("convert " + good + " " + out("m.doc"), 1, "m.doc");
     expect_refusal("convert " + good + " " + out("none/m.vtp"), 1, "m.vtp");
-    expect_refusal("convert " + good + " " + out("m.vtp") + " --weld near", 1, "--weld");
+    expect_refusal("convert " + good + " " + out("m.vtp") + " --weld near", 2, "--weld");
     expect_refusal("convert " + data("surfaces") + "/none " + out("m.vtp"), 1, "use one of .vtp");
     expect_refusal("convert " + data("nifti") + " " + out("m.vtp"), 1, "holds no surfaces");
     expect_refusal("convert " + good, 2, "required");
@@ -410,11 +406,11 @@ TEST_F(Cli, compare_refuses_what_it_cannot_use) {
     write_mesh(cap, labels, path("cap.vtp"), {});
     EXPECT_EQ(run("compare " + good + " " + path("cap.vtp").string()).code, 0);
     expect_refusal("compare " + good + " " + path("cap.vtp").string() + " --background 5", 1, "cap.vtp");
-    expect_refusal("compare " + good + " " + good + " --samples 0", 1, "--samples 0");
-    expect_refusal("compare " + good + " " + good + " --samples few", 1, "few");
+    expect_refusal("compare " + good + " " + good + " --samples 0", 2, "--samples 0");
+    expect_refusal("compare " + good + " " + good + " --samples few", 2, "few");
     expect_refusal("compare " + good + " " + good + " --distance " + out("d.ply"), 1, "d.ply");
     expect_refusal("compare " + good + " " + good + " --json " + out("none/c.json"), 1, "c.json");
-    expect_refusal("compare " + good + " " + good + " --background x", 1, "background");
+    expect_refusal("compare " + good + " " + good + " --background x", 2, "background");
 }
 
 TEST_F(Cli, help_and_version_are_exit_0) {

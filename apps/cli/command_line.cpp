@@ -1,0 +1,70 @@
+#include "command_line.h"
+
+#include <memory>
+
+namespace regionmesh::cli {
+namespace {
+
+/// Where CLI11 puts the texts of one option.
+struct Texts {
+    const OptionSpec* spec = nullptr;
+    CLI::Option* option = nullptr;
+    std::vector<std::string> many;
+    std::string one;
+    bool flag = false;
+
+    void append_to(OptionValues& values) const {
+        if (option->count() == 0) return;
+        if (spec->repeats)
+            for (const std::string& text : many) values.emplace_back(spec->name, text);
+        else
+            values.emplace_back(spec->name, spec->kind == OptionKind::kFlag ? (flag ? "true" : "false") : one);
+    }
+};
+
+/// "lowest quality of a face (faces; at least 0; default 0.1)".
+std::string description_of(const OptionSpec& spec) {
+    std::string notes;
+    const auto note = [&](const std::string& text) { notes += (notes.empty() ? " (" : "; ") + text; };
+    if (!spec.unit.empty()) note(std::string(spec.unit));
+    if (!spec.range.empty()) note(spec.range);
+    if (!spec.default_text.empty()) note("default " + spec.default_text);
+    return std::string(spec.help) + notes + (notes.empty() ? "" : ")");
+}
+
+void add_option(CLI::App& command, const OptionSpec& spec, Texts& texts) {
+    texts.spec = &spec;
+    const std::string flags = spec.letter ? std::string{'-', spec.letter} + ',' + spec.flag() : spec.flag();
+    const std::string description = description_of(spec);
+    if (spec.kind == OptionKind::kFlag)
+        texts.option = command.add_flag(flags, texts.flag, description);
+    else if (spec.repeats)
+        texts.option = command.add_option(flags, texts.many, description);
+    else
+        texts.option = command.add_option(flags, texts.one, description);
+    if (spec.kind != OptionKind::kFlag) texts.option->type_name(spec.is_argument ? "" : value_name(spec));
+    if (!spec.is_argument) texts.option->group(std::string(spec.group));
+    texts.option->required(spec.is_argument || spec.is_required);
+}
+
+}  // namespace
+
+void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), Action& action) {
+    const auto all = std::make_shared<std::vector<std::unique_ptr<Texts>>>();
+    CLI::App& subcommand = *app.add_subcommand(std::string(command.name), std::string(command.help));
+    for (const OptionSpec& spec : option_table()) {
+        if ((spec.commands & command.command) == 0) continue;
+        add_option(subcommand, spec, *all->emplace_back(std::make_unique<Texts>()));
+    }
+    subcommand.callback([all, run, &action] {
+        action = [all, run] {
+            OptionValues values;
+            for (const auto& texts : *all) texts->append_to(values);
+            Settings settings;
+            apply_options(settings, values);
+            return run(settings);
+        };
+    });
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,18 @@
+#include "input.h"
+
+namespace regionmesh::cli {
+
+CensusOptions census_options(const Settings& settings) {
+    const ReconstructOptions& options = settings.reconstruct;
+    return {.cap = options.cap, .background = options.background, .sweep = options.sweep};
+}
+
+CheckOptions check_options(const Settings& settings, LabelTable& labels) {
+    CheckOptions options;
+    options.boundary_is_open = !settings.reconstruct.cap;
+    for (InputLabel label : settings.reconstruct.background) options.background.push_back(labels.dense(label));
+    options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
+    return options;
+}
+
+}  // namespace regionmesh::cli

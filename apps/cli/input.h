@@ -1,0 +1,29 @@
+// What the commands read: volumes, points, tetrahedra and surfaces.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "regionmesh/formats.h"
+#include "regionmesh/options.h"
+#include "regionmesh/regionmesh.h"
+
+namespace regionmesh::cli {
+
+/// Calls visit(reader) with the reader of the input, of either kind, and returns the result. Throws Error(kUsage) for
+/// options that do not apply to the input.
+template <class Visit>
+auto with_reader(const Settings& settings, const std::vector<std::string>& inputs, Visit&& visit) {
+    require_fit(settings, inputs);
+    if (kind_of_input(inputs) != kVolumeInput) return visit(*open_tetrahedra(inputs.front(), settings.tetrahedra));
+    return visit(*open_sections({inputs.begin(), inputs.end()}, settings.volume));
+}
+
+/// What count_labels() takes from the settings.
+CensusOptions census_options(const Settings& settings);
+
+/// What check() takes for a model from a file. Adds the background to `labels`, and refers to them.
+CheckOptions check_options(const Settings& settings, LabelTable& labels);
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,73 @@
+#include "output.h"
+
+#include <fmt/core.h>
+
+#include "commands.h"
+
+namespace regionmesh::cli {
+namespace {
+
+/// "pinched_vertex 12, open_edge 40": all kinds found, in their order.
+std::string counts_text(const CheckReport& report) {
+    std::string text;
+    for (int kind = 0; kind < kViolationKindCount; ++kind)
+        if (report.counts[kind] > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(static_cast<ViolationKind>(kind)),
+                                report.counts[kind]);
+    return text;
+}
+
+}  // namespace
+
+void require_outputs(const Settings& settings) {
+    require_writable_mesh(settings.output,
+                          {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap});
+    if (!settings.names.empty()) read_label_names(settings.names);
+    if (!settings.report.empty()) require_writable(settings.report);
+}
+
+LabelNames names_or(const Settings& settings, const LabelNames& found) {
+    return settings.names.empty() ? found : read_label_names(settings.names);
+}
+
+void write_model(const Settings& settings, const Mesh& mesh, const LabelTable& labels,
+                 const std::vector<Label>& background, const LabelNames& names) {
+    write_mesh(mesh, labels, settings.output,
+               {.background = background, .names = names, .per_region = settings.per_region});
+}
+
+void write_report_file(const Settings& settings, Report& report, const LabelTable& labels, const LabelNames& names) {
+    report.peak_bytes = peak_resident_bytes();
+    if (!settings.report.empty()) write_text(settings.report, report_json(report, labels, names));
+}
+
+int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }
+
+void print_violations(const CheckReport& report, int listed) {
+    for (int kind = 0; kind < kViolationKindCount; ++kind) {
+        if (!report.counts[kind]) continue;
+        fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.counts[kind]);
+        int count = 0;
+        for (const Violation& violation : report.violations)
+            if (violation.kind == static_cast<ViolationKind>(kind) && count++ < listed)
+                fmt::print("  {}\n", violation.text);
+    }
+}
+
+void print_orient_hint(const CheckReport& report) {
+    if (report.counts[static_cast<int>(ViolationKind::kOrientation)] > 0)
+        fmt::print("faces with opposite orientations: --orient turns them\n");
+}
+
+void print_fixed_part(const FixedPart& fixed, const CheckReport& before, const CheckReport& after) {
+    if (before.violation_count() > 0)
+        fmt::print("{} vertices and {} faces not changed, because of violations in the input: {}\n", fixed.vertices,
+                   fixed.faces, counts_text(before));
+    print_orient_hint(before);
+    for (int kind = 0; kind < kViolationKindCount; ++kind)
+        if (after.counts[kind] > before.counts[kind])
+            fmt::print("more violations than in the input: {} {}, before {}\n",
+                       to_string(static_cast<ViolationKind>(kind)), after.counts[kind], before.counts[kind]);
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,130 @@
+// Every option of the programs, declared once. The command line, its page in docs/ and bindings are built from this.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "regionmesh/compare.h"
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/read_sections.h"
+#include "regionmesh/read_tetrahedra.h"
+#include "regionmesh/reconstruct.h"
+
+namespace regionmesh {
+
+/// The name and the text of each option that is set: {"reduce", "90%"}. A flag has the text "true" or "false".
+using OptionValues = std::vector<std::pair<std::string, std::string>>;
+
+/// The settings of a command. A default-constructed struct holds the defaults of all options.
+struct Settings {
+    std::vector<std::string> inputs;    // volume, sections, table or mesh to reconstruct
+    std::vector<std::string> models;    // surfaces to read: one, or two to compare
+    std::vector<std::string> sections;  // the input to check a model against
+    ReadOptions volume;
+    TetrahedraOptions tetrahedra;
+    ReadMeshOptions surface;
+    bool hull = false;
+
+    ReconstructOptions reconstruct;  // the other commands copy from it what they need
+    std::optional<double> scale;     // unit of nifpms in smooth; none: the mean edge length
+    std::uint64_t samples = CompareOptions{}.samples;
+
+    std::string output, names, report, json, distance;  // files
+    bool per_region = false, quiet = false;
+
+    OptionValues given;  // set by apply_options()
+};
+
+/// Kind of the value of an option: how it is written as text, and its type in a binding.
+enum class OptionKind {
+    kFlag,     // no value on the command line; bool
+    kCount,    // whole number
+    kNumber,   // floating point
+    kShare,    // 0.9 or 90%
+    kBytes,    // 2GiB, 500MB, 1000000
+    kWord,     // one of OptionSpec::words
+    kLabel,    // integer of 64 bits, signed or unsigned
+    kCounts,   // three whole numbers X,Y,Z
+    kNumbers,  // three numbers X,Y,Z
+    kText,
+    kFile,
+};
+
+/// Commands as bits.
+enum Command : std::uint32_t {
+    kReconstruct = 1,
+    kDecimate = 2,
+    kSmooth = 4,
+    kCheck = 8,
+    kConvert = 16,
+    kCompare = 32,
+    kInfo = 64,
+};
+
+/// Kinds of input as bits.
+enum InputKind : std::uint32_t { kVolumeInput = 1, kTableInput = 2, kMeshInput = 4, kAnyInput = 7 };
+
+/// One option, or one argument without a flag.
+struct OptionSpec {
+    std::string name;                  // "min-quality"; the flag is --min-quality
+    std::string_view help;             // one line, without default, unit and range
+    std::string_view group;            // heading in help texts
+    std::uint32_t commands = 0;        // that take it
+    std::string_view unit = {};        // of the value; empty: none
+    std::uint32_t inputs = kAnyInput;  // refused with inputs of other kinds
+    bool is_argument = false;          // has no flag; required, in the order of the table
+    bool is_required = false;
+    bool repeats = false;  // set() adds a value
+    char letter = 0;       // short flag; 0: none
+
+    // These follow from the member of Settings that the option is bound to.
+    OptionKind kind = OptionKind::kFlag;
+    std::string range = {};                    // "0 to 1"; empty: any value of the kind
+    std::vector<std::string_view> words = {};  // of kWord
+    std::string default_text = {};             // as typed; empty: none
+    /// Throws Error(kUsage) with one line for a text that is not a value of the kind or is outside the range.
+    std::function<void(Settings&, const std::string&)> set = {};
+
+    std::string flag() const { return is_argument ? name : "--" + name; }
+};
+
+/// One command of the program.
+struct CommandSpec {
+    Command command;
+    std::string_view name, help;
+};
+
+/// All commands, in the order of help texts.
+const std::vector<CommandSpec>& command_table();
+
+/// All options, by group.
+const std::vector<OptionSpec>& option_table();
+
+/// The option of that name, without dashes; null where there is none.
+const OptionSpec* find_option(std::string_view name);
+
+/// Sets options in the order of the table, whatever the order of `values`. Throws Error(kUsage) for an unknown name and
+/// for options that contradict each other, and what OptionSpec::set throws.
+void apply_options(Settings& settings, const OptionValues& values);
+
+/// Throws Error(kUsage) where two options contradict each other, whatever the input.
+void require_consistent(const Settings& settings);
+
+/// The kind of the input, by the name of its first file.
+InputKind kind_of_input(const std::vector<std::string>& inputs);
+
+/// Throws Error(kUsage) where an option that was given does not apply to the input, or for two tables or meshes.
+void require_fit(const Settings& settings, const std::vector<std::string>& inputs);
+
+/// Placeholder of the value in help texts: "COUNT", "auto|x|y|z"; empty for flags.
+std::string value_name(const OptionSpec& option);
+
+/// The text of docs/reference/command-line.md.
+std::string command_line_page();
+
+}  // namespace regionmesh

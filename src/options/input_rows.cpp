@@ -1,0 +1,200 @@
+// What to read: arguments, volumes, points, labels, surfaces.
+#include <algorithm>
+
+#include "options/bind_option.h"
+#include "options/option_rows.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr Range kLayers{0, 0x7FFFFFFF}, kPositive{.low = 0, .is_low_included = false};
+
+void choose_sweep(Settings& settings, std::size_t word) {
+    constexpr SweepChoice kChoices[] = {SweepChoice::kAuto, SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
+    constexpr std::optional<Sweep> kSweeps[] = {std::nullopt, kSweepX, kSweepY, kSweepZ};
+    settings.volume.sweep = kChoices[word];
+    settings.reconstruct.sweep = kSweeps[word];
+}
+
+std::string labels_text(const std::vector<InputLabel>& labels) {
+    std::string text;
+    for (const InputLabel label : labels) text += (text.empty() ? "" : " ") + std::to_string(label);
+    return text;
+}
+
+void add_background(Settings& settings, const std::string& flag, const std::string& text) {
+    std::vector<InputLabel>& background = settings.reconstruct.background;
+    const bool is_first = std::ranges::none_of(settings.given, [](const auto& v) { return v.first == "background"; });
+    if (is_first) background.clear();  // the default
+    background.push_back(parse_label(flag, text));
+}
+
+}  // namespace
+
+Rows argument_rows() {
+    const std::string_view volumes =
+        "volume (.npy .nii.gz .nrrd .mha .vti .tif .h5:/dataset .dream3d .zarr ...), folder or list of sections, table "
+        "of labelled points (.csv .tsv), or mesh of labelled tetrahedra (.vtu .msh)";
+    const std::string_view surface = "labelled surface (.vtp .vtu .ply .stl .obj .dream3d), or a folder of them";
+    const auto inputs = [](Settings& s) { return &s.inputs; };
+    const auto models = [](Settings& s) { return &s.models; };
+    return {
+        file_option({.name = "input",
+                     .help = volumes,
+                     .group = "Arguments",
+                     .commands = kReconstruct | kInfo,
+                     .is_argument = true,
+                     .repeats = true},
+                    inputs),
+        file_option(
+            {.name = "model", .help = surface, .group = "Arguments", .commands = kSurfaceCommands, .is_argument = true},
+            models),
+        file_option({.name = "from", .help = surface, .group = "Arguments", .commands = kConvert, .is_argument = true},
+                    models),
+        file_option(
+            {.name = "to", .help = written_help(), .group = "Arguments", .commands = kConvert, .is_argument = true},
+            [](Settings& s) { return &s.output; }),
+        file_option({.name = "a", .help = surface, .group = "Arguments", .commands = kCompare, .is_argument = true},
+                    models),
+        file_option({.name = "b",
+                     .help = "the surface to compare it with",
+                     .group = "Arguments",
+                     .commands = kCompare,
+                     .is_argument = true},
+                    models),
+    };
+}
+
+Rows volume_rows() {
+    constexpr std::string_view kGroup = "Input";
+    return {
+        file_option({.name = "sections",
+                     .help = "input that the model was made from (volume, points or mesh): compare with its labels",
+                     .group = kGroup,
+                     .commands = kCheck,
+                     .repeats = true},
+                    [](Settings& s) { return &s.sections; }),
+        word_option({.name = "sweep",
+                     .help = "axis along which sections are read; auto: the axis with the smallest sections",
+                     .group = kGroup,
+                     .commands = kVolumeCommands},
+                    {"auto", "x", "y", "z"}, choose_sweep),
+        option({.name = "spacing",
+                .help = "volumes: distance between samples along x, y and z, instead of the spacing in the file",
+                .group = kGroup,
+                .commands = kVolumeCommands,
+                .unit = "length",
+                .inputs = kVolumeInput},
+               [](Settings& s) { return &s.volume.spacing; }),
+        option(
+            {.name = "layer",
+             .help = "volumes: which layer, channel or time to read where a file has several; counted from 0",
+             .group = kGroup,
+             .commands = kVolumeCommands,
+             .inputs = kVolumeInput},
+            [](Settings& s) { return &s.volume.layer; }, kLayers),
+        option({.name = "size",
+                .help = "raw files: samples along x, y and z",
+                .group = kGroup,
+                .commands = kVolumeCommands,
+                .unit = "samples",
+                .inputs = kVolumeInput},
+               [](Settings& s) { return &s.volume.raw_size; }),
+        special_option({.name = "type",
+                        .help = "raw files: type of a sample, little endian: int8, uint8, ... int64, uint64",
+                        .group = kGroup,
+                        .commands = kVolumeCommands,
+                        .inputs = kVolumeInput},
+                       OptionKind::kText,
+                       [](Settings& s, const std::string& flag, const std::string& text) {
+                           s.volume.raw_type = parse_sample_type(text);
+                           if (!s.volume.raw_type) refuse_value(flag, text, "a sample type, such as uint8 or int16");
+                       }),
+    };
+}
+
+Rows tetrahedra_rows() {
+    constexpr std::string_view kGroup = "Points and tetrahedra";
+    return {
+        option({.name = "columns",
+                .help = "tables: which columns are which, as X,Y,Z,LABEL or hole=nr,label=lith ...",
+                .group = kGroup,
+                .commands = kVolumeCommands,
+                .inputs = kTableInput},
+               [](Settings& s) { return &s.tetrahedra.columns; }),
+        option(
+            {.name = "step",
+             .help = "drill holes: largest distance between the points that represent an interval",
+             .group = kGroup,
+             .commands = kVolumeCommands,
+             .unit = "length",
+             .inputs = kTableInput},
+            [](Settings& s) { return &s.tetrahedra.step; }, kPositive),
+        option(
+            {.name = "scale-z",
+             .help = "compute with z times this factor, rounded to a power of two; the model is not scaled",
+             .group = kGroup,
+             .commands = kVolumeCommands,
+             .inputs = kTableInput | kMeshInput},
+            [](Settings& s) { return &s.tetrahedra.scale_z; }, kPositive),
+        option({.name = "array",
+                .help = "meshes: name of the array of labels",
+                .group = kGroup,
+                .commands = kVolumeCommands,
+                .inputs = kMeshInput},
+               [](Settings& s) { return &s.tetrahedra.array; }),
+        option({.name = "hull",
+                .help = "close regions on the hull of the points; the same as --boundary cap",
+                .group = kGroup,
+                .commands = kVolumeCommands,
+                .inputs = kTableInput | kMeshInput},
+               [](Settings& s) { return &s.hull; }),
+    };
+}
+
+Rows label_rows() {
+    constexpr std::string_view kGroup = "Labels";
+    constexpr std::uint32_t kBoxed = kReconstruct | kSurfaceCommands | kInfo;
+    return {
+        special_option({.name = "background",
+                        .help = "label of empty space, whose faces with the exterior are not made",
+                        .group = kGroup,
+                        .commands = kBoxed | kConvert | kCompare,
+                        .repeats = true,
+                        .default_text = labels_text(Settings{}.reconstruct.background)},
+                       OptionKind::kLabel, add_background),
+        special_option({.name = "no-background",
+                        .help = "every label is a region",
+                        .group = kGroup,
+                        .commands = kBoxed | kConvert | kCompare},
+                       OptionKind::kFlag,
+                       [](Settings& s, const std::string& flag, const std::string& text) {
+                           if (parse_flag(flag, text)) s.reconstruct.background.clear();
+                       }),
+        word_option({.name = "boundary",
+                     .help = "cap: faces on the six sides of the box; open: none there",
+                     .group = kGroup,
+                     .commands = kBoxed},
+                    {"cap", "open"}, [](Settings& s, std::size_t word) { s.reconstruct.cap = word == 0; }),
+    };
+}
+
+Rows surface_rows() {
+    constexpr std::string_view kGroup = "Surfaces to read";
+    constexpr std::uint32_t kReaders = kSurfaceCommands | kConvert;
+    return {
+        option({.name = "weld",
+                .help = "join points no farther apart than this; 0: points at the same place",
+                .group = kGroup,
+                .commands = kReaders,
+                .unit = "length"},
+               [](Settings& s) { return &s.surface.weld; }),
+        option({.name = "orient",
+                .help = "turn faces so that neighbours agree on which side each region lies",
+                .group = kGroup,
+                .commands = kReaders},
+               [](Settings& s) { return &s.surface.orient; }),
+    };
+}
+
+}  // namespace regionmesh

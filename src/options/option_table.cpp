@@ -1,0 +1,58 @@
+// The table of options: one row an option, in *_rows.cpp.
+#include <algorithm>
+#include <iterator>
+
+#include "options/option_rows.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+Rows all_rows() {
+    Rows rows;
+    for (const auto& group : {argument_rows, volume_rows, tetrahedra_rows, label_rows, surface_rows, decimation_rows,
+                              smoothing_rows, validity_rows, comparison_rows, output_rows, run_rows})
+        std::ranges::move(group(), std::back_inserter(rows));
+    return rows;
+}
+
+}  // namespace
+
+const std::vector<CommandSpec>& command_table() {
+    static const std::vector<CommandSpec> commands{
+        {kReconstruct, "reconstruct",
+         "make a conforming, simplified, checked surface model of sections, points or tetrahedra"},
+        {kDecimate, "decimate", "reduce the faces of a labelled surface"},
+        {kSmooth, "smooth", "smooth a labelled surface"},
+        {kCheck, "check", "look for cracks, folds, crossing faces and changes of topology"},
+        {kConvert, "convert", "write a labelled surface in another format"},
+        {kCompare, "compare", "measure the distances between two models, and by region, interface and line"},
+        {kInfo, "info", "print size, type, spacing and labels of an input, and the memory that a model needs"},
+    };
+    return commands;
+}
+
+const std::vector<OptionSpec>& option_table() {
+    static const Rows rows = all_rows();
+    return rows;
+}
+
+const OptionSpec* find_option(std::string_view name) {
+    const auto& rows = option_table();
+    const auto row = std::ranges::find(rows, name, &OptionSpec::name);
+    return row == rows.end() ? nullptr : &*row;
+}
+
+void apply_options(Settings& settings, const OptionValues& values) {
+    for (const auto& [name, text] : values)
+        if (!find_option(name)) throw Error(ErrorCode::kUsage, name + ": there is no such option");
+    for (const OptionSpec& row : option_table())
+        for (const auto& [name, text] : values)
+            if (name == row.name) {
+                row.set(settings, text);
+                settings.given.emplace_back(name, text);
+            }
+    require_consistent(settings);
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,132 @@
+#include "options/option_values.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr double kMostSamplesAlongAnAxis = 0x7FFFFFFF;
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> parts(1);
+    for (char c : text) {
+        if (c == ',')
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+/// A finite number at the start of `text`; the rest goes to `unit`.
+bool parse_leading(const std::string& text, double& number, std::string& unit) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    unit.assign(end, text.data() + text.size());
+    return error == std::errc{} && std::isfinite(number);
+}
+
+template <class Integer>
+bool parse_whole(const std::string& text, Integer& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+
+}  // namespace
+
+std::string Range::text() const {
+    if (std::isfinite(high)) return fmt::format("{:.15g} to {:.15g}", low, high);
+    return fmt::format("{} {:.15g}", is_low_included ? "at least" : "above", low);
+}
+
+void refuse_value(const std::string& flag, const std::string& text, const std::string& wanted) {
+    throw Error(ErrorCode::kUsage, fmt::format("{} {}: not {}", flag, text, wanted));
+}
+
+std::uint64_t parse_count(const std::string& flag, const std::string& text, const Range& range) {
+    std::uint64_t value = 0;
+    if (!parse_whole(text, value) || !range.contains(static_cast<double>(value)))
+        refuse_value(flag, text, "a whole number of " + range.text());
+    return value;
+}
+
+double parse_number(const std::string& flag, const std::string& text, const Range& range) {
+    double value = 0;
+    std::string unit;
+    if (!parse_leading(text, value, unit) || !unit.empty() || !range.contains(value))
+        refuse_value(flag, text, "a number of " + range.text());
+    return value;
+}
+
+double parse_share(const std::string& flag, const std::string& text) {
+    double value = 0;
+    std::string unit;
+    const bool is_number = parse_leading(text, value, unit);
+    if (unit == "%") value /= 100;
+    if (!is_number || (unit != "%" && !unit.empty()) || !(value >= 0 && value <= 1))
+        refuse_value(flag, text, "a share, such as 90% or 0.9");
+    return value;
+}
+
+std::uint64_t parse_bytes(const std::string& flag, const std::string& text) {
+    double value = 0;
+    std::string unit;
+    const bool is_number = parse_leading(text, value, unit);
+    constexpr std::pair<const char*, double> kUnits[] = {
+        {"", 1}, {"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"KiB", 0x1p10}, {"MiB", 0x1p20}, {"GiB", 0x1p30}};
+    for (const auto& [name, factor] : kUnits)
+        if (is_number && unit == name && value > 0 && value * factor < 0x1p62)
+            return static_cast<std::uint64_t>(value * factor);
+    refuse_value(flag, text, "a size, such as 500MiB or 2GiB");
+}
+
+InputLabel parse_label(const std::string& flag, const std::string& text) {
+    InputLabel label = 0;
+    std::uint64_t bits = 0;
+    if (parse_whole(text, label)) return label;
+    if (parse_whole(text, bits)) return static_cast<InputLabel>(bits);
+    refuse_value(flag, text, "a label: a whole number, such as 3");
+}
+
+Vec3 parse_numbers(const std::string& flag, const std::string& text) {
+    const auto parts = split(text);
+    Vec3 values;
+    std::string unit;
+    bool is_good = parts.size() == 3;
+    for (int axis = 0; is_good && axis < 3; ++axis)
+        is_good = parse_leading(parts[axis], values[axis], unit) && unit.empty() && values[axis] > 0;
+    if (!is_good) refuse_value(flag, text, "three numbers X,Y,Z above 0");
+    return values;
+}
+
+std::array<std::uint32_t, 3> parse_counts(const std::string& flag, const std::string& text) {
+    const auto parts = split(text);
+    std::array<std::uint32_t, 3> values{};
+    bool is_good = parts.size() == 3;
+    for (int axis = 0; is_good && axis < 3; ++axis)
+        is_good = parse_whole(parts[axis], values[axis]) && values[axis] > 0 && values[axis] <= kMostSamplesAlongAnAxis;
+    if (!is_good) refuse_value(flag, text, "three whole numbers X,Y,Z from 1");
+    return values;
+}
+
+bool parse_flag(const std::string& flag, const std::string& text) {
+    if (text != "true" && text != "false") refuse_value(flag, text, "true or false");
+    return text == "true";
+}
+
+std::string number_text(double value) { return fmt::format("{}", value); }
+
+std::string bytes_text(std::uint64_t bytes) {
+    constexpr std::pair<const char*, int> kUnits[] = {{"GiB", 30}, {"MiB", 20}, {"KiB", 10}};
+    for (const auto& [unit, shift] : kUnits)
+        if (bytes > 0 && bytes % (std::uint64_t{1} << shift) == 0) return fmt::format("{}{}", bytes >> shift, unit);
+    return std::to_string(bytes);
+}
+
+}  // namespace regionmesh

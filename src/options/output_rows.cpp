@@ -1,0 +1,84 @@
+// What to write, and what the run may use.
+#include <algorithm>
+
+#include "options/bind_option.h"
+#include "options/option_rows.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr Range kAnyThreads{0, 0xFFFFFFFFu};
+
+}  // namespace
+
+std::string_view written_help() {
+    static const std::string text = "model to write: " + writable_extensions();
+    return text;
+}
+
+Rows output_rows() {
+    constexpr std::string_view kGroup = "Output";
+    return {
+        file_option({.name = "output",
+                     .help = written_help(),
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_required = true,
+                     .letter = 'o'},
+                    [](Settings& s) { return &s.output; }),
+        file_option({.name = "names",
+                     .help = "table of labels and names (.csv .tsv .txt .xml), instead of the names in the input",
+                     .group = kGroup,
+                     .commands = kWriters | kConvert},
+                    [](Settings& s) { return &s.names; }),
+        option({.name = "per-region",
+                .help = "one file for each region, MODEL-LABEL: .stl, .obj and .ply",
+                .group = kGroup,
+                .commands = kWriters | kConvert},
+               [](Settings& s) { return &s.per_region; }),
+        file_option({.name = "report", .help = "JSON report to write", .group = kGroup, .commands = kWriters},
+                    [](Settings& s) { return &s.report; }),
+        file_option({.name = "json",
+                     .help = "JSON file to write with all findings",
+                     .group = kGroup,
+                     .commands = kCheck | kCompare},
+                    [](Settings& s) { return &s.json; }),
+    };
+}
+
+Rows run_rows() {
+    constexpr std::string_view kGroup = "Run";
+    return {
+        special_option(
+            {.name = "memory",
+             .help = "memory that the process may use, such as 500MiB; too little is refused before the work starts",
+             .group = kGroup,
+             .commands = kReconstruct,
+             .unit = "bytes",
+             .range = "above 0",
+             .default_text = bytes_text(Settings{}.reconstruct.memory)},
+            OptionKind::kBytes,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.reconstruct.memory = parse_bytes(flag, text);
+            }),
+        option({.name = "face-budget",
+                .help = "largest number of faces in memory at a time; derived from --memory if not given",
+                .group = kGroup,
+                .commands = kReconstruct,
+                .unit = "faces"},
+               [](Settings& s) { return &s.reconstruct.face_budget; }),
+        option(
+            {.name = "threads",
+             .help = "number of threads; 0: one per core. The result is the same for any number",
+             .group = kGroup,
+             .commands = kReconstruct | kSmooth | kCheck | kCompare},
+            [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
+        option({.name = "quiet",
+                .help = "print nothing but errors",
+                .group = kGroup,
+                .commands = kWriters | kCheck | kConvert | kCompare},
+               [](Settings& s) { return &s.quiet; }),
+    };
+}
+
+}  // namespace regionmesh

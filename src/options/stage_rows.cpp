@@ -1,0 +1,134 @@
+// What the stages do: decimation, smoothing, quality, comparison.
+#include <algorithm>
+
+#include "options/bind_option.h"
+#include "options/option_rows.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr Range kPasses{0, 100'000}, kSampleCounts{1, 1e9}, kShareRange{0, 1},
+    kPositive{.low = 0, .is_low_included = false};
+
+void choose_filter(Settings& settings, std::size_t word) {
+    constexpr SmoothFilter kFilters[] = {SmoothFilter::kTaubin, SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
+    if (word < std::size(kFilters))
+        settings.reconstruct.smooth.filter = kFilters[word];
+    else
+        settings.reconstruct.smooth.passes = 0;
+}
+
+}  // namespace
+
+Rows decimation_rows() {
+    constexpr std::string_view kGroup = "Decimation";
+    return {
+        option({.name = "target-faces",
+                .help = "stop when at most this number of faces is left",
+                .group = kGroup,
+                .commands = kDecimators,
+                .unit = "faces"},
+               [](Settings& s) { return &s.reconstruct.target_faces; }),
+        special_option({.name = "reduce",
+                        .help = "stop when this share of the faces is removed, such as 90%",
+                        .group = kGroup,
+                        .commands = kDecimators,
+                        .range = Range{0, 1}.text()},
+                       OptionKind::kShare,
+                       [](Settings& s, const std::string& flag, const std::string& text) {
+                           s.reconstruct.reduce = parse_share(flag, text);
+                       }),
+        option({.name = "max-error",
+                .help = "stop at this rms distance to the planes of the merged faces",
+                .group = kGroup,
+                .commands = kDecimators,
+                .unit = "length"},
+               [](Settings& s) { return &s.reconstruct.max_error; }),
+        option({.name = "perturbation",
+                .help = "largest cost added to rank edges of equal cost, relative to spacing^4",
+                .group = kGroup,
+                .commands = kDecimators},
+               [](Settings& s) { return &s.reconstruct.perturbation; }),
+        inverted_flag({.name = "no-decimate",
+                       .help = "do not decimate, whatever the targets",
+                       .group = kGroup,
+                       .commands = kReconstruct},
+                      [](Settings& s) { return &s.reconstruct.decimate; }),
+    };
+}
+
+Rows smoothing_rows() {
+    constexpr std::string_view kGroup = "Smoothing";
+    return {
+        option(
+            {.name = "smooth",
+             .help = "passes of smoothing; 0: none",
+             .group = kGroup,
+             .commands = kSmoothers,
+             .unit = "passes"},
+            [](Settings& s) { return &s.reconstruct.smooth.passes; }, kPasses),
+        word_option({.name = "smooth-filter",
+                     .help = "taubin keeps volumes roughly, laplacian shrinks, nifpms keeps sharp edges (one pass)",
+                     .group = kGroup,
+                     .commands = kSmoothers},
+                    {"taubin", "laplacian", "nifpms", "none"}, choose_filter),
+        option(
+            {.name = "smooth-lambda",
+             .help = "share of the way to the mean of the neighbours, for taubin and laplacian",
+             .group = kGroup,
+             .commands = kSmoothers},
+            [](Settings& s) { return &s.reconstruct.smooth.lambda; }, kShareRange),
+        option({.name = "smooth-points",
+                .help = "quadruple points move along their lines, instead of not at all",
+                .group = kGroup,
+                .commands = kSmoothers},
+               [](Settings& s) { return &s.reconstruct.smooth.move_points; }),
+        option(
+            {.name = "scale",
+             .help = "sample spacing, the unit of nifpms; the mean edge length if not given",
+             .group = kGroup,
+             .commands = kSmooth,
+             .unit = "length"},
+            [](Settings& s) { return &s.scale; }, kPositive),
+        option({.name = "preserve-volume",
+                .help = "at the end, restore the volume that every region had in the input",
+                .group = kGroup,
+                .commands = kSmoothers},
+               [](Settings& s) { return &s.reconstruct.preserve_volume; }),
+    };
+}
+
+Rows validity_rows() {
+    constexpr std::string_view kGroup = "Quality and crossing";
+    return {
+        option({.name = "min-quality",
+                .help = "lowest quality of the faces that smoothing and decimation make; 0.26 is equilateral",
+                .group = kGroup,
+                .commands = kWriters},
+               [](Settings& s) { return &s.reconstruct.min_quality; }),
+        inverted_flag({.name = "no-intersect-check",
+                       .help = "do not test for crossing faces; faster",
+                       .group = kGroup,
+                       .commands = kWriters},
+                      [](Settings& s) { return &s.reconstruct.intersect_check; }),
+    };
+}
+
+Rows comparison_rows() {
+    constexpr std::string_view kGroup = "Comparison";
+    return {
+        option(
+            {.name = "samples",
+             .help = "number of sample points on each surface",
+             .group = kGroup,
+             .commands = kCompare},
+            [](Settings& s) { return &s.samples; }, kSampleCounts),
+        file_option({.name = "distance",
+                     .help = ".vtp to write: A with the distance of each vertex to B, point array Distance",
+                     .group = kGroup,
+                     .commands = kCompare},
+                    [](Settings& s) { return &s.distance; }),
+    };
+}
+
+}  // namespace regionmesh
