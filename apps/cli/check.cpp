@@ -49,6 +49,21 @@ void print_findings(const std::string& name, const CheckReport& report) {
     print_orient_hint(report);
 }
 
+/// Where the model was made from a lattice.
+std::optional<SampleAgreement> compare_with_sections(const Arguments& arguments, MeshFile& file,
+                                                     const CheckOptions& options) {
+    if (arguments.sections.empty() || arguments.tetrahedra.is_meant(arguments.sections, arguments.input)) return {};
+    return compare_samples(file.mesh, file.labels, options.background, *arguments.input.open(arguments.sections));
+}
+
+void print_samples(const SampleAgreement& samples) {
+    if (samples.wrong == 0)
+        fmt::print("every one of {} samples keeps its label\n", samples.samples);
+    else
+        fmt::print("{} of {} samples lie in another region; Dice {:.6f}\n", samples.wrong, samples.samples,
+                   samples.dice());
+}
+
 int check_command(const Arguments& arguments) {
     MeshFile file = arguments.reading.read(arguments.mesh);
     CheckOptions options = arguments.input.check_options(file.labels);
@@ -59,8 +74,13 @@ int check_command(const Arguments& arguments) {
         });
     }
     const CheckReport report = check(file.mesh, options);
-    if (!arguments.json.empty()) write_text(arguments.json, check_json(report, file.labels, file.names));
-    if (!arguments.quiet) print_findings(arguments.mesh, report);
+    const auto samples = compare_with_sections(arguments, file, options);
+    if (!arguments.json.empty())
+        write_text(arguments.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr));
+    if (!arguments.quiet) {
+        print_findings(arguments.mesh, report);
+        if (samples) print_samples(*samples);
+    }
     return report.violation_count() == 0 ? 0 : 3;
 }
 

@@ -16,5 +16,6 @@ void add_check(CLI::App& app, Action& action);
 void add_convert(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
+void add_voxelise(CLI::App& app, Action& action);
 
 }  // namespace regionmesh::cli

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
     regionmesh::cli::add_convert(app, action);
     regionmesh::cli::add_compare(app, action);
     regionmesh::cli::add_info(app, action);
+    regionmesh::cli::add_voxelise(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {

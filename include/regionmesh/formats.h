@@ -8,3 +8,4 @@
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/write_compare.h"
 #include "regionmesh/write_report.h"
+#include "regionmesh/write_volume.h"

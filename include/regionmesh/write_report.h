@@ -7,6 +7,7 @@
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/report.h"
+#include "regionmesh/voxelise.h"
 
 namespace regionmesh {
 
@@ -15,8 +16,10 @@ namespace regionmesh {
 std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names = {});
 
 /// The check part alone (`check --json`): quality, regions, region_pairs, quadruple_points_inside, violations and
-/// violation_counts.
-std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names = {});
+/// violation_counts. With `samples` also samples, samples_wrong, samples_contradicting, dice and
+/// dice_of_regions[].
+std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names = {},
+                       const SampleAgreement* samples = nullptr);
 
 /// Writes `text` under a temporary name beside `path`, then renames; writes a device or pipe in place. Throws
 /// Error(kOutput).
