@@ -65,6 +65,7 @@ const std::map<std::string, std::string> kRoomOfHeader{
     {"lines.h", "check"},
     {"compare.h", "compare"},
     {"statistics.h", "compare"},
+    {"voxelise.h", "compare"},
     {"memory.h", "stream"},
     {"reconstruct.h", "stream"},
     {"report.h", "stream"},
@@ -78,6 +79,7 @@ const std::map<std::string, std::string> kRoomOfHeader{
     {"read_tetrahedra.h", "formats"},
     {"write_report.h", "formats"},
     {"options.h", "options"},
+    {"write_volume.h", "formats"},
 };
 
 /// What a file includes of ours: "regionmesh/mesh.h", "base/hash.h".

@@ -33,6 +33,22 @@ void print_findings(const std::string& name, const CheckReport& report) {
     print_orient_hint(report);
 }
 
+/// Where the model was made from a lattice.
+std::optional<SampleAgreement> compare_with_sections(const Settings& settings, MeshFile& file,
+                                                     const CheckOptions& options) {
+    if (settings.sections.empty() || kind_of_input(settings.sections) != kVolumeInput) return {};
+    const auto reader = open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume);
+    return compare_samples(file.mesh, file.labels, options.background, *reader);
+}
+
+void print_samples(const SampleAgreement& samples) {
+    if (samples.wrong == 0)
+        fmt::print("every one of {} samples keeps its label\n", samples.samples);
+    else
+        fmt::print("{} of {} samples lie in another region; Dice {:.6f}\n", samples.wrong, samples.samples,
+                   samples.dice());
+}
+
 }  // namespace
 
 int run_check(const Settings& settings) {
@@ -46,8 +62,13 @@ int run_check(const Settings& settings) {
         });
     }
     const CheckReport report = check(file.mesh, options);
-    if (!settings.json.empty()) write_text(settings.json, check_json(report, file.labels, file.names));
-    if (!settings.quiet) print_findings(path, report);
+    const auto samples = compare_with_sections(settings, file, options);
+    if (!settings.json.empty())
+        write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr));
+    if (!settings.quiet) {
+        print_findings(path, report);
+        if (samples) print_samples(*samples);
+    }
     return exit_code(report);
 }
 

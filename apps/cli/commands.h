@@ -16,5 +16,6 @@ int run_check(const Settings& settings);
 int run_convert(const Settings& settings);
 int run_compare(const Settings& settings);
 int run_info(const Settings& settings);
+int run_voxelise(const Settings& settings);
 
 }  // namespace regionmesh::cli

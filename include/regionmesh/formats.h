@@ -7,3 +7,4 @@
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/write_report.h"
+#include "regionmesh/write_volume.h"

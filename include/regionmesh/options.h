@@ -24,7 +24,7 @@ using OptionValues = std::vector<std::pair<std::string, std::string>>;
 struct Settings {
     std::vector<std::string> inputs;    // volume, sections, table or mesh to reconstruct
     std::vector<std::string> models;    // surfaces to read: one, or two to compare
-    std::vector<std::string> sections;  // the input to check a model against
+    std::vector<std::string> sections;  // the input to check a model against, or to voxelise it like
     ReadOptions volume;
     TetrahedraOptions tetrahedra;
     ReadMeshOptions surface;
@@ -33,6 +33,8 @@ struct Settings {
     ReconstructOptions reconstruct;  // the other commands copy from it what they need
     std::optional<double> scale;     // unit of nifpms in smooth; none: the mean edge length
     std::uint64_t samples = CompareOptions{}.samples;
+
+    InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
     std::string output, names, report, json, distance;  // files
     bool per_region = false, quiet = false;
@@ -64,6 +66,7 @@ enum Command : std::uint32_t {
     kConvert = 16,
     kCompare = 32,
     kInfo = 64,
+    kVoxelise = 128,
 };
 
 /// Kinds of input as bits.

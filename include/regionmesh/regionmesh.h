@@ -16,3 +16,4 @@
 #include "regionmesh/smooth.h"
 #include "regionmesh/tetrahedron_census.h"
 #include "regionmesh/typical_edge.h"
+#include "regionmesh/voxelise.h"

@@ -8,6 +8,7 @@
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/report.h"
+#include "regionmesh/voxelise.h"
 
 namespace regionmesh {
 
@@ -18,8 +19,9 @@ namespace regionmesh {
 std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names = {});
 
 /// The part of a check alone (`check --json`): quality, regions, region_pairs, quadruple_points_inside, violations and
-/// violation_counts.
-std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names = {});
+/// violation_counts. With `samples` also samples, samples_wrong, samples_contradicting, dice and dice_of_regions[].
+std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names = {},
+                       const SampleAgreement* samples = nullptr);
 
 /// A comparison; docs/compare.md lists the keys. Regions, interfaces and lines are sorted by label; the exterior is
 /// labels.exterior_label() and comes last in a list. Measures of a part that one model lacks are null, and so are its

@@ -46,9 +46,12 @@ Rows argument_rows() {
                      .is_argument = true,
                      .repeats = true},
                     inputs),
-        file_option(
-            {.name = "model", .help = surface, .group = "Arguments", .commands = kSurfaceCommands, .is_argument = true},
-            models),
+        file_option({.name = "model",
+                     .help = surface,
+                     .group = "Arguments",
+                     .commands = kSurfaceCommands | kVoxelise,
+                     .is_argument = true},
+                    models),
         file_option({.name = "from", .help = surface, .group = "Arguments", .commands = kConvert, .is_argument = true},
                     models),
         file_option(
@@ -67,11 +70,19 @@ Rows argument_rows() {
 
 Rows volume_rows() {
     constexpr std::string_view kGroup = "Input";
+    constexpr std::uint32_t kFileCommands = kVolumeCommands | kVoxelise;
     return {
         file_option({.name = "sections",
                      .help = "input that the model was made from (volume, points or mesh): compare with its labels",
                      .group = kGroup,
                      .commands = kCheck,
+                     .repeats = true},
+                    [](Settings& s) { return &s.sections; }),
+        file_option({.name = "like",
+                     .help = "volume with the lattice and the type of samples to write",
+                     .group = kGroup,
+                     .commands = kVoxelise,
+                     .is_required = true,
                      .repeats = true},
                     [](Settings& s) { return &s.sections; }),
         word_option({.name = "sweep",
@@ -82,7 +93,7 @@ Rows volume_rows() {
         option({.name = "spacing",
                 .help = "volumes: distance between samples along x, y and z, instead of the spacing in the file",
                 .group = kGroup,
-                .commands = kVolumeCommands,
+                .commands = kFileCommands,
                 .unit = "length",
                 .inputs = kVolumeInput},
                [](Settings& s) { return &s.volume.spacing; }),
@@ -90,20 +101,20 @@ Rows volume_rows() {
             {.name = "layer",
              .help = "volumes: which layer, channel or time to read where a file has several; counted from 0",
              .group = kGroup,
-             .commands = kVolumeCommands,
+             .commands = kFileCommands,
              .inputs = kVolumeInput},
             [](Settings& s) { return &s.volume.layer; }, kLayers),
         option({.name = "size",
                 .help = "raw files: samples along x, y and z",
                 .group = kGroup,
-                .commands = kVolumeCommands,
+                .commands = kFileCommands,
                 .unit = "samples",
                 .inputs = kVolumeInput},
                [](Settings& s) { return &s.volume.raw_size; }),
         special_option({.name = "type",
                         .help = "raw files: type of a sample, little endian: int8, uint8, ... int64, uint64",
                         .group = kGroup,
-                        .commands = kVolumeCommands,
+                        .commands = kFileCommands,
                         .inputs = kVolumeInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
@@ -159,14 +170,14 @@ Rows label_rows() {
         special_option({.name = "background",
                         .help = "label of empty space, whose faces with the exterior are not made",
                         .group = kGroup,
-                        .commands = kBoxed | kConvert | kCompare,
+                        .commands = kBoxed | kConvert | kCompare | kVoxelise,
                         .repeats = true,
                         .default_text = labels_text(Settings{}.reconstruct.background)},
                        OptionKind::kLabel, add_background),
         special_option({.name = "no-background",
                         .help = "every label is a region",
                         .group = kGroup,
-                        .commands = kBoxed | kConvert | kCompare},
+                        .commands = kBoxed | kConvert | kCompare | kVoxelise},
                        OptionKind::kFlag,
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            if (parse_flag(flag, text)) s.reconstruct.background.clear();
@@ -176,12 +187,20 @@ Rows label_rows() {
                      .group = kGroup,
                      .commands = kBoxed},
                     {"cap", "open"}, [](Settings& s, std::size_t word) { s.reconstruct.cap = word == 0; }),
+        special_option(
+            {.name = "outside",
+             .help = "label of samples in no region, where there is no background",
+             .group = kGroup,
+             .commands = kVoxelise,
+             .default_text = std::to_string(Settings{}.outside)},
+            OptionKind::kLabel,
+            [](Settings& s, const std::string& flag, const std::string& text) { s.outside = parse_label(flag, text); }),
     };
 }
 
 Rows surface_rows() {
     constexpr std::string_view kGroup = "Surfaces to read";
-    constexpr std::uint32_t kReaders = kSurfaceCommands | kConvert;
+    constexpr std::uint32_t kReaders = kSurfaceCommands | kConvert | kVoxelise;
     return {
         option({.name = "weld",
                 .help = "join points no farther apart than this; 0: points at the same place",

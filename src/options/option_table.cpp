@@ -28,6 +28,7 @@ const std::vector<CommandSpec>& command_table() {
         {kConvert, "convert", "write a labelled surface in another format"},
         {kCompare, "compare", "measure the distances between two models, and by region, interface and line"},
         {kInfo, "info", "print size, type, spacing and labels of an input, and the memory that a model needs"},
+        {kVoxelise, "voxelise", "write the label of each sample of a lattice: the inverse of reconstruct"},
     };
     return commands;
 }

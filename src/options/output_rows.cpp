@@ -9,6 +9,12 @@ namespace {
 
 constexpr Range kAnyThreads{0, 0xFFFFFFFFu};
 
+std::string_view output_help() {
+    static const std::string text =
+        std::string(written_help()) + "; voxelise: labels to write: .npy .nii .nii.gz .nrrd .raw";
+    return text;
+}
+
 }  // namespace
 
 std::string_view written_help() {
@@ -20,9 +26,9 @@ Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
     return {
         file_option({.name = "output",
-                     .help = written_help(),
+                     .help = output_help(),
                      .group = kGroup,
-                     .commands = kWriters,
+                     .commands = kWriters | kVoxelise,
                      .is_required = true,
                      .letter = 'o'},
                     [](Settings& s) { return &s.output; }),
@@ -76,7 +82,7 @@ Rows run_rows() {
         option({.name = "quiet",
                 .help = "print nothing but errors",
                 .group = kGroup,
-                .commands = kWriters | kCheck | kConvert | kCompare},
+                .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise},
                [](Settings& s) { return &s.quiet; }),
     };
 }

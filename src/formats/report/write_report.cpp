@@ -90,6 +90,23 @@ void put_check(Json& json, const CheckReport& report, const LabelTable& labels, 
         counts[to_string(static_cast<ViolationKind>(kind))] = report.counts[kind];
 }
 
+/// How well the model agrees with the sections, and each region with its label.
+void put_samples(Json& json, const SampleAgreement& samples, const LabelTable& labels) {
+    json["samples"] = samples.samples;
+    json["samples_wrong"] = samples.wrong;
+    json["samples_contradicting"] = samples.contradictions;
+    json["dice"] = samples.dice();
+    Json& all = json["dice_of_regions"] = Json::array();
+    for (Label label = 0; label < samples.regions.size(); ++label) {
+        const SampleAgreement::Counts& region = samples.regions[label];
+        if (region.in_sections + region.in_model == 0) continue;
+        all.push_back({{"label", label_json(labels.input(label), labels)},
+                       {"samples", region.in_sections},
+                       {"samples_in_model", region.in_model},
+                       {"dice", region.dice()}});
+    }
+}
+
 }  // namespace
 
 std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names) {
@@ -116,9 +133,11 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     return text_of(json);
 }
 
-std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names) {
+std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names,
+                       const SampleAgreement* samples) {
     Json json;
     put_check(json, report, labels, names);
+    if (samples) put_samples(json, *samples, labels);
     return text_of(json);
 }
 

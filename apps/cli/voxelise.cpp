@@ -1,0 +1,37 @@
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "input.h"
+
+namespace regionmesh::cli {
+
+int run_voxelise(const Settings& settings) {
+    const std::string& path = settings.models.front();
+    MeshFile file = read_mesh(path, settings.surface);
+    const VolumeInfo info =
+        open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume)->info();
+    const Lattice& lattice = info.lattice;
+    VoxeliseOptions options{.lattice = lattice};
+    for (const InputLabel label : settings.reconstruct.background)
+        options.background.push_back(file.labels.dense(label));
+    Voxeliser voxeliser(file.mesh, options);
+    const auto writer = create_volume(settings.output, lattice, info.type);
+    std::vector<Label> section(std::size_t{lattice.size[0]} * lattice.size[1]);
+    std::vector<InputLabel> written(section.size());
+    while (voxeliser.next(section)) {
+        for (std::size_t n = 0; n < section.size(); ++n)
+            written[n] = is_exterior(section[n]) ? settings.outside : file.labels.input(section[n]);
+        writer->write(written);
+    }
+    if (voxeliser.contradictions() != 0)
+        throw Error(ErrorCode::kInput,
+                    fmt::format("{}: the surface is not closed: it contradicts itself at {} samples; regionmesh check "
+                                "lists the places",
+                                path, voxeliser.contradictions()));
+    writer->commit();
+    if (!settings.quiet)
+        fmt::print("{}: {} x {} x {} samples\n", settings.output, lattice.size[0], lattice.size[1], lattice.size[2]);
+    return kGood;
+}
+
+}  // namespace regionmesh::cli

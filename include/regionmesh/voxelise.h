@@ -1,0 +1,99 @@
+// Labels back on the lattice: which region of a surface model each sample lies in.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "regionmesh/label_table.h"
+#include "regionmesh/lattice.h"
+#include "regionmesh/mesh.h"
+#include "regionmesh/section_reader.h"
+
+namespace regionmesh {
+
+/// The label of a sample that lies in no region.
+inline constexpr Label kNoRegion = exterior(0);
+
+struct VoxeliseOptions {
+    Lattice lattice;  // where the samples lie, in the space of the mesh
+    Sweep sweep = {};
+    std::vector<Label> background = {};  // regions whose faces with the exterior are not in the mesh
+};
+
+/// Hands out the labels of the samples of a lattice, section by section, from a closed labelled surface.
+///
+/// A line of samples runs along the first axis of the sweep. Each face that the line crosses takes it from one region
+/// to another; the region of a sample is the one that was entered once more than it was left. Which faces a line
+/// crosses, and on which side of a face a sample lies, are signs of determinants of the coordinates as given, and
+/// exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990): every sample is moved by (e^3, e,
+/// e^2) for an infinitely small e, toward the inside of the box of the lattice along each axis. A sample on a capped
+/// side of the box therefore has the region inside.
+///
+/// An oblique lattice has its vertices turned into the axes of the lattice first; there the coordinates are rounded,
+/// and vertices within 1e-9 spacings of a side of the box are moved onto it.
+class Voxeliser {
+public:
+    /// Holds a reference to the mesh. Memory: 8 bytes a face and the crossings of one section.
+    Voxeliser(const Mesh& mesh, const VoxeliseOptions& options);
+
+    /// Fills the labels of the next section, size[axes[0]] * size[axes[1]] samples with axes[0] fastest; kNoRegion
+    /// outside all regions, or the first background label where there is one. False when all sections were handed out.
+    bool next(std::span<Label> section);
+
+    /// Samples so far at which the surface contradicts itself: no region, or several, were entered once more than
+    /// they were left. 0 for a closed surface. Such a sample is counted as outside.
+    std::uint64_t contradictions() const { return contradictions_; }
+
+private:
+    struct Crossing {
+        std::uint64_t sample;  // in the section: the first one beyond the face
+        Label left, entered;
+    };
+
+    Vec3 place(VertexId v) const;
+    double sample_at(int axis, std::uint32_t n) const;
+    double inward(int axis, std::uint32_t n) const;
+    void sort_faces();
+    void cross(FaceId f, std::uint32_t section);
+    void cross_row(const std::array<Vec3, 3>& corners, const Face& face, std::uint32_t row, std::uint32_t section);
+    std::uint32_t first_beyond(const std::array<Vec3, 3>& corners, bool ahead, Vec3 line, Vec3 nudge) const;
+    void label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels);
+    bool is_outside(Label label) const;
+
+    const Mesh& mesh_;
+    VoxeliseOptions options_;
+    std::array<std::uint32_t, 3> size_;  // along the axes of the sweep
+    std::vector<std::uint32_t> order_;   // faces by the first section that they reach
+    std::vector<std::uint32_t> start_;   // of the faces of each section in order_
+    std::vector<std::uint32_t> active_;  // faces that reach the section in hand
+    std::vector<Crossing> crossings_;
+    bool is_mirrored_ = false;
+    std::uint32_t section_ = 0;
+    std::uint64_t contradictions_ = 0;
+};
+
+/// How well a model agrees with the sections that it was made from.
+struct SampleAgreement {
+    std::uint64_t samples = 0;
+    std::uint64_t wrong = 0;           // whose region differs from their label
+    std::uint64_t contradictions = 0;  // Voxeliser::contradictions()
+    struct Counts {
+        std::uint64_t in_sections = 0, in_model = 0, in_both = 0;
+        /// Dice's coefficient: 2 |A and B| / (|A| + |B|); 1 where both are empty.
+        double dice() const {
+            const std::uint64_t sum = in_sections + in_model;
+            return sum == 0 ? 1 : 2.0 * static_cast<double>(in_both) / static_cast<double>(sum);
+        }
+    };
+    std::vector<Counts> regions;  // by dense label of the table; background labels are counted with the first of them
+    /// Over all regions: 2 sum |A and B| / sum (|A| + |B|).
+    double dice() const;
+};
+
+/// Voxelises the mesh on the lattice of the reader, and compares sample by sample. `labels` is the table of the mesh;
+/// labels that only the sections have are added to it. Reads the reader to its end. Throws what the reader throws.
+SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
+                                SectionReader& reader);
+
+}  // namespace regionmesh

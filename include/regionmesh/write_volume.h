@@ -1,0 +1,29 @@
+// Labels on a lattice, written section by section.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "regionmesh/section_reader.h"
+
+namespace regionmesh {
+
+/// Writes sections along z, x fastest, under a temporary name that becomes `path` in commit().
+class SectionWriter {
+public:
+    virtual ~SectionWriter() = default;
+    /// The next section, size[0] * size[1] labels. Throws Error(kOutput) for a label that the sample type cannot hold,
+    /// and when the file cannot be written.
+    virtual void write(std::span<const InputLabel> section) = 0;
+    /// Requires size[2] sections.
+    virtual void commit() = 0;
+};
+
+/// By extension: .npy (shape z, y, x), .nii and .nii.gz (NIfTI-1, NIfTI-2 for axes beyond 32767 samples; the affine as
+/// sform in single or double precision), .nrrd (raw, in its own space), .raw (bare samples); little endian.
+/// Throws Error(kOutput) for another extension.
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice,
+                                             SampleType type);
+
+}  // namespace regionmesh

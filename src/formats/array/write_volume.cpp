@@ -1,0 +1,256 @@
+#include "regionmesh/write_volume.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "formats/codec/sample_format.h"
+#include "regionmesh/error.h"
+#include "regionmesh/output_file.h"
+
+namespace regionmesh {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "samples are written as they lie in memory");
+
+/// What each format calls a sample type.
+struct TypeNames {
+    SampleType type;
+    const char *npy, *nrrd;
+    std::int16_t nifti;
+    InputLabel least, most;  // of signed types; unsigned 64-bit labels keep their bits
+};
+
+template <class T>
+constexpr TypeNames names(SampleType type, const char* npy, const char* nrrd, std::int16_t nifti) {
+    using Limits = std::numeric_limits<T>;
+    constexpr bool is_wide = sizeof(T) == 8;
+    return {type,
+            npy,
+            nrrd,
+            nifti,
+            is_wide ? std::numeric_limits<InputLabel>::min() : static_cast<InputLabel>(Limits::min()),
+            is_wide ? std::numeric_limits<InputLabel>::max() : static_cast<InputLabel>(Limits::max())};
+}
+
+constexpr std::array kTypes{names<std::int8_t>(SampleType::kI8, "|i1", "int8", 256),
+                            names<std::uint8_t>(SampleType::kU8, "|u1", "uint8", 2),
+                            names<std::int16_t>(SampleType::kI16, "<i2", "int16", 4),
+                            names<std::uint16_t>(SampleType::kU16, "<u2", "uint16", 512),
+                            names<std::int32_t>(SampleType::kI32, "<i4", "int32", 8),
+                            names<std::uint32_t>(SampleType::kU32, "<u4", "uint32", 768),
+                            names<std::int64_t>(SampleType::kI64, "<i8", "int64", 1024),
+                            names<std::uint64_t>(SampleType::kU64, "<u8", "uint64", 1280)};
+
+const TypeNames& names_of(SampleType type) {
+    if (type == SampleType::kU1) type = SampleType::kU8;
+    for (const TypeNames& names : kTypes)
+        if (names.type == type) return names;
+    throw Error(ErrorCode::kOutput, "no such type of samples");
+}
+
+std::string npy_header(const Lattice& lattice, const TypeNames& type) {
+    std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}, {}), }}", type.npy,
+                                   lattice.size[2], lattice.size[1], lattice.size[0]);
+    text.append((64 - (10 + text.size() + 1) % 64) % 64, ' ');
+    text += '\n';
+    const auto length = static_cast<std::uint16_t>(text.size());
+    std::string header("\x93NUMPY\x01\x00", 8);
+    header += static_cast<char>(length & 0xFF);
+    header += static_cast<char>(length >> 8);
+    return header + text;
+}
+
+/// Column `axis` of the affine: the step from one sample to the next.
+Vec3 step(const Lattice& lattice, int axis) {
+    const auto& d = lattice.direction;
+    return lattice.spacing[axis] * Vec3{d[axis], d[3 + axis], d[6 + axis]};
+}
+
+std::string nrrd_header(const Lattice& lattice, const TypeNames& type) {
+    std::string text = fmt::format(
+        "NRRD0004\ntype: {}\ndimension: 3\nspace dimension: 3\nsizes: {} {} {}\nspace directions:", type.nrrd,
+        lattice.size[0], lattice.size[1], lattice.size[2]);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 s = step(lattice, axis);
+        text += fmt::format(" ({},{},{})", s.x, s.y, s.z);
+    }
+    const Vec3 o = lattice.origin;
+    return text + fmt::format("\nspace origin: ({},{},{})\nendian: little\nencoding: raw\n\n", o.x, o.y, o.z);
+}
+
+/// Writes values into a header of fixed places.
+class Places {
+public:
+    explicit Places(std::size_t size) : bytes_(size, '\0') {}
+    template <class T>
+    void put(std::size_t at, T value) {
+        std::memcpy(bytes_.data() + at, &value, sizeof value);
+    }
+    void put_text(std::size_t at, std::string_view text) { std::memcpy(bytes_.data() + at, text.data(), text.size()); }
+    std::string take() { return std::move(bytes_); }
+
+private:
+    std::string bytes_;
+};
+
+/// The affine as rows of Real from `at` on.
+template <class Real>
+void put_affine(Places& header, std::size_t at, const Lattice& lattice) {
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column) {
+            const double value = column < 3 ? step(lattice, column)[row] : lattice.origin[row];
+            header.put<Real>(at + sizeof(Real) * (4 * row + column), static_cast<Real>(value));
+        }
+}
+
+std::string nifti1_header(const Lattice& lattice, const TypeNames& type) {
+    Places header(352);
+    header.put<std::int32_t>(0, 348);
+    header.put<std::int16_t>(40, 3);
+    header.put<float>(76, 1);
+    for (int axis = 0; axis < 3; ++axis) {
+        header.put<std::int16_t>(42 + 2 * axis, static_cast<std::int16_t>(lattice.size[axis]));
+        header.put<float>(80 + 4 * axis, static_cast<float>(lattice.spacing[axis]));
+    }
+    for (int n = 3; n < 7; ++n) header.put<std::int16_t>(42 + 2 * n, 1);
+    header.put<std::int16_t>(70, type.nifti);
+    header.put<std::int16_t>(72, static_cast<std::int16_t>(8 * formats::sample_bytes(type.type)));
+    header.put<float>(108, 352);
+    header.put<float>(112, 1);
+    header.put<std::int16_t>(254, 1);  // sform: scanner coordinates
+    put_affine<float>(header, 280, lattice);
+    header.put_text(344, "n+1");
+    return header.take();
+}
+
+std::string nifti2_header(const Lattice& lattice, const TypeNames& type) {
+    Places header(544);
+    header.put<std::int32_t>(0, 540);
+    header.put_text(4, std::string_view("n+2\0\r\n\x1a\n", 8));
+    header.put<std::int16_t>(12, type.nifti);
+    header.put<std::int16_t>(14, static_cast<std::int16_t>(8 * formats::sample_bytes(type.type)));
+    header.put<std::int64_t>(16, 3);
+    header.put<double>(104, 1);
+    for (int axis = 0; axis < 3; ++axis) {
+        header.put<std::int64_t>(24 + 8 * axis, lattice.size[axis]);
+        header.put<double>(112 + 8 * axis, lattice.spacing[axis]);
+    }
+    for (int n = 3; n < 7; ++n) header.put<std::int64_t>(24 + 8 * n, 1);
+    header.put<std::int64_t>(168, 544);
+    header.put<double>(176, 1);
+    header.put<std::int32_t>(348, 1);  // sform: scanner coordinates
+    put_affine<double>(header, 400, lattice);
+    return header.take();
+}
+
+std::string nifti_header(const Lattice& lattice, const TypeNames& type) {
+    const bool fits = std::ranges::all_of(lattice.size, [](std::uint32_t n) { return n <= 32767; });
+    return fits ? nifti1_header(lattice, type) : nifti2_header(lattice, type);
+}
+
+std::string no_header(const Lattice&, const TypeNames&) { return {}; }
+
+struct Format {
+    const char* extension;
+    std::string (*header)(const Lattice&, const TypeNames&);
+    bool is_gzipped;
+};
+constexpr std::array<Format, 5> kFormats{{{".npy", npy_header, false},
+                                          {".nii", nifti_header, false},
+                                          {".nii.gz", nifti_header, true},
+                                          {".nrrd", nrrd_header, false},
+                                          {".raw", no_header, false}}};
+
+/// Bytes into a file, through gzip where wanted.
+class Output {
+public:
+    Output(const std::filesystem::path& path, bool is_gzipped) : file_(path), is_gzipped_(is_gzipped) {
+        constexpr int kGzipWrapper = 15 + 16, kMemory = 8;
+        if (is_gzipped && deflateInit2(&stream_, 6, Z_DEFLATED, kGzipWrapper, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+            throw std::bad_alloc();
+    }
+    ~Output() {
+        if (is_gzipped_) deflateEnd(&stream_);
+    }
+    Output(const Output&) = delete;
+    Output& operator=(const Output&) = delete;
+
+    void write(std::string_view bytes) {
+        if (!is_gzipped_) return file_.write(bytes);
+        constexpr std::size_t kMost = std::numeric_limits<uInt>::max();
+        for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), kMost)))
+            deflate_all(bytes.substr(0, kMost), Z_NO_FLUSH);
+    }
+    void commit() {
+        if (is_gzipped_) deflate_all({}, Z_FINISH);
+        file_.commit();
+    }
+
+private:
+    void deflate_all(std::string_view bytes, int flush) {
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+        stream_.avail_in = static_cast<uInt>(bytes.size());
+        do {
+            stream_.next_out = reinterpret_cast<Bytef*>(buffer_.data());
+            stream_.avail_out = static_cast<uInt>(buffer_.size());
+            deflate(&stream_, flush);
+            file_.write(std::string_view(buffer_.data(), buffer_.size() - stream_.avail_out));
+        } while (stream_.avail_out == 0);
+    }
+
+    OutputFile file_;
+    bool is_gzipped_;
+    z_stream stream_{};
+    std::array<char, 1 << 16> buffer_;
+};
+
+class VolumeWriter final : public SectionWriter {
+public:
+    VolumeWriter(const std::filesystem::path& path, const Format& format, const Lattice& lattice, SampleType type)
+        : path_(path), type_(names_of(type)), output_(path, format.is_gzipped) {
+        output_.write(format.header(lattice, type_));
+    }
+
+    void write(std::span<const InputLabel> section) override {
+        const std::size_t size = formats::sample_bytes(type_.type);
+        bytes_.resize(section.size() * size);
+        char* place = bytes_.data();
+        for (const InputLabel label : section) {
+            if (label < type_.least || label > type_.most)
+                throw Error(ErrorCode::kOutput, fmt::format("{}: samples of {} do not hold the label {}; give --type",
+                                                            path_.string(), type_.nrrd, label));
+            std::memcpy(place, &label, size);  // little endian: the low bytes come first
+            place += size;
+        }
+        output_.write(bytes_);
+    }
+    void commit() override { output_.commit(); }
+
+private:
+    std::filesystem::path path_;
+    const TypeNames& type_;
+    Output output_;
+    std::string bytes_;
+};
+
+}  // namespace
+
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice,
+                                             SampleType type) {
+    const std::string name = path.filename().string();
+    std::string known;
+    for (const Format& format : kFormats) {
+        if (name.ends_with(format.extension)) return std::make_unique<VolumeWriter>(path, format, lattice, type);
+        known += std::string(" ") + format.extension;
+    }
+    throw Error(ErrorCode::kOutput, path.string() + ": labels are written as" + known);
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,101 @@
+// Labels back on the lattice, exactly.
+#include "regionmesh/voxelise.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "regionmesh/reconstruct.h"
+#include "support/meshes.h"
+#include "support/volumes.h"
+
+namespace regionmesh {
+namespace {
+
+using test::ArrayVolume;
+
+ReconstructOptions plain(std::vector<InputLabel> background = {}) {
+    ReconstructOptions options;
+    options.smooth.passes = 0;
+    options.background = std::move(background);
+    return options;
+}
+
+SampleAgreement agreement(ArrayVolume volume, const ReconstructOptions& options) {
+    Reconstruction made = reconstruct(volume, options);
+    volume.rewind();
+    return compare_samples(made.mesh, made.labels, made.background, volume);
+}
+
+void expect_lossless(const ArrayVolume& volume, const ReconstructOptions& options) {
+    const SampleAgreement found = agreement(volume, options);
+    EXPECT_EQ(found.samples, std::uint64_t{volume.size()[0]} * volume.size()[1] * volume.size()[2]);
+    EXPECT_EQ(found.wrong, 0u);
+    EXPECT_EQ(found.contradictions, 0u);
+    EXPECT_EQ(found.dice(), 1);
+}
+
+TEST(Voxelise, plain_models_of_noise_are_lossless) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+        expect_lossless(test::noise_volume({6, 5, 4}, 2 + seed % 5, seed, seed % 3 == 0 ? 0 : -1), plain());
+}
+
+TEST(Voxelise, background_without_caps_is_lossless) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed)
+        expect_lossless(test::noise_volume({6, 5, 4}, 4, seed), plain({0}));
+}
+
+TEST(Voxelise, sweeps_spacings_and_origins_are_lossless) {
+    for (const Sweep sweep : {kSweepX, kSweepY, kSweepZ}) {
+        ArrayVolume volume = test::grain_volume({9, 8, 7}, 12, 3);
+        volume.spaced({0.3, 1.7, 5}).swept(sweep);
+        volume.lattice().origin = {-17.1, 1e3 / 3, 0.1};
+        expect_lossless(volume, plain());
+    }
+}
+
+TEST(Voxelise, oblique_and_mirrored_lattices_are_lossless) {
+    for (const double mirror : {1.0, -1.0}) {
+        ArrayVolume volume = test::grain_volume({9, 8, 7}, 12, 4);
+        const double c = 0.8, s = 0.6;
+        volume.lattice().direction = {c, -s, 0, s, c, 0, 0, 0, mirror};
+        volume.lattice().origin = {5, -3, 11};
+        expect_lossless(volume, plain());
+    }
+}
+
+TEST(Voxelise, decimated_flat_interfaces_are_lossless) {
+    // Two halves: the large faces that are left cross many rows.
+    std::vector<InputLabel> labels;
+    for (int z = 0; z < 12; ++z)
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 12; ++x) labels.push_back(x < 5 ? 1 : y < 7 ? 2 : 3);
+    ReconstructOptions options = plain();
+    options.reduce = 0.95;
+    expect_lossless(ArrayVolume({12, 12, 12}, labels), options);
+}
+
+TEST(Voxelise, samples_that_moved_to_another_region_are_counted) {
+    ArrayVolume volume = test::ball_volume({12, 12, 12}, 4);
+    Reconstruction made = reconstruct(volume, plain());
+    std::vector<InputLabel> changed = volume.labels();
+    changed[6 + 12 * (6 + 12 * 6)] = 0;
+    changed[0] = 1;
+    ArrayVolume other({12, 12, 12}, changed);
+    const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, other);
+    EXPECT_EQ(found.wrong, 2u);
+    EXPECT_LT(found.dice(), 1);
+    EXPECT_EQ(found.regions[made.labels.dense(1)].in_both + 1, found.regions[made.labels.dense(1)].in_sections);
+}
+
+TEST(Voxelise, a_surface_with_a_hole_contradicts_itself) {
+    ArrayVolume volume = test::ball_volume({12, 12, 12}, 4);
+    Reconstruction made = reconstruct(volume, plain());
+    for (std::uint32_t f = 0; f < made.mesh.face_end(); ++f)
+        if (made.mesh.is_alive(FaceId{f}) && made.mesh.corners(FaceId{f})[0].x > 8) made.mesh.remove_face(FaceId{f});
+    volume.rewind();
+    const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);
+    EXPECT_GT(found.wrong, 0u);
+}
+
+}  // namespace
+}  // namespace regionmesh
