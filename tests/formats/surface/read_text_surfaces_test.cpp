@@ -198,7 +198,7 @@ TEST_F(TextSurfaces, points_are_joined_within_a_distance_and_no_farther) {
     for (auto& face : faces)
         for (Vec3& p : face) p.x += shift += 1e-7;
     const std::string text = solid("a", faces);
-    const auto corners = [&](std::optional<double> merger) {
+    const auto corners = [&](std::optional<double> weld) {
         return read("m.stl", text, {.weld = weld}).mesh.vertex_count();
     };
     EXPECT_EQ(corners({}), 12u);
