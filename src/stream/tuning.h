@@ -36,8 +36,7 @@ inline constexpr std::uint64_t kGrowthHalves = 3;
 
 // Smoothing.
 
-/// Strips by which the window grows where it was too short; doubled each time (label patterns of no instrument need
-/// it).
+/// Strips by which the window grows where it was too short; doubled each time. Only artificial labels have needed it.
 inline constexpr std::uint32_t kExtraStrips = 8;
 
 // Volumes.

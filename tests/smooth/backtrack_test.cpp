@@ -197,27 +197,25 @@ TEST(Backtrack, a_vertex_follows_the_face_that_asks_for_most) {
     EXPECT_EQ(both.steps.backtrack[0], both.steps.backtrack[1]);
 }
 
-TEST(Backtrack, in_layers_gives_what_one_layer_does) {
-    // Two faces side by side, the second in a chunk of its own with one new vertex; both turn over.
-    const std::vector<Vec3> from{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
-        to{{0, 0, 0}, {1, 0, 0}, {0, -0.3, 0}, {1, -1.5, 0}};
-    const ChunkFace faces[2]{{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}};
+TEST(Backtrack, in_chunks_gives_the_same_as_in_one_chunk) {
+    // Two faces with a common edge, the second in a chunk of its own with one new vertex; both turn over.
+    const std::vector<ChunkVertex> from{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{1, 1, 0}}};
+    const std::vector<Vec3> to{{0, 0, 0}, {1, 0, 0}, {0, -0.3, 0}, {1, -1.5, 0}};
+    const Chunk whole{
+        .carried = 0, .vertices = from, .faces = {{{0, 1, 2}, {0, 1}}, {{1, 3, 2}, {0, 1}}}, .active = {}};
+    const Chunk first{
+        .carried = 0, .vertices = {from[0], from[1], from[2]}, .faces = {{{0, 1, 2}, {0, 1}}}, .active = {1, 2}};
+    const Chunk second{.carried = 2, .vertices = {from[3]}, .faces = {{{0, 2, 1}, {0, 1}}}, .active = {}};
     std::vector<std::uint8_t> steps_of[2];
     for (bool is_cut : {false, true}) {
         SurfaceWindow window;
+        window.add(is_cut ? first : whole);
+        if (is_cut) window.add(second);
         SlidingArray<Vec3> smooth, now;
-        for (std::uint32_t v = 0; v < 4; ++v) {
-            if (v == 3) {
-                window.faces.push_back(faces[0]);
-                if (is_cut) window.end_chunk();
-            }
-            window.origin.push_back(from[v]);
-            window.sides.push_back(0);
-            smooth.push_back(to[v]);
-            now.push_back(to[v]);
+        for (Vec3 p : to) {
+            smooth.push_back(p);
+            now.push_back(p);
         }
-        window.faces.push_back(faces[1]);
-        window.end_chunk();
         StepLengths steps;
         steps.backtrack.grow(4);
         steps.wanted.grow(4);

@@ -111,33 +111,25 @@ TEST(MayChangeSides, what_no_face_may_have_changed_is_where_it_was) {
     EXPECT_GT(changed, 300);
 }
 
-/// Adds so many vertices.
-void add_vertices(SurfaceWindow& window, std::uint32_t count) {
-    for (std::uint32_t n = 0; n < count; ++n) {
-        window.origin.push_back({});
-        window.sides.push_back(0);
-    }
+/// A chunk of `count` new vertices, all at the origin.
+Chunk chunk_of(std::uint32_t carried, std::uint32_t count, const std::vector<std::array<std::uint32_t, 3>>& corners,
+               std::vector<std::uint32_t> active) {
+    Chunk chunk{.carried = carried, .vertices = {}, .faces = {}, .active = std::move(active)};
+    chunk.vertices.resize(count);
+    for (const auto& face : corners) chunk.faces.push_back({face, {0, 1}});
+    return chunk;
 }
 
-TEST(Parts, end_in_the_last_layer_that_they_reach) {
+TEST(Parts, end_in_the_last_chunk_that_they_reach) {
     SurfaceWindow window;
     Parts parts;
-    // 0 1 2 and 3 4 5; then 6 and 7 join the second; then 8 and 9 make a third with nothing before them, and 10 goes
-    // on.
-    add_vertices(window, 6);
-    window.faces.push_back({{0, 1, 2}, {0, 1}});
-    window.faces.push_back({{3, 4, 5}, {0, 1}});
-    window.end_chunk();
+    // Parts 0 1 2 and 3 4 5; then 6 and 7 join the second one; then 8 and 9 have no faces, and 10 continues the second.
+    window.add(chunk_of(0, 6, {{0, 1, 2}, {3, 4, 5}}, {4, 5}));
     parts.add_chunk(window, 0);
-    add_vertices(window, 2);
-    window.faces.push_back({{4, 6, 5}, {0, 1}});
-    window.faces.push_back({{6, 7, 5}, {0, 1}});
-    window.end_chunk();
+    window.add(chunk_of(2, 2, {{0, 2, 1}, {2, 3, 1}}, {2, 3}));
     parts.add_chunk(window, 1);
     EXPECT_THAT(parts.that_end_in(window, 0), ElementsAre(2));
-    add_vertices(window, 3);
-    window.faces.push_back({{7, 6, 10}, {0, 1}});
-    window.end_chunk();
+    window.add(chunk_of(2, 3, {{1, 0, 4}}, {}));
     parts.add_chunk(window, 2);
     EXPECT_THAT(parts.that_end_in(window, 1), IsEmpty());
     EXPECT_THAT(parts.that_end_in(window, 2), ElementsAre(8, 9, 10)) << "vertices without faces are parts, too";
@@ -148,30 +140,22 @@ TEST(Parts, end_in_the_last_layer_that_they_reach) {
 TEST(Parts, are_joined_by_a_face_that_comes_late) {
     SurfaceWindow window;
     Parts parts;
-    add_vertices(window, 6);
-    window.faces.push_back({{0, 1, 2}, {0, 1}});
-    window.faces.push_back({{3, 4, 5}, {0, 1}});
-    window.end_chunk();
+    window.add(chunk_of(0, 6, {{0, 1, 2}, {3, 4, 5}}, {1, 4}));
     parts.add_chunk(window, 0);
     EXPECT_THAT(parts.that_end_in(window, 0), ElementsAre(2, 5));
-    add_vertices(window, 1);
-    window.faces.push_back({{1, 4, 6}, {0, 1}});
-    window.end_chunk();
+    window.add(chunk_of(2, 1, {{0, 1, 2}}, {}));
     parts.add_chunk(window, 1);
     EXPECT_THAT(parts.that_end_in(window, 0), IsEmpty());
     EXPECT_THAT(parts.that_end_in(window, 1), ElementsAre(6));
     for (std::uint32_t v = 0; v < 7; ++v) EXPECT_EQ(parts.root(v), 6u);
 }
 
-TEST(Parts, whose_first_vertices_were_let_go_are_still_one) {
+TEST(Parts, whose_first_vertices_were_released_are_still_one) {
     // A ribbon, one face a chunk.
     SurfaceWindow window;
     Parts parts;
-    add_vertices(window, 2);
     for (std::uint32_t n = 2; n < 500; ++n) {
-        add_vertices(window, 1);
-        window.faces.push_back({{n - 2, n - 1, n}, {0, 1}});
-        window.end_chunk();
+        window.add(n == 2 ? chunk_of(0, 3, {{0, 1, 2}}, {1, 2}) : chunk_of(2, 1, {{0, 1, 2}}, {1, 2}));
         parts.add_chunk(window, n - 2);
         if (n < 4) continue;
         EXPECT_THAT(parts.that_end_in(window, n - 3), IsEmpty());

@@ -165,7 +165,7 @@ void for_chunks(test::ArrayVolume& volume, Smoother& smoother, Visit&& visit) {
     EXPECT_FALSE(smoother.next(out));
 }
 
-TEST(Smoother, chunks_come_out_as_they_went_in_but_for_places) {
+TEST(Smoother, chunks_come_out_as_they_went_in_except_for_positions) {
     for (SmoothFilter filter : kFilters) {
         test::ArrayVolume volume = test::noise_volume({5, 5, 12}, 3, 4);
         Smoother smoother({.filter = filter, .passes = 4}, {.thickness = 1});

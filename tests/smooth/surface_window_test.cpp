@@ -28,7 +28,7 @@ SurfaceWindow ribbon(std::uint32_t chunks) {
     return window;
 }
 
-TEST(SurfaceWindow, knows_what_each_layer_added) {
+TEST(SurfaceWindow, knows_what_each_chunk_added) {
     const SurfaceWindow window = ribbon(4);
     EXPECT_EQ(window.chunk_end(), 4u);
     EXPECT_EQ(window.faces_of(0).size(), 0u);
@@ -38,7 +38,7 @@ TEST(SurfaceWindow, knows_what_each_layer_added) {
     EXPECT_EQ(window.vertices_of(3).end, 8u);
 }
 
-TEST(SurfaceWindow, keeps_numbers_when_layers_are_let_go) {
+TEST(SurfaceWindow, keeps_numbers_when_chunks_are_released) {
     SurfaceWindow window = ribbon(200);
     const std::size_t whole = window.bytes();
     window.drop_before(0);
@@ -76,7 +76,7 @@ TEST(SurfaceWindow, gives_back_each_chunk_with_other_positions) {
     }
 }
 
-TEST(ChunkStars, hold_the_corners_of_two_layers) {
+TEST(ChunkStars, hold_the_corners_of_two_chunks) {
     const SurfaceWindow window = ribbon(3);
     const ChunkStars stars(window, 1);
     EXPECT_EQ(stars.vertices().first, 2u);
@@ -86,7 +86,7 @@ TEST(ChunkStars, hold_the_corners_of_two_layers) {
     EXPECT_THAT(stars.of(3), ElementsAre(1 << 2 | 1, 2 << 2 | 1, 3 << 2 | 0));
 }
 
-TEST(ChunkStars, are_the_same_when_the_layers_before_were_let_go) {
+TEST(ChunkStars, are_the_same_when_the_chunks_before_were_released) {
     SurfaceWindow window = ribbon(30);
     const ChunkStars before(window, 20);
     window.drop_before(20);

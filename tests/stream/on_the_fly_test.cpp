@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "stream/memory_plan.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/strata_list.h"
