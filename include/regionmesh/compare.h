@@ -1,4 +1,4 @@
-// How far are two labelled surfaces apart: as a whole, region by region, interface by interface, line by line?
+// Distances between two labelled surfaces: as a whole, by region, by interface and by line.
 #pragma once
 
 #include <array>
@@ -9,55 +9,62 @@
 #include "regionmesh/check.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
-#include "regionmesh/statistics.h"
 
 namespace regionmesh {
 
-/// What is compared. Refers to both.
+/// A mesh to compare. Holds references.
 struct ComparedMesh {
     const Mesh& mesh;
     const LabelTable& labels;
 };
 
 struct CompareOptions {
-    std::uint64_t samples = 1'000'000;      // on the faces of each model; a tenth as many on its lines
-    std::vector<InputLabel> background{0};  // no regions; their faces with the exterior count nowhere
-    bool vertex_distances = false;          // make CompareReport::vertex_distances
-    std::uint32_t threads = 0;              // at work at a time; 0: one per core. The result is the same
+    std::uint64_t samples = 1'000'000;      // on the faces of each mesh; a tenth of this on its lines
+    std::vector<InputLabel> background{0};  // no regions; their faces to the exterior are left out
+    bool vertex_distances = false;          // fill CompareReport::vertex_distances
+    std::uint32_t threads = 0;              // 0: one per core; the result does not depend on it
 };
 
-/// Distances of samples on A to B, of samples on B to A, and of all of them together, where each counts by its area or
-/// length (so that `max` is the greater of both). Null where one of both has nothing of the kind.
+/// Sampled distances, in the unit of the coordinates, weighted by the area or length that each sample stands for.
+struct DistanceStatistics {
+    std::uint64_t samples = 0;
+    double rms = 0, mean = 0;
+    double max = 0;          // of the samples: the surface may be slightly farther away between them
+    double quantile_95 = 0;  // the smallest sampled distance not exceeded on 95 % of the area or length
+};
+
+/// Distances of samples on A to B, of samples on B to A, and of both together, each weighted by its area or length
+/// (`max` is the larger of both). nullopt if A or B has no such part.
 struct TwoSidedDistance {
     std::optional<DistanceStatistics> a_to_b, b_to_a, both;
 };
 
-/// The boundary of a region in A against that in B. Null where it has none there.
+/// The boundary of a region in A compared with that in B. nullopt where the region is missing.
 struct RegionComparison {
     Label label = 0;
-    std::array<std::optional<RegionReport>, 2> measures;  // in A and B; their `label` is the common one
+    std::array<std::optional<RegionReport>, 2> measures;  // in A and B; `label` refers to CompareReport::labels
     TwoSidedDistance distance;
 };
 
-/// An interface (two labels) or a line (three or more) in A against the one with the same labels in B.
+/// An interface (two labels) or a line (three or more) in A compared with the one with the same labels in B.
 struct StratumComparison {
-    std::vector<Label> labels;                      // ascending; the exterior last, in a line once for each side
+    std::vector<Label> labels;                      // ascending; the exterior last, in lines once per side
     std::array<std::optional<double>, 2> measures;  // area or length in A and B
     TwoSidedDistance distance;
 };
 
 struct CompareReport {
-    LabelTable labels;  // of both models, as numbers ascending: the labels below are its dense ones, or exterior(0)
+    LabelTable labels;  // of both meshes, in ascending order: labels below are its dense labels, or exterior(0)
     std::array<std::uint64_t, 2> faces{}, vertices{};
-    TwoSidedDistance distance;  // of the surfaces as a whole, whatever their labels
+    TwoSidedDistance distance;  // of the whole surfaces, regardless of labels
     std::vector<RegionComparison> regions;
     std::vector<StratumComparison> interfaces, lines;
     std::array<QualityReport, 2> quality;
-    std::vector<double> vertex_distances;  // by vertex id of A, to the whole surface of B; where asked, and B has faces
+    std::vector<double> vertex_distances;  // by vertex id of A, to the whole surface of B; if asked for and B has faces
 };
 
-/// Compares by sampling (see sample.h); labels correspond when they are equal in the input. Deterministic, on any
-/// number of threads. Cost: see docs/compare.md.
+/// Compares by sampling (src/compare/sample.h); labels correspond if they are equal in the input. Deterministic for any
+/// number of threads. Cost: docs/compare.md.
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options = {});
 
 }  // namespace regionmesh

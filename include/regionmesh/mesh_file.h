@@ -80,7 +80,7 @@ struct ReadMeshOptions {
     /// points at one place. Points of .stl files, and of several files in a folder, are joined at 0 without being
     /// asked.
     std::optional<double> weld = {};
-    /// Turns faces so that neighbours agree on which side each region lies (io/file_surface.h).
+    /// Turns faces so that neighbours agree on which side each region lies (src/formats/surface/file_surface.h).
     bool orient = false;
 };
 

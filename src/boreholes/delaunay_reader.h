@@ -14,7 +14,7 @@
 
 namespace regionmesh::formats {
 
-/// Sends the points away in take_points() and reads the tetrahedra as they come; delaunay/README.md says how the two
+/// Sends the points away in take_points() and reads the tetrahedra as they come; apps/delaunay/README.md says how the two
 /// talk. Of the size of the points it holds the numbers of their rows only.
 class DelaunayReader : public TetrahedronReader {
 public:

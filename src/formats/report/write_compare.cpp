@@ -1,6 +1,5 @@
-#include "regionmesh/write_report.h"
-
 #include "formats/report/json_parts.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 namespace {
