@@ -1,20 +1,28 @@
-# What `cmake --install` copies: program (see cli/), library, headers, and the files that find_package(regionmesh) reads.
-# The installed package is tested by building the example against it.
+# `cmake --install` copies the program (apps/cli), the libraries, the public headers, and the files that
+# find_package(regionmesh) reads. The installed package is tested by building the examples against it.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/regionmesh)
 configure_package_config_file(cmake/regionmesh-config.cmake.in regionmesh-config.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(regionmesh-config-version.cmake COMPATIBILITY SameMinorVersion)
 
-install(TARGETS regionmesh_core regionmesh_formats EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY include/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(TARGETS regionmesh_core EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+set(without)
+if(REGIONMESH_FORMATS)
+    install(TARGETS regionmesh_formats EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+else()
+    foreach(header formats label_names_file mesh_file output_file read_sections read_tetrahedra write_report)
+        list(APPEND without PATTERN ${header}.h EXCLUDE)
+    endforeach()
+endif()
+install(DIRECTORY include/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${without})
 install(EXPORT regionmesh-targets NAMESPACE regionmesh:: DESTINATION ${package_folder})
 install(FILES ${PROJECT_BINARY_DIR}/regionmesh-config.cmake ${PROJECT_BINARY_DIR}/regionmesh-config-version.cmake
     cmake/csv_library.cmake cmake/exact_numbers.cmake cmake/storage_libraries.cmake DESTINATION ${package_folder})
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A program linked with sanitizers would have to be built with them, too.
-if(REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
+if(REGIONMESH_TESTS AND REGIONMESH_FORMATS AND NOT REGIONMESH_SANITIZE)
     set(prefix ${PROJECT_BINARY_DIR}/installed)
     add_test(NAME install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
     add_test(NAME installed_package_builds_and_runs_the_example
@@ -22,6 +30,14 @@ if(REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
             --build-generator ${CMAKE_GENERATOR}
             --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
             --test-command reconstruct ${PROJECT_SOURCE_DIR}/tests/data/npy/uint8.npy ${PROJECT_BINARY_DIR}/examples/model.vtp)
+    add_test(NAME installed_headers_are_the_public_ones
+        COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D PREFIX=${prefix} -P ${PROJECT_SOURCE_DIR}/tests/package/installed_headers.cmake)
     set_tests_properties(install PROPERTIES FIXTURES_SETUP installed_package)
-    set_tests_properties(installed_package_builds_and_runs_the_example PROPERTIES FIXTURES_REQUIRED installed_package)
+    set_tests_properties(installed_package_builds_and_runs_the_example installed_headers_are_the_public_ones
+        PROPERTIES FIXTURES_REQUIRED installed_package)
+    add_test(NAME core_builds_and_runs_alone
+        COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D BINARY=${PROJECT_BINARY_DIR}/core_alone -D GENERATOR=${CMAKE_GENERATOR}
+            -D COMPILER=${CMAKE_CXX_COMPILER} -D C_COMPILER=${CMAKE_C_COMPILER} -D LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+            -P ${PROJECT_SOURCE_DIR}/tests/package/core_alone.cmake)
+    set_tests_properties(core_builds_and_runs_alone PROPERTIES TIMEOUT 900)
 endif()

@@ -1,4 +1,4 @@
-// The arrows of DESIGN section 3: who may include whom.
+// Who may include whom: the table in CONTRIBUTING.md, enforced.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -21,66 +22,46 @@ using Names = std::set<std::string>;
 const fs::path kRoot = test::source_folder();
 const fs::path kLibrary = kRoot / "src", kPublic = kRoot / "include/regionmesh";
 
-/// Room: the rooms that it may include besides itself.
-const std::map<std::string, Names> kArrows{
-    {"base", {}},
-    {"volume", {"base"}},
-    {"mesh", {"base"}},
-    {"cells", {"base", "mesh", "volume"}},
-    {"simplify", {"base", "mesh", "volume"}},
-    {"smooth", {"base", "mesh"}},
-    {"check", {"base", "mesh"}},
-    {"compare", {"base", "mesh", "volume", "check"}},
-    {"stream", {"base", "mesh", "volume", "cells", "simplify", "smooth", "check"}},
-    {"formats", {"base", "mesh", "volume", "check", "compare", "stream"}},
-    {"boreholes", {"base", "volume", "formats"}},
-    {"options", {"base", "mesh", "volume", "compare", "stream", "formats"}},
+/// The table of rooms in CONTRIBUTING.md: the rooms that a room may include, and the room that keeps the promise of a
+/// public header.
+struct Rooms {
+    std::map<std::string, Names> may_include;
+    std::map<std::string, std::string> of_header;
 };
 
-/// The room that a public header belongs to: the one that keeps its promise.
-const std::map<std::string, std::string> kRoomOfHeader{
-    {"error.h", "base"},
-    {"flat_array.h", "base"},
-    {"ids.h", "base"},
-    {"label.h", "base"},
-    {"label_oracle.h", "base"},
-    {"process.h", "base"},
-    {"vec3.h", "base"},
-    {"label_names.h", "volume"},
-    {"label_table.h", "volume"},
-    {"lattice.h", "volume"},
-    {"section_reader.h", "volume"},
-    {"tetrahedron_reader.h", "volume"},
-    {"mesh.h", "mesh"},
-    {"typical_edge.h", "mesh"},
-    {"census.h", "cells"},
-    {"simplify.h", "simplify"},
-    {"verdict.h", "simplify"},
-    {"preserve_volume.h", "smooth"},
-    {"smooth.h", "smooth"},
-    {"smooth_options.h", "smooth"},
-    {"smooth_report.h", "smooth"},
-    {"check.h", "check"},
-    {"fix_unsound.h", "check"},
-    {"lines.h", "check"},
-    {"compare.h", "compare"},
-    {"statistics.h", "compare"},
-    {"voxelise.h", "compare"},
-    {"memory.h", "stream"},
-    {"reconstruct.h", "stream"},
-    {"report.h", "stream"},
-    {"tetrahedron_census.h", "stream"},
-    {"regionmesh.h", "the whole"},
-    {"formats.h", "the whole"},
-    {"label_names_file.h", "formats"},
-    {"mesh_file.h", "formats"},
-    {"output_file.h", "formats"},
-    {"read_sections.h", "formats"},
-    {"read_tetrahedra.h", "formats"},
-    {"write_report.h", "formats"},
-    {"options.h", "options"},
-    {"write_volume.h", "formats"},
-};
+/// Room of the headers that include all others.
+const std::string kAll = "all";
+
+Names words_of(const std::string& cell) {
+    std::istringstream stream(cell);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+Rooms read_rooms() {
+    static const std::regex row(R"re(\|([^|]*)\|([^|]*)\|([^|]*)\|)re");
+    Rooms rooms;
+    std::ifstream stream(kRoot / "CONTRIBUTING.md");
+    bool is_table = false;
+    std::smatch match;
+    for (std::string line; std::getline(stream, line);) {
+        if (line.starts_with("| room of `src` |")) {
+            is_table = true;
+            continue;
+        }
+        if (!is_table || !std::regex_match(line, match, row)) {
+            if (is_table) break;
+            continue;
+        }
+        std::string room = *words_of(match[1]).begin();
+        std::erase(room, '`');
+        if (room.starts_with("---")) continue;
+        if (room != kAll) rooms.may_include[room] = words_of(match[2]);
+        for (const std::string& header : words_of(match[3])) rooms.of_header[header + ".h"] = room;
+    }
+    return rooms;
+}
+
+const Rooms kRooms = read_rooms();
 
 /// What a file includes of ours: "regionmesh/mesh.h", "base/hash.h".
 std::vector<std::string> includes_of(const fs::path& file) {
@@ -97,8 +78,8 @@ std::vector<std::string> includes_of(const fs::path& file) {
 std::string room_of(const std::string& include) {
     const std::string first = include.substr(0, include.find('/'));
     if (first != "regionmesh") return first;
-    const auto place = kRoomOfHeader.find(include.substr(first.size() + 1));
-    return place == kRoomOfHeader.end() ? "a public header without a room" : place->second;
+    const auto place = kRooms.of_header.find(include.substr(first.size() + 1));
+    return place == kRooms.of_header.end() ? "a public header without a room" : place->second;
 }
 
 template <class Visit>
@@ -108,14 +89,17 @@ void for_sources(const fs::path& folder, Visit&& visit) {
 }
 
 TEST(Architecture, every_folder_has_its_arrows) {
-    for (const auto& entry : fs::directory_iterator(kLibrary))
-        EXPECT_TRUE(entry.is_directory() && kArrows.contains(entry.path().filename().string())) << entry.path();
+    Names folders, rooms;
+    for (const auto& entry : fs::directory_iterator(kLibrary)) folders.insert(entry.path().filename().string());
+    for (const auto& [room, may] : kRooms.may_include) rooms.insert(room);
+    EXPECT_EQ(folders, rooms) << "folders of src, and rows of the table in CONTRIBUTING.md";
 }
 
 TEST(Architecture, every_public_header_has_a_room) {
-    for_sources(kPublic, [&](const fs::path& file) {
-        EXPECT_TRUE(kRoomOfHeader.contains(file.filename().string())) << file.string();
-    });
+    Names files, headers;
+    for (const auto& entry : fs::directory_iterator(kPublic)) files.insert(entry.path().filename().string());
+    for (const auto& [header, room] : kRooms.of_header) headers.insert(header);
+    EXPECT_EQ(files, headers) << "files of include/regionmesh, and headers of the table in CONTRIBUTING.md";
 }
 
 void expect_arrows(const fs::path& file, const std::string& room, const Names& may, int& seen) {
@@ -126,13 +110,37 @@ void expect_arrows(const fs::path& file, const std::string& room, const Names& m
     }
 }
 
-TEST(Architecture, arrows_point_down_only) {
+TEST(Architecture, includes_follow_the_table) {
     int seen = 0;
-    for (const auto& [room, may] : kArrows)
+    for (const auto& [room, may] : kRooms.may_include)
         for_sources(kLibrary / room, [&](const fs::path& file) { expect_arrows(file, room, may, seen); });
-    for (const auto& [header, room] : kRoomOfHeader)
-        if (room != "the whole") expect_arrows(kPublic / header, room, kArrows.at(room), seen);
+    for (const auto& [header, room] : kRooms.of_header)
+        if (room != kAll) expect_arrows(kPublic / header, room, kRooms.may_include.at(room), seen);
     EXPECT_GT(seen, 500) << "this test looks in the wrong place";
+}
+
+/// Depth first, down the arrows.
+bool leads_to(const std::string& from, const std::string& to, Names& seen) {
+    for (const std::string& next : kRooms.may_include.at(from))
+        if (next == to || (seen.insert(next).second && leads_to(next, to, seen))) return true;
+    return false;
+}
+
+TEST(Architecture, no_room_includes_itself_through_others) {
+    for (const auto& [room, may] : kRooms.may_include) {
+        for (const std::string& other : may) ASSERT_TRUE(kRooms.may_include.contains(other)) << room << ": " << other;
+        Names seen;
+        EXPECT_FALSE(leads_to(room, room, seen)) << room;
+    }
+}
+
+TEST(Architecture, simplify_smooth_and_check_do_not_see_one_another) {
+    const Names apart{"simplify", "smooth", "check"};
+    for (const std::string& room : apart)
+        for (const std::string& other : apart) {
+            Names seen;
+            EXPECT_FALSE(room != other && leads_to(room, other, seen)) << room << " -> " << other;
+        }
 }
 
 TEST(Architecture, public_headers_include_public_headers_only) {
@@ -145,7 +153,7 @@ TEST(Architecture, public_headers_include_public_headers_only) {
 TEST(Architecture, nothing_includes_the_whole) {
     for_sources(kLibrary, [&](const fs::path& file) {
         for (const std::string& include : includes_of(file))
-            EXPECT_TRUE(include != "regionmesh/regionmesh.h" && include != "regionmesh/formats.h") << file.string();
+            EXPECT_NE(room_of(include), kAll) << file.string() << " includes " << include;
     });
 }
 

@@ -62,8 +62,9 @@ int run_decimate(const Settings& settings) {
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     file.mesh.sort_spatially();
-    const FixedPart fixed = before.violation_count() > 0 ? fix_unsound(file.mesh, options) : FixedPart{};
+    const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     Report report = decimated(file.mesh, to_options(settings, file.mesh));
+    file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
     write_model(settings, file.mesh, file.labels, options.background, names);

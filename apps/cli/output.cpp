@@ -59,7 +59,7 @@ void print_orient_hint(const CheckReport& report) {
         fmt::print("faces with opposite orientations: --orient turns them\n");
 }
 
-void print_fixed_part(const FixedPart& fixed, const CheckReport& before, const CheckReport& after) {
+void print_fixed_part(const LockedPart& fixed, const CheckReport& before, const CheckReport& after) {
     if (before.violation_count() > 0)
         fmt::print("{} vertices and {} faces not changed, because of violations in the input: {}\n", fixed.vertices,
                    fixed.faces, counts_text(before));

@@ -30,6 +30,6 @@ void print_violations(const CheckReport& report, int listed);
 void print_orient_hint(const CheckReport& report);
 
 /// Prints which part of an invalid model was not changed, and which violations became more.
-void print_fixed_part(const FixedPart& fixed, const CheckReport& before, const CheckReport& after);
+void print_fixed_part(const LockedPart& fixed, const CheckReport& before, const CheckReport& after);
 
 }  // namespace regionmesh::cli

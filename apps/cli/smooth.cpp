@@ -58,7 +58,7 @@ int run_smooth(const Settings& settings) {
     MeshFile file = read_mesh(settings.models.front(), settings.surface);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
-    const FixedPart fixed = before.violation_count() > 0 ? fix_unsound(file.mesh, options) : FixedPart{};
+    const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     Report report = smoothed(settings, file.mesh, before);
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);

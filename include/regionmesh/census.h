@@ -1,4 +1,4 @@
-// Counts labels, faces and invariants of sections, without making a face.
+// Counts labels, samples, faces and topological invariants of a volume or of tetrahedra without building the mesh.
 #pragma once
 
 #include <cstdint>
@@ -8,30 +8,45 @@
 #include "regionmesh/label_oracle.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/section_reader.h"
+#include "regionmesh/tetrahedron_reader.h"
 
 namespace regionmesh {
 
 struct Census {
     LabelTable labels;
     std::vector<std::uint64_t> samples;      // by dense label
-    std::uint64_t face_count = 0;            // before simplification
-    std::vector<std::uint64_t> strip_faces;  // the same, by strip
+    std::uint64_t face_count = 0;            // of the unsimplified mesh
+    std::vector<std::uint64_t> strip_faces;  // the same by strip
+    LabelOracle oracle;
+};
+
+struct TetrahedronCensus {
+    LabelTable labels;
+    std::uint64_t point_count = 0, tetrahedron_count = 0;
+    std::vector<std::uint64_t> samples;  // by dense label: points, or tetrahedra if these have the labels
+    double spacing = 0;                  // edge of a cube with the volume of six mean tetrahedra, z scaled
+    Sweep sweep;
+    std::uint64_t face_count = 0;  // of the unsimplified mesh
     LabelOracle oracle;
 };
 
 struct CensusOptions {
     bool cap = true;                        // as in ReconstructOptions
-    std::vector<InputLabel> background{0};  // likewise
+    std::vector<InputLabel> background{0};  // as in ReconstructOptions
     std::optional<Sweep> sweep = {};        // of tetrahedra
 };
 
-/// Reads all sections and counts.
+/// Reads all sections. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader
+/// throws.
 Census count_labels(SectionReader& reader, const CensusOptions& options = {});
+
+/// Reads all tetrahedra. Throws the same errors as reconstruct().
+TetrahedronCensus count_labels(TetrahedronReader& reader, const CensusOptions& options = {});
 
 /// An empty table for the labels of a volume.
 LabelTable table_for(const VolumeInfo& volume);
 
-/// Gives the background labels the first dense numbers, in their order, and returns these.
+/// Gives background labels the first dense numbers, before the volume is read.
 std::vector<Label> dense_background(const std::vector<InputLabel>& background, LabelTable& labels);
 
 }  // namespace regionmesh

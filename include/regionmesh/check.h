@@ -1,4 +1,5 @@
-// The invariant test of a labelled surface: what is wrong with it, as data, and what it measures (DESIGN: check).
+// The invariant test of a labelled surface: violations as data, and the measures of its regions, faces and lines.
+// docs/check.md describes the method.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +11,11 @@
 #include <vector>
 
 #include "regionmesh/label_oracle.h"
-#include "regionmesh/lines.h"
 #include "regionmesh/mesh.h"
 
 namespace regionmesh {
 
-/// What can be wrong. The names are those of the report.
+/// The kinds of violations. to_string() gives their names in reports.
 enum class ViolationKind {
     kOpenEdge,            // a region has a single face at an edge (P 3.6 b)
     kOverfullEdge,        // a region has more than two faces at an edge (P 3.6 b)
@@ -24,40 +24,39 @@ enum class ViolationKind {
     kFewEdges,            // a vertex with fewer than three edges (P 3.6 a)
     kDuplicateFace,       // two faces on the same three vertices
     kDegenerateFace,      // a face that repeats a vertex, or without area, or with one label on both sides
-    kCoincidentVertices,  // two vertices at one place (P 3.6 d)
+    kCoincidentVertices,  // two vertices at the same place (P 3.6 d)
     kUnusedVertex,        // a vertex without a face
-    kCrossingFaces,       // two faces meet outside what they share (exact)
-    kEuler,               // the Euler characteristic of a region is not that of its labels
-    kQuadruplePoints,     // interior quadruple points are not those of the labels
-    kRegionPairs,         // pairs of regions with an interface are not those of the labels
+    kCrossingFaces,       // two faces meet outside the vertices and edges that they share (exact)
+    kEuler,               // the Euler characteristic of a region differs from that of its labels
+    kQuadruplePoints,     // the number of interior quadruple points differs from that of the labels
+    kRegionPairs,         // the number of pairs of regions with an interface differs from that of the labels
     kNesting,             // a separate part of the surface lies in the wrong region
     kNonGenericVertex,    // each region is sound, but the star is no disk, book of three pages or cone over K4
 };
 inline constexpr int kViolationKindCount = 15;
 const char* to_string(ViolationKind kind);
 
-/// One finding: the things concerned (ids of the model checked), a sentence, and where it is: the place of the first
-/// vertex, or the middle of the first face, and the labels that meet there. What is said of a whole region has no
-/// place.
+/// One finding. Ids are those of the checked mesh; in a mesh without free places (Mesh::compact) they are also the
+/// 0-based numbers of points and cells in the .vtp file that write_mesh makes of it.
 struct Violation {
     ViolationKind kind;
     std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> faces;
-    std::string text;
-    std::optional<Vec3> at = {};
-    std::vector<Label> labels = {};
+    std::string text;                // one sentence, with ids and place
+    std::optional<Vec3> at = {};     // the first vertex, or the centroid of the first face; none for a whole region
+    std::vector<Label> labels = {};  // that meet there, ascending
 };
 
-/// Per-region measures; volume in length^3 with the sign that outward faces give, area in length^2.
+/// Measures of one region. Volume in length^3, positive where faces look outward; area in length^2.
 struct RegionReport {
     Label label = 0;
-    std::int64_t euler = 0;
-    std::uint32_t components = 0;  // of the region's boundary surface
+    std::int64_t euler = 0;        // Euler characteristic of the region's boundary
+    std::uint32_t components = 0;  // connected parts of the region's boundary
     double volume = 0;
     double area = 0;
 };
 
-/// Quality Q of faces (see model/geometry.h): 0.26 at best. Angles in degrees.
+/// Quality Q of faces (docs/decimate.md): 0.26 for an equilateral face, 0 for a degenerate one. Angles in degrees.
 struct QualityReport {
     double min = 0, mean = 0;
     std::array<std::uint64_t, 28> histogram{};  // bins of width 0.01 from 0
@@ -65,25 +64,32 @@ struct QualityReport {
     std::array<std::uint64_t, 18> angle_histogram{};  // all angles of all faces, bins of 10 degrees from 0
 };
 
+/// Measures of the lines inside the box where three or more regions meet.
+struct LineReport {
+    std::uint64_t edges = 0;
+    double length = 0;
+    double mean_turning_angle = 0;  // degrees, between consecutive edges, over the vertices inside lines
+};
+
 struct CheckOptions {
-    bool boundary_is_open = false;           // the box was not capped: open edges on it are no violation
-    std::vector<Label> background = {};      // these labels have no faces with the exterior: not reported as regions
-    std::optional<LabelOracle> oracle = {};  // compare with the labels
+    bool boundary_is_open = false;           // the box was not capped: open edges on its sides are no violation
+    std::vector<Label> background = {};      // labels without faces to the exterior; not reported as regions
+    std::optional<LabelOracle> oracle = {};  // compare with the labels of the volume
     bool crossing = true;                    // look for crossing faces
-    std::uint32_t threads = 0;               // at work; 0: one per core. The report is the same for any number
+    std::uint32_t threads = 0;               // 0: one per core; the report does not depend on it
     bool is_background(Label label) const {
         return std::find(background.begin(), background.end(), label) != background.end();
     }
 
-    /// For sentences, from any thread; the dense number without it.
+    /// Text of a label for sentences; called from any thread. Without it sentences give the dense label.
     std::function<std::string(Label)> label_text = {};
-    std::uint32_t listed = 1000;  // at most so many findings a kind are listed; all are counted
+    std::uint32_t listed = 1000;  // largest number of findings listed of each kind; all are counted
 };
 
 struct CheckReport {
-    std::array<std::uint64_t, kViolationKindCount> counts{};
-    std::vector<Violation> violations;  // at most CheckOptions::listed a kind
-    std::vector<RegionReport> regions;  // by dense label; background left out
+    std::array<std::uint64_t, kViolationKindCount> counts{};  // by ViolationKind
+    std::vector<Violation> violations;                        // at most CheckOptions::listed of each kind
+    std::vector<RegionReport> regions;                        // by dense label; background left out
     QualityReport quality;
     LineReport lines;
     std::uint64_t quadruple_points_inside = 0;
@@ -91,8 +97,20 @@ struct CheckReport {
     std::uint64_t violation_count() const;
 };
 
-/// Checks a model; never throws for what it finds. Cost: half a microsecond a face over the threads at work, more than
-/// half of it for crossing.
+/// Checks a mesh. Never throws for what it finds. Cost: about half a microsecond per face divided by the number of
+/// threads; more than half of it is the search for crossing faces.
 CheckReport check(const Mesh& mesh, const CheckOptions& options = {});
+
+/// What lock_violations() locked.
+struct LockedPart {
+    std::uint32_t vertices = 0;
+    std::uint32_t faces = 0;  // with three locked vertices
+};
+
+/// Locks the vertices whose stars are not generic, and the corners of faces that are degenerate or cross others, so
+/// that the rest of the mesh can be simplified and smoothed. Neither then adds a violation: each certificate is about a
+/// star that is generic before and after, and locked faces take part in tests like any others. Uses the options about
+/// the boundary, and threads.
+LockedPart lock_violations(Mesh& mesh, const CheckOptions& options);
 
 }  // namespace regionmesh

@@ -9,56 +9,62 @@
 #include "regionmesh/check.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
-#include "regionmesh/statistics.h"
 
 namespace regionmesh {
 
-/// One model of a comparison. Holds references.
+/// A mesh to compare. Holds references.
 struct ComparedMesh {
     const Mesh& mesh;
     const LabelTable& labels;
 };
 
 struct CompareOptions {
-    std::uint64_t samples = 1'000'000;      // on the faces of each model; its lines get a tenth of that
-    std::vector<InputLabel> background{0};  // not compared as regions; their faces with the exterior are ignored
+    std::uint64_t samples = 1'000'000;      // on the faces of each mesh; a tenth of this on its lines
+    std::vector<InputLabel> background{0};  // no regions; their faces to the exterior are left out
     bool vertex_distances = false;          // fill CompareReport::vertex_distances
-    std::uint32_t threads = 0;              // 0: one per core. The result does not depend on it
+    std::uint32_t threads = 0;              // 0: one per core; the result does not depend on it
 };
 
-/// Distances from samples on A to B, from samples on B to A, and of both sets together, weighted by area or length (so
-/// `max` is the larger of the two). Null where one model lacks this region, interface or line.
+/// Sampled distances, in the unit of the coordinates, weighted by the area or length that each sample stands for.
+struct DistanceStatistics {
+    std::uint64_t samples = 0;
+    double rms = 0, mean = 0;
+    double max = 0;          // of the samples: the surface may be slightly farther away between them
+    double quantile_95 = 0;  // the smallest sampled distance not exceeded on 95 % of the area or length
+};
+
+/// Distances of samples on A to B, of samples on B to A, and of both together, each weighted by its area or length
+/// (`max` is the larger of both). nullopt if A or B has no such part.
 struct TwoSidedDistance {
     std::optional<DistanceStatistics> a_to_b, b_to_a, both;
 };
 
-/// The boundary of a region in A and in B. A measure is null where that model lacks the region.
+/// The boundary of a region in A compared with that in B. nullopt where the region is missing.
 struct RegionComparison {
     Label label = 0;
-    std::array<std::optional<RegionReport>, 2> measures;  // in A and B; `label` is the common one
+    std::array<std::optional<RegionReport>, 2> measures;  // in A and B; `label` refers to CompareReport::labels
     TwoSidedDistance distance;
 };
 
-/// An interface (two labels) or a line (three or more) in A and the one with the same labels in B.
+/// An interface (two labels) or a line (three or more) in A compared with the one with the same labels in B.
 struct StratumComparison {
-    std::vector<Label> labels;                      // ascending; the exterior last, in a line once per side of the box
+    std::vector<Label> labels;                      // ascending; the exterior last, in lines once per side
     std::array<std::optional<double>, 2> measures;  // area or length in A and B
     TwoSidedDistance distance;
 };
 
 struct CompareReport {
-    LabelTable labels;  // of both models, ascending; the labels below are its dense labels, or exterior(0)
+    LabelTable labels;  // of both meshes, in ascending order: labels below are its dense labels, or exterior(0)
     std::array<std::uint64_t, 2> faces{}, vertices{};
-    TwoSidedDistance distance;  // of the whole surfaces, without regard to labels
+    TwoSidedDistance distance;  // of the whole surfaces, regardless of labels
     std::vector<RegionComparison> regions;
     std::vector<StratumComparison> interfaces, lines;
     std::array<QualityReport, 2> quality;
-    std::vector<double> vertex_distances;  // by vertex id of A, to the whole surface of B; empty unless asked for, and
-                                           // where B has no faces
+    std::vector<double> vertex_distances;  // by vertex id of A, to the whole surface of B; if asked for and B has faces
 };
 
-/// Compares by sampling. Labels correspond when they are equal in the input. The result does not depend on the number
-/// of threads. docs/compare.md has the method and its cost.
+/// Compares by sampling (src/compare/sample.h); labels correspond if they are equal in the input. Deterministic for any
+/// number of threads. Cost: docs/compare.md.
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options = {});
 
 }  // namespace regionmesh

@@ -8,7 +8,7 @@ namespace regionmesh {
 
 enum class ErrorCode { kInput, kOutput, kUsage };
 
-/// Thrown for what the user can mend. The text is one line that names file, section and value, and says what to do.
+/// Thrown for errors that the user can correct. The text is one line: file, section, value, what to do.
 class Error : public std::runtime_error {
 public:
     Error(ErrorCode code, const std::string& text) : std::runtime_error(text), code_(code) {}

@@ -1,4 +1,4 @@
-// A growing array of plain data that never copies large blocks to grow, and whose unused end costs no memory.
+// A growing array of plain data that does not copy large blocks when it grows and whose unused end costs no memory.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace regionmesh {
 
 /// Like std::vector for trivially copyable T, but grown by realloc: the C library moves large blocks by remapping
-/// pages, so that growing neither copies nor holds two blocks at once. Pages beyond `size()` are never touched.
+/// pages, so growth neither copies nor holds two blocks at the same time. Pages beyond `size()` are never touched.
 template <class T>
 class FlatArray {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -64,7 +64,7 @@ public:
         for (std::uint32_t i = size_; i < size; ++i) data_[i] = value;
         size_ = size;
     }
-    /// Gives back the unused end where it is more than half of what is used: pages that were touched stay resident
+    /// Releases the unused end if it is larger than half of the used part: pages that were touched stay resident
     /// otherwise.
     void trim() {
         if (capacity_ - size_ <= std::size_t{size_} / 2 || capacity_ <= 1024) return;

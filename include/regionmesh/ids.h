@@ -1,4 +1,4 @@
-// Distinct 32-bit ids, so that a vertex is never taken for a face.
+// Distinct types for 32-bit ids, so that a vertex cannot be taken for a face.
 #pragma once
 
 #include <cstdint>

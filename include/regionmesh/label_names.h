@@ -1,4 +1,4 @@
-// What regions are called, where the input or the user names them.
+// Names of regions, given by the input or by the user.
 #pragma once
 
 #include <map>
@@ -8,8 +8,8 @@
 
 namespace regionmesh {
 
-/// Names by input label, UTF-8, one line each, none empty. Labels need not occur in the volume or model; two may share
-/// a name.
+/// Names by input label: UTF-8, one line each, none empty. A label need not occur in the volume or mesh; two labels may
+/// have the same name.
 using LabelNames = std::map<InputLabel, std::string>;
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-// What the labels of a volume say its model must be, whatever was done to the model.
+// What a mesh must have according to the labels of its volume, independent of how the mesh was made.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace regionmesh {
 
-/// DESIGN 4, oracles (b), (c), (d); all three hold before and after smoothing and decimation.
+/// docs/check.md, "Against the labels". All three hold before and after smoothing and simplification.
 struct LabelOracle {
     std::vector<std::int64_t> euler;            // by dense label: Euler characteristic of the region's boundary
     std::uint64_t quadruple_points_inside = 0;  // lattice tetrahedra with four labels

@@ -1,4 +1,4 @@
-// The table at the door: labels as the input has them against dense labels.
+// Maps the labels of the input to dense labels, and back.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// Numbers input labels densely in order of first appearance, and back. 64-bit labels are carried bit for bit.
+/// Numbers input labels densely in order of first appearance. 64-bit labels are carried bit for bit.
 class LabelTable {
 public:
     explicit LabelTable(bool is_unsigned = false) : is_unsigned_(is_unsigned) {}
@@ -25,15 +25,15 @@ public:
     std::uint32_t size() const { return static_cast<std::uint32_t>(labels_.size()); }
     bool is_unsigned() const { return is_unsigned_; }
 
-    /// The label that stands for the exterior in files, never one of the table: -1; where a label is negative as a
-    /// signed number (an unsigned one of 2^63 or more is), one less than the smallest; where that is out of range, the
-    /// first free one counting down from -1.
+    /// The label that stands for the exterior in files and arrays; it is never a label of the table. -1 unless a label
+    /// is negative as a signed number (an unsigned label of 2^63 or more is); then the smallest label minus 1; if that
+    /// is out of range, the first free label counting down from -1.
     InputLabel exterior_label() const;
-    /// Decimal text of a label, signed or unsigned as the input was.
+    /// Decimal text of a label, signed or unsigned as in the input.
     std::string text(InputLabel label) const {
         return is_unsigned_ ? std::to_string(static_cast<std::uint64_t>(label)) : std::to_string(label);
     }
-    /// Order of labels as numbers.
+    /// Numeric order of labels, signed or unsigned as in the input.
     bool less(InputLabel a, InputLabel b) const {
         return is_unsigned_ ? static_cast<std::uint64_t>(a) < static_cast<std::uint64_t>(b) : a < b;
     }

@@ -1,9 +1,8 @@
-// Where the samples of a volume lie in space.
+// Where the samples of a volume lie in space, and the order in which its sections are read.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <string>
 
 #include "regionmesh/vec3.h"
 
@@ -24,10 +23,14 @@ struct Lattice {
 /// The three orders are cyclic, so that none of them mirrors.
 struct Sweep {
     std::array<int, 3> axes{0, 1, 2};
+    friend bool operator==(const Sweep&, const Sweep&) = default;
 };
 
 inline constexpr Sweep kSweepX{{1, 2, 0}};
 inline constexpr Sweep kSweepY{{2, 0, 1}};
 inline constexpr Sweep kSweepZ{{0, 1, 2}};
+
+/// The axis along which a volume is read. kAuto: the axis with the smallest section (P 3.1), z before y before x.
+enum class SweepChoice { kAuto, kX, kY, kZ };
 
 }  // namespace regionmesh

@@ -1,7 +1,8 @@
-// The multi-region surface model: vertices, faces with two labels, and the star of each vertex.
+// The multi-region surface mesh: vertices, faces with two labels, and the star of each vertex.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,11 +15,11 @@ namespace regionmesh {
 
 struct KeyedIndex;
 
-/// A corner is a face and one of its three places, packed: face * 4 + place. It threads the star of a vertex.
+/// A corner is a face and one of its three places, packed: face * 4 + place. Corners thread the star of a vertex.
 using Corner = std::uint32_t;
 inline constexpr Corner kNoCorner = 0xFFFFFFFFu;
 
-/// 32 bytes, half a cache line: going round a star touches one line a face.
+/// 32 bytes, half a cache line: a walk around a star touches one cache line per face.
 struct Face {
     std::array<VertexId, 3>
         vertices;                // counter-clockwise seen from the second label: the normal points from first to second
@@ -31,27 +32,27 @@ static_assert(sizeof(Face) == 32);
 struct Vertex {
     Vec3 position;
     Corner star = kNoCorner;  // first corner of the star
-    SideSet sides = 0;        // sides of the box it lies on; there it keeps its coordinate
-    bool is_fixed = false;    // some of its faces are not here (front, seam): it neither moves nor goes
+    SideSet sides = 0;        // sides of the box it lies on; it keeps its coordinate across each of them
+    bool is_fixed = false;    // locked: neither moved nor removed, because some of its faces are elsewhere (rim, front)
     bool is_alive = true;
-    std::uint8_t label_count = 0;  // of its stratum; kept while decimating (decimate/candidates.h)
+    std::uint8_t label_count = 0;  // of its stratum; valid while simplifying (src/simplify/candidates.h)
 };
 static_assert(sizeof(Vertex) == 32);
 
-/// Flat arrays with free places, which are reused (P 3.3). Ids stay valid until the thing they name is removed
-/// or renumbered.
-/// Iterate over [0, vertex_end()) or [0, face_end()) and skip what is not alive.
+/// Flat arrays with free places, which are reused (P 3.3). An id stays valid until its vertex or face is removed or
+/// renumbered. To visit all, iterate over [0, vertex_end()) or [0, face_end()) and skip those that are not alive.
 class Mesh {
 public:
+    /// Throws Error(kInput) beyond kMostVertices (limits.h).
     VertexId add_vertex(Vec3 position, SideSet sides = 0, bool is_fixed = false);
-    /// The normal of a, b, c points from first to second; stored with the smaller label first, so that all faces of an
-    /// interface look the same way.
+    /// The normal of a, b, c points from region `first` to region `second`. Stored with the smaller label first, so
+    /// that all faces of an interface have the same orientation. Throws Error(kInput) beyond kMostFaces (limits.h).
     FaceId add_face(VertexId a, VertexId b, VertexId c, Label first, Label second);
-    /// Takes the face out of the stars of its vertices; the vertices stay.
+    /// Removes the face from the stars of its vertices; the vertices stay.
     void remove_face(FaceId f);
     /// Requires an empty star.
     void remove_vertex(VertexId v);
-    /// Gives every face of `from` to `to` in its place, and removes `from`.
+    /// Replaces `from` by `to` in every face of `from`, and removes `from`.
     void move_star(VertexId from, VertexId to);
 
     std::uint32_t vertex_count() const { return vertex_count_; }
@@ -70,7 +71,8 @@ public:
         return {position(face.vertices[0]), position(face.vertices[1]), position(face.vertices[2])};
     }
 
-    /// Calls visit(FaceId, int place) for every face of the star of v; the star must not change meanwhile.
+    /// Calls visit(FaceId, int place) for every face of the star of v. Requires that the star does not change
+    /// meanwhile.
     template <class Visit>
     void for_star(VertexId v, Visit&& visit) const {
         for (Corner c = vertices_[index(v)].star; c != kNoCorner;) {
@@ -81,18 +83,22 @@ public:
         }
     }
 
-    /// Renumbers vertices and faces along a Morton curve, without free places: what is near in space is near in memory,
-    /// and in FaceTree. The order does not depend on what it was before. Returns the new id of each old vertex
-    /// (kNoVertex for free places). Holds a second copy meanwhile.
+    /// Renumbers vertices and faces along a Morton curve, without free places, so that neighbours in space are
+    /// neighbours in memory. The result does not depend on the order before. Returns the new id of each old vertex
+    /// (kNoVertex for free places). Needs memory for a second copy.
     std::vector<VertexId> sort_spatially();
-    /// Renumbers faces only, in their order, without free places.
+    /// Renumbers vertices and faces without free places, keeping their order: afterwards ids are the numbers of points
+    /// and faces in written files and exported arrays.
+    void compact();
+    /// The same for faces only.
     void compact_faces();
 
-    /// Turns all faces round and exchanges nothing else: for a mirroring map of the positions.
+    /// Reverses the orientation of all faces; labels stay. For a map of the positions that mirrors.
     void flip_faces();
 
-    /// Bytes held by the arrays.
+    /// Bytes of the arrays.
     std::size_t bytes() const { return vertices_.bytes() + faces_.bytes(); }
+    /// Throws Error(kInput) beyond the limits of limits.h.
     void reserve(std::size_t vertices, std::size_t faces);
 
 private:
@@ -108,5 +114,9 @@ private:
     Corner free_vertex_ = kNoCorner;  // heads of the lists of free places, threaded through star and next[0]
     Corner free_face_ = kNoCorner;
 };
+
+/// Edge length of an equilateral face of mean area; 1 for a mesh without faces. Stands for the sample spacing of a mesh
+/// that comes without one.
+double typical_edge(const Mesh& mesh);
 
 }  // namespace regionmesh

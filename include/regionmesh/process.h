@@ -1,4 +1,4 @@
-// What the process has used.
+// Resources of the process.
 #pragma once
 
 #include <sys/resource.h>
@@ -13,8 +13,8 @@
 
 namespace regionmesh {
 
-/// Largest resident size so far, in bytes. From Linux's own count where there is one: the portable one may have begun
-/// with the size of the program that started this one.
+/// Largest resident size so far, in bytes. Read from /proc on Linux: the portable count may include the size of the
+/// program that started this one.
 inline std::uint64_t peak_resident_bytes() {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;) {
@@ -26,22 +26,22 @@ inline std::uint64_t peak_resident_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-/// Gives freed memory back to the system, which the C library would keep for later. After much was freed.
+/// Returns freed memory to the system, which the C library would keep. Call after large arrays were freed.
 inline void give_back_freed_memory() {
 #ifdef __GLIBC__
     malloc_trim(0);
 #endif
 }
 
-/// Keeps large arrays apart from small ones, so that their memory goes back when they are freed: the C library would
-/// raise its own bound as it goes, and leave holes. For programs, once, at the start.
+/// Makes the C library return the memory of large arrays as soon as they are freed: otherwise it raises the size from
+/// which it does so, and memory fragments. For programs: call once at the start.
 inline void keep_large_arrays_apart() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
 }
 
-/// Adds the time from its construction to its end to a sum of seconds. For reports only: no result depends on it.
+/// Adds its lifetime to a sum of seconds. For reports only: no result depends on it.
 class Timer {
 public:
     explicit Timer(double& sum) : sum_(sum) {}

@@ -12,8 +12,6 @@
 
 namespace regionmesh {
 
-enum class SweepChoice { kAuto, kX, kY, kZ };
-
 /// How to open a volume; all optional.
 struct ReadOptions {
     SweepChoice sweep = SweepChoice::kAuto;  // kAuto: along the axis with the smallest section (P 3.1)

@@ -11,7 +11,7 @@
 #include "regionmesh/mesh.h"
 #include "regionmesh/report.h"
 #include "regionmesh/section_reader.h"
-#include "regionmesh/smooth_options.h"
+#include "regionmesh/smooth.h"
 #include "regionmesh/tetrahedron_reader.h"
 
 namespace regionmesh {
@@ -49,6 +49,9 @@ struct Reconstruction {
     std::vector<Label> background;  // dense
     Report report;
 };
+
+/// Bytes that the process needs to simplify a mesh of `faces` faces made from the volume, reading and meshing included.
+std::uint64_t expected_bytes(const VolumeInfo& volume, std::uint64_t faces);
 
 /// Reads all sections, builds the mesh on the fly within the memory, decimates it to the target and checks it. Sections
 /// that can be read twice are read first to count faces and to plan memory. With more than one thread, the reader is

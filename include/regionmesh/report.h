@@ -1,4 +1,4 @@
-// The report of a run, as plain data; regionmesh/write_report.h writes it as JSON.
+// What a run did and made, as plain data. report_json() in regionmesh/write_report.h writes it as JSON.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "regionmesh/check.h"
-#include "regionmesh/preserve_volume.h"
-#include "regionmesh/smooth_report.h"
+#include "regionmesh/smooth.h"
 #include "regionmesh/verdict.h"
 
 namespace regionmesh {

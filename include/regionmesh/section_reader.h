@@ -1,9 +1,8 @@
 // Labelled sections, pulled one at a time.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -18,28 +17,28 @@ enum class SampleType { kU1, kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64 };
 /// What a reader knows before the first section is read.
 struct VolumeInfo {
     std::string source;  // path as given, for messages
-    std::string format;  // "npy", "nifti", "png", "tiff", "raw"
+    std::string format;  // "npy", "nifti", "png", "tiff", "raw", "array"
     SampleType type = SampleType::kU8;
-    Lattice lattice = {};                               // in the file's own axes, whatever the sweep
-    Sweep sweep = {};                                   // the order in which sections come
+    Lattice lattice = {};                               // axes of the file, independent of the sweep
+    Sweep sweep = {};                                   // order in which sections are read
     bool can_rewind = true;                             // sections can be read again from the start
-    std::uint64_t held_bytes = 0;                       // that reading ahead takes; 0: about a section
-    std::array<bool, 3> can_sweep{false, false, true};  // along which axes this file can be read section by section
-    LabelNames names = {};                              // that the file, or one beside it, gives to labels
+    std::uint64_t held_bytes = 0;                       // memory for reading ahead; 0: about one section
+    std::array<bool, 3> can_sweep{false, false, true};  // axes along which sections can be read
+    LabelNames names = {};                              // given by the file, or by a table next to it
 };
 
-/// Pull interface of every format. Reads ahead a bounded number of sections, never the whole volume.
+/// Pull interface of every volume. A reader of files holds a bounded number of sections, never the whole volume.
 class SectionReader {
 public:
     virtual ~SectionReader() = default;
 
     virtual const VolumeInfo& info() const = 0;
 
-    /// Fills `section` with the next section, size[axes[0]] * size[axes[1]] samples, axes[0] fastest.
-    /// False once all size[axes[2]] sections were read. Throws Error(kInput) naming file and section.
+    /// Fills `section` with the next section: size[axes[0]] * size[axes[1]] samples, axes[0] fastest. Returns false
+    /// after all size[axes[2]] sections. Throws Error(kInput) naming file and section.
     virtual bool next(std::span<InputLabel> section) = 0;
 
-    /// Back to the first section. Requires info().can_rewind.
+    /// Returns to the first section. Requires info().can_rewind.
     virtual void rewind() = 0;
 
     std::uint32_t section_width() const { return info().lattice.size[info().sweep.axes[0]]; }

@@ -6,7 +6,7 @@
 
 namespace regionmesh {
 
-/// In the order of the tests (DESIGN: decimate), cheap ones first; a collapse is refused with the first that fails.
+/// In the order of the tests (docs/decimate.md), cheap ones first; a collapse is refused with the first that fails.
 enum class Verdict { kAccepted, kStrata, kLink, kFold, kQuality, kPinch, kIntersect };
 
 inline constexpr int kVerdictCount = 7;

@@ -1,4 +1,4 @@
-// Reports as JSON: of a run, of a check, and of a comparison.
+// Reports as JSON text.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,9 @@
 
 namespace regionmesh {
 
-// All functions return JSON text with an indent of two spaces and a newline at the end. Numbers that are not finite are
-// null. Labels are numbers in the signedness of the input.
-
-/// The report of a run. `regions[]` are sorted by `label`; a region with a name has `name`.
+/// The report of a run: JSON text, indented by two spaces, with a newline at the end; a number that is not finite is
+/// null. docs/report.md lists the keys. `regions[]` are in order of `label`, a number with the signedness of the input;
+/// regions with a name have `name`.
 std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names = {});
 
 /// The part of a check alone (`check --json`): quality, regions, region_pairs, quadruple_points_inside, violations and
@@ -23,13 +22,13 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
 std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names = {},
                        const SampleAgreement* samples = nullptr);
 
-/// A comparison; docs/compare.md lists the keys. Regions, interfaces and lines are sorted by label; the exterior is
-/// labels.exterior_label() and comes last in a list. Measures of a part that one model lacks are null, and so are its
-/// distances; `only_in_a` and `only_in_b` name these parts.
+/// The report of a comparison, as JSON text like report_json; docs/compare.md lists the keys. Regions, interfaces and
+/// lines are in order of label; the exterior is labels.exterior_label() and last in a list. Measures that only one mesh
+/// has are null for the other, and so are the distances; `only_in_a` and `only_in_b` name them.
 std::string compare_json(const CompareReport& report);
 
-/// Writes `text` under a temporary name in the folder of `path` and renames the file; writes a device or pipe in place.
-/// Throws Error(kOutput).
+/// Writes `text` under a temporary name in the folder of `path`, then renames; writes a device or pipe in place. Throws
+/// Error(kOutput).
 void write_text(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace regionmesh

@@ -14,8 +14,8 @@ Point point(Vec3 p) { return {p.x, p.y, p.z}; }
 Kernel::Triangle_3 triangle(const Triangle& t) { return {point(t.a), point(t.b), point(t.c)}; }
 Kernel::Segment_3 segment(Vec3 a, Vec3 b) { return {point(a), point(b)}; }
 
-/// A plane through an edge of t, square to t, has all of s before it: they lie beside each other. In one plane, where
-/// most neighbours lie, no orientation in space tells them apart.
+/// Does a plane through an edge of t, perpendicular to t, separate s from t? Needed because most neighbours lie in one
+/// plane, where orientations in space separate nothing.
 bool is_beside(const Triangle& s, const Triangle& t) {
     const Vec3 normal = cross(t.b - t.a, t.c - t.a);
     const auto is_before = [&](Vec3 from, Vec3 to) {
@@ -25,7 +25,7 @@ bool is_beside(const Triangle& s, const Triangle& t) {
     return is_before(t.a, t.b) || is_before(t.b, t.c) || is_before(t.c, t.a);
 }
 
-/// The same for triangles p a b and p x y: a plane through p and a or b has x and y before it.
+/// The same for triangles p a b and p x y: does a plane through p and a or b separate them?
 bool is_beside(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
     const Vec3 normal = cross(a - p, b - p);
     const auto is_before = [&](Vec3 out) { return is_ahead(out, x - p) && is_ahead(out, y - p); };
@@ -41,7 +41,7 @@ int exact_orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 bool is_degenerate(const Triangle& t) {
     const Vec3 u = t.b - t.a, v = t.c - t.a;
     const double size = dot(u, u) * dot(v, v), area = length2(cross(u, v));
-    if (area > 1e-20 * size && size > 1e-200) return false;  // by far more than its rounding error
+    if (area > 1e-20 * size && size > 1e-200) return false;  // far above its rounding error
     return CGAL::collinear(point(t.a), point(t.b), point(t.c));
 }
 
@@ -62,7 +62,7 @@ bool meet_beyond_vertex(Vec3 p, Vec3 a, Vec3 b, Vec3 x, Vec3 y) {
     if (sx != 0 && sx == sy) return false;
     const int sa = orientation(p, x, y, a), sb = orientation(p, x, y, b);
     if (sa != 0 && sa == sb) return false;
-    // What the two share is convex and holds p: if it holds more, it reaches the side opposite p of one of them.
+    // The intersection is convex and contains p. If it contains more, it reaches the side opposite p of one triangle.
     return CGAL::do_intersect(segment(a, b), triangle({p, x, y})) ||
            CGAL::do_intersect(segment(x, y), triangle({p, a, b}));
 }

@@ -1,5 +1,5 @@
-// Exact signs and meetings of triangles, with cheap tests first. No epsilon: the answer is that of real arithmetic on
-// the very coordinates given.
+// Exact orientation and intersection of triangles, with cheap tests first. No epsilon: the result is that of exact
+// arithmetic on the given coordinates.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@
 
 namespace regionmesh {
 
-/// Exact, slow; callers want orientation().
+/// Exact and slow; call orientation() instead.
 int exact_orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
-/// Sign of the determinant of b - a, c - a, d - a: +1 when d lies on the side to which the normal of a, b, c points.
+/// Sign of the determinant of b - a, c - a, d - a: +1 if d lies on the side to which the normal of a, b, c points.
 /// The filter is Shewchuk's (1997) bound on the rounding error of the determinant.
 inline int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const Vec3 u = a - d, v = b - d, w = c - d;
@@ -27,8 +27,8 @@ inline int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     return permanent == 0 ? 0 : exact_orientation(a, b, c, d);
 }
 
-/// out . step is positive beyond doubt: by far more than its rounding error. A plane through a point p, square to any
-/// `out` whatever, has p + step before it.
+/// Is out . step positive by far more than its rounding error? Then p + step lies in front of the plane through p with
+/// normal `out`, for any point p.
 inline bool is_ahead(Vec3 out, Vec3 step) {
     const double x = out.x * step.x, y = out.y * step.y, z = out.z * step.z;
     return x + y + z > 1e-10 * (std::abs(x) + std::abs(y) + std::abs(z));
@@ -39,7 +39,7 @@ struct Triangle {
     Vec3 a, b, c;
 };
 
-/// True when the three corners lie on one line (exact).
+/// Do the three corners lie on one line? Exact.
 bool is_degenerate(const Triangle& t);
 
 /// Two triangles without a common corner: do they meet at all, touching included? Requires neither is degenerate.

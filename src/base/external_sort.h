@@ -1,4 +1,4 @@
-// Sorts more than fits into memory.
+// Sorts more items than fit into memory.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace regionmesh {
 
-/// Items come in any order and go out in that of `<`, as often as one likes; equal ones in any order. At most so many
-/// bytes are held: full buffers are sorted and put aside as runs in a temporary file, and merged as they are read.
+/// External merge sort; re-iterable; not stable. Holds at most the given number of bytes: full buffers are sorted and
+/// written as runs to a temporary file, which are merged while reading.
 template <class Item>
 class ExternalSort {
 public:
@@ -32,7 +32,7 @@ public:
         ++size_;
     }
 
-    /// No more are added. Then next() begins with the least; and so again after each rewind().
+    /// Ends the input. next() then begins with the smallest item, and again after each rewind().
     void finish() {
         if (!file_) {
             std::sort(buffer_.begin(), buffer_.end());
@@ -57,7 +57,7 @@ public:
         std::make_heap(heap_.begin(), heap_.end(), is_behind);
     }
 
-    /// The next item; false when there are no more.
+    /// Reads the next item; returns false at the end.
     bool next(Item& item) {
         if (!file_) {
             if (place_ == buffer_.size()) return false;
@@ -80,7 +80,7 @@ private:
 
     struct Run {
         std::uint64_t begin, end;  // in the file
-        std::uint64_t place = 0;   // of what is read next
+        std::uint64_t place = 0;   // of the next item to read
         std::vector<Item> piece = {};
         std::size_t at = 0;
         std::uint64_t piece_items = 0;

@@ -1,4 +1,4 @@
-// Mixing of integers, for hash tables and for ties that must not depend on anything but the input.
+// Hashes of integers, for hash tables and for breaking ties by the input alone.
 #pragma once
 
 #include <cstdint>

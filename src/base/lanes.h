@@ -1,4 +1,4 @@
-// Numbers side by side, worked on at once: two doubles or four floats. Every lane is computed as it would be alone.
+// SIMD vectors of two doubles or four floats. Every lane gives the same result as scalar arithmetic.
 #pragma once
 
 #include <cmath>
@@ -14,13 +14,13 @@ namespace regionmesh {
 
 using Double2 = double __attribute__((vector_size(16)));
 using Float4 = float __attribute__((vector_size(16)));
-using Mask2 = decltype(Double2{} < Double2{});  // of a comparison: all bits of a lane, or none
+using Mask2 = decltype(Double2{} < Double2{});  // result of a comparison: all bits of a lane are set, or none
 using Mask4 = decltype(Float4{} < Float4{});
 
 inline Double2 both(double x) { return Double2{x, x}; }
 inline Float4 all_four(float x) { return Float4{x, x, x, x}; }
 
-/// Bit n is set when lane n is.
+/// Bit n is set if lane n is.
 inline unsigned bits_of(Mask2 mask) {
 #if defined(__SSE2__)
     return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
@@ -55,7 +55,7 @@ T greatest(T a, T b) {
     return a < b ? b : a;
 }
 
-/// Points or vectors side by side.
+/// Several points or vectors, one per lane.
 template <class T>
 struct Lanes3 {
     T x{}, y{}, z{};

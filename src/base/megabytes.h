@@ -1,4 +1,4 @@
-// Bytes as people name them.
+// Bytes as text for messages.
 #pragma once
 
 #include <cstdint>

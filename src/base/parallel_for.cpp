@@ -16,7 +16,7 @@ void parallel_for(std::uint32_t count, std::uint32_t threads, const std::functio
         for (std::uint32_t n = 0; n < count; ++n) work(n);
         return;
     }
-    // More than there are cores would run no faster, and oneTBB would say so on stderr.
+    // More threads than cores are no faster, and oneTBB prints a warning about them.
     const auto cores = static_cast<std::uint32_t>(oneapi::tbb::info::default_concurrency());
     oneapi::tbb::task_arena arena(static_cast<int>(threads == 0 ? cores : std::min(threads, cores)));
     TaskOrder begun, ended;

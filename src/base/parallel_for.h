@@ -1,4 +1,4 @@
-// Independent work on several cores.
+// Independent work on several threads.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace regionmesh {
 
-/// Calls work(n) for n = 0 .. count - 1 on at most `threads` threads (0: one per core), in any order. Calls may not
-/// touch the same data. What a call throws is thrown here.
+/// Calls work(n) for n = 0 .. count - 1 on at most `threads` threads (0: one per core), in any order. Requires that
+/// calls do not share mutable data. Rethrows the exception of a call.
 void parallel_for(std::uint32_t count, std::uint32_t threads, const std::function<void(std::uint32_t)>& work);
 
-/// Calls find(first, end) for the chunks of [0, size), on several threads, and append(found) for what they return, in
-/// order of the chunks: the outcome does not depend on the threads, not even in the rounding of a sum. What was found
-/// is held for some hundred chunks at a time.
+/// Calls find(first, end) for the chunks of [0, size) on several threads, and append(result) for each result in order
+/// of the chunks. So the outcome does not depend on the threads, not even in the rounding of a sum. Holds the results
+/// of a few hundred chunks at a time.
 template <class Find, class Append>
 void for_chunks(std::uint32_t size, std::uint32_t chunk, std::uint32_t threads, Find&& find, Append&& append) {
     constexpr std::uint32_t kWave = 256;

@@ -21,7 +21,8 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
         }
         return;
     }
-    // Items are begun and finished in order: those in flight follow one another, and have places of their own.
+    // Items begin and finish in order, so those in flight are consecutive and n modulo in_flight is a place of their
+    // own.
     std::uint32_t next = 0;
     TaskOrder begun, finished;
     std::vector<TaskOrder> places(in_flight);  // of an item: its work, then its end, then the next item there

@@ -1,4 +1,4 @@
-// Sorts many pairs by a 32-bit key, stably, in a time that does not depend on their order.
+// Stable sort of many pairs by a 32-bit key; its time does not depend on their order.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ struct KeyedIndex {
     std::uint32_t index;
 };
 
-/// Least significant digit first, three passes of 11 bits; needs as much room again while it runs. Each pass counts the
-/// digits of each chunk of items, and so knows where each chunk puts its items of each digit.
+/// Least significant digit first, three passes of 11 bits; needs memory for a second copy. Each pass counts the digits
+/// in each chunk of items, which gives the place where each chunk writes its items of each digit.
 inline void radix_sort(std::vector<KeyedIndex>& items, std::uint32_t threads = 1) {
     constexpr int kBits = 11;
     constexpr std::uint32_t kDigits = 1u << kBits, kChunk = 1u << 16;

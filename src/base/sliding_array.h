@@ -1,4 +1,4 @@
-// An array of which only a window is kept: it grows at its end and is let go at its front.
+// An array of which only a window is kept: it grows at its end and shrinks at its front.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// Elements have the number under which they were added, whatever has been let go before them.
+/// Elements keep the number under which they were added when earlier ones are released.
 template <class T>
 class SlidingArray {
 public:
@@ -25,11 +25,11 @@ public:
         return items_[n - base_];
     }
     void push_back(const T& value) { items_.push_back(value); }
-    /// Elements before `end` that are new are copies of `value`.
+    /// New elements before `end` are copies of `value`.
     void grow(std::uint32_t end, const T& value = T{}) { items_.resize(end - base_, value); }
 
-    /// Lets go of the elements before n. Their place is taken back when it is a quarter of all; memory
-    /// falls as the window does.
+    /// Releases the elements before n. Their memory is reused once it is a quarter of the total; memory shrinks with
+    /// the window.
     void drop_before(std::uint32_t n) {
         first_ = n;
         const std::uint32_t dropped = first_ - base_;

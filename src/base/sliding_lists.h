@@ -1,4 +1,4 @@
-// Lists of numbers, one for each element of a window that slides.
+// Lists of numbers, one for each element of a sliding window.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// The lists of elements 0, 1, 2, ... one after the other in one array; those at the front can be let go.
+/// The lists of elements 0, 1, 2, ... in one array; lists at the front can be released.
 class SlidingLists {
 public:
     SlidingLists() { start_.push_back(0); }
@@ -23,7 +23,7 @@ public:
         for (std::uint32_t item : list) items_.push_back(item);
         start_.push_back(base_ + items_.size());
     }
-    /// Lets go of the lists of elements before n.
+    /// Releases the lists of elements before n.
     void drop_before(std::uint32_t n) {
         start_.drop_before(n);
         const std::uint32_t dropped = start_[n] - base_;

@@ -28,7 +28,7 @@ std::string folder() {
 
 TemporaryFile::TemporaryFile() {
 #ifdef O_TMPFILE
-    // Has no name from the first; not all file systems can do that.
+    // Never has a name; not all file systems support that.
     descriptor_ = open(folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor_ >= 0) return;
 #endif

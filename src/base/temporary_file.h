@@ -1,4 +1,4 @@
-// Bytes put aside on disk, for as long as the program runs.
+// Temporary storage on disk.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace regionmesh {
 
-/// A file without a name, in the folder that TMPDIR names, else /tmp: gone with this object, however the program ends.
-/// Grows at its end and is read at any place. Throws Error(kOutput) that says what to do where the disk is full.
+/// A file without a name in the folder $TMPDIR, or /tmp: the system deletes it with this object or with the process.
+/// Grows at its end and can be read at any offset. Throws Error(kOutput) if the disk is full, and says what to do.
 class TemporaryFile {
 public:
     TemporaryFile();
@@ -20,7 +20,7 @@ public:
 
     std::uint64_t size() const { return size_; }
     void append(std::span<const std::byte> bytes);
-    /// Fills `bytes` from `offset`; all must have been appended.
+    /// Fills `bytes` from `offset`. Requires that all of them were appended.
     void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
     template <class T>
@@ -28,7 +28,7 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         append(std::as_bytes(items));
     }
-    /// Reads `count` items from `offset` and returns the offset behind them.
+    /// Reads `count` items from `offset` and returns the offset after them.
     template <class T>
     std::uint64_t read_items(std::uint64_t offset, std::uint64_t count, std::vector<T>& items) const {
         static_assert(std::is_trivially_copyable_v<T>);

@@ -11,18 +11,18 @@ namespace regionmesh {
 /// Twice the area, along the normal.
 inline Vec3 area_vector(Vec3 a, Vec3 b, Vec3 c) { return cross(b - a, c - a); }
 
-/// The parts of Shewchuk's quality from which both the value and a comparison without roots are made.
+/// The terms of Shewchuk's quality: they give its value, and a comparison without roots.
 struct QualityTerms {
     double area;
     double product;  // l_max * l_med * (l_min + 4 r), r the radius of the inscribed circle
 
-    /// True when the quality is at least `bound`: compares third powers.
+    /// Is the quality at least `bound`? Compares third powers.
     bool is_at_least(double bound) const { return area * area * area >= bound * bound * bound * product * product; }
     double cube() const { return product > 0 ? area * area * area / (product * product) : 0.0; }
     double value() const { return product > 0 ? area / std::cbrt(product * product) : 0.0; }
 };
 
-/// Terms for the triangle with the given area and squared edge lengths.
+/// Terms of a triangle from its area and squared edge lengths.
 inline QualityTerms quality_terms(double area, double l0, double l1, double l2) {
     const double a = std::sqrt(l0), b = std::sqrt(l1), c = std::sqrt(l2);
     const double shortest = std::min(a, std::min(b, c));
@@ -36,8 +36,8 @@ inline QualityTerms quality_terms(Vec3 a, Vec3 b, Vec3 c) {
     return quality_terms(0.5 * length(area_vector(a, b, c)), length2(b - a), length2(c - b), length2(a - c));
 }
 
-/// Shewchuk's scale-invariant quality Q = area / (l_max l_med (l_min + 4 r))^(2/3) (P eq. 3, whose text prints l_min in
-/// place of l_max: its three values hold only with l_max). Equilateral 0.26, right isosceles 0.24, degenerate 0.
+/// Shewchuk's scale-invariant quality Q = area / (l_max l_med (l_min + 4 r))^(2/3). P eq. 3 prints l_min for l_max, but
+/// the three values it gives need l_max. Equilateral 0.26, right isosceles 0.24, degenerate 0.
 inline double face_quality(Vec3 a, Vec3 b, Vec3 c) { return quality_terms(a, b, c).value(); }
 
 }  // namespace regionmesh

@@ -10,9 +10,9 @@
 
 namespace regionmesh {
 
-/// Several threads may find and join at once (Anderson and Woll 1991): a number is only ever hung below a smaller one
-/// of its set. The smallest of each set is its root in the end, so that the result does not depend on the order of
-/// joins.
+/// Several threads may find and join concurrently (Anderson and Woll 1991): a number is only ever linked to a smaller
+/// one of its set. In the end the root of each set is its smallest number, so the result does not depend on the order
+/// of joins.
 class UnionFind {
 public:
     explicit UnionFind(std::uint32_t size)
@@ -26,7 +26,7 @@ public:
             if (up == x) return x;
             const std::uint32_t top = parent(up);
             if (top == up) return up;
-            step(x).store(x - top, std::memory_order_relaxed);  // whatever others write, it is above x
+            step(x).store(x - top, std::memory_order_relaxed);  // any value that another thread writes is above x
             x = top;
         }
     }
@@ -50,7 +50,7 @@ private:
     std::atomic_ref<std::uint32_t> step(std::uint32_t x) const { return std::atomic_ref(steps_[x]); }
     std::uint32_t parent(std::uint32_t x) const { return x - step(x).load(std::memory_order_relaxed); }
 
-    // How far down it is to the parent: 0 at a root, as in fresh memory, which is not touched before it is needed.
+    // Distance down to the parent: 0 at a root. Zero-filled memory is not touched before it is used.
     std::unique_ptr<std::uint32_t[], Free> steps_;
 };
 

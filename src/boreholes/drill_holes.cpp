@@ -11,6 +11,7 @@
 #include "formats/input_file.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh::formats {
 namespace {

@@ -16,6 +16,7 @@
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/csv_rows.h"
 #include "formats/text/header_text.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh::formats {
 namespace {

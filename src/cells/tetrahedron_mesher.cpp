@@ -6,6 +6,7 @@
 #include <string>
 
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr CornerSet kWhole = 0b1111;
 constexpr std::array<std::uint8_t, 16> kSizes{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // of sets of corners
 constexpr std::uint8_t kMostLabels = 4, kManyLabels = 5;  // labels at a vertex of a generic mesh; more than that
-constexpr std::uint32_t kMostVertices = kNoRank - 1;
 
 /// The corners of a set, as a key.
 SimplexKey key_of(const std::array<std::uint32_t, 4>& corners, CornerSet set) {
@@ -269,7 +269,7 @@ std::uint32_t TetrahedronMesher::inner_vertex(const RankedTetrahedron& tetrahedr
 }
 
 std::uint32_t TetrahedronMesher::make_vertex(std::span<const std::uint32_t> corners) {
-    if (made_.first_vertex + made_.vertices.size() >= kMostVertices)
+    if (std::uint64_t{made_.first_vertex} + made_.vertices.size() >= kMostVertices)
         throw Error(ErrorCode::kInput, "the model has more than 2^32 vertices before it is simplified; take a part");
     made_.vertices.push_back({centroid(corners), sides_of(corners)});
     return made_.first_vertex + static_cast<std::uint32_t>(made_.vertices.size()) - 1;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "check/findings.h"
+#include "check/lines.h"
 
 namespace regionmesh {
 namespace {

@@ -1,4 +1,4 @@
-// Faces that meet outside what they share, exactly (P test 6, over the whole model).
+// Faces that meet outside shared vertices and edges, exactly (P test 6, for the whole mesh).
 #include "mesh/crossing.h"
 
 #include "check/findings.h"

@@ -1,4 +1,4 @@
-// What can be said of one face at a time: has it an area, how much, of what quality?
+// Tests and measures of single faces: degenerate faces, area, quality, pairs of regions.
 #include <algorithm>
 #include <unordered_set>
 
@@ -14,7 +14,7 @@
 namespace regionmesh {
 namespace {
 
-/// Pairs of labels, most of them once only.
+/// Pairs of labels; most repetitions are already removed.
 class PairList {
 public:
     PairList() { recent_.fill(~std::uint64_t{0}); }
@@ -73,7 +73,7 @@ FaceChunk look_at_faces(const Mesh& mesh, Vec3 origin, std::uint32_t listed, std
 
 void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings) {
-    // Volumes are measured from the middle, where rounding is least.
+    // Volumes are measured from the middle of the box, to reduce rounding.
     const Box extent = extent_of(mesh, options.threads);
     const Vec3 origin = 0.5 * (extent.low + extent.high);
     QualitySum quality;

@@ -1,4 +1,4 @@
-// Collects violations: counts all, lists some.
+// Collects violations: counts all and lists the first of each kind.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace regionmesh {
 
-/// Each part of the work collects its own; they are appended in an order that the threads do not change.
+/// Each part of the work collects its own; they are appended in an order that does not depend on the threads.
 class Findings {
 public:
     explicit Findings(std::uint32_t listed = 0) : listed_(listed) {}
 
-    /// text() is the sentence; it is asked for only where the finding is listed.
+    /// text() makes the sentence; called only if the finding is listed.
     template <class Text>
     void add(ViolationKind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces, Text&& text) {
         if (counts_[static_cast<int>(kind)]++ < listed_)
@@ -42,10 +42,10 @@ private:
     std::vector<Violation> violations_;
 };
 
-/// Faces or vertices that are looked at together; nothing else depends on how many.
+/// Faces or vertices per task.
 inline constexpr std::uint32_t kCheckChunk = 1 << 14;
 
-/// Such a face is no face to its neighbours.
+/// Is the face ignored by its neighbours because it repeats a vertex?
 inline bool repeats_a_vertex(const Face& face) {
     const auto& v = face.vertices;
     return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
@@ -56,23 +56,23 @@ inline std::string name(FaceId f) { return "face " + std::to_string(index(f)); }
 inline std::string name(VertexId u, VertexId v) {
     return "edge " + std::to_string(index(u)) + "-" + std::to_string(index(v));
 }
-/// "region 17", in the words of the input where they are known.
+/// "region 17", with the label of the input if label_text is set.
 inline std::string region_name(const CheckOptions& options, Label label) {
     if (is_exterior(label)) return "the exterior";
     return "region " + (options.label_text ? options.label_text(label) : std::to_string(label) + " (dense)");
 }
 
-/// The parts of check(); each reads the model and adds what it finds. `regions` is by dense label.
+/// The parts of check(). Each reads the mesh and adds its findings. `regions` is by dense label.
 void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings);
 void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings);
 void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findings);
 void check_crossing(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree& tree, Findings& findings);
-/// The tree may be missing: one is made where it is needed.
+/// `tree` may be null; the function then builds one if it needs it.
 void check_nesting(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree* tree, Findings& findings);
 void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings);
-/// Says where the violation is, in its sentence, too.
+/// Adds the place and the labels of a violation, and appends the place to its sentence.
 void place_violation(const Mesh& mesh, Violation& violation);
 
 }  // namespace regionmesh

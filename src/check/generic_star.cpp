@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kMostLabels = 4;
 
-/// Faces at a vertex beyond which it is not looked at: putting a fan in order takes the square of their number.
-constexpr int kMostFaces = 4096;
+/// Vertices with more faces are not examined: ordering a fan takes time proportional to the square of the number.
+constexpr int kMostStarFaces = 4096;
 
 }  // namespace
 
@@ -23,11 +23,11 @@ StarFault GenericStar::fault(VertexId v) {
     });
     const LabelSet labels = vertex_labels(mesh_, v);
     if (is_odd || faces == 0 || labels.size() > kMostLabels) return StarFault::kLabels;
-    if (faces > kMostFaces) return StarFault::kFans;
+    if (faces > kMostStarFaces) return StarFault::kFans;
     for (Label label : labels) {
         if (is_exterior(label)) continue;
         if (!has_one_fan(v, label)) return StarFault::kFans;
-        // Both regions of an interface have the same faces.
+        // The two regions of an interface have the same faces.
         if (labels.size() == 2) return StarFault::kNone;
     }
     return look_at_lines(v, labels);
@@ -72,7 +72,7 @@ StarFault GenericStar::look_at_lines(VertexId v, const LabelSet& labels) {
     if (labels.size() == 3) return lines == 2 ? StarFault::kNone : StarFault::kLines;
     std::sort(triples_.begin(), triples_.end());
     const bool repeats = std::adjacent_find(triples_.begin(), triples_.end()) != triples_.end();
-    // On the box three sides meet in no line that has faces, nor does a label whose faces were not made there.
+    // On the box, three sides meet without a line that has faces; so does a label without faces there.
     const bool is_right = mesh_[v].sides == 0 ? lines == 4 : lines >= 2;
     return is_right && !repeats ? StarFault::kNone : StarFault::kLines;
 }

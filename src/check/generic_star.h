@@ -1,4 +1,4 @@
-// Is the surface round a vertex what it is round every vertex of a generic model?
+// Is the star of a vertex generic?
 #pragma once
 
 #include <vector>
@@ -9,18 +9,18 @@
 
 namespace regionmesh {
 
-/// The first thing that is wrong with a star, in the order of the tests.
+/// The first fault of a star, in the order of the tests.
 enum class StarFault {
     kNone,
     kLabels,  // more than four labels meet, or a face has one label on both sides, or there is no face
-    kFans,    // the faces of a region are not one closed fan; at a side of the box it may be open where the options say
+    kFans,    // the faces of a region are not one closed fan (or an open one, on a side of the box that is open)
     kPages,   // more than three labels meet at an edge
     kLines,   // the lines that leave the vertex are not those of a book (two) or of a cone over K4 (four)
 };
 
-/// Tells generic vertices from others: two labels and a disk, three and a book of three pages, four and the cone over
-/// K4, where sides of the box count as labels. Decimation keeps the topology round such vertices, and only such.
-/// Reads the model; one for each thread.
+/// A vertex is generic if its star is a disk (two labels), a book of three pages (three labels) or the cone over K4
+/// (four labels); sides of the box count as labels. Simplification preserves the topology around generic vertices only.
+/// Only reads the mesh. Use one object per thread.
 class GenericStar {
 public:
     GenericStar(const Mesh& mesh, const CheckOptions& options) : mesh_(mesh), options_(options) {}

@@ -1,4 +1,4 @@
-#include "regionmesh/lines.h"
+#include "check/lines.h"
 
 #include <algorithm>
 #include <numbers>
@@ -11,7 +11,7 @@ namespace {
 
 bool is_inside(const LabelSet& labels) { return std::none_of(labels.begin(), labels.end(), is_exterior); }
 
-/// Ends of the line edges at v other than v.
+/// The other ends of the line edges at v.
 void gather_line_neighbours(const Mesh& mesh, VertexId v, std::vector<VertexId>& found) {
     found.clear();
     mesh.for_star(v, [&](FaceId f, int place) {

@@ -1,4 +1,4 @@
-// Does every separate part of the surface lie in the region that its outermost faces say?
+// Does every separate part of the surface lie in the region that its outermost faces name?
 #include <algorithm>
 #include <array>
 #include <map>
@@ -11,22 +11,22 @@
 namespace regionmesh {
 namespace {
 
-/// No simple ratio, so that the ray from a lattice point hits no edge.
+/// No simple ratios, so that a ray from a lattice point hits no edge.
 constexpr Vec3 kRay{1, 0.013748231, 0.007193377};
 
-/// A connected part of the surface. Seen from its outermost region the volume inside is negative, and only from that.
+/// A connected part of the surface. The volume inside is negative for its outermost region, and for no other.
 struct Part {
     VertexId farthest = kNoVertex;  // along the ray
     std::map<Label, double> volumes;
     bool touches_box = false;
 };
 
-/// By the smallest vertex of each.
+/// By the smallest vertex of each part.
 using Parts = std::map<std::uint32_t, Part>;
 
 struct Hit {
     double distance = HUGE_VAL;
-    Label label = 0;  // of the region before the face
+    Label label = 0;  // of the region in front of the face
 };
 
 class NestingCheck {
@@ -61,7 +61,7 @@ private:
         for_chunks(mesh_.face_end(), kCheckChunk, options_.threads, find, append);
     }
 
-    /// The first pass: joins the vertices of each face, and measures how far a ray may go.
+    /// First pass: joins the vertices of each face, and measures the length that a ray needs.
     void join_faces() {
         Box box;
         const auto find = [&](std::uint32_t first, std::uint32_t end) {
@@ -79,7 +79,7 @@ private:
         reach_ = 2 * length(box.high - box.low);
     }
 
-    /// The second: each part, and its farthest vertex along the ray.
+    /// Second pass: finds the parts, and the farthest vertex of each along the ray.
     void gather_parts() {
         const auto add = [&](Part& part, VertexId v, bool touches_box) {
             part.touches_box |= touches_box;
@@ -88,7 +88,7 @@ private:
         };
         const auto find = [&](std::uint32_t first, std::uint32_t end) {
             Parts parts;
-            Parts::value_type* last = nullptr;  // the next vertex is mostly of the same part
+            Parts::value_type* last = nullptr;  // consecutive vertices are mostly of the same part
             for (std::uint32_t v = first; v < end; ++v) {
                 const Vertex& vertex = mesh_[VertexId{v}];
                 if (!vertex.is_alive || vertex.star == kNoCorner) continue;
@@ -103,7 +103,7 @@ private:
         });
     }
 
-    /// The third: the volume that each region has inside each part that does not touch the box.
+    /// Third pass: the volume of each region inside each part that does not touch the box.
     void measure_parts() {
         const auto find = [&](std::uint32_t first, std::uint32_t end) {
             Parts parts;
@@ -156,9 +156,9 @@ private:
         const bool may_leave = options_.boundary_is_open || options_.is_background(outer->first);
         if (leaves ? may_leave || is_exterior(outer->first) : nearest.label == outer->first) return;
         findings.add(ViolationKind::kNesting, {index(part.farthest)}, {}, [&] {
-            return "the part with vertex " + std::to_string(index(part.farthest)) + " says it lies in " +
+            return "the part with vertex " + std::to_string(index(part.farthest)) + " has faces that place it in " +
                    region_name(options_, outer->first) + ", but " +
-                   (leaves ? "nothing is round it" : "it lies in " + region_name(options_, nearest.label));
+                   (leaves ? "nothing surrounds it" : "it lies in " + region_name(options_, nearest.label));
         });
     }
 

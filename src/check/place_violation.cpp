@@ -1,4 +1,4 @@
-// Where a finding is, and between which labels.
+// The place of a violation and the labels that meet there.
 #include <algorithm>
 #include <charconv>
 
@@ -8,7 +8,7 @@
 namespace regionmesh {
 namespace {
 
-/// The shortest text that names the number.
+/// The shortest text that reads back as the same number.
 std::string text_of(double value) {
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};

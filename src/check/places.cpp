@@ -1,4 +1,4 @@
-// Two vertices at one place (P 3.6 d).
+// Vertices at the same place (P 3.6 d).
 #include <algorithm>
 #include <cstring>
 #include <tuple>
@@ -15,14 +15,14 @@ std::uint32_t hash_of(Vec3 p) {
     std::uint64_t hash = 0;
     for (int axis = 0; axis < 3; ++axis) {
         std::uint64_t bits;
-        const double value = p[axis] + 0.0;  // -0 and 0 are one place
+        const double value = p[axis] + 0.0;  // -0 and 0 are equal
         std::memcpy(&bits, &value, 8);
         hash = mix64(hash ^ bits);
     }
     return static_cast<std::uint32_t>(hash);
 }
 
-/// All vertices, those at one place together.
+/// All vertices; those at the same place are consecutive.
 std::vector<KeyedIndex> sort_by_hash(const Mesh& mesh, std::uint32_t threads) {
     std::vector<KeyedIndex> sorted;
     sorted.reserve(mesh.vertex_count());

@@ -12,7 +12,7 @@ namespace {
 /// cosine / (|cosine| + sine), which falls from 1 to -1 as the angle grows from 0 to 180 degrees.
 double place_of(double sine, double cosine) { return cosine / (std::abs(cosine) + sine); }
 
-/// Finds the bin of ten degrees without an arc tangent. The places are cut so finely that no two bins begin in one cut.
+/// Finds the bin of ten degrees without an arc tangent. The cuts are so fine that no two bins begin in the same cut.
 class AngleBins {
 public:
     AngleBins() {
@@ -26,7 +26,7 @@ public:
             for (int later = cut + 1; later < kCuts; ++later) first_[later] = bin;
         }
     }
-    /// -1 where rounding may tell.
+    /// -1 within the rounding error.
     int bin(double place) const {
         const int cut = cut_of(place);
         const double beyond = next_[cut] - place;
@@ -38,8 +38,8 @@ private:
     static constexpr int kCuts = 65;
     static int cut_of(double place) { return std::clamp(int((1 - place) * (kCuts / 2) + 0.5), 0, kCuts - 1); }
 
-    std::array<int, kCuts> first_;    // the bin of the smallest angles of a cut
-    std::array<double, kCuts> next_;  // where the next bin begins in it
+    std::array<int, kCuts> first_;    // the bin of the smallest angles in a cut
+    std::array<double, kCuts> next_;  // where the next bin begins in a cut
 };
 
 const AngleBins kAngleBins;
@@ -54,7 +54,7 @@ void QualitySum::add(const std::array<Vec3, 3>& p) {
     min_ = std::min(min_, q);
     sum_ += q;
     ++histogram_[std::clamp(int(q * 100), 0, int(histogram_.size()) - 1)];
-    const bool is_thin = twice_area < 1e-3 * std::max({uu, vv, ww});  // there each corner has a sine of its own
+    const bool is_thin = twice_area < 1e-3 * std::max({uu, vv, ww});  // then each corner needs its own sine
     const auto sine = [&](Vec3 s, Vec3 t) { return is_thin ? length(cross(s, t)) : twice_area; };
     add_angle(sine(u, -w), dot(u, -w));
     add_angle(sine(v, -u), dot(v, -u));

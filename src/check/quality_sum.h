@@ -1,4 +1,4 @@
-// Quality and angles of faces, face by face.
+// Sums of the quality and the angles of faces.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@ namespace regionmesh {
 class QualitySum {
 public:
     void add(const std::array<Vec3, 3>& p);
-    /// Those of faces that come later.
+    /// Adds the sums of later faces.
     void append(const QualitySum& later);
     QualityReport report() const;
 
 private:
-    /// The sine and cosine of an angle, times a number; and its place between 0 degrees (1) and 180 (-1).
+    /// The sine and cosine of an angle, times a common factor, and its place from 1 at 0 degrees to -1 at 180.
     struct Angle {
         double sine = 0, cosine = 0, place = 0;
     };

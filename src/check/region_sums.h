@@ -1,4 +1,4 @@
-// Sums by region over a part of the model, small where few regions are near.
+// Sums by region over a part of the mesh; stores only the regions that occur there.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ private:
     std::vector<RegionReport> sums_;
 };
 
-/// Adds the sums of a part to those of the whole, by dense label.
+/// Adds the sums of a part to the totals, which are by dense label.
 inline void add_to(std::vector<RegionReport>& regions, const std::vector<RegionReport>& part) {
     for (const RegionReport& sum : part) {
         if (sum.label >= regions.size()) regions.resize(sum.label + 1);

@@ -1,4 +1,4 @@
-// What can be seen round one vertex at a time: edges, fans, Euler characteristics, and how boundaries hang together.
+// Tests and measures of single stars: edges, fans, Euler characteristics, and the parts of each region's boundary.
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -15,14 +15,14 @@
 namespace regionmesh {
 namespace {
 
-/// What was found round some vertices.
+/// Findings at some vertices.
 struct StarChunk {
     Findings findings;
     std::vector<RegionReport> regions;
     std::uint64_t quadruple_points_inside = 0;
 };
 
-/// The two sides of each face are its sheets, joined where a region's boundary goes on across an edge.
+/// The two sides of each face are its sheets; they are joined where a region's boundary continues across an edge.
 class StarCheck {
 public:
     StarCheck(const Mesh& mesh, const CheckOptions& options, UnionFind& sheets)
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    /// One face seen from the vertex in its middle: a then b go round it.
+    /// A face seen from the central vertex: its other corners a, b in order around the vertex.
     struct Page {
         FaceId face;
         VertexId a, b;
@@ -46,9 +46,9 @@ private:
         VertexId end;
         Label label;
         std::uint32_t side;  // page * 2 + which
-        int turn;            // 1: it passes the edge outward
+        int turn;            // 1: it passes the edge away from the vertex
     };
-    /// Putting a fan in order takes the square of its faces.
+    /// Ordering a fan takes time proportional to the square of its faces.
     static constexpr std::size_t kMostOrdered = 1024;
 
     static std::uint32_t sheet(FaceId f, int side) { return 2 * index(f) + static_cast<std::uint32_t>(side); }
@@ -62,7 +62,7 @@ private:
         bool has_exterior = false, is_odd = false;
         mesh_.for_star(v, [&](FaceId f, int place) {
             const Face& face = mesh_[f];
-            if (repeats_a_vertex(face)) return;  // what it lies between meets without it
+            if (repeats_a_vertex(face)) return;  // its neighbours are checked without it
             pages_.push_back({f, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels});
             is_odd |= face.labels[0] == face.labels[1];
             for (Label label : face.labels) {
@@ -76,7 +76,7 @@ private:
         if (mesh_[v].sides == 0 && !has_exterior && labels_.size() == 4) ++quadruple_points_inside_;
         const bool is_small = labels_.size() < LabelSet::kCapacity && pages_.size() <= kMostOrdered;
         if (!is_odd && is_small && look_at_closed_fans(v, has_exterior)) {
-            // Faces on the same vertices are in no closed fan, unless they have no label in common.
+            // Faces on the same vertices are not in a closed fan, unless they have no label in common.
             if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
             if (has_exterior || labels_.size() > 2) look_at_form(v);
         } else {
@@ -93,14 +93,14 @@ private:
             return name(v) + (fault == StarFault::kLabels  ? ": more than four labels meet"
                               : fault == StarFault::kPages ? ": more than three labels meet at one of its edges"
                               : fault == StarFault::kLines ? ": its lines are not those where three or four labels meet"
-                                                           : ": its faces are too many to be told");
+                                                           : ": it has too many faces to be examined");
         });
     }
 
-    /// Nearly all vertices: the faces of each region go round v once, from one neighbour to the next. So all is well
-    /// with its edges, too. False where it is not so: then nothing has been done.
+    /// The case of nearly all vertices: the faces of each region turn once around v, from one neighbour to the next.
+    /// Then its edges are sound, too. Returns false otherwise, and has then changed nothing.
     bool look_at_closed_fans(VertexId v, bool has_exterior) {
-        const bool is_interface = labels_.size() == 2 && !has_exterior;  // both regions have the same faces
+        const bool is_interface = labels_.size() == 2 && !has_exterior;  // the two regions have the same faces
         fans_.clear();
         ends_.clear();
         for (Label label : labels_) {
@@ -118,7 +118,7 @@ private:
         return true;
     }
 
-    /// Adds the faces of a region in the order in which they go round.
+    /// Adds the faces of a region in their order around the vertex.
     bool add_closed_fan(Label label) {
         const std::size_t start = fans_.size();
         for (const Page& page : pages_) {
@@ -131,7 +131,7 @@ private:
         return fan.size() >= 3 && order_fan(fan) && is_closed(fan);
     }
 
-    /// Joins the sheets of a closed fan across the edges from v to later vertices, and returns how many those are.
+    /// Joins the sheets of a closed fan across the edges from v to later vertices. Returns the number of these edges.
     std::int64_t join_fan(VertexId v, std::span<const FanPage> fan, std::uint32_t other_side) {
         std::int64_t edges = 0;
         for (std::size_t n = 0; n < fan.size(); ++n) {
@@ -142,7 +142,7 @@ private:
         return edges;
     }
 
-    /// Anything goes here: any number of labels and of faces at an edge. Takes hardly longer than it takes to sort.
+    /// The general case: any number of labels and of faces at an edge. Its time is that of sorting the sides.
     void look_at_any_fans(VertexId v) {
         gather_uses();
         const auto ends = [&](const Use& a, const Use& b) { return a.end != b.end; };
@@ -165,7 +165,7 @@ private:
         look_at_parts(v);
     }
 
-    /// Of all sides of all pages, edge by edge and label by label.
+    /// Visits all sides of all pages, edge by edge and label by label.
     void gather_uses() {
         uses_.clear();
         for (std::uint32_t n = 0; n < pages_.size(); ++n) {
@@ -180,7 +180,7 @@ private:
         });
     }
 
-    /// The sides that one region has at the edge.
+    /// The sides of one region at the edge.
     void look_at_edge(VertexId v, std::span<const Use> sides) {
         const auto [w, label, first_side, first_turn] = sides[0];
         const std::uint32_t first_sheet = sheet(pages_[first_side / 2].face, static_cast<int>(first_side % 2));
@@ -190,7 +190,7 @@ private:
             up_[root_of(use.side)] = root_of(first_side);
             sheets_.join(first_sheet, sheet(pages_[use.side / 2].face, static_cast<int>(use.side % 2)));
         }
-        if (w < v) return;  // told from there
+        if (w < v) return;  // reported at w
         regions_[label].euler -= 1;
         const bool may_be_open =
             (options_.boundary_is_open || options_.is_background(label)) && (mesh_[v].sides & mesh_[w].sides) != 0;
@@ -200,10 +200,11 @@ private:
         };
         if (sides.size() == 1 && !may_be_open) say(ViolationKind::kOpenEdge, "one face");
         if (sides.size() > 2) say(ViolationKind::kOverfullEdge, std::to_string(sides.size()) + " faces");
-        if (sides.size() == 2 && turn != 0) say(ViolationKind::kOrientation, "its two faces look opposite ways");
+        if (sides.size() == 2 && turn != 0)
+            say(ViolationKind::kOrientation, "its two faces pass it in the same direction");
     }
 
-    /// The faces of a region at a vertex must be one fan: joined by the edges between them.
+    /// The faces of a region at a vertex must be one fan, joined by the edges between them.
     void look_at_parts(VertexId v) {
         parts_.clear();
         for (std::uint32_t side = 0; side < up_.size(); ++side) {
@@ -227,7 +228,7 @@ private:
         return side;
     }
 
-    /// Each face on the vertices of another is told once, beside one of these.
+    /// Reports each face on the same vertices as another face once, together with one of these.
     void look_for_duplicates(VertexId v) {
         rims_.clear();
         for (const Page& page : pages_)
@@ -251,11 +252,11 @@ private:
     RegionSums regions_;
     std::uint64_t quadruple_points_inside_ = 0;
     std::vector<Page> pages_;
-    LabelSet labels_;            // of the regions among them
-    std::vector<FanPage> fans_;  // region after region
+    LabelSet labels_;            // the labels that are regions
+    std::vector<FanPage> fans_;  // grouped by region
     std::vector<std::size_t> ends_;
     std::vector<Use> uses_;
-    std::vector<std::uint32_t> up_;  // of the sides of pages: joined with this one
+    std::vector<std::uint32_t> up_;  // union-find over the sides of pages
     std::vector<std::pair<Label, std::uint32_t>> parts_;
     std::vector<std::tuple<VertexId, VertexId, FaceId>> rims_;
 };

@@ -10,6 +10,7 @@
 #include "compare/common_labels.h"
 #include "compare/sample.h"
 #include "compare/sorted_strata.h"
+#include "compare/statistics.h"
 #include "compare/strata_tree.h"
 
 namespace regionmesh {

@@ -9,17 +9,17 @@ namespace regionmesh {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-constexpr std::size_t kFirstCandidates = 24;  // faces below which a point inside is looked for, the deepest first
+constexpr std::size_t kFirstCandidates = 24;  // faces below which an inner point is sought, the deepest first
 
-/// How far the ray from `from` goes along `step` to the plane of the face inside it (Moeller and Trumbore 1997); in
-/// doubles, which is enough to choose by.
+/// The distance, in units of `step`, from `from` to the point where the ray meets the face (Moeller and Trumbore 1997).
+/// Double precision is enough to choose a candidate.
 double distance_to(const std::array<Vec3, 3>& p, Vec3 from, Vec3 step) {
     const Vec3 e = p[1] - p[0], g = p[2] - p[0], h = cross(step, g);
     const double d = dot(e, h);
     if (d == 0) return HUGE_VAL;
     const Vec3 s = from - p[0], q = cross(s, e);
     const double u = dot(s, h) / d, v = dot(step, q) / d, t = dot(g, q) / d;
-    constexpr double kSlack = 1e-9;  // rather one hit too many on an edge than none
+    constexpr double kSlack = 1e-9;  // a second hit on an edge is harmless, a missed one is not
     return u < -kSlack || v < -kSlack || u + v > 1 + kSlack || t <= 0 ? HUGE_VAL : t;
 }
 
@@ -30,7 +30,7 @@ Bodies::Bodies(const Mesh& mesh)
     make_bodies(list_shells());
 }
 
-/// Numbers the shells, and returns which of them are open.
+/// Numbers the shells and returns which of them are open.
 std::vector<bool> Bodies::list_shells() {
     UnionFind joined(2 * mesh_.face_end());
     const std::vector<bool> ends = join_sides(mesh_, joined);
@@ -59,7 +59,7 @@ std::vector<bool> Bodies::list_shells() {
     return is_open;
 }
 
-/// Positive for an outer shell. Measured from one of its own vertices, so that far from the origin small ones keep
+/// Positive for an outer shell. Measured from one of its own vertices, so that small shells far from the origin keep
 /// their sign.
 double Bodies::enclosed_volume(std::uint32_t shell) const {
     const Vec3 o = mesh_.corners(face_of(sides(shell)[0]))[0];
@@ -72,7 +72,7 @@ double Bodies::enclosed_volume(std::uint32_t shell) const {
     return sixfold / 6;
 }
 
-/// Outer shells make bodies; cavities join the innermost body of their label that they lie in.
+/// Each outer shell makes a body; a cavity belongs to the innermost body of its label that contains it.
 void Bodies::make_bodies(const std::vector<bool>& is_open) {
     shell_bodies_.assign(shell_count(), kNone);
     std::vector<double> volumes(shell_count());
@@ -101,7 +101,7 @@ void Bodies::make_bodies(const std::vector<bool>& is_open) {
     }
 }
 
-/// The smallest body of the cavity's label whose outer shell goes round it. Called while bodies have outer shells only.
+/// The smallest body of the cavity's label whose outer shell encloses it. Requires that bodies have outer shells only.
 std::optional<std::uint32_t> Bodies::body_round(std::uint32_t cavity) const {
     const Label label = label_of_side(mesh_, sides(cavity)[0]);
     const auto body_at = [&](FaceSide side) {
@@ -134,7 +134,7 @@ std::optional<std::uint32_t> Bodies::body_round(std::uint32_t cavity) const {
     return innermost;
 }
 
-/// In its outer shell, and in none of its cavities.
+/// Is the point inside the outer shell and in none of the cavities?
 bool Bodies::is_inside(Vec3 point, const Body& body) const {
     const std::uint32_t number = shell_bodies_[body.shells[0]];
     const auto is_of_body = [&](FaceSide side) { return shell_bodies_[shells_[side]] == number; };
@@ -148,14 +148,14 @@ bool Bodies::is_inside(Vec3 point, const Body& body) const {
     return sum == 1;
 }
 
-/// Halfway from the middle of the face to the next face straight below it.
+/// The point halfway from the centroid of the face to the next face along the inward normal.
 Bodies::Candidate Bodies::candidate_below(FaceSide side) const {
     const auto p = mesh_.corners(face_of(side));
     const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
     const double twofold = length(normal);
     if (!(twofold > 0)) return {};
     const Vec3 from = (p[0] + p[1] + p[2]) / 3, step = (side % 2 == 0 ? -1 : 1) / twofold * normal;
-    const double reach = 64 * std::sqrt(twofold);  // no deeper than that: the rest of the ray would cost too much
+    const double reach = 64 * std::sqrt(twofold);  // a longer ray would cost too much
     double nearest = reach;
     for (double length = std::sqrt(twofold); nearest == reach && length <= reach; length *= 2) {
         Box box;

@@ -1,4 +1,4 @@
-// The solid parts of a model: what bounds each of them, and a point inside.
+// The connected solid parts of a mesh: the boundary of each, and a point inside.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,30 @@
 
 namespace regionmesh {
 
-/// One side of a face: 2 f is that of its first label, 2 f + 1 that of its second.
+/// One side of a face: 2 f is the side of its first label, 2 f + 1 that of its second.
 using FaceSide = std::uint32_t;
 constexpr FaceSide face_side(FaceId f, int side) { return 2 * index(f) + static_cast<FaceSide>(side); }
 constexpr FaceId face_of(FaceSide side) { return FaceId{side >> 1}; }
 
-/// A connected part of the space that one label fills; all six sides of the exterior count as exterior(0).
+/// A connected part of the space of one label; all six exteriors count as exterior(0).
 struct Body {
     Label label = 0;
-    bool is_bounded = false;            // false: it reaches the outside, and has no outer shell
-    double volume = 0;                  // of a bounded one
-    std::vector<std::uint32_t> shells;  // a bounded one: the outer shell, then those of its cavities
+    bool is_bounded = false;            // false: unbounded, without an outer shell
+    double volume = 0;                  // 0 if unbounded
+    std::vector<std::uint32_t> shells;  // if bounded: the outer shell, then those of the cavities
 };
 
 /// A shell is a connected part of the boundary of a body: sides of faces with one label, joined across edges. Shells
-/// count from 0 in order of their first side. Which cavity lies in which body is decided exactly. Requires a model
-/// without crossings and with no face between two sides of one label; where more than two faces of a label share an
-/// edge, their sides are joined as they follow one another round it. Cost: some hundred bytes a face, for a while.
+/// are numbered from 0 in order of their first side. Exact tests decide which cavity lies in which body. Requires a
+/// mesh without crossing faces and without a face that has one label on both sides. If more than two faces of a label
+/// share an edge, their sides are joined in their order around it. Needs about 100 bytes per face temporarily.
 class Bodies {
 public:
     explicit Bodies(const Mesh& mesh);
     Bodies(const Bodies&) = delete;
     Bodies& operator=(const Bodies&) = delete;
 
-    /// In order of their first side.
+    /// Bodies in order of their first side.
     const std::vector<Body>& all() const { return bodies_; }
     std::uint32_t shell_count() const { return static_cast<std::uint32_t>(shell_starts_.size()) - 1; }
     std::uint32_t shell(FaceSide side) const { return shells_[side]; }
@@ -44,7 +44,7 @@ public:
     }
 
     /// A point strictly inside a bounded body and well away from its boundary, proved by an exact count of the faces
-    /// between it and the outside. Nothing where none was found, which takes a body thinner than doubles can tell.
+    /// between it and the outside. nullopt if none was found: the body is then thinner than doubles can resolve.
     std::optional<Vec3> point_inside(const Body& body) const;
 
 private:
@@ -63,9 +63,9 @@ private:
     SortedFaceTree tree_;
     ExactRay ray_;
     std::vector<std::uint32_t> shells_;        // by side
-    std::vector<FaceSide> sides_;              // shell after shell
-    std::vector<std::uint32_t> shell_starts_;  // in sides_, and the end
-    std::vector<std::uint32_t> shell_bodies_;  // by shell: its body, once it has one
+    std::vector<FaceSide> sides_;              // grouped by shell
+    std::vector<std::uint32_t> shell_starts_;  // start of each shell in sides_, and the end
+    std::vector<std::uint32_t> shell_bodies_;  // by shell: its body, once known
     std::vector<Body> bodies_;
 };
 

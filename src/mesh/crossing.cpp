@@ -12,9 +12,9 @@ namespace {
 using Pairs = std::vector<FacePair>;
 using Corners = std::array<Vec3, 3>;
 
-constexpr std::uint32_t kStars = 1 << 12, kParts = 8;  // looked at together
+constexpr std::uint32_t kStars = 1 << 12, kParts = 8;  // stars per task, parts per task
 
-/// The same questions for a model and for a list of faces.
+/// Gives a mesh and a list of faces the same interface.
 class MeshFaces {
 public:
     explicit MeshFaces(const Mesh& mesh) : mesh_(mesh) {}
@@ -22,7 +22,7 @@ public:
     const std::array<VertexId, 3>& vertices(FaceId f) const { return mesh_[f].vertices; }
     Corners corners(FaceId f) const { return mesh_.corners(f); }
     std::uint32_t star_count() const { return mesh_.vertex_end(); }
-    /// Adds the pages of star n, and returns its vertex.
+    /// Adds the pages of star n and returns its vertex.
     VertexId star(std::uint32_t n, std::vector<StarPage>& pages, Vec3& at) const {
         const VertexId v{n};
         if (!mesh_.is_alive(v)) return v;
@@ -78,7 +78,7 @@ bool cross(const Faces& faces, FaceId f, FaceId g) {
     return meet_outside_shared({faces.vertices(f), p}, {faces.vertices(g), q});
 }
 
-/// Adds the pairs that share no vertex, of one part of the tree.
+/// Adds the pairs of one part of the tree that share no vertex.
 template <class Faces>
 void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t part, Pairs& found) {
     Pairs strangers;
@@ -97,7 +97,7 @@ void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t p
     });
 }
 
-/// Two passes, both of which only read the faces: those that share a vertex, star by star; and those that do not.
+/// Two passes that only read the faces: pairs with a common vertex, star by star, then all others.
 template <class Faces>
 Pairs find_all(const Faces& faces, const SortedFaceTree& tree, std::uint32_t threads) {
     Pairs all;

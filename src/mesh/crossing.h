@@ -1,4 +1,4 @@
-// Which faces meet outside what they share? (P test 6)
+// Finds faces that meet outside shared vertices and edges (P test 6).
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace regionmesh {
 
-/// All pairs of faces that meet outside what they share, in order. Exact: no epsilon decides. Faces without area meet
-/// none. The tree is the model's. The threads (parallel_for) change nothing.
+/// All pairs of faces that meet outside shared vertices and edges, in order. Exact: no epsilon. Faces without area are
+/// left out. `tree` is that of the mesh. The result does not depend on `threads` (parallel_for).
 std::vector<FacePair> find_crossings(const Mesh& mesh, const SortedFaceTree& tree, std::uint32_t threads);
 
-/// The same for a list of faces, wherever they come from; they are named by their places in it.
+/// The same for a list of faces from any source; results are positions in the list.
 std::vector<FacePair> find_crossings(std::span<const LabelledFace> faces, std::uint32_t threads);
 
 }  // namespace regionmesh

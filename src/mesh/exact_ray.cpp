@@ -8,7 +8,7 @@ namespace regionmesh {
 namespace {
 
 constexpr int kMostLines = 48;
-constexpr double kSlope = 0.02;  // at most: the box round a line along an axis stays thin
+constexpr double kSlope = 0.02;  // keeps the bounding box of a line along an axis thin
 
 enum class Passing { kMisses, kAlongNormal, kAgainstNormal, kDegenerate };
 
@@ -26,7 +26,7 @@ Passing passing(const std::array<Vec3, 3>& p, Vec3 from, Vec3 to) {
     return end > 0 ? Passing::kAlongNormal : Passing::kAgainstNormal;
 }
 
-/// Beyond the box, along one of the axes and a little aside.
+/// A point beyond the box, nearly along one of the axes.
 Vec3 end_of_line(int number, const Box& box, Vec3 from) {
     const int axis = number / 2 % 3;
     const Vec3 size = box.high - box.low;

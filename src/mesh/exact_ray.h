@@ -1,4 +1,4 @@
-// Which faces does a straight line from a point to the outside pass, exactly?
+// Finds the faces on a straight line from a point to the outside, exactly.
 #pragma once
 
 #include <functional>
@@ -10,21 +10,21 @@
 
 namespace regionmesh {
 
-/// A face passed, and whether the line leaves its first label there (and enters its second).
+/// A face that the line passes. Does the line leave the face's first label there and enter its second?
 struct FacePassed {
     FaceId face;
     bool leaves_first;
 };
 
-/// Lines that pass faces inside them, never through an edge or a vertex: all signs are exact, and a line with a sign of
-/// zero is given up for another one.
+/// Lines that pass through the interior of faces, never through an edge or a vertex: all signs are exact, and if one is
+/// zero another line is tried.
 class ExactRay {
 public:
-    /// Holds both; the tree is over all faces of the model.
+    /// Holds references. `tree` contains all faces of the mesh.
     ExactRay(const Mesh& mesh, const SortedFaceTree& tree);
 
-    /// All wanted faces on a line from `from` to a point beyond the whole model, in no order. Nothing where `from` lies
-    /// on a wanted face (or, for points nobody would choose, on the continuation of too many of them).
+    /// All wanted faces on a line from `from` to a point beyond the whole mesh, unordered. nullopt if `from` lies on a
+    /// wanted face, or in the planes of so many of them that every line tried meets an edge.
     std::optional<std::vector<FacePassed>> faces_passed(Vec3 from, const std::function<bool(FaceId)>& is_wanted) const;
 
 private:

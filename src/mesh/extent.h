@@ -1,4 +1,4 @@
-// How large is a model?
+// The bounding box of a mesh.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// The box round all vertices.
+/// The bounding box of all vertices.
 inline Box extent_of(const Mesh& mesh, std::uint32_t threads) {
     Box extent;
     const auto find = [&](std::uint32_t first, std::uint32_t end) {

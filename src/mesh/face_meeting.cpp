@@ -12,7 +12,7 @@ double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 }  // namespace
 
 bool are_apart(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
-    // From one corner, where rounding is least.
+    // Relative to one corner, to reduce rounding.
     const Vec3 a = p[1] - p[0], b = p[2] - p[0], x = q[0] - p[0], y = q[1] - p[0], z = q[2] - p[0];
     const double doubt = 1e-12 * (size(a) + size(b) + size(x) + size(y) + size(z));
     const auto is_between = [](double u, double v, double r, double s, double t, double slack) {
@@ -33,7 +33,7 @@ bool are_apart(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
 bool meet_outside_shared(const PlacedFace& f, const PlacedFace& g) {
     const auto &p = f.at, &q = g.at;
     if (!boxes_overlap(p, q)) return false;
-    std::array<int, 3> in_g{-1, -1, -1};  // where each corner of f is in g
+    std::array<int, 3> in_g{-1, -1, -1};  // the place of each corner of f in g
     int shared = 0, own = -1, common = -1;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)

@@ -1,4 +1,4 @@
-// Which faces are near? A tree of boxes that follows the faces as they move and grow.
+// A bounding volume hierarchy over faces that move and grow.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ public:
 
     explicit FaceTree(const Mesh& mesh) { build(mesh); }
 
-    /// Begins again with the faces that are alive now; the old boxes are let go first.
+    /// Rebuilds the tree from the living faces; releases the old boxes first.
     void build(const Mesh& mesh);
 
-    /// Face f now lies in `box`. The boxes above it grow, and never shrink.
+    /// Moves face f to `box`. The boxes above it grow and never shrink.
     void set(FaceId f, const Box& box) { boxes_.set(index(f), box); }
-    /// Face f is gone.
+    /// Removes face f.
     void remove(FaceId f) { boxes_.remove(index(f)); }
 
-    /// Calls visit(FaceId, GridBox) for every face in the tree whose rounded box, which is given, meets `box`. A visit
+    /// Calls visit(FaceId, GridBox) for every face in the tree whose rounded box, the GridBox, meets `box`. A visit
     /// that returns false ends the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const {

@@ -1,4 +1,4 @@
-// The faces of one region at a vertex, in the order in which they go round it.
+// The faces of one region at a vertex, in their order around it.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 
 namespace regionmesh {
 
-/// A face seen from a vertex and by a region: it leads from one neighbour to the next.
+/// A face at a vertex, seen from one region: it leads from one neighbour of the vertex to the next.
 struct FanPage {
     VertexId first, second;
-    std::uint32_t name;  // whose page it is, in the caller's numbers
+    std::uint32_t name;  // of the page, in the caller's numbering
 };
 
 inline bool is_closed(std::span<const FanPage> fan) { return fan.back().second == fan.front().first; }
 
-/// An open fan whose first n pages are in order, and do not go on, begins earlier: with a page that ends where it
-/// begins now.
+/// Extends an open fan at its front: its first n pages are in order and cannot be continued, so it begins with a page
+/// that ends where the first one begins.
 inline bool extend_back(std::span<FanPage> fan, std::size_t n) {
     for (std::size_t m = n; m < fan.size(); ++m) {
         if (fan[m].second != fan[0].first) continue;
@@ -30,12 +30,12 @@ inline bool extend_back(std::span<FanPage> fan, std::size_t n) {
     return false;
 }
 
-/// Brings the pages in order, each beginning where the one before ends. False where some are left that cannot be
-/// reached. A closed fan in order passes each neighbour once.
+/// Orders the pages so that each begins where the previous one ends. Returns false if some pages cannot be reached. A
+/// closed fan passes each neighbour once.
 inline bool order_fan(std::span<FanPage> fan) {
     for (std::size_t n = 1; n < fan.size(); ++n) {
         if (is_closed(fan.first(n))) return false;
-        // No jumps: there is no telling which one fits.
+        // Without branches: they would be mispredicted.
         const VertexId here = fan[n - 1].second;
         std::size_t next = 0, fits = 0;
         for (std::size_t m = n; m < fan.size(); ++m) {

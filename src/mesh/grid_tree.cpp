@@ -10,7 +10,7 @@
 namespace regionmesh {
 namespace {
 
-/// The bits set in each number below 256: which, in the upper half of eight numbers, and how many.
+/// For each number below 256: which bits are set, in the upper halves of eight numbers, and how many.
 struct BitTable {
     std::uint64_t bits[256][8];
     std::uint8_t count[256];
@@ -60,7 +60,7 @@ void GridTree::build_upper(std::uint32_t threads) {
 GridTree::GridBox GridTree::outward(const Box& box) const {
     GridBox result;
     for (int axis = 0; axis < 3; ++axis) {
-        // Beyond the grid everything counts as being at its rim, on both sides of a comparison; no box reaches as far
+        // Coordinates outside the grid are clamped to its border, on both sides of a comparison; no box reaches as far
         // as the empty one.
         const double low = (box.low[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
         const double high = (box.high[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
@@ -130,14 +130,14 @@ GridTree::GridBox GridTree::Boxes::hull() const {
 
 class GridTree::PairList {
 public:
-    /// Forgets all, and makes room for this many.
+    /// Removes all pairs and makes room for the given number.
     void clear(std::size_t room) {
         size_ = 0;
         if (room + kFan <= room_) return;
         room_ = 2 * (room + kFan);
         pairs_ = std::make_unique_for_overwrite<Pair[]>(room_);
     }
-    /// One pair for each bit of the mask.
+    /// Adds one pair for each bit of the mask.
     void add(std::uint32_t m, std::uint32_t first_n, unsigned mask) {
         const Pair first(m, first_n);
         for (std::uint32_t k = 0; k < kFan; ++k) pairs_[size_ + k] = Pair(first.both_ + kBits.bits[mask][k]);
@@ -152,11 +152,11 @@ private:
     std::size_t room_ = 0, size_ = 0;
 };
 
-/// What one level of a search for pairs hands to the next.
+/// What one level of the search for pairs passes to the next.
 struct GridTree::PairSearch {
     PairList groups;  // pairs of groups a, b
-    PairList lanes;   // b, and a box of a that meets the hull of b
-    PairList pairs;   // a box of a, and one of b that meets it
+    PairList lanes;   // group b, and a box of a that meets the bounding box of b
+    PairList pairs;   // a box of a, and a box of b that meets it
 };
 
 void GridTree::visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const {
@@ -168,7 +168,7 @@ void GridTree::visit_pairs(std::uint32_t part, const std::function<void(std::spa
 }
 
 bool GridTree::is_spatial() const {
-    constexpr std::uint32_t kParts = 32, kPlaces = 512, kTests = 24;  // a sample, places in a part, tests a place
+    constexpr std::uint32_t kParts = 32, kPlaces = 512, kTests = 24;  // parts sampled, places per part, tests per place
     const std::uint32_t step = std::max(part_count() / kParts, 1u);
     std::uint64_t left = std::uint64_t{kTests} * kPlaces * std::min(part_count(), kParts);
     PairSearch search;
@@ -182,7 +182,7 @@ bool GridTree::is_spatial() const {
     return true;
 }
 
-/// The parts from this one on whose boxes meet its own.
+/// This part and later ones whose bounding boxes meet its own.
 std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
     const GridBox own = levels_[part_level()][part].hull();
     std::vector<std::uint32_t> parts;
@@ -203,7 +203,7 @@ std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
     return parts;
 }
 
-/// All pairs of a place in the one part and one in the other.
+/// All pairs of a place in one part and a place in the other.
 void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const {
     search.pairs.clear(1);
     search.pairs.add(part, other, 1);
@@ -213,8 +213,8 @@ void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& s
     }
 }
 
-/// From pairs of groups of a level to pairs of what is in them. No jump depends on what is found: most would be
-/// foreseen wrongly.
+/// From pairs of groups to pairs of their members. Without branches that depend on the data: most would be
+/// mispredicted.
 void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     auto& [groups, lanes, pairs] = search;
     lanes.clear(groups.size() * kFan);
@@ -228,7 +228,7 @@ void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     for (const Pair pair : lanes) {
         const std::uint32_t b = pair.m(), m = pair.n();
         const unsigned lane = m % kFan;
-        // A pair once; a place makes no pair with itself, but a group does.
+        // Each pair once; a place forms no pair with itself, but a group does.
         const unsigned later = m / kFan == b ? (level == 0 ? 0xFEu : 0xFFu) << lane : 0xFFu;
         pairs.add(m, b * kFan, levels_[level][b].meeting(levels_[level][m / kFan][lane]) & later & 0xFFu);
     }

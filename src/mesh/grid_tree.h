@@ -1,4 +1,4 @@
-// Which boxes are near? A tree of boxes with 16-bit coordinates, eight of which are compared at once.
+// A bounding volume hierarchy with 16-bit coordinates that compares eight boxes at once.
 #pragma once
 
 #include <algorithm>
@@ -13,51 +13,51 @@
 
 namespace regionmesh {
 
-/// An eight-fold tree over the places 0 .. count - 1 of a list of boxes, whose order should be a spatial one. Boxes are
-/// rounded outward to 1/65535 of the whole extent, two bytes a coordinate: 14 bytes a place all told.
+/// A tree of degree 8 over the places 0 .. count - 1 of a list of boxes; fast if their order is spatial. Boxes are
+/// rounded outward to 1/65535 of the whole extent, 2 bytes per coordinate: 14 bytes per place in total.
 class GridTree {
 public:
     static constexpr std::uint32_t kFan = 8;
 
-    /// A box in cells of the grid.
+    /// A box in grid cells.
     struct GridBox {
         std::int16_t low[3];
         std::int16_t high[3];
     };
-    /// Eight boxes side by side.
+    /// Eight boxes, one per lane.
     struct alignas(16) Boxes {
         std::int16_t low[3][kFan];
         std::int16_t high[3][kFan];
 
-        /// Boxes that meet nothing.
+        /// Eight empty boxes, which meet nothing.
         static Boxes none();
         GridBox operator[](std::uint32_t lane) const;
         void put(std::uint32_t lane, const GridBox& box);
-        /// The smallest box round all eight.
+        /// The bounding box of all eight.
         GridBox hull() const;
-        /// Bit n is set when box n meets `box`.
+        /// Bit n is set if box n meets `box`.
         unsigned meeting(const GridBox& box) const;
     };
 
-    /// Begins again; the old boxes are let go first. box_of(n), called on several threads, is the box at place n, empty
-    /// where there is none; `extent` is the box round them all.
+    /// Rebuilds the tree; releases the old boxes first. box_of(n) returns the box at place n, or an empty box; it is
+    /// called on several threads. `extent` is the bounding box of all.
     template <class BoxOf>
     void build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of);
 
-    /// The smallest box of the grid round `box`, and a little more.
+    /// A box of the grid that contains `box`.
     GridBox outward(const Box& box) const;
 
-    /// What is at the place now lies in `box`. The boxes above it grow, and never shrink.
+    /// Changes the box at a place. The boxes above it grow and never shrink.
     void set(std::uint32_t place, const Box& box);
-    /// The place is empty.
+    /// Empties the place.
     void remove(std::uint32_t place);
 
-    /// Calls visit(place, GridBox) for every place whose rounded box, which is given, meets `box`. A visit that returns
+    /// Calls visit(place, GridBox) for every place whose rounded box, the GridBox, meets `box`. A visit that returns
     /// false ends the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const;
 
-    /// Two places, m < n, in one number: several are written at once.
+    /// Two places, m < n, in one number, so that several can be written at once.
     class Pair {
     public:
         Pair() = default;
@@ -70,32 +70,32 @@ public:
         explicit Pair(std::uint64_t both) : both_(both) {}
         std::uint64_t both_;
     };
-    /// All pairs of places whose rounded boxes meet come in so many parts, by m.
+    /// The number of parts into which the pairs of places with meeting boxes are divided, by m.
     std::uint32_t part_count() const { return levels_[part_level()].size; }
     /// Calls visit(span<const Pair>) until all pairs of the part have been visited, with at most 2^18 at once.
     void visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const;
-    /// Is the order of the places so spatial that pairs are found quickly? Judged from a sample.
+    /// Is the order of the places spatial enough to find pairs quickly? Estimated from a sample.
     bool is_spatial() const;
 
     std::size_t bytes() const;
 
 private:
-    /// A group is eight boxes: group g of level 0 holds places 8 g .. 8 g + 7, and of the others those of groups
-    /// 8 g .. 8 g + 7 of the level below.
+    /// A group is eight boxes: group g of level 0 holds places 8 g .. 8 g + 7; group g of a higher level holds the
+    /// bounding boxes of groups 8 g .. 8 g + 7 of the level below.
     struct Entry {
         std::uint32_t level, group;
     };
-    /// Pairs, written without looking: there is room for eight beyond the end.
+    /// Pairs, written without branches: there is room for eight beyond the end.
     class PairList;
     struct PairSearch;
 
-    /// Made without touching the memory.
+    /// Allocated without touching the memory.
     struct Level {
         std::uint32_t size;
         std::unique_ptr<Boxes[]> groups;
         Boxes& operator[](std::uint32_t group) const { return groups[group]; }
     };
-    static constexpr std::uint32_t kBuildGroups = 2048;  // built by a task
+    static constexpr std::uint32_t kBuildGroups = 2048;  // built by one task
 
     Entry root() const { return {static_cast<std::uint32_t>(levels_.size()) - 1, 0}; }
     void start(std::uint32_t count, const Box& extent);

@@ -1,4 +1,4 @@
-// A small set of labels: what meets at a vertex or an edge.
+// A small set of labels: those that meet at a vertex or an edge.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace regionmesh {
 
-/// Up to kCapacity labels, in order of insertion; more are counted as kCapacity (only broken surfaces have them).
+/// At most kCapacity labels in order of insertion; further ones are dropped (only surfaces with violations have more).
 class LabelSet {
 public:
     static constexpr int kCapacity = 16;

@@ -5,12 +5,13 @@
 
 #include "base/radix_sort.h"
 #include "mesh/morton_curve.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
 
-/// Puts items of one key in the order of what `rank` says of their index, whatever order they came in. Mostly they are
-/// two or three.
+/// Sorts runs of items with equal keys by rank(index), so that the result does not depend on the order of input. Most
+/// runs have two or three items.
 template <class Rank>
 void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
     constexpr std::ptrdiff_t kFew = 16;
@@ -34,14 +35,16 @@ void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
 
 VertexId Mesh::add_vertex(Vec3 position, SideSet sides, bool is_fixed) {
     const Vertex vertex{.position = position, .star = kNoCorner, .sides = sides, .is_fixed = is_fixed};
-    ++vertex_count_;
     if (free_vertex_ != kNoCorner) {
         const VertexId v{free_vertex_};
         free_vertex_ = vertices_[index(v)].star;
+        ++vertex_count_;
         vertices_[index(v)] = vertex;
         return v;
     }
+    if (vertices_.size() == kMostVertices) require_mesh_size("mesh", kMostVertices + 1, 0);
     vertices_.push_back(vertex);
+    ++vertex_count_;
     return VertexId{vertices_.size() - 1};
 }
 
@@ -54,6 +57,7 @@ FaceId Mesh::add_face(VertexId a, VertexId b, VertexId c, Label first, Label sec
     if (free_face_ != kNoCorner) {
         free_face_ = faces_[index(f)].next[0];
     } else {
+        if (faces_.size() == kMostFaces) require_mesh_size("mesh", 0, kMostFaces + 1);
         faces_.push_back({});
         f = FaceId{faces_.size() - 1};
     }
@@ -116,7 +120,7 @@ void Mesh::move_star(VertexId from, VertexId to) {
 void Mesh::flip_faces() {
     for (Face& face : faces_) {
         if (face.vertices[0] == kNoVertex) continue;
-        // The corners of places 1 and 2 change places: so do the links that point at them, all of which say 1 or 2.
+        // Corners at places 1 and 2 are exchanged, and so are the links that point at them.
         std::swap(face.vertices[1], face.vertices[2]);
         std::swap(face.next[1], face.next[2]);
     }
@@ -148,7 +152,7 @@ std::vector<KeyedIndex> Mesh::vertices_along_curve() const {
     return order;
 }
 
-/// By the place of the first of its vertices, which lie along the curve already; then of the others.
+/// Sorts by the first of the vertices, which are already numbered along the curve, then by the others.
 std::vector<KeyedIndex> Mesh::faces_along_curve() const {
     std::vector<KeyedIndex> order;
     order.reserve(face_count_);
@@ -190,6 +194,25 @@ std::vector<VertexId> Mesh::sort_spatially() {
     return renumbered;
 }
 
+void Mesh::compact() {
+    if (vertex_count_ != vertices_.size()) {
+        std::vector<VertexId> renumbered(vertices_.size(), kNoVertex);
+        std::uint32_t kept = 0;
+        for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+            if (!vertices_[v].is_alive) continue;
+            renumbered[v] = VertexId{kept};
+            vertices_[kept++] = vertices_[v];
+        }
+        vertices_.resize(kept);
+        free_vertex_ = kNoCorner;
+        for (Face& face : faces_) {
+            if (face.vertices[0] == kNoVertex) continue;
+            for (VertexId& v : face.vertices) v = renumbered[index(v)];
+        }
+    }
+    if (face_count_ != faces_.size()) compact_faces();
+}
+
 void Mesh::compact_faces() {
     std::uint32_t kept = 0;
     for (const Face& face : faces_)
@@ -202,6 +225,7 @@ void Mesh::compact_faces() {
 }
 
 void Mesh::reserve(std::size_t vertices, std::size_t faces) {
+    require_mesh_size("mesh", vertices, faces);
     vertices_.reserve(vertices);
     faces_.reserve(faces);
 }

@@ -1,4 +1,4 @@
-// An order in which what is near in space is mostly near.
+// A spatial order: neighbours in it are mostly neighbours in space.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace regionmesh {
 
-/// Places in a box as cells of a 1024-fold grid along a Morton curve.
+/// Maps points of a box to the cells of a 1024^3 grid, numbered along a Morton curve.
 class MortonCurve {
 public:
     explicit MortonCurve(const Box& box) : low_(box.low) {
@@ -22,7 +22,7 @@ public:
     }
 
 private:
-    /// Spreads the low ten bits, two zeros between each.
+    /// Spreads the low ten bits with two zeros between neighbours.
     static std::uint32_t spread(std::uint32_t x) {
         x = (x | x << 16) & 0x030000FFu;
         x = (x | x << 8) & 0x0300F00Fu;

@@ -1,4 +1,4 @@
-// Volumes of regions, from their faces.
+// Volumes of regions from their faces.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace regionmesh {
 
-/// Adds the cone from the origin over a face to the first of its labels, and takes it from the second: over a closed
-/// boundary that sums to the volume. `volumes` goes by dense label and grows as needed; exteriors have none.
+/// Adds the volume of the cone from the origin over a face to its first label, and subtracts it from the second: over a
+/// closed boundary the sum is the volume. `volumes` is by dense label and grows as needed; exteriors have no entry.
 inline void add_cone(std::vector<double>& volumes, const std::array<Label, 2>& labels, Vec3 a, Vec3 b, Vec3 c) {
     const double cone = dot(a, cross(b, c)) / 6;
     for (int side = 0; side < 2; ++side) {
@@ -19,7 +19,7 @@ inline void add_cone(std::vector<double>& volumes, const std::array<Label, 2>& l
     }
 }
 
-/// Volumes of all regions by dense label; meaningful for those with a closed boundary.
+/// Volumes of all regions by dense label, length^3; meaningful for regions with a closed boundary.
 std::vector<double> region_volumes(const Mesh& mesh);
 
 }  // namespace regionmesh

@@ -7,7 +7,7 @@
 namespace regionmesh {
 namespace {
 
-/// A side of a face at the edge from a vertex to a neighbour.
+/// A side of a face at an edge from a vertex to a neighbour.
 struct SideAtEdge {
     VertexId neighbour;
     Label label;
@@ -28,7 +28,7 @@ public:
     }
 
 private:
-    /// Each edge is looked at from its smaller end.
+    /// Each edge is examined from its smaller end.
     void join_round(VertexId v) {
         sides_.clear();
         mesh_.for_star(v, [&](FaceId f, int place) {
@@ -45,8 +45,8 @@ private:
         }
     }
 
-    /// The normal of v, w, apex points the way that the face would turn round the edge from v to w, toward its second
-    /// label.
+    /// The normal of v, w, apex points in the direction in which the face would turn around the edge from v to w,
+    /// toward its second label.
     void add(VertexId v, VertexId w, VertexId apex, FaceId f, bool has_order_of_face) {
         if (w < v) return;
         for (std::uint32_t k = 0; k < 2; ++k) {

@@ -1,4 +1,4 @@
-// Which sides of faces hang together?
+// Connected components of the sides of faces.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace regionmesh {
 
-/// The label of a side, all six sides of the exterior being one.
+/// The label of a side; all six exteriors count as one.
 inline Label label_of_side(const Mesh& mesh, std::uint32_t side) {
     const Label label = mesh[FaceId{side >> 1}].labels[side & 1];
     return is_exterior(label) ? exterior(0) : label;
 }
 
-/// Joins sides 2 f + k of faces (k: first or second label) across the edges round which their label goes on: two of a
-/// label at an edge; of more, those between which the label lies. Returns, by side, whether its label ends at one of
-/// its edges without going on.
+/// Joins sides 2 f + k of faces (k: first or second label) across edges where the boundary of their label continues:
+/// the two sides of a label at an edge; if there are more, those with the label between them. Returns, by side, whether
+/// the boundary ends at one of its edges.
 std::vector<bool> join_sides(const Mesh& mesh, UnionFind& joined);
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-// Which faces are near, where faces stay as they are? A tree of boxes that sorts them itself if need be.
+// A bounding volume hierarchy over faces that do not change. Sorts them itself if necessary.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace regionmesh {
 
-/// A tree of boxes over faces in order of id if that is spatial enough, as it is after Mesh::sort_spatially and strip
-/// by strip, else along a Morton curve. 14 bytes a face, and 4 where it has to sort. Made on several threads.
+/// A tree of boxes over faces in order of id if that order is spatial enough, as after Mesh::sort_spatially or strip by
+/// strip; otherwise along a Morton curve. 14 bytes per face, or 18 if it has to sort. Built on several threads.
 class SortedFaceTree {
 public:
-    /// Over all faces that are alive.
+    /// Contains all living faces.
     SortedFaceTree(const Mesh& mesh, std::uint32_t threads);
-    /// Over faces 0 .. face_end - 1, all in `extent`; one whose box is empty is not there.
+    /// Contains faces 0 .. face_end - 1, all within `extent`, except those with an empty box.
     SortedFaceTree(std::uint32_t face_end, const Box& extent, const std::function<Box(FaceId)>& box_of,
                    std::uint32_t threads);
 
-    /// Calls visit(FaceId) for every face that meets `box`, and maybe for some more. A visit that returns false ends
+    /// Calls visit(FaceId) for every face that meets `box`, and possibly for others. A visit that returns false ends
     /// the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const {
@@ -29,12 +29,12 @@ public:
     }
 
     std::size_t bytes() const { return boxes_.bytes() + faces_.capacity() * sizeof(FaceId); }
-    /// By place: every two faces that meet are among its pairs.
+    /// By place: its pairs include every two faces that meet.
     const GridTree& boxes() const { return boxes_; }
     FaceId face(std::uint32_t place) const { return faces_.empty() ? FaceId{place} : faces_[place]; }
 
 private:
-    std::vector<FaceId> faces_;  // by place; where there are none, the place is the id
+    std::vector<FaceId> faces_;  // by place; empty if places are ids
     GridTree boxes_;
 };
 

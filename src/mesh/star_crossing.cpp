@@ -9,11 +9,11 @@
 namespace regionmesh {
 namespace {
 
-/// A product of three vectors a . (b x c) whose value is more than this share of the product of their sizes has the
-/// sign computed: its rounding error is below 2e-15 of it.
+/// The sign of a . (b x c) is reliable if its absolute value exceeds this share of the product of the three sizes: the
+/// rounding error is below 2e-15 of that product.
 constexpr double kDoubt = 1e-12;
 
-/// Sizes between which no product of four overflows, or loses more than kDoubt where numbers get too small.
+/// Sizes for which no product of four overflows, or loses more than kDoubt by underflow.
 constexpr double kSmallest = 1e-60, kLargest = 1e60;
 
 bool is_usual(double size) { return size > kSmallest && size < kLargest; }
@@ -38,7 +38,7 @@ void StarCrossing::find(VertexId v, Vec3 at, std::span<const StarPage> pages, st
             all_proved = false;
         }
     }
-    // Of three labels any two faces have one in common, if each has two.
+    // With three labels, any two faces have a label in common if each has two different ones.
     if (!all_proved || is_odd_ || labels_.size() > 3) test_pairs(v, found);
 }
 
@@ -56,8 +56,8 @@ void StarCrossing::gather_labels() {
     }
 }
 
-/// Do the faces of the label go round the vertex, or a part of the way, side by side? A page is named by its place,
-/// doubled, and its side.
+/// Do the faces of the label form a closed or open fan without overlap? A page is named by its place, doubled, plus its
+/// side.
 bool StarCrossing::is_fan_simple(Label label) {
     fan_.clear();
     for (std::uint32_t n = 0; n < pages_.size(); ++n) {
@@ -69,7 +69,7 @@ bool StarCrossing::is_fan_simple(Label label) {
     return fan_.size() < 2 || (order_fan(fan_) && gather_spokes() && goes_round_once());
 }
 
-/// False where sizes are so unusual that nothing can be proved.
+/// Returns false for sizes at which nothing can be proved.
 bool StarCrossing::gather_spokes() {
     bool usual = true;
     spokes_.clear();
@@ -87,8 +87,8 @@ bool StarCrossing::gather_spokes() {
     return usual;
 }
 
-/// Seen from above, do all pages look up, and does none but the first (and the last, where the fan is closed) come to
-/// the ray with which the first begins? Then they lie side by side.
+/// Seen from above, do all pages face upward, and does none but the first (and the last, in a closed fan) touch the ray
+/// on which the first begins? Then they do not overlap.
 bool StarCrossing::goes_round_once() {
     const std::size_t count = fan_.size();
     normals_.clear();
@@ -99,15 +99,15 @@ bool StarCrossing::goes_round_once() {
     const double doubt = kDoubt * size(up) * spokes_[0].size;
     const std::size_t end = is_closed(fan_) ? count - 1 : count;
     for (std::size_t n = 1; n < end; ++n) {
-        // It begins left of the ray, or ends right of it: it turns by less than half a round.
+        // The page begins left of the ray or ends right of it, since it turns by less than 180 degrees.
         const Spoke &first = spokes_[n], &second = spokes_[n + 1];
         if (!(dot(left, first.to) > doubt * first.size) && !(dot(left, second.to) < -doubt * second.size)) return false;
     }
     return true;
 }
 
-/// A direction to which all pages look: the mean of their normals, or one drawn again and again to the page that looks
-/// away most (Rosenblatt 1958). Any will do that passes the test.
+/// A direction that all pages face: the mean of their normals, or, by Rosenblatt's perceptron (1958), moved repeatedly
+/// toward the page that faces it least. Any direction that passes the test will do.
 bool StarCrossing::find_up(Vec3& up) {
     up = Vec3{};
     for (Vec3 normal : normals_) up += normal;
@@ -140,7 +140,7 @@ bool StarCrossing::all_look(Vec3 up) const {
     return true;
 }
 
-/// Looks at the pairs that nothing has been proved of.
+/// Tests the pairs about which nothing is proved yet.
 void StarCrossing::test_pairs(VertexId v, std::vector<FacePair>& found) {
     gather_planes();
     for (std::size_t i = 0; i < pages_.size(); ++i) {
@@ -148,7 +148,7 @@ void StarCrossing::test_pairs(VertexId v, std::vector<FacePair>& found) {
             if ((proved_[i] & proved_[j]) != 0 || are_apart(i, j)) continue;
             const StarPage &f = pages_[i], &g = pages_[j];
             const bool share_a = f.a == g.a || f.a == g.b, share_b = f.b == g.a || f.b == g.b;
-            const bool is_earlier = (share_a && f.a < v) || (share_b && f.b < v);  // another vertex's pair
+            const bool is_earlier = (share_a && f.a < v) || (share_b && f.b < v);  // found at another vertex
             if (!is_earlier && cross_exactly(v, f, g))
                 found.push_back({std::min(f.face, g.face), std::max(f.face, g.face)});
         }
@@ -159,7 +159,7 @@ void StarCrossing::gather_planes() {
     planes_.clear();
     for (const StarPage& page : pages_) {
         const Vec3 a = page.at_a - at_, b = page.at_b - at_;
-        // What is of unusual size is on no side of anything.
+        // For sizes out of range the sides stay undecided.
         const bool usual = is_usual(size(a)) && is_usual(size(b));
         planes_.push_back({cross(a, b), {a, usual ? size(a) : HUGE_VAL}, {b, usual ? size(b) : HUGE_VAL}});
     }
@@ -170,7 +170,7 @@ int StarCrossing::Plane::side(const Spoke& spoke) const {
     return ahead > doubt ? 1 : ahead < -doubt ? -1 : 0;
 }
 
-/// One page lies on one side of the other's plane, but for the vertex or the edge that they share.
+/// Does one page lie on one side of the other's plane, except for the shared vertex or edge?
 bool StarCrossing::are_apart(std::size_t i, std::size_t j) const { return is_off(i, j) || is_off(j, i); }
 
 bool StarCrossing::is_off(std::size_t i, std::size_t j) const {

@@ -1,4 +1,4 @@
-// Do faces round one vertex meet outside what they share?
+// Do faces around one vertex meet outside shared vertices and edges?
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct FacePair {
     friend auto operator<=>(const FacePair&, const FacePair&) = default;
 };
 
-/// A face seen from the vertex in its middle: a then b go round it.
+/// A face seen from the central vertex: its other corners a, b in order around the vertex.
 struct StarPage {
     FaceId face;
     VertexId a, b;
@@ -29,26 +29,26 @@ struct StarPage {
 };
 
 /// Holds the scratch space of the test. Most stars are proved free of crossings as a whole: the faces of a label at a
-/// vertex are a fan, and if they all look to one side of a direction and go round it once, seen along it they lie side
-/// by side. Only pairs of faces that no such fan holds are looked at one by one, exactly.
+/// vertex form a fan; if all normals have a positive component along some direction and the fan turns once around it,
+/// the projections along it do not overlap. Only pairs outside such fans are tested one by one, exactly.
 class StarCrossing {
 public:
-    /// Adds each pair of faces of the star of v, or what is given of it, that meet outside what they share and share no
-    /// vertex before v: over all vertices each pair is found once. Faces without area meet none.
+    /// Adds each pair of faces of the (given part of the) star of v that meet outside shared vertices and edges and
+    /// share no vertex before v, so that over all vertices each pair is found once. Leaves out faces without area.
     void find(VertexId v, Vec3 at, std::span<const StarPage> pages, std::vector<FacePair>& found);
 
 private:
-    /// The way from the vertex to a neighbour.
+    /// The vector from the vertex to a neighbour.
     struct Spoke {
         Vec3 to;
         double size;
     };
-    /// The plane of a page, and the page in it.
+    /// A page and its plane.
     struct Plane {
         Vec3 normal;
         Spoke to_a, to_b;
 
-        /// The side on which a spoke lies; 0 where rounding may tell.
+        /// The side on which a spoke lies; 0 within the rounding error.
         int side(const Spoke& spoke) const;
     };
 
@@ -68,10 +68,10 @@ private:
     Vec3 at_;
     std::span<const StarPage> pages_;
     LabelSet labels_;
-    bool is_odd_ = false;                // a page has one label on both sides
+    bool is_odd_ = false;                // some page has one label on both sides
     std::vector<std::uint32_t> proved_;  // by page; bit n: its fan of label n of labels_ is free of crossings
     std::vector<FanPage> fan_;
-    std::vector<Spoke> spokes_;  // where each page of the fan begins, and where the last one ends
+    std::vector<Spoke> spokes_;  // at the start of each page of the fan, and at the end of the last
     std::vector<Vec3> normals_;
     std::vector<double> weights_;
     std::vector<Plane> planes_;

@@ -28,7 +28,7 @@ LabelSet edge_labels(const Mesh& mesh, VertexId u, VertexId v) {
         for (Label label : face.labels) set.add(label);
         uses += 2;
     });
-    // Round an edge in the inside of the surface every label has two faces.
+    // Around an interior edge every label has two faces.
     if (uses < 2 * set.size()) add_sides(set, mesh[u].sides & mesh[v].sides);
     return set;
 }
@@ -38,7 +38,7 @@ void count_labels(Mesh& mesh) {
         Vertex& vertex = mesh[VertexId{v}];
         if (!vertex.is_alive || vertex.star == kNoCorner) continue;
         const auto& first = mesh[FaceId{vertex.star >> 2}].labels;
-        bool is_interface = vertex.sides == 0 && first[0] != first[1];  // as most vertices are
+        bool is_interface = vertex.sides == 0 && first[0] != first[1];  // true for most vertices
         for (Corner c = vertex.star; c != kNoCorner && is_interface; c = mesh[FaceId{c >> 2}].next[c & 3])
             is_interface = mesh[FaceId{c >> 2}].labels == first;
         vertex.label_count = is_interface ? 2 : static_cast<std::uint8_t>(vertex_labels(mesh, VertexId{v}).size());

@@ -1,4 +1,4 @@
-// The stratum of a vertex or edge is its label set; exterior sides count (DESIGN 5).
+// The stratum of a vertex or edge is its label set; sides of the box count (docs/reference/glossary.md).
 #pragma once
 
 #include "mesh/label_set.h"
@@ -6,14 +6,14 @@
 
 namespace regionmesh {
 
-/// Labels of the faces round v, and the sides of the box that v lies on.
+/// The labels of the faces around v, and the sides of the box that v lies on.
 LabelSet vertex_labels(const Mesh& mesh, VertexId v);
 
-/// Labels of the faces at the edge. Where the surface ends there (a label has one face only: the box was not capped, or
-/// the faces of a background were not made), the sides that both ends lie on count too. Three or more: a *line*.
+/// The labels of the faces at the edge. If the surface ends there (a label has a single face: the box was not capped,
+/// or background has no faces to the exterior), sides that both ends lie on count too. Three or more labels: a *line*.
 LabelSet edge_labels(const Mesh& mesh, VertexId u, VertexId v);
 
-/// Sets Vertex::label_count of all vertices. It stays right as long as no stratum changes.
+/// Sets Vertex::label_count of all vertices. It stays valid as long as no stratum changes.
 void count_labels(Mesh& mesh);
 
 }  // namespace regionmesh

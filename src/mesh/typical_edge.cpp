@@ -1,8 +1,7 @@
-#include "regionmesh/typical_edge.h"
-
 #include <cmath>
 
 #include "base/triangle.h"
+#include "regionmesh/mesh.h"
 
 namespace regionmesh {
 

@@ -1,4 +1,4 @@
-// May this edge be collapsed? The tests of DESIGN 6 that need only the star of the edge and its neighbours.
+// May this edge be collapsed? The tests (docs/decimate.md) that need only the star of the edge and its neighbours.
 #pragma once
 
 #include "regionmesh/verdict.h"

@@ -1,4 +1,4 @@
-// Would the merged vertex's faces come too close to any other face? (P tests 2 and 6; DESIGN 6: `pinch`, `intersect`)
+// Would the merged vertex's faces come too close to any other face? (P tests 2 and 6: `pinch`, `intersect`)
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "regionmesh/smooth_options.h"
+#include "regionmesh/smooth.h"
 #include "smooth/surface_window.h"
 #include "smooth/tuning.h"
 

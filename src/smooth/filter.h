@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "regionmesh/smooth_options.h"
+#include "regionmesh/smooth.h"
 #include "smooth/chunk_stars.h"
 #include "smooth/neighbours.h"
 #include "smooth/surface_window.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "regionmesh/mesh.h"
-#include "regionmesh/smooth_options.h"
+#include "regionmesh/smooth.h"
 
 namespace regionmesh {
 

@@ -1,12 +1,11 @@
-#include "regionmesh/preserve_volume.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/triangle.h"
 #include "mesh/region_volumes.h"
-#include "regionmesh/typical_edge.h"
+#include "regionmesh/mesh.h"
+#include "regionmesh/smooth.h"
 #include "smooth/guarded_move.h"
 #include "smooth/region_matrix.h"
 #include "smooth/relax.h"

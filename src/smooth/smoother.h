@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "regionmesh/smooth_report.h"
+#include "regionmesh/smooth.h"
 #include "smooth/backtrack.h"
 #include "smooth/filter.h"
 #include "smooth/intersection_resolver.h"

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace regionmesh {
+#include "regionmesh/limits.h"
 
-/// Most faces that a mesh can have: they are numbered in 32 bits.
-inline constexpr std::uint64_t kMostFaces = std::numeric_limits<std::uint32_t>::max();
+namespace regionmesh {
 
 /// All that the budget depends on.
 struct BudgetDemand {

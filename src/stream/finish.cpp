@@ -1,6 +1,6 @@
 #include "stream/finish.h"
 
-#include "regionmesh/preserve_volume.h"
+#include "regionmesh/smooth.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {

@@ -1,7 +1,7 @@
 #include "stream/footprint.h"
 
 #include "cells/strip_mesher.h"
-#include "regionmesh/memory.h"
+#include "regionmesh/reconstruct.h"
 
 namespace regionmesh {
 

@@ -89,6 +89,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     give_back_freed_memory();
     result.report.pinned_vertices = simplify.release_all();
     source.place(result.mesh);
+    result.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     check_result(result, std::move(plan.oracle), options, log);
     result.report.final_faces = result.mesh.face_count();
     result.report.final_vertices = result.mesh.vertex_count();

@@ -13,7 +13,7 @@
 namespace regionmesh {
 
 /// Meshes may touch themselves, and where tetrahedra have the labels any number of regions may meet at a node. Such
-/// vertices are pinned, as fix_unsound() does in a whole mesh. Holds the faces of vertices that are not finalized.
+/// vertices are pinned, as lock_violations() does in a whole mesh. Holds the faces of vertices that are not finalized.
 class StarWatch {
 public:
     explicit StarWatch(const StripOptions& options);

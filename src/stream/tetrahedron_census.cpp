@@ -1,5 +1,4 @@
-#include "regionmesh/tetrahedron_census.h"
-
+#include "regionmesh/census.h"
 #include "stream/tetrahedron_faces.h"
 
 namespace regionmesh {

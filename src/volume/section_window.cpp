@@ -1,6 +1,7 @@
 #include "volume/section_window.h"
 
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 
@@ -12,10 +13,9 @@ SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader
                                                " sample along " + "xyz"[axis] +
                                                "; a cell needs two: give a volume with at least 2 x 2 x 2 samples");
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
-    constexpr std::size_t kMostSamples = 700'000'000;  // six table places each, counted in 32 bits
-    if (samples > kMostSamples)
+    if (samples > kMostSectionSamples)
         throw Error(ErrorCode::kInput, info.source + ": a section of " + std::to_string(samples) +
-                                           " samples is beyond " + std::to_string(kMostSamples) +
+                                           " samples is more than " + std::to_string(kMostSectionSamples) +
                                            "; choose another --sweep");
     input_.resize(samples);
     low_.resize(samples);

@@ -9,13 +9,13 @@
 
 namespace regionmesh {
 
-/// Pulls sections and hands out strips: the last two sections, numbered densely by a table that grows as it reads.
+/// Reads sections one by one and holds the last two, a strip, with labels numbered densely in order of appearance.
 class SectionWindow {
 public:
-    /// Throws Error(kInput) when the volume has no cell, or sections too large for the tables.
+    /// Throws Error(kInput) for a volume without a cell, or with more than kMostSectionSamples in a section.
     SectionWindow(SectionReader& reader, LabelTable& labels);
 
-    /// Reads on to the next strip; false when there is none.
+    /// Moves to the next strip; returns false at the end.
     bool advance();
 
     std::span<const Label> low() const { return low_; }

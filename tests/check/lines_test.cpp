@@ -1,4 +1,4 @@
-#include "regionmesh/lines.h"
+#include "check/lines.h"
 
 #include <gtest/gtest.h>
 

@@ -355,7 +355,7 @@ TEST_F(Cli, orient_turns_faces_and_check_says_where_they_are) {
     const std::string mesh = path("m.obj").string();
     const Ran ran = run("check " + mesh + " --json " + out("c.json"));
     EXPECT_EQ(ran.code, 3);
-    EXPECT_THAT(ran.out, HasSubstr("its two faces look opposite ways at (1, 0, 0)"));
+    EXPECT_THAT(ran.out, HasSubstr("its two faces pass it in the same direction at (1, 0, 0)"));
     EXPECT_THAT(ran.out, HasSubstr("--orient"));
     for (const char* said : {"\"at\": [", "\"labels\": ["}) EXPECT_THAT(text_of(out("c.json")), HasSubstr(said));
     EXPECT_EQ(run("check --orient " + mesh).code, 0);

@@ -1,4 +1,4 @@
-#include "regionmesh/statistics.h"
+#include "compare/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "boreholes/point_table.h"
 #include "formats/surface/tetrahedron_formats.h"
-#include "regionmesh/fix_unsound.h"
+#include "regionmesh/check.h"
 #include "regionmesh/label_names_file.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/read_sections.h"
@@ -84,7 +84,7 @@ void mesh(const fs::path& path, Random& random) {
     if (file.mesh.face_count() > kMostFaces) return;
     check(file.mesh, {.threads = 1});
     file.mesh.sort_spatially();
-    fix_unsound(file.mesh, {.threads = 1});
+    lock_violations(file.mesh, {.threads = 1});
     decimate(file.mesh, {.target_faces = file.mesh.face_count() / 4});
 }
 

@@ -161,6 +161,28 @@ TEST(Mesh, compact_faces_keeps_order_and_surface) {
     expect_stars_of_faces(mesh);
 }
 
+TEST(Mesh, compact_keeps_order_and_surface) {
+    Mesh mesh = grains();
+    for (std::uint32_t f = 0; f < mesh.face_end(); f += 2) mesh.remove_face(FaceId{f});
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        if (mesh[VertexId{v}].star == kNoCorner) mesh.remove_vertex(VertexId{v});
+    ASSERT_LT(mesh.vertex_count(), mesh.vertex_end());
+    std::vector<Vec3> expected_places, places;
+    std::vector<std::array<Vec3, 3>> expected, found;
+    test::for_vertices(mesh, [&](VertexId v) { expected_places.push_back(mesh.position(v)); });
+    test::for_faces(mesh, [&](FaceId f) { expected.push_back(mesh.corners(f)); });
+    mesh.compact();
+    EXPECT_EQ(mesh.vertex_end(), mesh.vertex_count());
+    EXPECT_EQ(mesh.face_end(), mesh.face_count());
+    test::for_vertices(mesh, [&](VertexId v) { places.push_back(mesh.position(v)); });
+    test::for_faces(mesh, [&](FaceId f) { found.push_back(mesh.corners(f)); });
+    EXPECT_EQ(places, expected_places);
+    EXPECT_EQ(found, expected);
+    expect_stars_of_faces(mesh);
+    const VertexId next{mesh.vertex_end()};
+    EXPECT_EQ(mesh.add_vertex({}), next) << "no free place is left";
+}
+
 TEST(Mesh, flip_faces_turns_every_face_and_nothing_else) {
     Mesh mesh = grains();
     const std::uint64_t before = test::surface_digest(mesh);

@@ -1,4 +1,4 @@
-// Whatever decimation does, the list of all strata stays (DESIGN 5).
+// Whatever decimation does, the list of all strata stays.
 #include <gtest/gtest.h>
 
 #include "regionmesh/simplify.h"

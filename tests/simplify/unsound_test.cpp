@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "regionmesh/fix_unsound.h"
+#include "regionmesh/check.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "support/damage.h"
@@ -51,7 +51,7 @@ TEST_P(Damaged, model_is_decimated_and_no_worse) {
         EXPECT_GT(before.violation_count(), 0u);
         const std::uint32_t faces = mesh.face_count();
         mesh.sort_spatially();
-        const FixedPart fixed = fix_unsound(mesh, {});
+        const LockedPart fixed = lock_violations(mesh, {});
         EXPECT_GT(fixed.vertices, 0u);
         EXPECT_LT(fixed.vertices, mesh.vertex_count() / 2) << "more than what is broken was fixed";
         decimate(mesh, {.target_faces = faces / 4});
@@ -68,7 +68,7 @@ TEST_P(Damaged, model_is_smoothed_and_no_worse) {
         for (const SmoothFilter filter : {SmoothFilter::kTaubin, SmoothFilter::kNifpms}) {
             Mesh mesh = mesh_of(seed);
             const CheckReport before = check(mesh);
-            fix_unsound(mesh, {});
+            lock_violations(mesh, {});
             const std::vector<Vec3> places = [&] {
                 std::vector<Vec3> all;
                 for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) all.push_back(mesh.position(VertexId{v}));
@@ -90,7 +90,8 @@ TEST(Unsound, nothing_is_fixed_in_a_sound_model) {
             options.cap = cap;
             options.background = {0, 3};
             Reconstruction made = test::run(test::noise_volume({7, 6, 5}, 5, seed), options);
-            EXPECT_EQ(fix_unsound(made.mesh, {.boundary_is_open = !cap, .background = made.background}).vertices, 0u);
+            EXPECT_EQ(lock_violations(made.mesh, {.boundary_is_open = !cap, .background = made.background}).vertices,
+                      0u);
         }
     }
 }
@@ -115,7 +116,7 @@ TEST(Unsound, edge_of_four_regions_is_found_and_stays) {
     const CheckReport report = check(mesh);
     EXPECT_EQ(report.violation_count(), 2u);
     EXPECT_EQ(report.counts[static_cast<int>(ViolationKind::kNonGenericVertex)], 2u);
-    fix_unsound(mesh, {});
+    lock_violations(mesh, {});
     EXPECT_TRUE(mesh[VertexId{0}].is_fixed && mesh[VertexId{1}].is_fixed);
     EXPECT_FALSE(mesh[VertexId{2}].is_fixed);
 }
@@ -132,7 +133,7 @@ TEST(Unsound, two_regions_that_touch_in_a_point_are_found) {
     EXPECT_EQ(report.violations[0].kind, ViolationKind::kNonGenericVertex);
     EXPECT_EQ(report.violations[0].at, (Vec3{0, 0, 0}));
     EXPECT_EQ(report.violations[0].labels, (std::vector<Label>{0, 2, exterior(0)}));
-    EXPECT_EQ(fix_unsound(mesh, {}).vertices, 1u);
+    EXPECT_EQ(lock_violations(mesh, {}).vertices, 1u);
 }
 
 /// Any faces between any vertices; in every second soup many vertices coincide and many faces are degenerate.
@@ -156,10 +157,10 @@ TEST(Unsound, soups_of_faces_are_told_and_come_to_no_harm) {
         Mesh mesh = soup(seed), smoothed = soup(seed);
         const CheckReport before = check(mesh, {.threads = 1});
         mesh.sort_spatially();
-        fix_unsound(mesh, {.threads = 1});
+        lock_violations(mesh, {.threads = 1});
         decimate(mesh, {.target_faces = 0});
         expect_no_worse(before, check(mesh, {.threads = 1}));
-        fix_unsound(smoothed, {.threads = 1});
+        lock_violations(smoothed, {.threads = 1});
         smooth(smoothed, {.threads = 1});
         expect_no_worse(before, check(smoothed, {.threads = 1}));
     }

@@ -1,5 +1,3 @@
-#include "regionmesh/preserve_volume.h"
-
 #include <gtest/gtest.h>
 
 #include "mesh/region_volumes.h"

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "regionmesh/census.h"
 #include "regionmesh/error.h"
 #include "regionmesh/smooth.h"
-#include "regionmesh/tetrahedron_census.h"
 #include "support/digest.h"
 #include "support/meshes.h"
 #include "support/runs.h"

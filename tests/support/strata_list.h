@@ -1,4 +1,4 @@
-// All strata of a model, in words that decimation may not change (DESIGN 5).
+// All strata of a model, in words that decimation may not change.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ StrataList list_strata(const Mesh& mesh);
 /// Fails with one line for each stratum that differs.
 void expect_same_strata(const StrataList& found, const StrataList& expected);
 
-/// Fails unless every vertex has two, three or four labels, and as many lines end there as labels make (DESIGN 4): none
+/// Fails unless every vertex has two, three or four labels, and as many lines end there as labels make: none
 /// inside an interface, two on a line, four at a point, three at a corner of the box. Requires a capped box.
 void expect_generic(const Mesh& mesh);
 

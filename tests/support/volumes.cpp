@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "base/hash.h"
+#include "regionmesh/array_sections.h"
 
 namespace regionmesh::test {
 namespace {
@@ -37,19 +38,14 @@ InputLabel ArrayVolume::at(std::uint32_t x, std::uint32_t y, std::uint32_t z) co
 }
 
 bool ArrayVolume::next(std::span<InputLabel> section) {
-    if (section_ == section_count()) return false;
-    const auto& axes = info_.sweep.axes;
-    Size at{};
-    at[axes[2]] = section_++;
-    std::size_t n = 0;
-    for (at[axes[1]] = 0; at[axes[1]] < section_height(); ++at[axes[1]])
-        for (at[axes[0]] = 0; at[axes[0]] < section_width(); ++at[axes[0]])
-            section[n++] = this->at(at[0], at[1], at[2]);
-    return true;
+    constexpr std::array kChoices{SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
+    if (!reader_) reader_ = open_array(label_array(labels_.data(), size()), {.sweep = kChoices[info_.sweep.axes[2]]});
+    return reader_->next(section);
 }
 
 ArrayVolume& ArrayVolume::swept(Sweep sweep) {
     info_.sweep = sweep;
+    reader_.reset();
     return *this;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,15 +13,18 @@ namespace regionmesh::test {
 
 using Size = std::array<std::uint32_t, 3>;
 
-/// Labels in memory, handed out section by section along any sweep.
+/// Labels in memory and the library's reader of arrays: what a test changes in the lattice or the sweep holds for the
+/// sections that follow.
 class ArrayVolume : public SectionReader {
 public:
     /// Labels with x fastest, then y.
     ArrayVolume(Size size, std::vector<InputLabel> labels);
+    ArrayVolume(const ArrayVolume& other) : info_(other.info_), labels_(other.labels_) {}
+    ArrayVolume(ArrayVolume&& other) = default;
 
     const VolumeInfo& info() const override { return info_; }
     bool next(std::span<InputLabel> section) override;
-    void rewind() override { section_ = 0; }
+    void rewind() override { reader_.reset(); }
 
     Lattice& lattice() { return info_.lattice; }
     ArrayVolume& swept(Sweep sweep);
@@ -35,7 +39,7 @@ public:
 private:
     VolumeInfo info_;
     std::vector<InputLabel> labels_;
-    std::uint32_t section_ = 0;
+    std::unique_ptr<SectionReader> reader_;  // made for the first section
 };
 
 /// One list of rows a section, one character a sample: {{"112", "122"}, {"111", "111"}}. 0-9, then a = 10 and so on.

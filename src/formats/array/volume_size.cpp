@@ -4,30 +4,17 @@
 #include <limits>
 
 #include "formats/input_file.h"
+#include "volume/choose_sweep.h"
 
 namespace regionmesh::formats {
 namespace {
 
-constexpr std::array<Sweep, 3> kSweeps{kSweepX, kSweepY, kSweepZ};
-
-std::uint64_t section_samples(const VolumeInfo& info, const Sweep& sweep) {
-    return std::uint64_t{info.lattice.size[sweep.axes[0]]} * info.lattice.size[sweep.axes[1]];
-}
-
-Sweep choose_sweep(const VolumeInfo& info, SweepChoice choice, const std::string& remedy) {
-    if (choice != SweepChoice::kAuto) {
-        const int axis = choice == SweepChoice::kX ? 0 : choice == SweepChoice::kY ? 1 : 2;
-        if (!info.can_sweep[axis]) {
-            fail(info.source, std::string("cannot be read along ") + "xyz"[axis] + ", only along z; " + remedy);
-        }
-        return kSweeps[axis];
-    }
-    Sweep best = kSweepZ;
-    for (const int axis : {1, 0}) {
-        if (info.can_sweep[axis] && section_samples(info, kSweeps[axis]) < section_samples(info, best))
-            best = kSweeps[axis];
-    }
-    return best;
+Sweep required_sweep(const VolumeInfo& info, SweepChoice choice, const std::string& remedy) {
+    const std::optional<Sweep> sweep = choose_sweep(info, choice);
+    if (!sweep)
+        fail(info.source,
+             std::string("cannot be read along ") + "xyz"[static_cast<int>(choice) - 1] + ", only along z; " + remedy);
+    return *sweep;
 }
 
 }  // namespace
@@ -82,7 +69,7 @@ void apply_options(VolumeInfo& info, const ReadOptions& options, const std::stri
         }
         info.lattice.spacing = *options.spacing;
     }
-    info.sweep = choose_sweep(info, options.sweep, remedy);
+    info.sweep = required_sweep(info, options.sweep, remedy);
     const std::uint64_t samples = section_samples(info, info.sweep);
     if (samples > kMaxSectionSamples) {
         fail(info.source, "a section has " + std::to_string(samples) + " samples, more than 2^31; crop the volume");

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/surface/file_view.h"
+#include "mesh/file_view.h"
 
 namespace regionmesh {
 

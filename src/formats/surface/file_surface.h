@@ -11,9 +11,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/assemble.h"
 #include "formats/codec/byte_reader.h"
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
@@ -32,10 +34,6 @@ struct FileSurface {
 
 /// The lowest node type (of DREAM.3D) of vertices on the box or hull.
 inline constexpr std::int64_t kFirstHullType = 10;
-
-/// Limits of a Mesh: a corner packs a face id and a place into 32 bits.
-inline constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) - 1;
-inline constexpr std::uint64_t kMostVertices = (std::uint64_t{1} << 32) - 1;
 
 inline bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/surface/file_surface.h"
-#include "formats/surface/file_view.h"
+#include "mesh/file_view.h"
 #include "regionmesh/label.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"

@@ -9,6 +9,7 @@
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/vtk/label_array.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh::formats {
 namespace {

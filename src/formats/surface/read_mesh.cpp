@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +11,9 @@
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/text/natural_order.h"
+#include "mesh/assemble.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
@@ -80,79 +78,14 @@ FileSurface read_surface(const std::filesystem::path& path) {
                                     path.extension().string(), extensions()));
 }
 
-Box bounding_box(const FileSurface& surface) {
-    Box box;
-    for (const auto& face : surface.faces)
-        for (const std::uint32_t v : face) box.add(surface.points[v]);
-    return box;
-}
-
-// The side of the box in whose plane the face lies, exactly.
-std::optional<int> side_of_face(const FileSurface& surface, const std::array<std::uint32_t, 3>& face, const Box& box) {
-    for (int side = 0; side < 6; ++side) {
-        const int axis = side / 2;
-        const double plane = (side % 2 == 0 ? box.low : box.high)[axis];
-        if (std::ranges::all_of(face, [&](std::uint32_t v) { return surface.points[v][axis] == plane; })) return side;
-    }
-    return std::nullopt;
-}
-
-// Whether all faces with the exterior lie in the planes of the box, and no more than four labels meet on an edge
-// or corner of it, with those of sides. Else (the lattice was turned, or cells of a mesh had the labels) the exterior
-// is taken as a whole: side 0, and no vertex is on a side; or kHull, where node types say what lies on it.
-bool exterior_is_box(const FileSurface& surface, const Box& box) {
-    std::vector<SideSet> sides(surface.points.size());
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-        if (std::ranges::count(surface.labels[f], surface.exterior_label) == 0) continue;
-        const auto side = side_of_face(surface, surface.faces[f], box);
-        if (!side) return false;
-        for (const std::uint32_t v : surface.faces[f]) sides[v] |= static_cast<SideSet>(1u << *side);
-    }
-    // Corners of the box are few.
-    constexpr int kMostLabels = 4;
-    std::map<std::uint32_t, std::set<InputLabel>> labels_of;
-    for (std::uint32_t v = 0; v < sides.size(); ++v)
-        if (std::popcount(sides[v]) > 1) labels_of[v];
-    for (std::size_t f = 0; f < surface.faces.size(); ++f)
-        for (const std::uint32_t v : surface.faces[f])
-            if (std::popcount(sides[v]) > 1)
-                for (const InputLabel label : surface.labels[f])
-                    if (label != surface.exterior_label) labels_of[v].insert(label);
-    return std::ranges::all_of(labels_of, [&](const auto& item) {
-        return static_cast<int>(item.second.size()) + std::popcount(sides[item.first]) <= kMostLabels;
-    });
-}
-
-MeshFile assemble(const FileSurface& surface) {
-    MeshFile file{.mesh = {}, .labels = LabelTable(), .names = surface.names};
-    Mesh& mesh = file.mesh;
-    mesh.reserve(surface.points.size(), surface.faces.size());
-    for (const Vec3& point : surface.points) mesh.add_vertex(point);
-    const Box box = bounding_box(surface);
-    const bool has_sides = exterior_is_box(surface, box);
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-        const auto& [a, b, c] = surface.faces[f];
-        std::array<Label, 2> labels;
-        for (int i = 0; i < 2; ++i) {
-            const InputLabel label = surface.labels[f][i];
-            if (label != surface.exterior_label) {
-                labels[i] = file.labels.dense(label);
-                continue;
-            }
-            if (!has_sides) {
-                labels[i] = exterior(surface.is_on_hull.empty() ? 0 : kHull);
-                continue;
-            }
-            const int side = *side_of_face(surface, surface.faces[f], box);
-            labels[i] = exterior(side);
-            for (const std::uint32_t v : surface.faces[f]) mesh[VertexId{v}].sides |= static_cast<SideSet>(1u << side);
-        }
-        mesh.add_face(VertexId{a}, VertexId{b}, VertexId{c}, labels[0], labels[1]);
-    }
-    // Where no face tells on which side of the box a vertex is, it may be on an open one, or a hull of another shape.
-    for (std::uint32_t v = 0; v < surface.is_on_hull.size(); ++v)
-        if (surface.is_on_hull[v] && mesh[VertexId{v}].sides == 0) mesh[VertexId{v}].sides = kOnHull;
-    return file;
+MeshFile assemble(FileSurface&& surface) {
+    MeshArrays arrays{.points = std::move(surface.points),
+                      .faces = std::move(surface.faces),
+                      .labels = std::move(surface.labels),
+                      .exterior_label = surface.exterior_label};
+    for (const bool is_on_hull : surface.is_on_hull) arrays.node_types.push_back(is_on_hull ? kFirstHullType : 0);
+    auto [mesh, labels] = regionmesh::assemble(arrays);
+    return {.mesh = std::move(mesh), .labels = std::move(labels), .names = std::move(surface.names)};
 }
 
 }  // namespace
@@ -165,7 +98,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& opt
     }
     if (options.weld || surface.is_by_region) join_back_to_back(surface);
     if (options.orient) orient_faces(surface);
-    return assemble(surface);
+    return assemble(std::move(surface));
 }
 
 }  // namespace regionmesh

@@ -6,12 +6,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "regionmesh/limits.h"
 #include "regionmesh/read_tetrahedra.h"
 
 namespace regionmesh::formats {
-
-/// Points are counted in 32 bits; the core keeps the highest number for itself.
-inline constexpr std::uint64_t kMostPoints = 0xFFFFFFFEu;
 
 inline bool has_repeated_corner(const std::array<std::uint32_t, 4>& c) {
     return c[0] == c[1] || c[0] == c[2] || c[0] == c[3] || c[1] == c[2] || c[1] == c[3] || c[2] == c[3];

@@ -1,4 +1,4 @@
-// A mesh as the writers of files see it.
+// A mesh as files and arrays hold it.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace regionmesh {
 
-/// A face as in files: dense vertex numbers, input labels, normal from the first label to the second.
+/// A face with dense vertex numbers and input labels; its normal points from the first label to the second.
 struct FileFace {
     std::array<std::uint32_t, 3> vertices;
     std::array<InputLabel, 2> labels;
 };
 
-/// The living vertices and faces of a mesh in the order of their ids. Each face is oriented so that its labels are in
-/// the order of files: ascending, then background, then the exterior. Holds references.
+/// The living vertices and faces in order of id. Each face is turned so that its labels are in the order of files: the
+/// smaller label first, background after all others, the exterior last. Holds references to its arguments.
 class FileView {
 public:
     FileView(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background);
@@ -31,18 +31,18 @@ public:
     const LabelNames& names() const { return names_; }
     InputLabel exterior_label() const { return exterior_label_; }
     FileFace face(FaceId f) const;
-    /// Whether files have the labels of the face, and so its vertices, in the opposite order of the mesh.
+    /// Do files have the labels of the face, and hence its vertices, in the opposite order?
     bool is_turned(FaceId f) const { return rank(mesh_[f].labels[0]) > rank(mesh_[f].labels[1]); }
     /// The number of a vertex in the file.
     std::uint32_t number(VertexId v) const { return numbers_.empty() ? index(v) : numbers_[index(v)]; }
-    /// The rank of a dense label in the order of files; all exterior labels have the same rank.
+    /// The place of a dense label in the order of files; all exteriors have the same place.
     std::uint32_t rank(Label label) const { return is_exterior(label) ? kFirstExterior : ranks_[label]; }
     /// Labels in the order of files, background last.
     std::vector<Label> ordered_labels() const;
     bool is_background(Label label) const { return rank(label) >= region_ranks_; }
-    /// The label as text, with the sign of the input.
+    /// Text of the input label, with its signedness.
     std::string label_text(Label label) const;
-    /// The name of a label; empty where it has none.
+    /// The name of a label; empty if it has none.
     std::string name(Label label) const;
     /// Calls visit(label, name) for each label that has a name, in the order of files.
     template <class Visit>
@@ -50,7 +50,8 @@ public:
         for (const Label label : ordered_labels())
             if (const std::string text = name(label); !text.empty()) visit(label, text);
     }
-    /// The number of labels at the vertex, 2 to 4, where each side of the box counts as one; plus 10 on the box.
+    /// The number of labels around the vertex, 2, 3 or 4, each side of the box that it lies on included; +10 on the
+    /// box.
     std::uint8_t node_type(VertexId v) const;
 
     template <class Visit>
@@ -70,8 +71,8 @@ private:
     const LabelNames& names_;
     InputLabel exterior_label_;
     std::uint32_t region_ranks_ = 0;      // ranks from here on are background or exterior
-    std::vector<std::uint32_t> ranks_;    // by dense label
-    std::vector<std::uint32_t> numbers_;  // by vertex id; empty where numbers equal ids
+    std::vector<std::uint32_t> ranks_;    // by dense label: place in the order of files
+    std::vector<std::uint32_t> numbers_;  // by vertex id: number in the file; empty if ids are the numbers
 };
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-#include "formats/surface/file_view.h"
+#include "mesh/file_view.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,3 @@
-#include "regionmesh/fix_unsound.h"
-
 #include <algorithm>
 
 #include "base/exact_predicates.h"
@@ -7,6 +5,7 @@
 #include "check/findings.h"
 #include "check/generic_star.h"
 #include "mesh/crossing.h"
+#include "regionmesh/check.h"
 
 namespace regionmesh {
 namespace {
@@ -32,7 +31,7 @@ void fix_stars(Mesh& mesh, const CheckOptions& options) {
 
 }  // namespace
 
-FixedPart fix_unsound(Mesh& mesh, const CheckOptions& options) {
+LockedPart lock_violations(Mesh& mesh, const CheckOptions& options) {
     fix_stars(mesh, options);
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
         if (!mesh.is_alive(FaceId{f})) continue;
@@ -43,7 +42,7 @@ FixedPart fix_unsound(Mesh& mesh, const CheckOptions& options) {
         fix_corners(mesh, f);
         fix_corners(mesh, g);
     }
-    FixedPart fixed;
+    LockedPart fixed;
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
         fixed.vertices += mesh.is_alive(VertexId{v}) && mesh[VertexId{v}].is_fixed;
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {

@@ -1,0 +1,143 @@
+#include "regionmesh/mesh_arrays.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "mesh/assemble.h"
+#include "mesh/file_view.h"
+#include "regionmesh/error.h"
+#include "regionmesh/limits.h"
+
+namespace regionmesh {
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+[[noreturn]] void refuse(const std::string& text) { throw Error(ErrorCode::kInput, "arrays: " + text); }
+
+void require_consistent(const MeshArrays& arrays) {
+    const std::size_t points = arrays.points.size(), faces = arrays.faces.size();
+    require_mesh_size("arrays", points, faces);
+    if (arrays.labels.size() != faces)
+        refuse(std::to_string(faces) + " faces, but " + std::to_string(arrays.labels.size()) +
+               " pairs of labels; give one pair for each face");
+    if (!arrays.node_types.empty() && arrays.node_types.size() != points)
+        refuse(std::to_string(points) + " points, but " + std::to_string(arrays.node_types.size()) +
+               " node types; give one for each point, or none");
+    for (std::size_t n = 0; n < points; ++n)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(arrays.points[n][axis]))
+                refuse("point " + std::to_string(n) + " is not finite; give three numbers");
+    for (std::size_t f = 0; f < faces; ++f)
+        for (const std::uint32_t v : arrays.faces[f])
+            if (v >= points)
+                refuse("face " + std::to_string(f) + " names point " + std::to_string(v) + " of " +
+                       std::to_string(points) + "; count points from 0");
+}
+
+Box bounding_box(const MeshArrays& arrays) {
+    Box box;
+    for (const Corners& face : arrays.faces)
+        for (const std::uint32_t v : face) box.add(arrays.points[v]);
+    return box;
+}
+
+/// The side of the box whose plane contains the face, exactly.
+std::optional<int> side_of_face(const MeshArrays& arrays, const Corners& face, const Box& box) {
+    for (int side = 0; side < 6; ++side) {
+        const int axis = side / 2;
+        const double plane = (side % 2 == 0 ? box.low : box.high)[axis];
+        if (std::ranges::all_of(face, [&](std::uint32_t v) { return arrays.points[v][axis] == plane; })) return side;
+    }
+    return std::nullopt;
+}
+
+/// Do all faces to the exterior lie in planes of the box, and do at most four labels, sides included, meet on its edges
+/// and corners? Otherwise the lattice was oblique, or cells of a mesh had the labels.
+bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
+    std::vector<SideSet> sides(arrays.points.size());
+    for (std::size_t f = 0; f < arrays.faces.size(); ++f) {
+        if (std::ranges::count(arrays.labels[f], arrays.exterior_label) == 0) continue;
+        const auto side = side_of_face(arrays, arrays.faces[f], box);
+        if (!side) return false;
+        for (const std::uint32_t v : arrays.faces[f]) sides[v] |= static_cast<SideSet>(1u << *side);
+    }
+    // Vertices on edges of the box are few, so a map is cheap.
+    constexpr int kMostLabels = 4;
+    std::map<std::uint32_t, std::set<InputLabel>> labels_of;
+    for (std::uint32_t v = 0; v < sides.size(); ++v)
+        if (std::popcount(sides[v]) > 1) labels_of[v];
+    for (std::size_t f = 0; f < arrays.faces.size(); ++f)
+        for (const std::uint32_t v : arrays.faces[f])
+            if (std::popcount(sides[v]) > 1)
+                for (const InputLabel label : arrays.labels[f])
+                    if (label != arrays.exterior_label) labels_of[v].insert(label);
+    return std::ranges::all_of(labels_of, [&](const auto& item) {
+        return static_cast<int>(item.second.size()) + std::popcount(sides[item.first]) <= kMostLabels;
+    });
+}
+
+}  // namespace
+
+LabelledMesh assemble(const MeshArrays& arrays) {
+    LabelledMesh made{.mesh = {}, .labels = LabelTable(arrays.is_unsigned)};
+    Mesh& mesh = made.mesh;
+    mesh.reserve(arrays.points.size(), arrays.faces.size());
+    for (const Vec3& point : arrays.points) mesh.add_vertex(point);
+    const Box box = bounding_box(arrays);
+    const bool has_sides = exterior_is_box(arrays, box);
+    for (std::size_t f = 0; f < arrays.faces.size(); ++f) {
+        std::array<Label, 2> labels;
+        for (int i = 0; i < 2; ++i) {
+            const InputLabel label = arrays.labels[f][i];
+            if (label != arrays.exterior_label) {
+                labels[i] = made.labels.dense(label);
+                continue;
+            }
+            if (!has_sides) {
+                labels[i] = exterior(arrays.node_types.empty() ? 0 : kHull);
+                continue;
+            }
+            const int side = *side_of_face(arrays, arrays.faces[f], box);
+            labels[i] = exterior(side);
+            for (const std::uint32_t v : arrays.faces[f]) mesh[VertexId{v}].sides |= static_cast<SideSet>(1u << side);
+        }
+        const auto& [a, b, c] = arrays.faces[f];
+        mesh.add_face(VertexId{a}, VertexId{b}, VertexId{c}, labels[0], labels[1]);
+    }
+    // A vertex without a face on a side of the box may lie on a side that is not capped, or on a hull of another shape.
+    for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
+        if (arrays.node_types[v] >= kFirstHullType && mesh[VertexId{v}].sides == 0) mesh[VertexId{v}].sides = kOnHull;
+    return made;
+}
+
+LabelledMesh import_arrays(const MeshArrays& arrays) {
+    require_consistent(arrays);
+    return assemble(arrays);
+}
+
+MeshArrays export_arrays(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background) {
+    const FileView view(mesh, labels, background);
+    MeshArrays arrays{.exterior_label = view.exterior_label(), .is_unsigned = labels.is_unsigned()};
+    arrays.points.reserve(mesh.vertex_count());
+    arrays.node_types.reserve(mesh.vertex_count());
+    view.for_vertices([&](VertexId v) {
+        arrays.points.push_back(mesh.position(v));
+        arrays.node_types.push_back(view.node_type(v));
+    });
+    arrays.faces.reserve(mesh.face_count());
+    arrays.labels.reserve(mesh.face_count());
+    view.for_faces([&](FaceId f) {
+        const FileFace face = view.face(f);
+        arrays.faces.push_back(face.vertices);
+        arrays.labels.push_back(face.labels);
+    });
+    return arrays;
+}
+
+}  // namespace regionmesh

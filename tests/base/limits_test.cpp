@@ -1,0 +1,66 @@
+#include "regionmesh/limits.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mesh/bytes_per_face.h"
+#include "regionmesh/error.h"
+#include "regionmesh/mesh.h"
+#include "stream/memory_plan.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::HasSubstr;
+
+std::string refusal(std::uint64_t vertices, std::uint64_t faces) {
+    try {
+        require_mesh_size("m.ply", vertices, faces);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kInput);
+        return error.what();
+    }
+    return "not refused";
+}
+
+TEST(Limits, a_corner_of_the_last_face_fits_into_32_bits) {
+    const std::uint64_t last = (kMostFaces - 1) * 4 + 2;
+    EXPECT_LT(last, kNoCorner);
+    EXPECT_EQ(static_cast<Corner>(last) >> 2, kMostFaces - 1);
+    EXPECT_LE(kMostFaces, std::uint64_t{1} << 30);
+}
+
+TEST(Limits, the_last_vertex_is_not_the_id_of_none) { EXPECT_LE(kMostVertices - 1, index(kNoVertex) - 1); }
+
+TEST(Limits, are_guarded_with_one_line) {
+    EXPECT_EQ(refusal(kMostVertices, kMostFaces), "not refused");
+    EXPECT_THAT(refusal(3, kMostFaces + 1), HasSubstr("m.ply: 1073741824 faces, more than 1073741823"));
+    EXPECT_THAT(refusal(kMostVertices + 1, 1), HasSubstr("m.ply: 4294967296 vertices, more than 4294967295"));
+}
+
+TEST(Limits, a_mesh_makes_no_room_beyond_them) {
+    Mesh mesh;
+    EXPECT_THROW(mesh.reserve(0, kMostFaces + 1), Error);
+    EXPECT_THROW(mesh.reserve(kMostVertices + 1, 0), Error);
+    EXPECT_NO_THROW(mesh.reserve(10, 10));
+}
+
+TEST(Limits, a_plan_of_memory_expects_no_more_faces_than_a_mesh_can_hold) {
+    MemoryDemand demand{
+        .lattice = {.size = {10, 10, 10}}, .sweep = kSweepZ, .strip_faces = std::vector<std::uint64_t>(9, 100)};
+    demand.asked_budget = kMostFaces * 10;
+    EXPECT_EQ(plan_memory(std::uint64_t{1} << 50, demand).face_budget(0), kMostFaces);
+}
+
+TEST(BytesPerFace, follow_from_the_structs) {
+    EXPECT_EQ(mesh_bytes_per_face(), 48u);
+    EXPECT_EQ(chunk_bytes_per_face(), 20u + 16u);
+    Mesh mesh;
+    for (int n = 0; n < 100; ++n) mesh.add_vertex({double(n), 0, 0});
+    for (std::uint32_t n = 0; n < 200; ++n)
+        mesh.add_face(VertexId{n % 100}, VertexId{(n + 1) % 100}, VertexId{(n + 2) % 100}, 0, 1);
+    EXPECT_EQ(mesh.bytes(), 200 * mesh_bytes_per_face());
+}
+
+}  // namespace
+}  // namespace regionmesh

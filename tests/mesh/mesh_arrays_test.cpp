@@ -1,0 +1,142 @@
+#include "regionmesh/mesh_arrays.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "regionmesh/error.h"
+#include "regionmesh/simplify.h"
+#include "support/runs.h"
+#include "support/shapes.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Reconstruction grains(InputLabel first = 0) { return test::run(test::grain_volume({8, 7, 6}, 5, 4, first)); }
+
+void expect_equal(const MeshArrays& a, const MeshArrays& b) {
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.faces, b.faces);
+    EXPECT_EQ(a.labels, b.labels);
+    EXPECT_EQ(a.node_types, b.node_types);
+    EXPECT_EQ(a.exterior_label, b.exterior_label);
+    EXPECT_EQ(a.is_unsigned, b.is_unsigned);
+}
+
+TEST(MeshArrays, come_back_as_the_same_mesh) {
+    const Reconstruction made = grains();
+    const MeshArrays arrays = export_arrays(made.mesh, made.labels);
+    EXPECT_EQ(arrays.points.size(), made.mesh.vertex_count());
+    EXPECT_EQ(arrays.faces.size(), made.mesh.face_count());
+    const LabelledMesh back = import_arrays(arrays);
+    expect_equal(export_arrays(back.mesh, back.labels), arrays);
+    EXPECT_EQ(back.mesh.vertex_count(), made.mesh.vertex_count());
+    for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v)
+        EXPECT_EQ(back.mesh[VertexId{v}].sides, made.mesh[VertexId{v}].sides) << "sides of the box are found again";
+    test::expect_sound(check(back.mesh));
+}
+
+TEST(MeshArrays, simplify_without_a_file) {
+    const Reconstruction made = grains();
+    LabelledMesh mesh = import_arrays(export_arrays(made.mesh, made.labels));
+    const std::uint32_t before = mesh.mesh.face_count();
+    decimate(mesh.mesh, {.target_faces = before / 2});
+    const MeshArrays arrays = export_arrays(mesh.mesh, mesh.labels);
+    EXPECT_LE(arrays.faces.size(), before / 2);
+    test::expect_sound(check(import_arrays(arrays).mesh));
+}
+
+TEST(MeshArrays, count_living_vertices_and_faces_only) {
+    Mesh mesh = test::octahedron();
+    LabelTable labels;
+    for (const InputLabel label : {5, 7}) labels.dense(label);
+    mesh.remove_vertex(mesh.add_vertex({9, 9, 9}));
+    mesh.add_vertex({8, 8, 8});
+    mesh.remove_face(FaceId{0});
+    const MeshArrays arrays = export_arrays(mesh, labels);
+    EXPECT_EQ(arrays.points.size(), 7u);
+    EXPECT_EQ(arrays.faces.size(), 7u);
+    EXPECT_EQ(arrays.points[6], (Vec3{8, 8, 8}));
+}
+
+TEST(MeshArrays, have_the_smaller_label_first_and_background_second) {
+    const Reconstruction made = grains();
+    const MeshArrays arrays = export_arrays(made.mesh, made.labels);
+    for (const auto& [first, second] : arrays.labels) EXPECT_TRUE(first < second || second == -1);
+    const std::vector<Label> background{LabelTable(made.labels).dense(0)};
+    for (const auto& [first, second] : export_arrays(made.mesh, made.labels, background).labels) {
+        EXPECT_TRUE(first != 0 || second == -1) << "background is second, except before the exterior";
+    }
+}
+
+TEST(MeshArrays, keep_negative_labels_and_find_another_exterior) {
+    const Reconstruction made = grains(-3);
+    const MeshArrays arrays = export_arrays(made.mesh, made.labels);
+    EXPECT_EQ(arrays.exterior_label, -4);
+    const LabelledMesh back = import_arrays(arrays);
+    expect_equal(export_arrays(back.mesh, back.labels), arrays);
+    for (Label label = 0; label < back.labels.size(); ++label) EXPECT_NE(back.labels.input(label), -4);
+}
+
+TEST(MeshArrays, keep_labels_of_64_bits) {
+    constexpr auto kHighest = std::numeric_limits<std::int64_t>::max();
+    for (const bool is_unsigned : {false, true}) {
+        LabelTable labels(is_unsigned);
+        // As unsigned numbers -2 is the greater one.
+        for (const InputLabel label : {InputLabel{-2}, kHighest}) labels.dense(label);
+        const MeshArrays arrays = export_arrays(test::octahedron(), labels);
+        if (is_unsigned)
+            EXPECT_THAT(arrays.labels, Each(ElementsAre(kHighest, -2)));
+        else
+            EXPECT_THAT(arrays.labels, Each(ElementsAre(-2, kHighest)));
+        const LabelledMesh back = import_arrays(arrays);
+        EXPECT_EQ(back.labels.is_unsigned(), is_unsigned);
+        expect_equal(export_arrays(back.mesh, back.labels), arrays);
+    }
+}
+
+TEST(MeshArrays, of_node_types_mark_what_lies_on_a_hull) {
+    MeshArrays arrays{.points = test::kTetrahedronCorners};
+    for (const auto& face : test::tetrahedron_faces()) {
+        arrays.faces.push_back({face.v[0], face.v[1], face.v[2]});
+        arrays.labels.push_back({1, -1});
+    }
+    EXPECT_EQ(import_arrays(arrays).mesh[VertexId{3}].sides, 0);
+    arrays.node_types = {12, 12, 12, 12};
+    EXPECT_EQ(import_arrays(arrays).mesh[VertexId{3}].sides, kOnHull);
+}
+
+std::string refusal(const MeshArrays& arrays) {
+    try {
+        import_arrays(arrays);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kInput);
+        return error.what();
+    }
+    return "not refused";
+}
+
+TEST(MeshArrays, that_contradict_each_other_are_refused) {
+    const MeshArrays good{.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}, .labels = {{1, 2}}};
+    EXPECT_EQ(refusal(good), "not refused");
+    MeshArrays bad = good;
+    bad.labels.clear();
+    EXPECT_THAT(refusal(bad), HasSubstr("1 faces, but 0 pairs of labels"));
+    bad = good;
+    bad.faces[0][2] = 3;
+    EXPECT_THAT(refusal(bad), HasSubstr("face 0 names point 3 of 3"));
+    bad = good;
+    bad.points[1].y = NAN;
+    EXPECT_THAT(refusal(bad), HasSubstr("point 1 is not finite"));
+    bad = good;
+    bad.node_types = {2};
+    EXPECT_THAT(refusal(bad), HasSubstr("node types"));
+}
+
+}  // namespace
+}  // namespace regionmesh
