@@ -6,15 +6,19 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/regionmesh)
 configure_package_config_file(cmake/regionmesh-config.cmake.in regionmesh-config.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(regionmesh-config-version.cmake COMPATIBILITY SameMinorVersion)
 
-install(TARGETS regionmesh_core regionmesh_formats EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+set(libraries regionmesh_core)
+if(REGIONMESH_FORMATS)
+    list(APPEND libraries regionmesh_formats)
+endif()
+install(TARGETS ${libraries} EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT regionmesh-targets NAMESPACE regionmesh:: DESTINATION ${package_folder})
 install(FILES ${PROJECT_BINARY_DIR}/regionmesh-config.cmake ${PROJECT_BINARY_DIR}/regionmesh-config-version.cmake
-    cmake/csv_library.cmake cmake/exact_numbers.cmake cmake/storage_libraries.cmake DESTINATION ${package_folder})
+    cmake/exact_numbers.cmake cmake/format_libraries.cmake DESTINATION ${package_folder})
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A program linked with sanitizers would have to be built with them, too.
-if(REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
+if(REGIONMESH_FORMATS AND REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
     set(prefix ${PROJECT_BINARY_DIR}/installed)
     add_test(NAME install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
     add_test(NAME installed_package_builds_and_runs_the_example

@@ -62,8 +62,9 @@ void write_mesh(const Mesh& mesh, const LabelTable& labels, const std::filesyste
 void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options = {},
                            bool with_point_arrays = false);
 
-/// ".vtp .ply ...", for a message.
+/// ".vtp .vtu .ply ...": the extensions of the formats that this build writes, and of those that it reads.
 std::string writable_extensions();
+std::string readable_extensions();
 
 /// A model read from a file, with its labels, as signed numbers. The file's exterior label (-1 if it names none)
 /// becomes the sides of the box again where every face with it lies exactly in a plane of the bounding box of all

@@ -7,8 +7,8 @@
 namespace regionmesh {
 namespace {
 
-constexpr double kSteps = 12;                                     // the least number that two, three and four divide
-constexpr int kDigits = std::numeric_limits<double>::digits - 2;  // sums of three differences have two more
+constexpr double kSteps = 12;                                     // least common multiple of two, three and four
+constexpr int kDigits = std::numeric_limits<double>::digits - 2;  // sums of three differences need two more
 
 }  // namespace
 
@@ -16,7 +16,7 @@ void move_to_exact_grid(std::vector<Vec3>& points) {
     for (int axis = 0; axis < 3; ++axis) {
         double most = 0;
         for (const Vec3& p : points) most = std::max(most, std::abs(p[axis]));
-        if (most < std::numeric_limits<double>::min() * 0x1p60) continue;  // nothing but zeros, or next to it
+        if (most < std::numeric_limits<double>::min() * 0x1p60) continue;  // zeros, or close to the smallest numbers
         int exponent = 0;
         std::frexp(most, &exponent);  // most < 2^exponent
         const double unit = std::ldexp(1.0, exponent - kDigits);

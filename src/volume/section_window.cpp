@@ -12,7 +12,7 @@ SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader
                                                " sample along " + "xyz"[axis] +
                                                "; a cell needs two: give a volume with at least 2 x 2 x 2 samples");
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
-    constexpr std::size_t kMostSamples = 700'000'000;  // six table places each, counted in 32 bits
+    constexpr std::size_t kMostSamples = 700'000'000;  // six table entries each, counted in 32 bits
     if (samples > kMostSamples)
         throw Error(ErrorCode::kInput, info.source + ": a section of " + std::to_string(samples) +
                                            " samples is beyond " + std::to_string(kMostSamples) +

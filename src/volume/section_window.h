@@ -9,13 +9,13 @@
 
 namespace regionmesh {
 
-/// Pulls sections and hands out strips: the last two sections, numbered densely by a table that grows as it reads.
+/// Reads sections and provides strips: the last two sections, with dense labels from a table that grows on reading.
 class SectionWindow {
 public:
-    /// Throws Error(kInput) when the volume has no cell, or sections too large for the tables.
+    /// Throws Error(kInput) if the volume has no cell, or if a section has more than 7e8 samples.
     SectionWindow(SectionReader& reader, LabelTable& labels);
 
-    /// Reads on to the next strip; false when there is none.
+    /// Reads the next strip; false after the last.
     bool advance();
 
     std::span<const Label> low() const { return low_; }
