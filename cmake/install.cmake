@@ -11,18 +11,18 @@ set(without)
 if(REGIONMESH_FORMATS)
     install(TARGETS regionmesh_formats EXPORT regionmesh-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 else()
-    foreach(header formats label_names_file mesh_file output_file read_sections read_tetrahedra write_report)
+    foreach(header formats label_names_file mesh_file output_file read_sections read_tetrahedra write_report write_volume options)
         list(APPEND without PATTERN ${header}.h EXCLUDE)
     endforeach()
 endif()
 install(DIRECTORY include/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${without})
 install(EXPORT regionmesh-targets NAMESPACE regionmesh:: DESTINATION ${package_folder})
 install(FILES ${PROJECT_BINARY_DIR}/regionmesh-config.cmake ${PROJECT_BINARY_DIR}/regionmesh-config-version.cmake
-    cmake/csv_library.cmake cmake/exact_numbers.cmake cmake/storage_libraries.cmake DESTINATION ${package_folder})
+    cmake/exact_numbers.cmake cmake/format_libraries.cmake DESTINATION ${package_folder})
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A program linked with sanitizers would have to be built with them, too.
-if(REGIONMESH_TESTS AND REGIONMESH_FORMATS AND NOT REGIONMESH_SANITIZE)
+if(REGIONMESH_FORMATS AND REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
     set(prefix ${PROJECT_BINARY_DIR}/installed)
     add_test(NAME install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
     add_test(NAME installed_package_builds_and_runs_the_example

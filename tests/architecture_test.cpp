@@ -168,6 +168,21 @@ TEST(Architecture, the_library_and_the_program_under_the_gpl_share_no_code) {
     });
 }
 
+TEST(Architecture, the_library_never_forks_without_exec) {
+    for_sources(kLibrary, [&](const fs::path& file) {
+        std::ifstream stream(file);
+        const std::string text{std::istreambuf_iterator<char>(stream), {}};
+        EXPECT_EQ(text.find("fork("), std::string::npos) << file.string();
+    });
+}
+
+TEST(Architecture, the_program_that_reads_hdf5_shares_one_header_with_the_library) {
+    for_sources(kRoot / "apps/hdf5", [&](const fs::path& file) {
+        for (const std::string& include : includes_of(file))
+            EXPECT_TRUE(include == "catalogue.h" || include == "formats/chunked/hdf5_handle.h") << include;
+    });
+}
+
 TEST(Architecture, programs_include_public_headers_and_their_own) {
     for_sources(kRoot / "apps/cli", [&](const fs::path& file) {
         for (const std::string& include : includes_of(file))

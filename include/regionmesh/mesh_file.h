@@ -60,8 +60,9 @@ void write_mesh(const Mesh& mesh, const LabelTable& labels, const std::filesyste
 void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options = {},
                            bool with_point_arrays = false);
 
-/// ".vtp .ply ...", for messages.
+/// ".vtp .vtu .ply ...": the extensions of the formats that this build writes, and of those that it reads.
 std::string writable_extensions();
+std::string readable_extensions();
 
 /// A model from a file, with signed labels. Faces with the exterior label of the file (-1 by default) become sides of
 /// the box where all of them lie exactly in planes of the bounding box of all faces; their vertices get these sides.

@@ -15,22 +15,24 @@ namespace regionmesh {
 /// How to open a volume; all optional.
 struct ReadOptions {
     SweepChoice sweep = SweepChoice::kAuto;  // kAuto: along the axis with the smallest section (P 3.1)
-    std::optional<Vec3> spacing = {};        // instead of the file's own
+    std::optional<Vec3> spacing = {};        // replaces the spacing of the file, in its unit
     std::optional<std::array<std::uint32_t, 3>> raw_size = {};  // raw files: samples along x, y, z
-    std::optional<SampleType> raw_type = {};                    // raw files: little-endian samples
-    std::optional<std::uint32_t> layer = {};                    // of a file that holds several, counted from 0
+    std::optional<SampleType> raw_type = {};                    // raw files: type of the little-endian samples
+    std::optional<std::uint32_t> layer = {};                    // of a file with several layers, counted from 0
 };
 
-/// Opens one volume file, one directory of sections, or a list of section files in the order given.
-/// `.npy .nii .nii.gz .nrrd .nhdr .mha .mhd .vti .inr .inr.gz .tif .tiff .png .raw .h5 .hdf5 .dream3d .zarr .n5`; a
-/// dataset of an HDF5 file is named as `file.h5:/path`. Directories take their images in natural order (s2 before s10),
-/// unless they are Zarr or N5 stores. HDF5 files are read by a copy of the process, made by fork. Throws Error(kInput)
-/// for a missing or unreadable file, unknown format, float or complex samples, an empty volume, sections of different
-/// size, or a sweep that the format cannot do.
+/// ".npy .nii .nii.gz ...": the extensions that this build reads.
+std::string volume_extensions();
+
+/// Opens one volume file, one directory of sections, or a list of section files in the order given. docs/files.md lists
+/// the formats. A dataset of an HDF5 file is named as `file.h5:/path`; HDF5 files are read by the program
+/// regionmesh-hdf5. A directory is a Zarr or N5 store, or its images are sections in natural order (s2 before s10).
+/// Throws Error(kInput) for a missing or unreadable file, an unknown format or one that this build leaves out, float or
+/// complex samples, an empty volume, sections of different size, or a sweep that the format does not allow.
 std::unique_ptr<SectionReader> open_sections(const std::vector<std::filesystem::path>& inputs,
                                              const ReadOptions& options = {});
 
-/// "uint16" and the like; the same words are accepted by --type.
+/// "bool", "int8" to "int64", "uint8" to "uint64"; --type takes the same words.
 std::string to_string(SampleType type);
 std::optional<SampleType> parse_sample_type(const std::string& word);
 

@@ -1,4 +1,4 @@
-// Opens what gives labelled tetrahedra: tables of labelled points, and meshes.
+// Opens sources of labelled tetrahedra: tables of labelled points, and meshes.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,24 @@ namespace regionmesh {
 
 /// How to read points or a mesh; all optional.
 struct TetrahedraOptions {
-    std::string columns = {};             // which columns of a table are what (docs/files.md)
-    std::optional<double> step = {};      // drill holes: distance of the points that stand for an interval, at most
-    double scale_z = 1;                   // z is multiplied by the power of two nearest to this: nothing is lost
+    std::string columns = {};             // the meaning of the columns of a table (docs/files.md)
+    std::optional<double> step = {};      // drill holes: largest distance of two points of an interval
+    double scale_z = 1;                   // z is multiplied by the nearest power of two, which is exact
     std::string array = {};               // name of the array of labels in a mesh
-    std::filesystem::path delaunay = {};  // the program regionmesh-delaunay, if it is not where it is looked for
+    std::filesystem::path delaunay = {};  // the program regionmesh-delaunay, if it is not in one of the usual places
 };
 
-/// Whether the extension is that of points or of a mesh: `.csv .tsv .vtu .msh`.
+/// Whether the extension is that of a table or a mesh: `.csv .tsv .vtu .msh`.
 bool holds_tetrahedra(const std::filesystem::path& path);
 
-/// Whether it is that of a mesh, among these.
+/// Whether the extension is that of a mesh of tetrahedra.
 bool is_mesh(const std::filesystem::path& path);
 
-/// Opens a table of labelled points (`.csv .tsv`), whose tetrahedra regionmesh-delaunay makes in a process of its own,
-/// or a mesh of labelled tetrahedra (`.vtu .msh`). Throws Error(kInput) naming file, row or place, and what to do.
+/// ".csv .tsv .vtu .msh": the extensions that this build reads.
+std::string tetrahedron_extensions();
+
+/// Opens a table of labelled points, whose tetrahedra the program regionmesh-delaunay makes, or a mesh of labelled
+/// tetrahedra. Throws Error(kInput) that names file, row or place, and what to do.
 std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& path,
                                                    const TetrahedraOptions& options = {});
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "boreholes/delaunay_program.h"
+#include "formats/find_program.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "regionmesh/error.h"
 #include "volume/exact_grid.h"
@@ -15,6 +15,7 @@ namespace {
 using Magic = std::array<char, 8>;
 constexpr Magic kPointsMagic{'R', 'M', 'P', 'O', 'I', 'N', 'T', '1'};
 constexpr Magic kTetrahedraMagic{'R', 'M', 'T', 'E', 'T', 'R', 'A', '1'};
+constexpr HelperProgram kDelaunay{.name = "regionmesh-delaunay", .variable = "REGIONMESH_DELAUNAY"};
 constexpr std::size_t kPiece = 4096;  // tetrahedra read at a time
 
 struct Header {
@@ -141,7 +142,7 @@ std::unique_ptr<TetrahedronReader> open_points(PointTable table, const Tetrahedr
     if (count < 4)
         throw Error(ErrorCode::kInput, table.info.source + ": " + std::to_string(count) +
                                            (count == 1 ? " point" : " points") + "; tetrahedra need at least four");
-    return std::make_unique<DelaunayReader>(std::move(table), find_delaunay(options.delaunay));
+    return std::make_unique<DelaunayReader>(std::move(table), find_program(kDelaunay, options.delaunay));
 }
 
 std::unique_ptr<TetrahedronReader> open_table(const std::filesystem::path& path, const TetrahedraOptions& options) {

@@ -36,8 +36,8 @@ void close_file(int& file) {
     if (file >= 0) ::close(std::exchange(file, -1));
 }
 
-/// One of our ends and one of the program's, both closed when a program is started. Neither is a standard stream, even
-/// where those are closed here, so that the copies made for the program do not overwrite one another.
+/// Our end and the program's end, both closed by the destructor. Neither is a standard stream, even where this process
+/// has closed those: otherwise the duplicates made for the program would overwrite one another.
 struct Ends {
     int ours = -1, theirs = -1;
 
@@ -73,9 +73,9 @@ bool make_pipe(Ends& ends) {
     return ends.rise() && ::fcntl(ends.ours, F_SETFL, O_NONBLOCK) == 0;
 }
 
-/// Returns what is wrong, or 0. The program gets the signals that programs get by default, whatever is blocked or
-/// ignored here.
-int spawn(const std::filesystem::path& program, int socket, int errors, pid_t& process) {
+/// Starts words[0] with all words as arguments. Returns an error number, or 0. The program starts with no signal
+/// blocked and with the default action for SIGPIPE, whatever this process has set.
+int spawn(std::vector<std::string> words, int socket, int errors, pid_t& process) {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     ::posix_spawn_file_actions_init(&files);
@@ -90,9 +90,10 @@ int spawn(const std::filesystem::path& program, int socket, int errors, pid_t& p
     ::posix_spawnattr_setsigmask(&attributes, &none);
     ::posix_spawnattr_setsigdefault(&attributes, &broken_pipe);
     ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    std::string name = program.string();
-    char* arguments[] = {name.data(), nullptr};
-    const int problem = ::posix_spawn(&process, name.c_str(), &files, &attributes, arguments, environ);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const int problem = ::posix_spawn(&process, arguments[0], &files, &attributes, arguments.data(), environ);
     ::posix_spawn_file_actions_destroy(&files);
     ::posix_spawnattr_destroy(&attributes);
     return problem;
@@ -100,15 +101,17 @@ int spawn(const std::filesystem::path& program, int socket, int errors, pid_t& p
 
 std::string last_line(std::string_view text) {
     text = trim(text);
-    return one_line(text.substr(text.rfind('\n') + 1));  // all where there is no other line
+    return one_line(text.substr(text.rfind('\n') + 1));  // rfind is npos for a single line
 }
 
 }  // namespace
 
-PipedProgram::PipedProgram(const std::filesystem::path& program) {
+PipedProgram::PipedProgram(const std::filesystem::path& program, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), program.string());
     Ends socket, errors;
     if (!make_socket(socket) || !make_pipe(errors)) refuse(program, errno);
-    if (const int problem = spawn(program, socket.theirs, errors.theirs, process_)) refuse(program, problem);
+    if (const int problem = spawn(std::move(arguments), socket.theirs, errors.theirs, process_))
+        refuse(program, problem);
     socket_ = std::exchange(socket.ours, -1);
     errors_ = std::exchange(errors.ours, -1);
 }
@@ -142,7 +145,7 @@ void PipedProgram::read_errors() {
 
 short PipedProgram::wait_for(short events, int milliseconds) {
     for (;;) {
-        pollfd files[] = {{socket_, events, 0}, {errors_, POLLIN, 0}};  // files below 0 are passed over
+        pollfd files[] = {{socket_, events, 0}, {errors_, POLLIN, 0}};  // poll ignores negative descriptors
         const int count = ::poll(files, 2, milliseconds);
         if (files[1].revents != 0) read_errors();
         if (count > 0 && files[0].revents != 0) return files[0].revents;
@@ -168,7 +171,7 @@ std::size_t PipedProgram::receive(std::span<std::byte> bytes) {
         wait_for(POLLIN);
         const ssize_t count = ::recv(socket_, bytes.data() + filled, bytes.size() - filled, MSG_DONTWAIT);
         if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-        if (count <= 0) break;  // also if it ended before it had read all
+        if (count <= 0) break;  // an error, too, if the program ended before it had read all input
         filled += static_cast<std::size_t>(count);
     }
     return filled;
@@ -180,7 +183,7 @@ PipedProgram::Ending PipedProgram::end() {
     int status = 0;
     pid_t ended = 0;
     while ((ended = ::waitpid(process_, &status, WNOHANG)) == 0 && Clock::now() < deadline) {
-        // The end of its errors wakes, and comes just before its own end.
+        // The end of standard error wakes poll just before the program ends.
         wait_for(0, errors_ >= 0 ? 100 : 1);
     }
     if (errors_ >= 0) read_errors();

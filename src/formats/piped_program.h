@@ -1,4 +1,4 @@
-// Another program, fed and read.
+// Runs another program and talks to it over pipes.
 #pragma once
 
 #include <sys/types.h>
@@ -8,40 +8,43 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace regionmesh::formats {
 
-/// A program that reads all of its standard input before it writes its standard output, run without a shell. It may
-/// compute as long as it likes; one that does otherwise, or ends early, neither blocks this process nor brings it a
-/// signal. It ends with this object. Requires one caller at a time.
+/// A program started without a shell, whose standard input and output are one socket. It may read all of its input
+/// before it writes, or answer requests one after another. It may compute for any length of time. A program that writes
+/// while it should read, or ends early, neither blocks this process nor causes a signal in it. It is killed with this
+/// object. It inherits no other file of this process. Safe beside threads: posix_spawn, no code between fork and exec.
+/// Requires one caller at a time.
 class PipedProgram {
 public:
-    /// How it ended; neither code nor signal if it did not end by itself in time.
+    /// How the program ended; neither code nor signal if it had to be killed.
     struct Ending {
         std::optional<int> exit_code = {};
         std::optional<int> signal = {};
-        std::string last_words = {};  // last line of its standard error, what fits a message
+        std::string last_words = {};  // last line of its standard error, shortened to fit a message
     };
 
     /// Throws Error(kInput) naming the program if it cannot be started.
-    explicit PipedProgram(const std::filesystem::path& program);
+    explicit PipedProgram(const std::filesystem::path& program, std::vector<std::string> arguments = {});
     PipedProgram(const PipedProgram&) = delete;
     PipedProgram& operator=(const PipedProgram&) = delete;
     ~PipedProgram();
 
-    /// Whether it took them; not if it has ended, or writes already.
+    /// Whether the program took all bytes; false if it has ended, or writes already.
     bool send(std::span<const std::byte> bytes);
     void end_input();
 
-    /// Fills `bytes` with what it writes and returns how many; less than asked for only where its output ends.
+    /// Fills `bytes` with output of the program and returns their number: fewer than asked for only where it ends.
     std::size_t receive(std::span<std::byte> bytes);
 
-    /// After the end of its output. Gives it some seconds, then ends it. To be called once, and last.
+    /// Waits up to 10 s for the program to end, then kills it. Call once, after the last receive().
     Ending end();
 
 private:
-    /// Sleeps until the socket is ready for one of `events`, and keeps its standard error flowing meanwhile. Returns
-    /// what the socket is ready for; 0 after so many milliseconds, if they are not negative.
+    /// Sleeps until the socket is ready for one of `events`, and reads standard error meanwhile. Returns the events
+    /// that the socket is ready for; 0 after `milliseconds`, if they are not negative.
     short wait_for(short events, int milliseconds = -1);
     void read_errors();
     void close();

@@ -1,8 +1,7 @@
 #include "regionmesh/read_tetrahedra.h"
 
-#include "formats/file_type.h"
 #include "formats/input_file.h"
-#include "formats/surface/tetrahedron_formats.h"
+#include "formats/registry.h"
 #include "volume/exact_grid.h"
 
 namespace regionmesh {
@@ -10,17 +9,21 @@ namespace {
 
 constexpr double kLeastScale = 0x1p-300;
 
+/// A table is one even in a build that cannot read it, so that the error says so.
+bool is_table_format(const formats::Format* format) { return format && format->is_table; }
+
 }  // namespace
 
 bool is_mesh(const std::filesystem::path& path) {
-    const std::string name = formats::extension(path);
-    return name == ".vtu" || name == ".msh";
+    const formats::Format* format = formats::find_format(path);
+    return format && format->open_tetrahedra && !format->is_table;
 }
 
 bool holds_tetrahedra(const std::filesystem::path& path) {
-    const std::string name = formats::extension(path);
-    return name == ".csv" || name == ".tsv" || is_mesh(path);
+    return is_mesh(path) || is_table_format(formats::find_format(path));
 }
+
+std::string tetrahedron_extensions() { return formats::extensions_with(&formats::Format::open_tetrahedra); }
 
 std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& path, const TetrahedraOptions& given) {
     const formats::InputFile there(path);
@@ -28,11 +31,10 @@ std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& 
         formats::fail(path, "--scale-z must be a number above 0, and within bounds; take one such as 100");
     TetrahedraOptions options = given;
     options.scale_z = nearest_power_of_two(given.scale_z);
-    const std::string name = formats::extension(path);
-    if (name == ".vtu") return formats::open_vtu(path, options);
-    if (name == ".msh") return formats::open_msh(path, options);
-    if (name == ".csv" || name == ".tsv") return formats::open_table(path, options);
-    formats::fail(path, "not a table of points (.csv .tsv) or a mesh of tetrahedra (.vtu .msh)");
+    const formats::Format* format = formats::find_format(path);
+    if (is_table_format(format)) formats::require_readable(path, format);
+    if (format && format->open_tetrahedra) return format->open_tetrahedra(path, options);
+    formats::fail(path, "not a table of points or a mesh of tetrahedra; regionmesh reads " + tetrahedron_extensions());
 }
 
 }  // namespace regionmesh

@@ -3,6 +3,9 @@
 
 #include "options/bind_option.h"
 #include "options/option_rows.h"
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/read_sections.h"
+#include "regionmesh/read_tetrahedra.h"
 
 namespace regionmesh {
 namespace {
@@ -32,10 +35,11 @@ void add_background(Settings& settings, const std::string& flag, const std::stri
 }  // namespace
 
 Rows argument_rows() {
-    const std::string_view volumes =
-        "volume (.npy .nii.gz .nrrd .mha .vti .tif .h5:/dataset .dream3d .zarr ...), folder or list of sections, table "
-        "of labelled points (.csv .tsv), or mesh of labelled tetrahedra (.vtu .msh)";
-    const std::string_view surface = "labelled surface (.vtp .vtu .ply .stl .obj .dream3d), or a folder of them";
+    static const std::string volumes = "volume (" + volume_extensions() +
+                                       "; file.h5:/dataset), folder or list of sections, or table of labelled points "
+                                       "or mesh of labelled tetrahedra (" +
+                                       tetrahedron_extensions() + ")";
+    static const std::string surface = "labelled surface (" + readable_extensions() + "), or a folder of them";
     const auto inputs = [](Settings& s) { return &s.inputs; };
     const auto models = [](Settings& s) { return &s.models; };
     return {

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "cli/program.h"
+#include "formats/registry.h"
 #include "support/paths.h"
 
 namespace regionmesh {
@@ -72,6 +73,8 @@ protected:
 };
 
 TEST_F(CliOptions, the_page_is_that_of_the_table) {
+    for (const formats::Format& format : formats::all_formats())
+        if (!format.part.is_built) GTEST_SKIP() << "the help lists fewer formats";
     std::ifstream stream(test::source_folder() + "/docs/reference/command-line.md");
     const std::string page{std::istreambuf_iterator<char>(stream), {}};
     EXPECT_TRUE(page == command_line_page())

@@ -46,6 +46,15 @@ TEST_F(PipedPrograms, what_is_sent_comes_back_however_long) {
     EXPECT_EQ(sorter.end().exit_code, 0);
 }
 
+TEST_F(PipedPrograms, requests_are_answered_one_after_another) {
+    PipedProgram echo(program("read -r a; echo $1$a; read -r b; echo $b$a"), {"x y"});
+    EXPECT_TRUE(send(echo, "1\n"));
+    EXPECT_EQ(receive(echo, 5), "x y1\n");
+    EXPECT_TRUE(send(echo, "2\n"));
+    EXPECT_EQ(receive(echo, 3), "21\n");
+    EXPECT_EQ(echo.end().exit_code, 0);
+}
+
 TEST_F(PipedPrograms, one_that_writes_before_it_has_read_all_does_not_block) {
     PipedProgram hasty(program("exec cat"));
     const std::string much(5000000, 'x');

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "boreholes/point_table.h"
+#include "formats/registry.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "regionmesh/check.h"
 #include "regionmesh/label_names_file.h"
@@ -113,6 +114,7 @@ void tetrahedra(const fs::path& path, Random& random) {
 
 void names(const fs::path& path, Random&) { read_label_names(path); }
 
+#if REGIONMESH_WITH_TABLES
 /// Drill holes are cut by a step that makes few points of them.
 void points(const fs::path& path, Random& random) {
     constexpr std::array kColumns{"1,2,3,4", "x=1,y=2,label=4",         "z=1,x=4", "hole=1,top=5,bottom=6",
@@ -126,38 +128,39 @@ void points(const fs::path& path, Random& random) {
     options.step = farthest / 20;
     formats::read_point_table(path, options);
 }
+#endif
+
+/// Without the formats that the build leaves out.
+std::vector<Format> in_this_build(std::vector<Format> all) {
+    std::erase_if(all, [](const Format& format) {
+        const auto* row = formats::find_format("a" + (*format.store ? format.store : format.extensions[0]));
+        return row && !row->part.is_built;
+    });
+    return all;
+}
 
 }  // namespace
 
 std::span<const Format> formats() {
-    static const std::array kFormats{
-        Format{"npy", "npy", {".npy"}, volume},
-        Format{"nifti", "nifti", {".nii", ".gz"}, volume},
-        Format{"tiff", "tiff", {".tif"}, volume},
-        Format{"png", "png", {".png"}, volume},
-        Format{"raw", "nrrd", {".raw"}, raw},
-        Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
-        Format{"meta", "meta", {".mha", ".mhd"}, volume},
-        Format{"vti", "vti", {".vti"}, volume},
-        Format{"inr", "inr", {".inr", ".gz"}, volume},
-        Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
-        Format{"points", "points", {".csv", ".tsv"}, points},
-        Format{"hdf5", "chunked", {".h5"}, hdf5},
-        Format{"dream3d", "chunked", {".dream3d"}, volume},
-        Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
-        Format{"zarr3", "chunked/zarr3", {}, volume, ".zarr"},
-        Format{"ome", "chunked/ome", {}, volume, ".zarr"},
-        Format{"n5", "chunked/n5", {}, volume, ".n5"},
-        Format{"vtp", "", {".vtp"}, mesh},
-        Format{"vtu", "surfaces", {".vtu"}, mesh},
-        Format{"vtu_mesh", "meshes", {".vtu"}, tetrahedra},
-        Format{"msh_mesh", "meshes", {".msh"}, tetrahedra},
-        Format{"ply", "ply", {".ply"}, mesh},
-        Format{"plies", "surfaces", {".ply"}, mesh},
-        Format{"stl", "surfaces", {".stl"}, mesh},
-        Format{"obj", "surfaces", {".obj"}, mesh},
-        Format{"dream3d_faces", "surfaces", {".dream3d"}, mesh},
-    };
+    static const std::vector<Format> kFormats = in_this_build({
+        Format{"npy", "npy", {".npy"}, volume}, Format{"nifti", "nifti", {".nii", ".gz"}, volume},
+            Format{"tiff", "tiff", {".tif"}, volume}, Format{"png", "png", {".png"}, volume},
+            Format{"raw", "nrrd", {".raw"}, raw}, Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
+            Format{"meta", "meta", {".mha", ".mhd"}, volume}, Format{"vti", "vti", {".vti"}, volume},
+            Format{"inr", "inr", {".inr", ".gz"}, volume},
+            Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
+#if REGIONMESH_WITH_TABLES
+            Format{"points", "points", {".csv", ".tsv"}, points},
+#endif
+            Format{"hdf5", "chunked", {".h5"}, hdf5}, Format{"dream3d", "chunked", {".dream3d"}, volume},
+            Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
+            Format{"zarr3", "chunked/zarr3", {}, volume, ".zarr"}, Format{"ome", "chunked/ome", {}, volume, ".zarr"},
+            Format{"n5", "chunked/n5", {}, volume, ".n5"}, Format{"vtp", "", {".vtp"}, mesh},
+            Format{"vtu", "surfaces", {".vtu"}, mesh}, Format{"vtu_mesh", "meshes", {".vtu"}, tetrahedra},
+            Format{"msh_mesh", "meshes", {".msh"}, tetrahedra}, Format{"ply", "ply", {".ply"}, mesh},
+            Format{"plies", "surfaces", {".ply"}, mesh}, Format{"stl", "surfaces", {".stl"}, mesh},
+            Format{"obj", "surfaces", {".obj"}, mesh}, Format{"dream3d_faces", "surfaces", {".dream3d"}, mesh},
+    });
     return kFormats;
 }
 

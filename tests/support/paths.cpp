@@ -1,6 +1,15 @@
 #include "support/paths.h"
 
+#include <cstdlib>
+
 namespace regionmesh::test {
+
+namespace {
+
+/// The tests lie in another folder than the programs. What the environment says already stands.
+[[maybe_unused]] const int kHdf5IsNamed = ::setenv("REGIONMESH_HDF5_PROGRAM", REGIONMESH_HDF5_PROGRAM, 0);
+
+}  // namespace
 
 std::string data_folder() { return REGIONMESH_TEST_DATA; }
 std::string source_folder() { return REGIONMESH_SOURCE_DIR; }

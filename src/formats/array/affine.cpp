@@ -16,7 +16,7 @@ void set_affine(const std::filesystem::path& path, const char* what, const char*
         units[axis] = columns[axis] / lattice.spacing[axis];
         for (int row = 0; row < 3; ++row) lattice.direction[3 * row + axis] = units[axis][row];
     }
-    // Not-a-number fails the first comparison too.
+    // NaN fails the first comparison, too.
     if (!(std::abs(dot(units[0], cross(units[1], units[2]))) > 1e-6) ||
         !std::isfinite(length2(lattice.spacing) + length2(origin))) {
         fail(path, std::string("the ") + what + " is no affine map (its columns lie in a plane, or are not finite); " +

@@ -1,4 +1,4 @@
-// The map from indices of samples to space, as the headers of volumes write it.
+// The affine map from indices of samples to space.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace regionmesh::formats {
 /// Three columns to multiply (i, j, k) by.
 using Columns = std::array<Vec3, 3>;
 
-/// Splits an affine map into lengths and unit columns, which need not be orthogonal, and puts them into `lattice` with
-/// the origin. `what` is what the header calls the map, `remedy` ends the error for one that is singular or not finite.
+/// Splits an affine map into spacing and unit columns, which need not be orthogonal, and sets them and the origin in
+/// `lattice`. `what` names the map in errors, `remedy` ends the error for a map that is singular or not finite.
 void set_affine(const std::filesystem::path& path, const char* what, const char* remedy, const Columns& columns,
                 Vec3 origin, Lattice& lattice);
 

@@ -14,7 +14,7 @@ std::string shape_text(const std::vector<std::uint64_t>& shape) {
     return text;
 }
 
-/// The axes that stay of more than three, where they have no names.
+/// The axes without names that remain of more than three.
 std::vector<int> drop_single(const std::vector<std::uint64_t>& shape) {
     std::vector<int> kept;
     for (int axis = 0; axis < static_cast<int>(shape.size()); ++axis) kept.push_back(axis);
@@ -69,14 +69,18 @@ ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std
     for (std::size_t i = 0; i < shape.size(); ++i) {
         if (std::ranges::count(axes.axis, static_cast<int>(i)) > 0 || shape[i] == 1) continue;
         const std::string what = "axis '" + names[i] + "' has " + std::to_string(shape[i]) + " samples";
-        if (axes.has_layers)
-            fail(source, what + ", and another axis beside x, y, z more than one, too; save one volume");
+        if (axes.has_layers) fail(source, what + "; another axis has more than one, too: save one volume");
         if (!options.layer) fail(source, what + "; choose one with --layer 0 to " + std::to_string(shape[i] - 1));
         if (*options.layer >= shape[i]) fail(source, what + "; there is no " + std::to_string(*options.layer));
         axes.index[i] = *options.layer;
         axes.has_layers = true;
     }
     return axes;
+}
+
+bool may_be_volume(const std::vector<std::uint64_t>& shape) {
+    const auto more = std::ranges::count_if(shape, [](std::uint64_t size) { return size > 1; });
+    return std::ranges::count(shape, 0u) == 0 && (more == 2 || more == 3);
 }
 
 void place(VolumeInfo& info, const Placement& placement, const ReadOptions& options) {
@@ -87,7 +91,7 @@ void place(VolumeInfo& info, const Placement& placement, const ReadOptions& opti
                                   " in the file; give the right one with --spacing X,Y,Z");
         }
         if (!std::isfinite(origin)) {
-            fail(info.source, std::string("the place of the first sample along ") + "xyz"[axis] + " is " +
+            fail(info.source, std::string("the position of the first sample along ") + "xyz"[axis] + " is " +
                                   std::to_string(origin) + "; mend the file");
         }
         info.lattice.spacing[axis] = std::abs(spacing);

@@ -1,22 +1,22 @@
 #include "formats/array/block_reader.h"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 #include <vector>
 
+#include "formats/array/numbered_sections.h"
 #include "formats/array/volume_size.h"
 
 namespace regionmesh::formats {
 namespace {
 
-constexpr std::uint64_t kFewBytes = std::uint64_t{1} << 20;      // a block is worth being read from here on
-constexpr std::uint64_t kCrossBytes = std::uint64_t{256} << 20;  // the same for sweeps along x and y
+constexpr std::uint64_t kFewBytes = std::uint64_t{1} << 20;      // smaller blocks get more sections
+constexpr std::uint64_t kCrossBytes = std::uint64_t{256} << 20;  // most bytes of a block, for sweeps along x and y
 
-class BlockReader final : public SectionReader {
+class BlockReader final : public NumberedSections {
 public:
     BlockReader(std::unique_ptr<BlockSource> source, VolumeInfo info, const BlockLayout& layout)
-        : source_(std::move(source)), info_(std::move(info)), format_(layout.format) {
+        : NumberedSections(std::move(info)), source_(std::move(source)), format_(layout.format) {
         section_bytes_ = std::uint64_t{section_width()} * section_height() * sample_bytes(format_.type);
         chunk_ = std::clamp<std::uint64_t>(layout.chunk[info_.sweep.axes[2]], 1, section_count());
         depth_ = chunk_ * std::max<std::uint64_t>(1, kFewBytes / section_bytes_ / chunk_);
@@ -25,42 +25,32 @@ public:
         info_.held_bytes = depth_ * section_bytes_ + layout.source_bytes;
     }
 
-    const VolumeInfo& info() const override { return info_; }
-
-    bool next(std::span<InputLabel> section) override {
-        assert(section.size() == std::size_t{section_width()} * section_height());
-        if (next_ == section_count()) return false;
-        if (next_ < block_.first || next_ - block_.first >= block_.count) load();
-        decode_samples(samples_.data() + (next_ - block_.first) * section_bytes_, sample_bytes(format_.type), format_,
+private:
+    void read_section(std::uint32_t number, std::span<InputLabel> section) override {
+        if (number < block_.first || number - block_.first >= block_.count) load(number);
+        decode_samples(samples_.data() + (number - block_.first) * section_bytes_, sample_bytes(format_.type), format_,
                        section);
-        ++next_;
-        return true;
     }
 
-    void rewind() override { next_ = 0; }
-
-private:
-    /// Blocks less deep than a chunk end where it ends.
-    void load() {
+    /// A block that is less deep than a chunk ends where the chunk ends.
+    void load(std::uint32_t first) {
         block_.count = 0;
-        std::uint64_t end = next_ + depth_;
-        if (depth_ < chunk_) end = std::min(end, (next_ / chunk_ + 1) * chunk_);
+        std::uint64_t end = first + depth_;
+        if (depth_ < chunk_) end = std::min(end, (first / chunk_ + 1) * chunk_);
         end = std::min<std::uint64_t>(end, section_count());
-        const Block block{info_.sweep, next_, static_cast<std::uint32_t>(end - next_)};
+        const Block block{info_.sweep, first, static_cast<std::uint32_t>(end - first)};
         samples_.resize(block.count * section_bytes_);
         source_->read(block, samples_);
         block_ = block;
     }
 
     std::unique_ptr<BlockSource> source_;
-    VolumeInfo info_;
     SampleFormat format_;
     std::uint64_t section_bytes_ = 0;
-    std::uint64_t chunk_ = 1;  // sections that a chunk goes through
+    std::uint64_t chunk_ = 1;  // sections that one chunk crosses
     std::uint64_t depth_ = 1;  // sections of a block
     std::vector<std::byte> samples_;
     Block block_;
-    std::uint32_t next_ = 0;
 };
 
 }  // namespace

@@ -1,29 +1,33 @@
 #include "formats/array/flat_reader.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "formats/array/numbered_sections.h"
 #include "formats/array/volume_size.h"
 
 namespace regionmesh::formats {
 namespace {
 
-constexpr std::uint64_t kBlockBytes = std::uint64_t{64} << 20;  // sections across the file's order, read together
+// Most bytes and sections that are read together across the order of the file, and most bytes in that order.
+constexpr std::uint64_t kBlockBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kBlockSections = 64;
-constexpr std::uint64_t kStraightBlockBytes = std::uint64_t{1} << 20;  // sections in the file's order
+constexpr std::uint64_t kStraightBlockBytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t kChunkBytes = std::uint64_t{4} << 20;
-constexpr std::uint64_t kFarPitch = std::uint64_t{64} << 10;  // runs farther apart are read one by one
+constexpr std::uint64_t kFarPitch = std::uint64_t{64} << 10;  // runs with a larger pitch are read one by one
 
-/// A block is a run of sections in the file's own order of axes: the file cut down to those sections.
-/// With s the swept axis, it is `run_count` runs of bytes, one for each index of the axes slower than s.
-class FlatReader final : public SectionReader {
+/// A block is some consecutive sections in the file's own order of axes. With s the swept axis, it is `run_count` runs
+/// of bytes, one for each index of the axes slower than s.
+class FlatReader final : public NumberedSections {
 public:
     FlatReader(InputFile file, VolumeInfo info, const FlatLayout& layout)
-        : file_(std::move(file)), info_(std::move(info)), layout_(layout), bytes_(sample_bytes(layout.format.type)) {
+        : NumberedSections(std::move(info)),
+          file_(std::move(file)),
+          layout_(layout),
+          bytes_(sample_bytes(layout.format.type)) {
         const int swept = info_.sweep.axes[2];
         bool is_slower = false;
         for (const int axis : layout_.order) {
@@ -40,26 +44,18 @@ public:
         info_.held_bytes = block_sections_ * section_bytes() + (run_count_ == 1 ? 0 : kChunkBytes);
     }
 
-    const VolumeInfo& info() const override { return info_; }
-
-    bool next(std::span<InputLabel> section) override {
-        assert(section.size() == std::size_t{section_width()} * section_height());
-        if (next_ == section_count()) return false;
-        if (next_ < block_first_ || next_ - block_first_ >= block_count_) load_block(next_);
+private:
+    void read_section(std::uint32_t number, std::span<InputLabel> section) override {
+        if (number < block_first_ || number - block_first_ >= block_count_) load_block(number);
         const auto pitch = block_pitches();
-        const std::byte* corner = block_.data() + (next_ - block_first_) * pitch[info_.sweep.axes[2]];
+        const std::byte* corner = block_.data() + (number - block_first_) * pitch[info_.sweep.axes[2]];
         const std::size_t width = section_width();
         for (std::size_t row = 0; row < section_height(); ++row) {
             decode_samples(corner + row * pitch[info_.sweep.axes[1]], pitch[info_.sweep.axes[0]], layout_.format,
                            section.subspan(row * width, width));
         }
-        ++next_;
-        return true;
     }
 
-    void rewind() override { next_ = 0; }
-
-private:
     std::uint64_t section_bytes() const { return inner_bytes_ * run_count_; }
 
     /// Bytes from one sample of the block to the next along x, y, z.
@@ -74,6 +70,7 @@ private:
     }
 
     void load_block(std::uint32_t first) {
+        block_first_ = first;
         block_count_ = 0;
         const std::uint32_t count = std::min(block_sections_, section_count() - first);
         block_.resize(count * section_bytes());
@@ -88,11 +85,10 @@ private:
         } else {
             read_near_runs(start, run, pitch);
         }
-        block_first_ = first;
         block_count_ = count;
     }
 
-    /// Short runs close together: reads over the gaps, since a system call costs more than the bytes between.
+    /// For short runs that are close together: reads the gaps, too, since a system call costs more than those bytes.
     void read_near_runs(std::uint64_t start, std::uint64_t run, std::uint64_t pitch) {
         const std::uint64_t runs_per_chunk = kChunkBytes / pitch;
         std::vector<std::byte> chunk(std::min(runs_per_chunk, run_count_) * pitch);
@@ -106,20 +102,18 @@ private:
 
     void read(std::uint64_t offset, std::span<std::byte> bytes) const {
         if (file_.read(offset, bytes) == bytes.size()) return;
-        fail_section(file_.path(), next_, "the file became shorter while it was read; start again");
+        fail_section(file_.path(), block_first_, "the file became shorter while it was read; start again");
     }
 
     InputFile file_;
-    VolumeInfo info_;
     FlatLayout layout_;
     std::uint64_t bytes_;            // of a sample
-    std::uint64_t inner_bytes_ = 1;  // of one index of the swept axis and all of the axes faster than it
-    std::uint64_t run_count_ = 1;    // indices of the axes slower than the swept one
+    std::uint64_t inner_bytes_ = 1;  // of one index of the swept axis, with all faster axes
+    std::uint64_t run_count_ = 1;    // product of the sizes of the axes slower than the swept one
     std::uint32_t block_sections_ = 1;
     std::vector<std::byte> block_;
     std::uint32_t block_first_ = 0;
     std::uint32_t block_count_ = 0;
-    std::uint32_t next_ = 0;
 };
 
 void check_length(const InputFile& file, const VolumeInfo& info, const FlatLayout& layout) {

@@ -1,4 +1,4 @@
-// Reads volumes whose samples lie uncompressed and without gaps in one file, along any axis.
+// Reads volumes whose samples are uncompressed and contiguous in one file, along any axis.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct FlatLayout {
 };
 
 /// Requires info.source, format, type, lattice and can_sweep; the options give the sweep and the spacing.
-/// Throws where the file is shorter than its header says. Holds at most 64 MiB or one section of stored samples,
-/// whichever is more, and 4 MiB.
+/// Throws if the file is shorter than its header says. Holds 4 MiB and the larger of 64 MiB and one section of stored
+/// samples.
 std::unique_ptr<SectionReader> open_flat(InputFile file, VolumeInfo info, const FlatLayout& layout,
                                          const ReadOptions& options);
 

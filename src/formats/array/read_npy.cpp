@@ -1,15 +1,15 @@
 // The .npy format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 #include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <optional>
+#include <array>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "formats/array/flat_reader.h"
+#include "formats/array/array_file.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
+#include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -23,89 +23,51 @@ struct NpyHeader {
     std::uint64_t data_offset = 0;
 };
 
-/// The header is a Python dictionary with three keys, in any order. What is left of it is `text_`.
-class NpyHeaderParser {
-public:
-    NpyHeaderParser(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {}
+/// The header is a Python dictionary of words, tuples, sizes (with L from Python 2) and truth values. As JSON it has
+/// double quotes, brackets, small letters, and no comma before a closing bracket.
+std::string to_json_text(std::string_view python) {
+    std::string text;
+    char quote = '\0';
+    for (const char c : python) {
+        const bool is_quote = quote ? c == quote : c == '\'' || c == '"';
+        if (is_quote) quote = quote ? '\0' : c;
+        if (quote || is_quote) {
+            text += is_quote ? '"' : c;
+            continue;
+        }
+        const std::size_t last = text.find_last_not_of(" \t\r\n");
+        const bool closes = c == ')' || c == ']' || c == '}';
+        if (closes && last != std::string::npos && text[last] == ',') text.resize(last);
+        if (c == 'L') continue;
+        text += c == '(' ? '[' : c == ')' ? ']' : c == 'T' ? 't' : c == 'F' ? 'f' : c;
+    }
+    return text;
+}
 
-    NpyHeader parse() {
+NpyHeader parse_header(const std::filesystem::path& path, std::string_view text) {
+    const auto refuse = [&](const std::string& what) {
+        fail(path, "the npy header is damaged (" + what + "); write the file again");
+    };
+    try {
         NpyHeader header;
-        bool has_order = false, has_shape = false;
-        expect('{');
-        while (!accept('}')) {
-            const std::string key = parse_string();
-            expect(':');
-            if (key == "descr") {
-                if (peek() == '[') fail(path_, "samples are structures; labels must be integers: save one field alone");
-                header.descr = parse_string();
-            } else if (key == "fortran_order") {
-                header.is_fortran = parse_bool();
-                has_order = true;
-            } else if (key == "shape") {
-                header.shape = parse_shape();
-                has_shape = true;
-            } else {
-                refuse("unknown key '" + key + "'");
-            }
-            if (!accept(',') && peek() != '}') refuse("no comma or brace after '" + key + "'");
+        const nlohmann::json json = parse_json(path, to_json_text(text));
+        for (const auto& [key, value] : json.items())
+            if (key != "descr" && key != "fortran_order" && key != "shape") refuse("unknown key '" + key + "'");
+        if (json.at("descr").is_array())
+            fail(path, "samples are structures; labels must be integers: save one field alone");
+        json.at("descr").get_to(header.descr);
+        header.is_fortran = json.at("fortran_order").get<bool>();
+        for (const auto& size : json.at("shape")) {
+            if (!size.is_number_unsigned()) refuse("shape is not a tuple of sizes");
+            header.shape.push_back(size.get<std::uint64_t>());
         }
-        if (header.descr.empty() || !has_order || !has_shape) refuse("descr, fortran_order or shape is missing");
+        if (header.descr.empty()) refuse("descr is empty");
         return header;
+    } catch (const nlohmann::json::exception& problem) {
+        refuse(problem.what());
     }
-
-private:
-    [[noreturn]] void refuse(const std::string& what) const {
-        fail(path_, "the npy header is damaged (" + what + "); write the file again");
-    }
-    char peek() {
-        while (!text_.empty() && std::isspace(static_cast<unsigned char>(text_.front()))) text_.remove_prefix(1);
-        return text_.empty() ? '\0' : text_.front();
-    }
-    bool accept(char wanted) {
-        if (peek() != wanted) return false;
-        text_.remove_prefix(1);
-        return true;
-    }
-    void expect(char wanted) {
-        if (!accept(wanted)) refuse(std::string("no '") + wanted + "'");
-    }
-    std::string parse_string() {
-        const char quote = peek();
-        if (quote != '\'' && quote != '"') refuse("no quoted word");
-        const std::size_t end = text_.find(quote, 1);
-        if (end == std::string_view::npos) refuse("a quote is not closed");
-        const std::string word(text_.substr(1, end - 1));
-        text_.remove_prefix(end + 1);
-        return word;
-    }
-    bool parse_bool() {
-        peek();
-        for (const std::string_view word : {"True", "False"}) {
-            if (!text_.starts_with(word)) continue;
-            text_.remove_prefix(word.size());
-            return word == "True";
-        }
-        refuse("fortran_order is neither True nor False");
-    }
-    std::vector<std::uint64_t> parse_shape() {
-        std::vector<std::uint64_t> shape;
-        expect('(');
-        while (!accept(')')) {
-            peek();
-            std::uint64_t size = 0;
-            const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), size);
-            if (error != std::errc()) refuse("shape is not a tuple of sizes");
-            text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
-            accept('L');  // written by Python 2
-            shape.push_back(size);
-            if (!accept(',') && peek() != ')') refuse("shape is not a tuple of sizes");
-        }
-        return shape;
-    }
-
-    const std::filesystem::path& path_;
-    std::string_view text_;
-};
+    return {};
+}
 
 NpyHeader read_header(const InputFile& file) {
     std::array<std::byte, 12> start{};
@@ -128,7 +90,7 @@ NpyHeader read_header(const InputFile& file) {
     }
     std::string text(length, '\0');
     file.read(offset, std::as_writable_bytes(std::span(text)));
-    NpyHeader header = NpyHeaderParser(file.path(), text).parse();
+    NpyHeader header = parse_header(file.path(), text);
     header.data_offset = offset + length;
     return header;
 }
@@ -158,21 +120,17 @@ SampleFormat parse_format(const std::filesystem::path& path, const std::string& 
 }  // namespace
 
 std::unique_ptr<SectionReader> open_npy(const std::filesystem::path& path, const ReadOptions& options) {
-    InputFile file(path);
-    NpyHeader header = read_header(file);
-    const SampleFormat format = parse_format(path, header.descr);
+    NpyHeader header = read_header(InputFile(path));
+    ArrayFile array{.format = "npy", .source = path, .sample = parse_format(path, header.descr)};
     if (header.shape.size() != 2 && header.shape.size() != 3) {
         fail(path, "the array has " + std::to_string(header.shape.size()) + " dimensions; save one of shape (z, y, x)");
     }
     // numpy's last index is x; in Fortran order the first index, z, runs fastest.
     if (header.shape.size() == 2) header.shape.insert(header.shape.begin(), 1);
-    const auto size = checked_size(path, {header.shape[2], header.shape[1], header.shape[0]});
-    VolumeInfo info = volume_info(path, "npy", format.type, size);
-    info.can_sweep = {true, true, true};
-    const FlatLayout layout{.offset = header.data_offset,
-                            .format = format,
-                            .order = header.is_fortran ? std::array{2, 1, 0} : std::array{0, 1, 2}};
-    return open_flat(std::move(file), std::move(info), layout, options);
+    array.lattice.size = checked_size(path, {header.shape[2], header.shape[1], header.shape[0]});
+    array.begin = header.data_offset;
+    if (header.is_fortran) array.order = {2, 1, 0};
+    return open_array(array, options);
 }
 
 }  // namespace regionmesh::formats

@@ -1,28 +1,32 @@
 #include "formats/array/stream_reader.h"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 #include <vector>
 
+#include "formats/array/numbered_sections.h"
 #include "formats/array/volume_size.h"
 
 namespace regionmesh::formats {
 namespace {
 
-constexpr std::uint64_t kPartSamples = std::uint64_t{1} << 17;  // read and turned into labels at a time
+constexpr std::uint64_t kPartSamples = std::uint64_t{1} << 17;  // read and decoded at a time
 constexpr std::uint64_t kMostPartBytes = std::uint64_t{1} << 20;
 
-class StreamReader final : public SectionReader {
+class StreamReader final : public NumberedSections {
 public:
     StreamReader(std::unique_ptr<ByteStream> stream, VolumeInfo info, const StreamLayout& layout)
-        : stream_(std::move(stream)), info_(std::move(info)), layout_(layout) {}
+        : NumberedSections(std::move(info)), stream_(std::move(stream)), layout_(layout) {}
 
-    const VolumeInfo& info() const override { return info_; }
+    void rewind() override {
+        NumberedSections::rewind();
+        stream_->rewind();
+        is_at_data_ = false;
+    }
 
-    bool next(std::span<InputLabel> section) override {
-        assert(section.size() == std::size_t{section_width()} * section_height());
-        if (next_ == section_count()) return false;
+private:
+    void read_section(std::uint32_t number, std::span<InputLabel> section) override {
+        const auto refuse = [&] { fail_section(info_.source, number, stream_->problem()); };
         if (!is_at_data_ && !stream_->skip(layout_.offset)) refuse();
         is_at_data_ = true;
         const std::size_t bytes = sample_bytes(layout_.format.type), pitch = bytes * layout_.components;
@@ -35,26 +39,13 @@ public:
                            section.subspan(done, count));
             done += count;
         }
-        if (next_ + 1 == section_count() && !stream_->finish()) refuse();
-        ++next_;
-        return true;
+        if (number + 1 == section_count() && !stream_->finish()) refuse();
     }
-
-    void rewind() override {
-        stream_->rewind();
-        is_at_data_ = false;
-        next_ = 0;
-    }
-
-private:
-    [[noreturn]] void refuse() const { fail_section(info_.source, next_, stream_->problem()); }
 
     std::unique_ptr<ByteStream> stream_;
-    VolumeInfo info_;
     StreamLayout layout_;
     std::vector<std::byte> part_;
     bool is_at_data_ = false;
-    std::uint32_t next_ = 0;
 };
 
 }  // namespace

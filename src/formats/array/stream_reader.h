@@ -1,4 +1,4 @@
-// Reads volumes whose samples come in one stream, forward, along z.
+// Reads volumes whose samples form one stream, forward, along z.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ namespace regionmesh::formats {
 struct StreamLayout {
     std::uint64_t offset = 0;  // of the first sample, in bytes of the stream
     SampleFormat format;
-    std::uint32_t components = 1;  // that lie together at each sample
-    std::uint32_t component = 0;   // the one to read
+    std::uint32_t components = 1;  // values at each sample
+    std::uint32_t component = 0;   // the index of the value to read
 };
 
-/// Requires info.source, format, type and lattice; the options give the sweep, which must be along z, and the spacing;
-/// `remedy` is what to do where it is not. Sizes are to be held against what is there before: streams have no length.
+/// Requires info.source, format, type and lattice; the options give the spacing and the sweep, which must be along z:
+/// `remedy` ends the error if it is not. The caller checks sizes against the file first, since streams have no length.
 /// Holds 2^17 samples with all their components.
 std::unique_ptr<SectionReader> open_stream(std::unique_ptr<ByteStream> stream, VolumeInfo info,
                                            const StreamLayout& layout, const ReadOptions& options,
                                            const std::string& remedy = "give --sweep z");
 
-/// Throws where `packed_bytes` of a deflated file cannot hold `needed` bytes.
+/// Throws if `packed_bytes` of a deflated file cannot inflate to `needed` bytes.
 void check_inflated(const std::filesystem::path& path, std::uint64_t packed_bytes, std::uint64_t needed);
 
 }  // namespace regionmesh::formats

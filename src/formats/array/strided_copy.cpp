@@ -35,7 +35,7 @@ void copy_runs(Strided<const std::byte> from, Strided<std::byte> to, const std::
 
 void copy_box(Strided<const std::byte> from, Strided<std::byte> to, const std::array<std::uint64_t, 3>& count,
               std::size_t sample_bytes) {
-    // Runs go along the axis that lies closest together where they are written.
+    // Runs follow the axis with the smallest pitch in the target.
     std::array<int, 3> order{0, 1, 2};
     const auto sort = [&](int a, int b) {
         if (to.pitch[order[a]] > to.pitch[order[b]]) std::swap(order[a], order[b]);

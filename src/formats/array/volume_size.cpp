@@ -42,7 +42,7 @@ std::uint64_t volume_bytes(const std::filesystem::path& path, const std::array<s
     return plane * size[2] * sample_bytes;
 }
 
-VolumeInfo volume_info(const std::filesystem::path& source, const char* format, SampleType type,
+VolumeInfo volume_info(const std::filesystem::path& source, const std::string& format, SampleType type,
                        const std::array<std::uint32_t, 3>& size) {
     VolumeInfo info;
     info.source = source.string();

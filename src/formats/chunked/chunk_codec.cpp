@@ -21,7 +21,7 @@ constexpr std::string_view kLz4JavaMagic = "LZ4Block";
 constexpr std::size_t kLz4JavaHead = 21;           // magic, token, two lengths, check sum
 constexpr unsigned kLz4JavaStored = 0x10;          // high half of the token: not compressed
 constexpr unsigned kLz4JavaCompressed = 0x20;      // compressed
-constexpr std::uint64_t kMaxLz4Growth = 255;       // a byte of the length adds 255 bytes
+constexpr std::uint64_t kMaxLz4Growth = 255;       // a length byte adds at most 255 bytes
 constexpr std::uint64_t kMaxZstdGrowth = 1 << 15;  // a block of 4 bytes repeats one 128 KiB long
 
 std::uint32_t little_endian(const std::byte* bytes) {
@@ -42,7 +42,7 @@ std::string inflate_chunk(Packed packed, std::span<std::byte> bytes) {
     stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
     stream.avail_out = static_cast<uInt>(bytes.size());
     int status = inflate(&stream, Z_FINISH);
-    // The check sum comes after the last byte, and inflate has not seen it when all bytes just fit.
+    // The check sum follows the last byte; inflate has not read it yet if all bytes just fit.
     std::array<Bytef, 1> beyond{};
     if (status == Z_BUF_ERROR && stream.avail_out == 0) {
         stream.next_out = beyond.data();
@@ -72,7 +72,7 @@ std::string unpack_lz4_block(Packed packed, std::span<std::byte> bytes) {
     return static_cast<std::size_t>(count) == bytes.size() ? "" : length_problem(count, bytes.size());
 }
 
-/// Blocks one after another until one of no bytes; its check sums are of another kind (xxhash) and not looked at.
+/// Blocks one after another, up to an empty block. Their check sums (xxhash) are not verified.
 std::string unpack_lz4_java(Packed packed, std::span<std::byte> bytes) {
     while (packed.size() >= kLz4JavaHead &&
            std::memcmp(packed.data(), kLz4JavaMagic.data(), kLz4JavaMagic.size()) == 0) {
@@ -141,7 +141,7 @@ constexpr std::array<std::uint32_t, 256> crc32c_table() {
     return table;
 }
 
-/// Takes the check sums off the end, last one first; false where one does not fit.
+/// Removes the check sums from the end, the last one first; false if one does not match.
 bool strip_check_sums(Packed& packed, std::size_t count) {
     for (; count > 0; --count) {
         if (packed.size() < 4) return false;
@@ -175,7 +175,7 @@ std::optional<Codec> parse_codec(std::string_view name) {
 }
 
 std::string unpack(std::span<const std::byte> packed, std::span<const Codec> codecs, std::span<std::byte> bytes) {
-    constexpr const char* kBadSum = "its check sum (crc32c) does not fit";
+    constexpr const char* kBadSum = "its check sum (crc32c) does not match";
     const auto compressor = std::ranges::find_if(codecs, [](Codec codec) { return codec != Codec::kCrc32c; });
     const auto inner = static_cast<std::size_t>(compressor - codecs.begin());
     const std::size_t outer = codecs.size() - inner - (compressor == codecs.end() ? 0 : 1);

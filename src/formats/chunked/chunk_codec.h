@@ -1,4 +1,4 @@
-// How the chunks of Zarr and N5 stores are packed.
+// Unpacks the chunks of Zarr and N5 stores.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,22 @@
 namespace regionmesh::formats {
 
 enum class Codec {
-    kInflate,  // zlib or gzip, whichever its first bytes say
+    kInflate,  // zlib or gzip, decided by the first bytes
     kZstd,
-    kLz4,  // numcodecs: 4 bytes of length, one LZ4 block; or the blocks of lz4-java, whichever its first bytes say
+    kLz4,  // 4 bytes of length and one LZ4 block (numcodecs), or the blocks of lz4-java, decided by the first bytes
     kBlosc,
-    kCrc32c,  // 4 bytes behind the others
+    kCrc32c,  // 4 bytes appended
 };
 
-/// "zlib", "gzip", "zstd", "lz4", "blosc" and "crc32c"; no others.
+/// Knows "zlib", "gzip", "zstd", "lz4", "blosc" and "crc32c".
 std::optional<Codec> parse_codec(std::string_view name);
 
-/// Unpacks what `codecs`, in the order in which they were applied, made of as many bytes as `bytes` has. At most one of
-/// them compresses, any number are check sums. Empty where that worked, else what is wrong. Nothing is allocated for
-/// sizes that `packed` claims; check sums of zlib, gzip, zstd and crc32c are verified.
+/// Undoes `codecs`, given in the order of packing, and fills `bytes`. Returns an empty string, or what is wrong with
+/// the chunk. At most one codec compresses; any number are check sums. Allocates nothing by sizes read from `packed`.
+/// Verifies the check sums of zlib, gzip, zstd and crc32c.
 std::string unpack(std::span<const std::byte> packed, std::span<const Codec> codecs, std::span<std::byte> bytes);
 
-/// False where no `packed_bytes` of these codecs can hold `bytes`: a damaged size, to be refused before it is
-/// allocated.
+/// False if `packed_bytes` of these codecs cannot unpack to `bytes`: the size is damaged, and must not be allocated.
 bool may_hold(std::uint64_t packed_bytes, std::span<const Codec> codecs, std::uint64_t bytes);
 
 /// The Castagnoli check sum, as in iSCSI (RFC 3720).

@@ -10,7 +10,7 @@ namespace regionmesh::formats {
 namespace {
 
 struct ImageGeometry {
-    std::string path;  // of what holds its cell arrays
+    std::string path;  // of the group that contains the cell arrays
     std::vector<double> dimensions, spacing, origin;
 };
 
@@ -19,7 +19,7 @@ std::vector<double> attribute(const Hdf5Entry& entry, const char* name) {
     return found == entry.numbers.end() ? std::vector<double>() : found->second;
 }
 
-/// Of both versions: in the first the numbers are datasets of a group in the container, in the second attributes.
+/// Of both versions: the numbers are datasets of a group in version 7, attributes in version 8.
 std::vector<ImageGeometry> image_geometries(const std::vector<Hdf5Entry>& entries) {
     constexpr std::string_view kGroup = "/_SIMPL_GEOMETRY";
     std::vector<ImageGeometry> geometries;
@@ -68,7 +68,7 @@ std::optional<std::array<std::uint64_t, 3>> cell_counts(const ImageGeometry& geo
 
 enum class Fit { kNone, kAxes, kFlat };
 
-/// An array of cells has their axes z, y, x or one for all, with or without one more for a single component.
+/// An array of cells has the axes z, y, x, or one for all cells, and may have one more for a single component.
 Fit fit_of(const Hdf5Entry& array, const ImageGeometry& geometry) {
     const auto counts = cell_counts(geometry);
     std::vector<std::uint64_t> shape = array.shape;
@@ -79,7 +79,7 @@ Fit fit_of(const Hdf5Entry& array, const ImageGeometry& geometry) {
     return shape.size() == 1 && shape[0] / z == x * y && shape[0] % z == 0 ? Fit::kFlat : Fit::kNone;
 }
 
-/// The arrays of regions among the cells of image geometries, below `group`. Older files call a region a grain.
+/// The cell arrays of region numbers below `group`. Older files call a region a grain.
 std::vector<Hdf5Entry> region_arrays(const std::vector<Hdf5Entry>& entries,
                                      const std::vector<ImageGeometry>& geometries, const std::string& group) {
     std::vector<Hdf5Entry> arrays;

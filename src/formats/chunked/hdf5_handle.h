@@ -1,4 +1,4 @@
-// Identifiers of the HDF5 library that close themselves, and a library that keeps quiet.
+// Identifiers of the HDF5 library that close themselves, and silence for its messages.
 #pragma once
 
 #include <hdf5.h>
@@ -7,7 +7,7 @@
 
 namespace regionmesh::formats {
 
-/// Owns one identifier, which `Close` gives back. Negative: none, because the library refused.
+/// Owns one identifier, which `Close` releases. Negative: the library refused to open the object.
 template <herr_t (*Close)(hid_t)>
 class Hdf5Handle {
 public:
@@ -23,8 +23,7 @@ public:
     hid_t id() const { return id_; }
     explicit operator bool() const { return id_ >= 0; }
 
-    /// False where the library says that closing failed, which for a file that was written means that bytes are
-    /// missing.
+    /// False if closing failed; then a written file may lack bytes.
     bool close() {
         const hid_t id = std::exchange(id_, H5I_INVALID_HID);
         return id < 0 || Close(id) >= 0;
@@ -43,8 +42,7 @@ using Hdf5Space = Hdf5Handle<H5Sclose>;
 using Hdf5Type = Hdf5Handle<H5Tclose>;
 using Hdf5Properties = Hdf5Handle<H5Pclose>;
 
-/// While it lives, the library does not print its stack of errors; afterwards as before. What failed is told by return
-/// values only.
+/// While it lives, the library reports errors by return values only and does not print them.
 class Hdf5Silence {
 public:
     Hdf5Silence() {

@@ -2,25 +2,37 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <string_view>
-#include <utility>
 
-#include "formats/chunked/metadata_file.h"
+#include "formats/find_program.h"
 #include "formats/input_file.h"
+#include "formats/text/json_text.h"
 #include "regionmesh/read_sections.h"
 
 namespace regionmesh::formats {
 namespace {
 
 using Json = nlohmann::json;
+using Magic = std::array<char, 8>;
 
-// Of computing: a chunk of a GiB takes some to unpack, and so do 100,000 objects to look at.
+constexpr HelperProgram kProgram{.name = "regionmesh-hdf5", .variable = "REGIONMESH_HDF5_PROGRAM"};
+constexpr Magic kRequest{'R', 'M', 'H', '5', 'A', 'S', 'K', '1'};
+constexpr Magic kAnswer{'R', 'M', 'H', '5', 'A', 'N', 'S', '1'};
+constexpr Magic kRefusal{'R', 'M', 'H', '5', 'N', 'O', '_', '1'};
+constexpr std::uint64_t kMaxAnswer = std::uint64_t{2} << 30;
+constexpr int kOutOfMemory = 3;  // exit code
+
+// Processor time of one answer: a chunk of a GiB takes a while to unpack, and so do 100,000 objects to describe.
 constexpr unsigned kFewSeconds = 3;
 constexpr unsigned kManySeconds = 30;
 constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
 
-/// The superblock stands at the start, or behind a block of the user's own of 512 bytes, 1024, 2048 and so on.
+struct Head {
+    Magic magic;
+    std::uint64_t size;
+};
+
+/// The superblock stands at the start, or after a user block of 512 bytes, 1024, 2048 and so on.
 void require_hdf5(const std::filesystem::path& path) {
     const InputFile file(path);
     std::array<std::byte, 8> start{};
@@ -31,34 +43,10 @@ void require_hdf5(const std::filesystem::path& path) {
     fail(path, "not an HDF5 file (it does not begin as one; HDF4 is not read); write it again as HDF5");
 }
 
-/// Words of the file need not be UTF-8, which JSON is.
+/// Paths need not be UTF-8, as JSON must be.
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-Bytes to_bytes(std::string_view text) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
-
-Json parse(std::span<const std::byte> bytes) {
-    const auto* text = reinterpret_cast<const char*>(bytes.data());
-    return Json::parse(text, text + bytes.size());
-}
-
-Json to_json(const Hdf5Entry& entry) {
-    return {{"path", entry.path},
-            {"is_dataset", entry.is_dataset},
-            {"type", entry.type},
-            {"shape", entry.shape},
-            {"chunk", entry.chunk},
-            {"is_integer", entry.sample_type.has_value()},
-            {"stored_bytes", entry.stored_bytes},
-            {"obstacle", entry.obstacle},
-            {"values", entry.values},
-            {"numbers", entry.numbers},
-            {"words", entry.words}};
-}
-
-/// JSON has no number for what is not finite: it comes as null, and is no use as a length either.
+/// JSON has no number for values that are not finite: they come as null, and no length is 0.
 std::vector<double> numbers_of(const Json& json) {
     std::vector<double> numbers;
     for (const Json& number : json) numbers.push_back(number.is_number() ? number.get<double>() : 0);
@@ -78,49 +66,65 @@ Hdf5Entry from_json(const Json& json) {
     return entry;
 }
 
-/// The file is opened by the first request, in the child.
-ChildProcess::Answer answers(const std::filesystem::path& path) {
-    return [path, file = std::shared_ptr<Hdf5Catalogue>()](std::span<const std::byte> bytes) mutable -> Bytes {
-        if (!file) file = std::make_shared<Hdf5Catalogue>(path);
-        const Json request = parse(bytes);
-        if (request.contains("start")) {
-            return file->read(request.at("path"), {.start = request.at("start"), .count = request.at("count")});
-        }
-        Json entries = Json::array();
-        if (!request.contains("path")) {
-            for (const Hdf5Entry& entry : file->entries()) entries.push_back(to_json(entry));
-        } else if (const auto entry = file->entry(request.at("path"))) {
-            entries.push_back(to_json(*entry));
-        }
-        return to_bytes(dump(entries));
-    };
-}
-
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path)
-    : path_((require_hdf5(path), path)),
-      child_(answers(path),
-             path.string() + ": the HDF5 library fails on this file (it crashed, or took more time or memory than it " +
-                 "should); the file is damaged, fetch it again") {}
+    : path_((require_hdf5(path), path)), program_path_(find_program(kProgram)) {
+    program_.emplace(program_path_, std::vector{path.string()});
+}
 
-std::vector<Hdf5Entry> Hdf5Reader::ask(const std::string& request, unsigned seconds) {
+/// A signal, an ordinary end without an answer, or a lack of memory is the fault of the file.
+void Hdf5Reader::report_end() {
+    if (program_) {
+        const PipedProgram::Ending ending = program_->end();
+        program_.reset();
+        const int code = ending.exit_code.value_or(0);
+        if (code != 0 && code != kOutOfMemory) {
+            fail(path_, program_path_.string() + " failed with exit code " + std::to_string(code) + " (" +
+                            ending.last_words + "); is it another program?");
+        }
+    }
+    fail(path_,
+         "the HDF5 library fails on this file (it crashed, or took more time or memory than it should); the file is "
+         "damaged, fetch it again");
+}
+
+Bytes Hdf5Reader::ask(const std::string& request) {
+    Head head{kRequest, request.size()};
+    const auto head_bytes = std::as_writable_bytes(std::span(&head, 1));
+    if (!program_ || !program_->send(head_bytes) || !program_->send(std::as_bytes(std::span(request))) ||
+        program_->receive(head_bytes) < sizeof head) {
+        report_end();
+    }
+    if ((head.magic != kAnswer && head.magic != kRefusal) || head.size > kMaxAnswer) {
+        program_.reset();
+        fail(path_, program_path_.string() + " did not answer as regionmesh-hdf5 does; is it another program?");
+    }
+    Bytes bytes(head.size);
+    if (program_->receive(bytes) < bytes.size()) report_end();
+    if (head.magic == kRefusal) fail(path_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return bytes;
+}
+
+std::vector<Hdf5Entry> Hdf5Reader::ask_entries(const std::string& request) {
+    const Bytes bytes = ask(request);
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
     return reading(path_, [&] {
         std::vector<Hdf5Entry> entries;
-        for (const Json& entry : parse(child_.ask(to_bytes(request), seconds))) entries.push_back(from_json(entry));
+        for (const Json& entry : Json::parse(text, text + bytes.size())) entries.push_back(from_json(entry));
         return entries;
     });
 }
 
 std::optional<Hdf5Entry> Hdf5Reader::entry(const std::string& path) {
-    std::vector<Hdf5Entry> entries = ask(dump({{"path", path}}), kFewSeconds);
+    std::vector<Hdf5Entry> entries = ask_entries(dump({{"seconds", kFewSeconds}, {"path", path}}));
     return entries.empty() ? std::nullopt : std::optional(std::move(entries.front()));
 }
 
-std::vector<Hdf5Entry> Hdf5Reader::entries() { return ask("{}", kManySeconds); }
+std::vector<Hdf5Entry> Hdf5Reader::entries() { return ask_entries(dump({{"seconds", kManySeconds}})); }
 
 Bytes Hdf5Reader::read(const std::string& path, const Hdf5Box& box) {
-    return child_.ask(to_bytes(dump({{"path", path}, {"start", box.start}, {"count", box.count}})), kManySeconds);
+    return ask(dump({{"seconds", kManySeconds}, {"path", path}, {"start", box.start}, {"count", box.count}}));
 }
 
 }  // namespace regionmesh::formats

@@ -15,8 +15,9 @@ namespace {
 
 using Triple = std::array<std::uint64_t, 3>;
 
-constexpr std::uint64_t kBoxBytes = std::uint64_t{16} << 20;    // asked for at a time, where chunks are no larger
-constexpr std::uint64_t kCrossBytes = std::uint64_t{64} << 20;  // sections across the file's order, read together
+constexpr std::uint64_t kBoxBytes = std::uint64_t{16} << 20;  // of one request, unless chunks are larger
+constexpr std::uint64_t kCrossBytes = std::uint64_t{64}
+                                      << 20;  // most bytes of sections across the order of the file, read together
 constexpr std::uint64_t kCrossSections = 64;
 constexpr std::uint64_t kMaxGrowth = std::uint64_t{1} << 15;  // of packed samples, whatever the filter
 
@@ -53,7 +54,7 @@ public:
     }
 
 private:
-    /// Whole chunks across the sweep, as many as fit: first along the axis that is faster in the file.
+    /// Whole chunks across the sweep, as many as kBoxBytes allows, first along the axis that is faster in the file.
     Triple box_size(const Block& block) const {
         const int swept = block.sweep.axes[2];
         Triple step = chunk_;
@@ -76,7 +77,7 @@ private:
         Hdf5Box box{.start = axes_.index, .count = std::vector<std::uint64_t>(shape_.size(), 1)};
         Pitches pitch{};
         std::uint64_t first = 0;
-        if (is_flat_) {  // whole planes, of which a part may be wanted
+        if (is_flat_) {  // reads whole planes and copies a part
             const std::uint64_t plane = size_[0] * size_[1];
             box.start[0] = start[2] * plane;
             box.count[0] = count[2] * plane;
@@ -108,8 +109,8 @@ private:
     std::uint64_t bytes_;
 };
 
-/// What is best read together. Samples without chunks lie in the order of the array: single sections along its slowest
-/// axis, runs of them along the others.
+/// Samples that are best read together. A contiguous dataset is read in single sections along its slowest axis, in
+/// groups of sections along the others.
 Triple reading_chunk(const Hdf5Volume& volume, const ArrayAxes& axes, const std::array<std::uint32_t, 3>& size) {
     if (volume.flat_size) return {size[0], size[1], 1};
     Triple chunk = axes.along(volume.dataset.chunk.empty() ? std::vector<std::uint64_t>(axes.index.size(), 1)
@@ -173,7 +174,7 @@ std::unique_ptr<SectionReader> open_hdf5_volume(std::unique_ptr<Hdf5Reader> file
     const BlockLayout layout{
         .format = {.type = *dataset.sample_type, .is_big_endian = std::endian::native == std::endian::big},
         .chunk = chunk,
-        .source_bytes = 3 * box_bytes,  // here, on the way, and unpacked in the library
+        .source_bytes = 3 * box_bytes,  // in this process, in the socket, and in regionmesh-hdf5
         .is_backed = is_backed};
     auto source = std::make_unique<Hdf5Source>(std::move(file), volume, axes, Triple{size[0], size[1], size[2]}, chunk);
     return open_blocks(std::move(source), std::move(info), layout, axes.without_layer(options));

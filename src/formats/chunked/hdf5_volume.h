@@ -8,7 +8,7 @@
 
 namespace regionmesh::formats {
 
-/// The dataset that was chosen, and how it lies in space.
+/// The chosen dataset, and its position in space.
 struct Hdf5Volume {
     const char* format = "hdf5";
     std::string source = {};  // FILE:DATASET
@@ -21,10 +21,10 @@ struct Hdf5Volume {
 /// "/cells (uint16, 4 x 5 x 6)"
 std::string describe(const Hdf5Entry& dataset);
 
-/// "a.h5:/cells (uint16, 4 x 5 x 6), a.h5:/mask (...)": a few of them, to choose from.
+/// "a.h5:/cells (uint16, 4 x 5 x 6), a.h5:/mask (...)": at most eight, for an error.
 std::string list_datasets(const std::filesystem::path& file, const std::vector<Hdf5Entry>& datasets);
 
-/// Throws where the dataset's samples are no integers or cannot be read here.
+/// Throws if the samples are no integers, or cannot be read.
 void require_labels(const std::string& source, const Hdf5Entry& dataset);
 
 /// Requires a dataset that passed require_labels.

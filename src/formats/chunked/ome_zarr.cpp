@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "formats/chunked/metadata_file.h"
+#include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -11,12 +11,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// Version 0.5 has a place of its own.
+/// Version 0.5 puts the metadata under "ome".
 const Json& ome_part(const Json& attributes) {
     return attributes.is_object() && attributes.contains("ome") ? attributes.at("ome") : attributes;
 }
 
-/// Objects since version 0.4, words in 0.3; before that axes had an order, and no names.
+/// Axes are objects since version 0.4 and words in 0.3; older versions have a fixed order without names.
 std::vector<std::string> axis_names(const Json& image) {
     if (!image.contains("axes")) return {"t", "c", "z", "y", "x"};
     std::vector<std::string> names;
@@ -28,13 +28,13 @@ std::vector<std::string> axis_names(const Json& image) {
     return names;
 }
 
-/// One after another: each acts on what those before it made.
+/// Applies the transformations one after another.
 void transform(const fs::path& group, const Json& transformations, OmeLevel& level) {
     for (const Json& step : transformations) {
         const std::string type = step.at("type");
         if (type == "identity") continue;
         if ((type != "scale" && type != "translation") || !step.contains(type))
-            fail(group, "places in space are given by '" + type + "', which is not read; scale and translation are");
+            fail(group, "positions in space are given by '" + type + "', which is not read; scale and translation are");
         const auto numbers = step.at(type).get<std::vector<double>>();
         level.scale.resize(numbers.size(), 1);
         level.translation.resize(numbers.size(), 0);

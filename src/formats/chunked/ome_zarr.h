@@ -1,4 +1,4 @@
-// OME-Zarr (NGFF) 0.1 to 0.5: what its metadata say of the arrays of an image.
+// Reads the metadata of OME-Zarr images (NGFF 0.1 to 0.5).
 #pragma once
 
 #include <filesystem>
@@ -17,11 +17,11 @@ struct OmeLevel {
     std::vector<double> scale, translation;
 };
 
-/// The resolutions of the first image of a group, the finest first; none where the attributes are not of OME-Zarr.
-/// Throws for transformations that are none of identity, scale and translation, and for paths that leave the group.
+/// The resolutions of the first image of a group, the finest first; empty if the attributes are not those of OME-Zarr.
+/// Throws for transformations other than identity, scale and translation, and for paths outside the group.
 std::vector<OmeLevel> ome_levels(const std::filesystem::path& group, const nlohmann::json& attributes);
 
-/// Names that `image-label` gives to labels, in a property `name`, `label` or `class`.
+/// The names of labels in `image-label`: the properties `name`, `label` or `class`.
 LabelNames ome_label_names(const nlohmann::json& attributes);
 
 }  // namespace regionmesh::formats

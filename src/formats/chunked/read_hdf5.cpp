@@ -3,7 +3,6 @@
 #include "formats/array/volume_formats.h"
 #include "formats/chunked/dream3d_volume.h"
 #include "formats/chunked/hdf5_volume.h"
-#include "formats/chunked/store_search.h"
 #include "formats/input_file.h"
 
 namespace regionmesh::formats {
@@ -11,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What vigra and ilastik write: {"axes": [{"key": "z"}, ...]}, one for each axis of the array.
+/// The attribute of vigra and ilastik: {"axes": [{"key": "z"}, ...]}, one for each axis of the array.
 std::vector<std::string> axis_names(const Hdf5Entry& dataset) {
     const auto found = dataset.words.find("axistags");
     if (found == dataset.words.end()) return {};
@@ -25,7 +24,7 @@ std::vector<std::string> axis_names(const Hdf5Entry& dataset) {
     return names;
 }
 
-/// GrainMapper3D (LabDCT) keeps the spacing, along x, y, z, beside the group of its volumes.
+/// GrainMapper3D (LabDCT) writes the spacing along x, y, z in the parent of the group of its volumes.
 void add_lab_dct_spacing(Hdf5Reader& file, Hdf5Volume& volume) {
     if (!volume.dataset.path.starts_with("/LabDCT/Data/")) return;
     const auto spacing = file.entry("/LabDCT/Spacing");
@@ -33,7 +32,7 @@ void add_lab_dct_spacing(Hdf5Reader& file, Hdf5Volume& volume) {
     for (int axis = 0; axis < 3; ++axis) volume.placement.spacing[axis] = spacing->values[axis];
 }
 
-/// Datasets that may be volumes, of integers, below a group.
+/// Datasets of integers below a group that may be volumes.
 std::vector<Hdf5Entry> find_candidates(Hdf5Reader& file, const std::string& below) {
     std::vector<Hdf5Entry> entries = file.entries();
     std::erase_if(entries, [&](const Hdf5Entry& entry) {
@@ -45,7 +44,7 @@ std::vector<Hdf5Entry> find_candidates(Hdf5Reader& file, const std::string& belo
 Hdf5Entry only_candidate(Hdf5Reader& file, const std::string& source, const std::string& below) {
     std::vector<Hdf5Entry> candidates = find_candidates(file, below);
     if (candidates.size() == 1)
-        return file.entry(candidates.front().path).value_or(candidates.front());  // with all words
+        return file.entry(candidates.front().path).value_or(candidates.front());  // with words of variable length
     if (candidates.empty())
         fail(source, "holds no dataset of integers with 2 or 3 dimensions; labels must be integers");
     fail(source, "holds several datasets; name one: " + list_datasets(file.path(), candidates));
@@ -65,7 +64,8 @@ Hdf5Entry choose_dataset(Hdf5Reader& file, const std::string& source, const std:
 
 }  // namespace
 
-std::unique_ptr<SectionReader> open_hdf5(const fs::path& path, const std::string& inside, const ReadOptions& options) {
+std::unique_ptr<SectionReader> open_hdf5(const fs::path& named, const ReadOptions& options) {
+    const auto [path, inside] = split_dataset(named);
     auto file = std::make_unique<Hdf5Reader>(path);
     const std::string source = inside.empty() ? path.string() : path.string() + ":" + inside;
     if (auto volume = find_dream3d_volume(*file, inside)) {

@@ -4,10 +4,10 @@
 #include <numeric>
 
 #include "formats/array/volume_formats.h"
-#include "formats/chunked/metadata_file.h"
 #include "formats/chunked/store_array.h"
 #include "formats/chunked/store_search.h"
 #include "formats/input_file.h"
+#include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr const char* kFile = "attributes.json";
-constexpr int kMaxLevelDepth = 4;  // folders above an array that may speak for it
+constexpr int kMaxLevelDepth = 4;  // folders above an array whose attributes are read
 
 Json attributes_of(const fs::path& folder) { return read_json(folder / kFile).value_or(Json::object()); }
 
@@ -84,7 +84,7 @@ std::vector<double> numbers_of(const Json& attributes, const char* key) {
     return numbers;
 }
 
-/// Of level 3 for an array called `s3`, from a list of all levels above it.
+/// For an array called `s3`, entry 3 of the list of all levels in a group above it.
 std::vector<double> factors_of_level(const fs::path& array, const Json& attributes) {
     const std::string name = array.filename().string();
     std::size_t level = 0;
@@ -100,7 +100,7 @@ std::vector<double> factors_of_level(const fs::path& array, const Json& attribut
     return {};
 }
 
-/// The array's own numbers go before those of the groups it lies in, and nearer groups before farther ones.
+/// The numbers of the array come before those of the groups around it, and nearer groups before farther ones.
 struct Found {
     std::vector<double> resolution, factors, offset;
 };
@@ -120,7 +120,7 @@ Found find_numbers(const fs::path& array) {
     return found;
 }
 
-/// With axes by name: {"axes": ["z", "y", "x"], "scale": [...], "translate": [...]}.
+/// With named axes: {"axes": ["z", "y", "x"], "scale": [...], "translate": [...]}.
 bool take_transform(const Json& attributes, Placement& placement) {
     const Json transform = attributes.value("transform", Json());
     if (!transform.is_object() || !transform.value("axes", Json()).is_array()) return false;
@@ -135,7 +135,7 @@ bool take_transform(const Json& attributes, Placement& placement) {
     return true;
 }
 
-/// A sample of a coarser level stands in the middle of those it was made from.
+/// A sample of a coarser level lies in the middle of the samples it was made from.
 Placement placement_of(const StoreArray& array) {
     Placement placement;
     if (take_transform(array.attributes, placement)) return placement;

@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "formats/array/volume_formats.h"
-#include "formats/chunked/metadata_file.h"
 #include "formats/chunked/ome_zarr.h"
 #include "formats/chunked/store_search.h"
 #include "formats/chunked/zarr_array.h"
 #include "formats/input_file.h"
+#include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 constexpr int kMaxLevelDepth = 4;  // folders between an image and its arrays
 
-/// An array, and what the image that it belongs to says of it.
+/// An array, and the metadata of the image to which it belongs.
 struct Found {
     fs::path folder;
     std::optional<OmeLevel> level = {};
@@ -26,7 +26,7 @@ Found from_image(const fs::path& group, const OmeLevel& level, const Json& attri
     return {level.folder, level, reading(group, [&] { return ome_label_names(attributes); })};
 }
 
-/// The image that counts the array among its resolutions stands in one of the folders above.
+/// Searches the folders above for the image that has the array as one of its resolutions.
 Found with_image(const fs::path& array) {
     const fs::path whole = fs::absolute(array);
     fs::path group = whole.parent_path();
@@ -83,7 +83,7 @@ Placement level_placement(const fs::path& folder, const OmeLevel& level, const A
     return placement;
 }
 
-/// xarray's way to name axes in version 2.
+/// xarray names axes so in version 2.
 void add_axis_names(StoreArray& array) {
     if (!array.axis_names.empty() || !array.attributes.is_object()) return;
     const Json names = array.attributes.value("_ARRAY_DIMENSIONS", Json::array());

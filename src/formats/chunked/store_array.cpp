@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 using Indices = std::vector<std::uint64_t>;
 
 constexpr std::size_t kMaxAxes = 16;
-constexpr std::uint64_t kMaxChunks = std::uint64_t{1} << 22;    // that one block is put together from
-constexpr std::uint64_t kMaxOverhead = std::uint64_t{1} << 20;  // of a small chunk that a codec makes larger
-constexpr std::uint64_t kMissing = ~std::uint64_t{0};           // offset and length of a chunk that a shard lacks
+constexpr std::uint64_t kMaxChunks = std::uint64_t{1} << 22;    // of one block
+constexpr std::uint64_t kMaxOverhead = std::uint64_t{1} << 20;  // of a codec, for a small chunk
+constexpr std::uint64_t kMissing = ~std::uint64_t{0};           // offset and length of a missing chunk in a shard
 
 /// Part of an array: from `low` up to, not including, `high`.
 struct Range {
@@ -180,7 +180,7 @@ private:
         if (file.read(offset, packed_) < length) refuse("the file became shorter while it was read");
     }
 
-    /// Unpacks packed_ and copies what is wanted of it.
+    /// Unpacks packed_ and copies the wanted samples.
     void put_chunk(const Indices& chunk) {
         std::span<const std::byte> packed = packed_;
         Indices size = array_.chunk;
@@ -245,7 +245,7 @@ private:
     ArrayAxes axes_;
     std::size_t bytes_;  // of a sample
     std::vector<std::byte> packed_, unpacked_;
-    // What is being read: the block, where it goes, and the file.
+    // The block that is being read, its target, and the current file.
     Range wanted_;
     Pitches pitch_{};
     std::byte* samples_ = nullptr;
@@ -253,7 +253,7 @@ private:
     fs::path path_;
 };
 
-/// What a block as deep as a chunk takes, along the axis where that is most.
+/// Most bytes of a block that is as deep as a chunk, over the three axes.
 std::uint64_t deepest_block(const StoreArray& array, const ArrayAxes& axes) {
     const auto size = axes.along(array.shape), chunk = axes.along(array.chunk);
     std::uint64_t most = 0;
@@ -265,8 +265,8 @@ std::uint64_t deepest_block(const StoreArray& array, const ArrayAxes& axes) {
     return most;
 }
 
-/// Whether the chunks that are there may hold so many bytes, by their sizes; looks at no more of them than it takes. A
-/// folder of metadata only was not fetched whole, or is the wrong one.
+/// Whether the chunk files may unpack to `wanted` bytes, judged by their sizes; stops at the first file that suffices.
+/// Throws if there is no chunk: a folder of metadata alone was not fetched completely, or is the wrong one.
 bool may_be_filled(const StoreArray& array, std::uint64_t wanted) {
     std::error_code error;
     std::uint64_t bytes = 0, files = 0;

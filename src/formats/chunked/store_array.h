@@ -1,4 +1,4 @@
-// Arrays kept as a folder of chunks, a file each or several in one: Zarr and N5.
+// Reads arrays stored as a folder of chunks, one or several in each file: Zarr and N5.
 #pragma once
 
 #include <filesystem>
@@ -13,52 +13,52 @@
 
 namespace regionmesh::formats {
 
-/// How the file of a chunk is called: "c/0/1/2", "0.1.2".
+/// The name of the file of a chunk: "c/0/1/2", "0.1.2".
 struct ChunkNames {
     std::string prefix = {};
     char separator = '.';
     bool is_reversed = false;  // the fastest axis first
 };
 
-/// What the metadata of an array say. Lists have one entry for each axis, the slowest first.
+/// The metadata of an array. Lists have one entry for each axis, the slowest first.
 struct StoreArray {
     std::filesystem::path folder;
     std::vector<std::uint64_t> shape = {};
     std::vector<std::uint64_t> chunk = {};  // samples packed together
-    std::vector<std::uint64_t> file = {};   // samples in one file: those of a chunk, or of a shard of chunks
-    std::vector<int> stored = {};           // axes in the order in which a chunk has them
+    std::vector<std::uint64_t> file = {};   // samples in one file: of a chunk, or of a shard of chunks
+    std::vector<int> stored = {};           // order of axes in a chunk
     SampleFormat format = {};
-    std::vector<std::byte> fill = {};      // a sample as stored, for chunks that are not there
-    std::vector<Codec> codecs = {};        // of a chunk, in the order in which they were applied
+    std::vector<std::byte> fill = {};      // a stored sample, for missing chunks
+    std::vector<Codec> codecs = {};        // of a chunk, in the order of packing
     std::vector<Codec> index_codecs = {};  // check sums of the index of a shard
     bool is_sharded = false;
-    bool index_is_first = false;  // in a shard; else it is last
-    bool has_head = false;        // N5: chunks say their own size first
+    bool index_is_first = false;  // in a shard; else the index is last
+    bool has_head = false;        // N5: chunks begin with their size
     ChunkNames names = {};
     std::vector<std::string> axis_names = {};
     nlohmann::json attributes = {};
 };
 
-/// What a store says of an array beside its samples.
+/// What is known of the volume in addition to its samples.
 struct StoreVolume {
     const char* format = "zarr";
-    std::string source = {};  // as the user named it
+    std::string source = {};  // the path given by the user
     ArrayAxes axes = {};
     Placement placement = {};
     LabelNames names = {};
 };
 
-/// Throws where lists of the metadata do not fit each other, or a chunk is larger than a GiB. `metadata` is named.
+/// Throws if lists have different lengths or a chunk is larger than a GiB. `metadata` is the file named in errors.
 void check_array(const StoreArray& array, const std::filesystem::path& metadata);
 
-/// Requires an array that passed check_array. Chunks are read and unpacked one at a time; those that are not there are
-/// `fill`. Throws where there is no chunk at all.
+/// Requires an array that passed check_array. Reads and unpacks one chunk at a time; missing chunks have the value
+/// `fill`. Throws if there is no chunk at all.
 std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume volume, const ReadOptions& options);
 
-/// An integer type by its word ("uint16", "bool"); refused otherwise, naming floats and the rest.
+/// The integer type of a word ("uint16", "bool"). Throws for any other word.
 SampleType integer_type(const std::filesystem::path& metadata, const std::string& word);
 
-/// Throws for what is not read, naming it and what is.
+/// Throws the error for a codec that is not read; it lists those that are.
 [[noreturn]] void refuse_codec(const std::filesystem::path& metadata, const std::string& name);
 
 }  // namespace regionmesh::formats

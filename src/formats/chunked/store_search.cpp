@@ -51,11 +51,6 @@ void look_into(Search& search, const fs::path& folder, int depth) {
 
 }  // namespace
 
-bool may_be_volume(const std::vector<std::uint64_t>& shape) {
-    const auto more = std::ranges::count_if(shape, [](std::uint64_t size) { return size > 1; });
-    return std::ranges::count(shape, 0u) == 0 && (more == 2 || more == 3);
-}
-
 fs::path only_volume(const fs::path& folder, const Describe& describe) {
     constexpr std::size_t kShown = 8;
     Search search{.describe = describe};

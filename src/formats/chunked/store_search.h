@@ -1,4 +1,4 @@
-// Looks through the folders of a store for the one volume that may be meant.
+// Searches the folders of a store for its only volume.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,13 @@ namespace regionmesh::formats {
 
 enum class StoreEntry {
     kVolume,
-    kOther,  // not to be looked into
+    kOther,  // not searched
     kGroup,
 };
 
-/// Of two axes or three with more than one sample, so that it may be a volume.
-bool may_be_volume(const std::vector<std::uint64_t>& shape);
-
-/// The only volume below `folder`. `describe` says what a folder is; where it throws, as for floats, that is no volume.
-/// Throws where there are none or several, naming some. Looks at 100,000 folders at most, 8 levels deep.
+/// The only volume below `folder`. `describe` classifies a folder; if it throws, as for floats, the folder is no
+/// volume. Throws if there is none, or several, of which some are named. Searches at most 100,000 folders, 8 levels
+/// deep.
 std::filesystem::path only_volume(const std::filesystem::path& folder,
                                   const std::function<StoreEntry(const std::filesystem::path&)>& describe);
 

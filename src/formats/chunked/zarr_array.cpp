@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "formats/chunked/metadata_file.h"
+#include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// A sample as stored. No fill value means that it does not matter.
+/// A sample as stored. Without a fill value any sample will do.
 std::vector<std::byte> stored_sample(const fs::path& metadata, const Json& value, SampleFormat format) {
     std::uint64_t bits = 0;
     if (value.is_boolean()) {
@@ -49,7 +49,7 @@ SampleFormat parse_dtype(const fs::path& metadata, const Json& dtype) {
     return {.type = integer_type(metadata, is_integer ? name : word), .is_big_endian = word[0] == '>'};
 }
 
-/// numcodecs' own codecs are known to version 3 by a longer name.
+/// Version 3 has codecs of numcodecs under longer names.
 Codec codec_of(const fs::path& metadata, std::string name) {
     constexpr std::string_view kPrefix = "numcodecs.";
     if (name.starts_with(kPrefix)) name.erase(0, kPrefix.size());
@@ -84,7 +84,7 @@ StoreArray parse_version_2(const fs::path& folder, const Json& json) {
     return array;
 }
 
-/// One array-to-array codec is known: the axes of what comes out, as axes of what goes in.
+/// The one array-to-array codec that is read: axis i of its output is axis order[i] of its input.
 void apply_transpose(const fs::path& metadata, const Json& order, std::vector<int>& stored) {
     if (order == "C") return;
     std::vector<int> permuted = stored;
@@ -101,7 +101,7 @@ void apply_transpose(const fs::path& metadata, const Json& order, std::vector<in
     stored = permuted;
 }
 
-/// The name of a codec, which may stand alone or with its configuration.
+/// The name of a codec, which is a word or an object with a configuration.
 std::string codec_name(const Json& codec) { return codec.is_string() ? codec : codec.at("name"); }
 Json configuration(const Json& codec) {
     return codec.is_object() ? codec.value("configuration", Json::object()) : Json::object();
@@ -126,7 +126,7 @@ void parse_sharding(const fs::path& metadata, const Json& sharding, StoreArray& 
     parse_codecs(metadata, sharding.at("codecs"), array);
 }
 
-/// Axes are turned, then samples become bytes (or chunks of a shard do), then bytes are packed.
+/// Order of codecs: transposition of axes, then samples (or chunks of a shard) to bytes, then packing of bytes.
 void parse_codecs(const fs::path& metadata, const Json& codecs, StoreArray& array) {
     bool has_bytes = false;
     for (const Json& codec : codecs) {

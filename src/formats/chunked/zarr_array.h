@@ -7,14 +7,11 @@
 
 namespace regionmesh::formats {
 
-/// What the files `.zarray` and `.zattrs` (version 2) or `zarr.json` (version 3) of a folder say. Nothing where it is
-/// no array. Throws for what is not read: filters, codecs beside the known ones, floats.
+/// Reads `.zarray` and `.zattrs` (version 2) or `zarr.json` (version 3) of a folder. Nothing if the folder is no array.
+/// Throws for filters, unknown codecs and samples that are no integers.
 std::optional<StoreArray> read_zarr_array(const std::filesystem::path& folder);
 
-/// The attributes of an array or group; null where the folder is neither.
+/// The attributes of an array or group; null if the folder is neither.
 nlohmann::json read_zarr_attributes(const std::filesystem::path& folder);
-
-/// Whether a folder is an array or group of Zarr, as far as its own files say.
-bool is_zarr(const std::filesystem::path& folder);
 
 }  // namespace regionmesh::formats

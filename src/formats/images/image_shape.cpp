@@ -25,7 +25,7 @@ SampleType channel_type(const ImageShape& shape) {
     return shape.bits <= 32 ? SampleType::kI32 : SampleType::kI64;
 }
 
-/// How far a channel is shifted in the label. Two and four channels end with alpha.
+/// The shift of a channel in the label. Images of two or four channels have alpha last.
 int channel_shift(const ImageShape& shape, int channel) {
     const bool has_alpha = shape.channels % 2 == 0;
     const int colours = shape.channels - (has_alpha ? 1 : 0);

@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
+#include "formats/array/numbered_sections.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
-#include "formats/file_type.h"
 #include "formats/images/image_shape.h"
-#include "formats/images/png_image.h"
-#include "formats/images/tiff_file.h"
 #include "formats/input_file.h"
+#include "formats/registry.h"
+#include "formats/text/header_text.h"
 #include "formats/text/natural_order.h"
 
 namespace regionmesh::formats {
@@ -16,63 +15,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TiffFile open_single_page(const fs::path& path, std::uint64_t section) {
-    TiffFile file(path, section);
-    if (file.page_count() != 1) {
-        fail_section(path, section,
-                     "the file has " + std::to_string(file.page_count()) + " pages; give it alone, or split it");
-    }
-    return file;
-}
-
-ImageShape read_shape(const fs::path& path, std::uint64_t section) {
-    const FileType type = file_type(path);
-    if (type == FileType::kPng) return read_png_shape(path, section);
-    if (type == FileType::kTiff) return open_single_page(path, section).read_shape(0, section);
+/// The row of a section's format. Throws where it is no image that is read.
+const Format& image_format(const fs::path& path, std::uint64_t section) {
+    const Format* format = find_format(path);
+    if (format && format->read_image) return *format;
     const InputFile there(path);
+    if (format && format->is_image) require_readable(path, format);
     fail_section(path, section, "is no PNG or TIFF section; give one volume, or sections alone");
 }
 
 /// One file a section; one file open at a time.
-class ImageListReader final : public SectionReader {
+class ImageListReader final : public NumberedSections {
 public:
     ImageListReader(std::vector<fs::path> files, VolumeInfo info, const ImageShape& shape)
-        : files_(std::move(files)), info_(std::move(info)), shape_(shape) {}
-
-    const VolumeInfo& info() const override { return info_; }
-
-    bool next(std::span<InputLabel> section) override {
-        assert(section.size() == std::size_t{section_width()} * section_height());
-        if (next_ == files_.size()) return false;
-        const fs::path& path = files_[next_];
-        if (file_type(path) == FileType::kPng) {
-            read_png(path, next_, shape_, section);
-        } else {
-            open_single_page(path, next_).read_page(0, next_, shape_, section);
-        }
-        ++next_;
-        return true;
-    }
-
-    void rewind() override { next_ = 0; }
+        : NumberedSections(std::move(info)), files_(std::move(files)), shape_(shape) {}
 
 private:
+    void read_section(std::uint32_t number, std::span<InputLabel> section) override {
+        image_format(files_[number], number).read_image(files_[number], number, shape_, section);
+    }
+
     std::vector<fs::path> files_;
-    VolumeInfo info_;
     ImageShape shape_;
-    std::size_t next_ = 0;
 };
 
-/// The headers of all sections are read here, so that a stray one is found before the work begins.
+/// The headers of all sections are read here, so that a different one is found before the work begins.
 std::unique_ptr<SectionReader> open_files(std::vector<fs::path> files, const fs::path& source,
                                           const ReadOptions& options) {
-    const ImageShape shape = read_shape(files.front(), 0);
-    for (std::size_t section = 1; section < files.size(); ++section) {
-        check_same_shape(files[section], section, read_shape(files[section], section), shape);
-    }
-    const char* format = file_type(files.front()) == FileType::kPng ? "png" : "tiff";
-    VolumeInfo info =
-        volume_info(source, format, label_type(shape), checked_size(source, {shape.width, shape.height, files.size()}));
+    const auto shape_of = [&](std::uint64_t section) {
+        return image_format(files[section], section).read_shape(files[section], section);
+    };
+    const ImageShape shape = shape_of(0);
+    for (std::size_t section = 1; section < files.size(); ++section)
+        check_same_shape(files[section], section, shape_of(section), shape);
+    VolumeInfo info = volume_info(source, lower(image_format(files.front(), 0).name), label_type(shape),
+                                  checked_size(source, {shape.width, shape.height, files.size()}));
     apply_options(info, options);
     return std::make_unique<ImageListReader>(std::move(files), std::move(info), shape);
 }
@@ -95,23 +72,29 @@ std::vector<fs::path> list_directory(const fs::path& directory) {
 
 }  // namespace
 
+std::unique_ptr<SectionReader> open_image(const fs::path& path, const ReadOptions& options) {
+    return open_files({path}, path, options);
+}
+
 std::unique_ptr<SectionReader> open_image_list(const std::vector<fs::path>& files, const ReadOptions& options) {
     return open_files(files, files.front(), options);
 }
 
 std::unique_ptr<SectionReader> open_image_directory(const fs::path& directory, const ReadOptions& options) {
     std::vector<fs::path> images;
+    const Format* kind = nullptr;
     for (const fs::path& file : list_directory(directory)) {
-        const FileType type = file_type(file);
-        if (type == FileType::kOtherImage) {
+        const Format* format = find_format(file);
+        if (!format || !format->is_image) continue;
+        require_readable(file, format);
+        if (!format->read_image) {
             fail(file,
                  "images of this format are not read; convert the sections to PNG or TIFF, or take it out of the "
                  "directory");
         }
-        if (type != FileType::kPng && type != FileType::kTiff) continue;
-        if (!images.empty() && file_type(images.front()) != type) {
+        if (kind && kind != format)
             fail(directory, "holds both PNG and TIFF files; take out one kind, or name the sections in their order");
-        }
+        kind = format;
         images.push_back(file);
     }
     if (images.empty()) fail(directory, "the directory holds no PNG or TIFF file; name the directory of the sections");

@@ -1,41 +1,42 @@
-#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
-#include "formats/array/flat_reader.h"
+#include "formats/array/array_file.h"
+#include "formats/array/numbered_sections.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
+#include "formats/images/image_formats.h"
 #include "formats/images/tiff_file.h"
+#include "formats/input_file.h"
 
 namespace regionmesh::formats {
 namespace {
 
 /// A page a section.
-class TiffReader final : public SectionReader {
+class TiffReader final : public NumberedSections {
 public:
     TiffReader(TiffFile file, VolumeInfo info, const ImageShape& shape)
-        : file_(std::move(file)), info_(std::move(info)), shape_(shape) {}
-
-    const VolumeInfo& info() const override { return info_; }
-
-    bool next(std::span<InputLabel> section) override {
-        assert(section.size() == std::size_t{section_width()} * section_height());
-        if (next_ == section_count()) return false;
-        file_.read_page(next_, next_, shape_, section);
-        ++next_;
-        return true;
-    }
-
-    void rewind() override { next_ = 0; }
+        : NumberedSections(std::move(info)), file_(std::move(file)), shape_(shape) {}
 
 private:
+    void read_section(std::uint32_t number, std::span<InputLabel> section) override {
+        file_.read_page(number, number, shape_, section);
+    }
+
     TiffFile file_;
-    VolumeInfo info_;
     ImageShape shape_;
-    std::uint32_t next_ = 0;
 };
+
+TiffFile open_single_page(const std::filesystem::path& path, std::uint64_t section) {
+    TiffFile file(path, section);
+    if (file.page_count() != 1) {
+        fail_section(path, section,
+                     "the file has " + std::to_string(file.page_count()) + " pages; give it alone, or split it");
+    }
+    return file;
+}
 
 /// ImageJ's lines "key=value" in the description of the first page; `otherwise` where the key is missing.
 template <class Value>
@@ -53,8 +54,8 @@ std::uint64_t imagej_count(const std::string& description, std::string_view key)
     return imagej_value<std::uint64_t>(description, key, 1);
 }
 
-/// Pixels a unit along x and y stand in the tags for resolution, the distance of sections in the description. Where
-/// ImageJ knows no unit, the resolution is that of some screen.
+/// The resolution tags have pixels per unit along x and y, the description has the distance of sections. Without a unit
+/// the resolution is that of a screen, and not used.
 Vec3 imagej_spacing(const std::string& description, const TiffFile& file) {
     const std::size_t unit = description.find("\nunit=");
     if (unit == std::string::npos || description.compare(unit, 12, "\nunit=pixel") == 0) return {1, 1, 1};
@@ -73,20 +74,35 @@ void check_channels(const std::filesystem::path& path, const std::string& descri
     }
 }
 
-/// ImageJ writes stacks beyond 4 GiB, and on request all, as one page; the pixels of the others follow those of the
-/// first.
+/// ImageJ writes stacks beyond 4 GiB, and others on request, as one page; the pixels of all images follow one another.
 std::unique_ptr<SectionReader> open_imagej_stack(const std::filesystem::path& path, const TiffFile& tiff,
-                                                 VolumeInfo info, const ImageShape& shape, const ReadOptions& options) {
+                                                 const ImageShape& shape, const Lattice& lattice,
+                                                 const ReadOptions& options) {
     const auto offset = tiff.bare_offset();
     if (!offset || shape.channels != 1 || shape.bits < 8) {
-        fail(path, "an ImageJ stack of " + std::to_string(info.lattice.size[2]) + " images in one page, of " +
+        fail(path, "an ImageJ stack of " + std::to_string(lattice.size[2]) + " images in one page, of " +
                        describe(shape) + ", which is not read; save it uncompressed in 8 or 16 bit");
     }
-    const FlatLayout layout{.offset = *offset, .format = {info.type, tiff.is_big_endian()}};
-    return open_flat(InputFile(path), std::move(info), layout, options);
+    return open_array({.format = "tiff",
+                       .source = path,
+                       .files = {},
+                       .sample = {label_type(shape), tiff.is_big_endian()},
+                       .lattice = lattice,
+                       .begin = *offset,
+                       .can_sweep_all = false},
+                      options);
 }
 
 }  // namespace
+
+ImageShape read_tiff_shape(const std::filesystem::path& path, std::uint64_t section) {
+    return open_single_page(path, section).read_shape(0, section);
+}
+
+void read_tiff_image(const std::filesystem::path& path, std::uint64_t section, const ImageShape& expected,
+                     std::span<InputLabel> labels) {
+    open_single_page(path, section).read_page(0, section, expected, labels);
+}
 
 std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, const ReadOptions& options) {
     TiffFile file(path);
@@ -98,13 +114,14 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
         check_channels(path, description);
         if (images == 1) images = imagej_count(description, "images");
     }
-    VolumeInfo info =
-        volume_info(path, "tiff", label_type(shape), checked_size(path, {shape.width, shape.height, images}));
-    if (is_imagej) info.lattice.spacing = imagej_spacing(description, file);
-    if (images > file.page_count()) return open_imagej_stack(path, file, std::move(info), shape, options);
+    Lattice lattice{.size = checked_size(path, {shape.width, shape.height, images})};
+    if (is_imagej) lattice.spacing = imagej_spacing(description, file);
+    if (images > file.page_count()) return open_imagej_stack(path, file, shape, lattice, options);
     for (std::uint32_t page = 1; page < file.page_count(); ++page) {
         check_same_shape(path, page, file.read_shape(page, page), shape);
     }
+    VolumeInfo info = volume_info(path, "tiff", label_type(shape), lattice.size);
+    info.lattice = lattice;
     apply_options(info, options);
     return std::make_unique<TiffReader>(std::move(file), std::move(info), shape);
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kMaxBlockBytes = std::uint64_t{1} << 30;
 
-/// How many bytes a byte of the file can become. A packbits pair gives 128; an LZW code, of nine bits or more, 4096.
+/// Most bytes that one byte of the file unpacks to. A packbits pair gives 128; an LZW code of nine bits or more, 4096.
 constexpr std::array<std::pair<int, std::uint64_t>, 5> kExpansions{{{COMPRESSION_NONE, 1},
                                                                     {COMPRESSION_PACKBITS, 64},
                                                                     {COMPRESSION_ADOBE_DEFLATE, kMaxInflation},
@@ -36,13 +36,13 @@ Value tag(TIFF* tiff, std::uint32_t name, Value otherwise) {
 
 }  // namespace
 
-/// Strips or tiles, the parts in which pixels are decoded.
+/// The parts in which pixels are decoded: strips or tiles.
 struct TiffFile::Blocks {
     bool are_tiles;
     std::uint32_t width, height;  // of one, in pixels
     std::uint64_t row_bytes;
     std::uint64_t bytes;
-    int planes;  // 1: the channels of a pixel beside each other
+    int planes;  // 1: the channels of a pixel are adjacent
 };
 
 struct TiffFile::Block {
@@ -98,7 +98,7 @@ void TiffFile::select(std::uint32_t page, std::uint64_t section) {
         refuse(section, "a page has no directory");
 }
 
-/// Refuses what is no label: real numbers, and colours that lossy codecs make up.
+/// Refuses pixels that are no labels: reals, and colour models of lossy codecs.
 void TiffFile::check_pixels(std::uint64_t section) const {
     TIFF* tiff = tiff_.get();
     const auto format = tag<std::uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
@@ -118,7 +118,7 @@ void TiffFile::check_pixels(std::uint64_t section) const {
     }
 }
 
-/// Whether the file can unpack to so many bytes. For the codecs not named here nothing is known.
+/// Whether the file can unpack to `bytes`. For codecs that kExpansions lacks, any ratio up to 2^32 is allowed.
 bool TiffFile::can_hold(std::uint64_t bytes) const {
     std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     const auto compression = tag<std::uint16_t>(tiff_.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
@@ -217,7 +217,7 @@ void TiffFile::read_page(std::uint32_t page, std::uint64_t section, const ImageS
     std::vector<std::byte> pixels(all.bytes);
     std::fill(labels.begin(), labels.end(), 0);
     messages_->is_decoding = true;
-    // libtiff has put wide samples into the byte order of this machine.
+    // libtiff has converted wide samples to the byte order of this machine.
     RowFormat format{.channel_count = all.planes == 1 ? expected.channels : 1,
                      .is_big_endian = std::endian::native == std::endian::big};
     const auto read_block = [&](Block block) {

@@ -16,36 +16,35 @@
 
 namespace regionmesh::formats {
 
-/// An open file. What libtiff says becomes part of an Error, and nothing is printed. Errors are taken wherever they
-/// come; warnings only while pixels are decoded, where they mean damage: in directories most are about tags nobody
-/// needs.
+/// An open file. Messages of libtiff become part of an Error, and nothing is printed. Errors always count; warnings
+/// count only while pixels are decoded, where they mean damage: in directories most concern tags that are not needed.
 class TiffFile {
 public:
-    /// Lists the pages; smaller copies of others (previews) are no pages. `section` is for error messages.
+    /// Lists the pages, except for smaller copies of others (previews). `section` is for error messages.
     explicit TiffFile(const std::filesystem::path& path, std::uint64_t section = 0);
 
     std::uint32_t page_count() const { return static_cast<std::uint32_t>(pages_.size()); }
     bool is_big_endian() const { return TIFFIsBigEndian(tiff_.get()) != 0; }
 
-    /// The shape of a page; section `section` of the volume is meant in errors. The page stays selected.
+    /// Selects a page and returns its shape. `section` is for error messages.
     ImageShape read_shape(std::uint32_t page, std::uint64_t section);
 
-    /// Text of the selected page: its tag ImageDescription, often empty.
+    /// The tag ImageDescription of the selected page; often empty.
     std::string description() const;
 
-    /// Pixels a unit along x and y of the selected page; 0 where it does not say.
+    /// Pixels per unit along x and y of the selected page; 0 without such tags.
     std::array<double, 2> resolution() const;
 
-    /// Where the pixels of the selected page begin, if they are bare: not compressed and not in tiles.
+    /// The offset of the pixels of the selected page, if they are neither compressed nor in tiles.
     std::optional<std::uint64_t> bare_offset() const;
 
-    /// Labels of a page, rows from the top. Throws where it is not like `expected`.
+    /// Labels of a page, rows from the top. Throws if its shape is not `expected`.
     void read_page(std::uint32_t page, std::uint64_t section, const ImageShape& expected, std::span<InputLabel> labels);
 
 private:
     struct Messages {
         bool is_decoding = false;
-        std::array<char, 256> first{};  // empty while all is well
+        std::array<char, 256> first{};  // empty without an error
     };
     struct Close {
         void operator()(TIFF* tiff) const { TIFFClose(tiff); }
@@ -68,7 +67,7 @@ private:
     std::uint64_t size_ = 0;
     std::unique_ptr<Messages> messages_;  // libtiff keeps its address
     std::unique_ptr<TIFF, Close> tiff_;
-    std::vector<std::uint64_t> pages_;  // places of their directories
+    std::vector<std::uint64_t> pages_;  // offsets of their directories
 };
 
 }  // namespace regionmesh::formats

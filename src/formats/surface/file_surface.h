@@ -32,9 +32,6 @@ struct FileSurface {
     bool has_shared_points = true;  // false: each face or region has its own points
 };
 
-/// The lowest node type (of DREAM.3D) of vertices on the box or hull.
-inline constexpr std::int64_t kFirstHullType = 10;
-
 inline bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// Throws Error(kInput) naming the file where a coordinate is not finite, or the model would have too many vertices.

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "formats/file_type.h"
 #include "formats/input_file.h"
+#include "formats/registry.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/text/natural_order.h"
@@ -18,27 +18,11 @@
 namespace regionmesh {
 namespace {
 
-struct Format {
-    const char* extension;
-    FileSurface (*read)(const std::filesystem::path&);
-};
-constexpr std::array<Format, 6> kFormats{{{".vtp", read_vtp},
-                                          {".vtu", read_vtu},
-                                          {".ply", read_ply},
-                                          {".stl", read_stl},
-                                          {".obj", read_obj},
-                                          {".dream3d", read_dream3d}}};
+using formats::Format;
 
-const Format* format_of(const std::filesystem::path& path) {
-    const std::string extension = formats::extension(path);
-    const auto at = std::ranges::find(kFormats, extension, &Format::extension);
-    return at == kFormats.end() ? nullptr : &*at;
-}
-
-std::string extensions() {
-    std::string text;
-    for (const Format& format : kFormats) text += (text.empty() ? "" : " ") + std::string(format.extension);
-    return text;
+bool is_surface(const std::filesystem::path& path) {
+    const Format* format = formats::find_format(path);
+    return format && format->read_surface;
 }
 
 /// The surfaces in a folder, in natural order of their names. Each is a region, called what the file is.
@@ -46,16 +30,17 @@ FileSurface read_folder(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> paths;
     std::error_code error;
     for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-        if (format_of(at->path()) && !at->path().filename().string().starts_with('.')) paths.push_back(at->path());
+        if (is_surface(at->path()) && !at->path().filename().string().starts_with('.')) paths.push_back(at->path());
     if (error) formats::fail(folder, "cannot be read: " + error.message());
-    if (paths.empty()) formats::fail(folder, "holds no surfaces: a file for each region, one of " + extensions());
+    if (paths.empty())
+        formats::fail(folder, "holds no surfaces: a file for each region, one of " + readable_extensions());
     std::ranges::sort(paths, [](const auto& a, const auto& b) {
         return formats::natural_less(a.filename().string(), b.filename().string());
     });
     FileSurface all{.is_by_region = true, .has_shared_points = false};
     RegionGroups groups;
     for (const auto& path : paths) {
-        FileSurface surface = format_of(path)->read(path);
+        FileSurface surface = formats::find_format(path)->read_surface(path);
         if (!surface.is_by_region)
             formats::fail(path,
                           "has labels on both sides of its faces, which a file for one region has not: name it alone");
@@ -71,11 +56,13 @@ FileSurface read_folder(const std::filesystem::path& folder) {
 }
 
 FileSurface read_surface(const std::filesystem::path& path) {
-    if (const Format* format = format_of(path)) return format->read(path);
+    if (is_surface(path)) return formats::find_format(path)->read_surface(path);
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) return read_folder(path);
+    if (const Format* format = formats::find_format(path); format && format->holds_surface)
+        formats::require_readable(path, format);
     formats::fail(path, fmt::format("no model format that can be read has the extension '{}': use one of {}",
-                                    path.extension().string(), extensions()));
+                                    path.extension().string(), readable_extensions()));
 }
 
 MeshFile assemble(FileSurface&& surface) {
@@ -89,6 +76,8 @@ MeshFile assemble(FileSurface&& surface) {
 }
 
 }  // namespace
+
+std::string readable_extensions() { return formats::extensions_with(&Format::read_surface); }
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options) {
     FileSurface surface = read_surface(path);

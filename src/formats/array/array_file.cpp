@@ -1,4 +1,4 @@
-#include "formats/chunked/stored_samples.h"
+#include "formats/array/array_file.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 1'000'000;
 
-/// Behind the lines that are passed over.
+/// The place after the lines to skip.
 std::uint64_t after_lines(const InputFile& file, std::uint64_t place, std::uint64_t lines) {
     std::array<char, 4096> text;
     while (lines > 0) {
@@ -33,39 +33,39 @@ std::uint64_t after_lines(const InputFile& file, std::uint64_t place, std::uint6
     return place;
 }
 
-/// Where the samples of one file begin; of a deflated file, where the stream does.
-std::uint64_t samples_begin(const StoredSamples& samples, const InputFile& file, std::uint64_t needed) {
-    const std::uint64_t begin = after_lines(file, samples.begin, samples.skipped_lines);
-    if (samples.encoding == Encoding::kDeflated) return begin;
+/// Where the samples of one file begin; in a deflated file, where the stream begins.
+std::uint64_t samples_begin(const ArrayFile& array, const InputFile& file, std::uint64_t needed) {
+    const std::uint64_t begin = after_lines(file, array.begin, array.skipped_lines);
+    if (array.encoding == Encoding::kDeflated) return begin;
     const std::uint64_t present = file.size() - std::min(begin, file.size());
-    if (samples.skipped_bytes >= 0) return begin + std::min<std::uint64_t>(samples.skipped_bytes, present);
-    if (samples.encoding == Encoding::kAscii) fail(file.path(), "samples as text cannot be found from its end");
+    if (array.skipped_bytes >= 0) return begin + std::min<std::uint64_t>(array.skipped_bytes, present);
+    if (array.encoding == Encoding::kAscii) fail(file.path(), "samples as text cannot be found from its end");
     return begin + (present < needed ? 0 : present - needed);
 }
 
-void check_present(const StoredSamples& samples, const InputFile& file, std::uint64_t begin, std::uint64_t needed) {
+void check_present(const ArrayFile& array, const InputFile& file, std::uint64_t begin, std::uint64_t needed) {
     const std::uint64_t present = file.size() - std::min(begin, file.size());
-    if (samples.encoding == Encoding::kDeflated) {
+    if (array.encoding == Encoding::kDeflated) {
         check_inflated(file.path(), present, needed);
-        check_inflated(file.path(), present, static_cast<std::uint64_t>(samples.skipped_bytes));
+        check_inflated(file.path(), present, static_cast<std::uint64_t>(array.skipped_bytes));
         return;
     }
-    const bool is_ascii = samples.encoding == Encoding::kAscii;
+    const bool is_ascii = array.encoding == Encoding::kAscii;
     const std::uint64_t most = is_ascii ? most_ascii_samples(present) : present;
     if (most >= (is_ascii ? needed / sample_bytes(kAsciiFormat.type) : needed)) return;
     fail(file.path(),
          fmt::format("has {} bytes of samples, fewer than the header says; it is truncated, fetch it again", present));
 }
 
-StreamPart part_of(const StoredSamples& samples, const fs::path& path, std::uint64_t needed) {
+StreamPart part_of(const ArrayFile& array, const fs::path& path, std::uint64_t needed) {
     const InputFile file(path);
-    const std::uint64_t begin = samples_begin(samples, file, needed);
-    check_present(samples, file, begin, needed);
-    return {[path, begin, encoding = samples.encoding, skip = samples.skipped_bytes]() -> std::unique_ptr<ByteStream> {
+    const std::uint64_t begin = samples_begin(array, file, needed);
+    check_present(array, file, begin, needed);
+    return {[path, begin, encoding = array.encoding, skip = array.skipped_bytes]() -> std::unique_ptr<ByteStream> {
                 if (encoding == Encoding::kRaw) return std::make_unique<PlainStream>(InputFile(path), begin);
                 if (encoding == Encoding::kAscii) return std::make_unique<AsciiStream>(InputFile(path), begin);
                 auto stream = std::make_unique<DeflateStream>(InputFile(path), begin);
-                stream->skip(static_cast<std::uint64_t>(skip));  // where it cannot, the first read says why
+                stream->skip(static_cast<std::uint64_t>(skip));  // if it cannot, the first read reports why
                 return stream;
             },
             needed};
@@ -93,34 +93,43 @@ std::optional<Pattern> parse_pattern(std::string_view text) {
 
 }  // namespace
 
-std::unique_ptr<SectionReader> open_samples(const StoredSamples& samples, VolumeInfo info, const ReadOptions& options) {
-    const fs::path header = info.source;
-    const SampleFormat format = samples.encoding == Encoding::kAscii ? kAsciiFormat : samples.format;
-    const std::uint64_t volume =
-        volume_bytes(header, info.lattice.size, sample_bytes(format.type) * samples.components);
-    if (volume > std::numeric_limits<std::int64_t>::max() / samples.blocks)
-        fail(header, "describes more samples than any file holds; check the header");
-    const std::uint64_t all = volume * samples.blocks;
-    if (samples.encoding == Encoding::kDeflated && samples.skipped_bytes < 0)
-        fail(header, "compressed samples cannot be found from the end of the file; give the bytes to skip");
-    if (samples.files.empty() || all % samples.files.size() != 0) {
-        fail(header, fmt::format("names {} files for {} samples; each must hold as many", samples.files.size(),
-                                 size_text({info.lattice.size[0], info.lattice.size[1], info.lattice.size[2]})));
+std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options) {
+    const std::vector<fs::path> files = array.files.empty() ? std::vector{array.source} : array.files;
+    const SampleFormat format = array.encoding == Encoding::kAscii ? kAsciiFormat : array.sample;
+    const auto& size = array.lattice.size;
+    const std::uint64_t volume = volume_bytes(array.source, size, sample_bytes(format.type) * array.components);
+    if (volume > std::numeric_limits<std::int64_t>::max() / array.blocks)
+        fail(array.source, "describes more samples than any file holds; check the header");
+    const std::uint64_t all = volume * array.blocks;
+    if (array.encoding == Encoding::kDeflated && array.skipped_bytes < 0)
+        fail(array.source, "compressed samples cannot be found from the end of the file; give the bytes to skip");
+    if (all % files.size() != 0) {
+        fail(array.source, fmt::format("names {} files for {} samples; each must hold as many", files.size(),
+                                       size_text({size[0], size[1], size[2]})));
     }
-    if (samples.encoding == Encoding::kRaw && samples.files.size() == 1 && samples.components == 1) {
-        info.can_sweep = {true, true, true};
-        InputFile file(samples.files[0]);
-        const std::uint64_t offset = samples_begin(samples, file, all) + samples.block * volume;
-        return open_flat(std::move(file), std::move(info), {.offset = offset, .format = format}, options);
+    VolumeInfo info = volume_info(array.source, array.format, array.sample.type, size);
+    info.lattice = array.lattice;
+    info.names = array.names;
+    if (array.encoding == Encoding::kRaw && files.size() == 1 && array.components == 1) {
+        if (array.can_sweep_all) info.can_sweep = {true, true, true};
+        InputFile file(files[0]);
+        const std::uint64_t offset = samples_begin(array, file, all) + array.block * volume;
+        return open_flat(std::move(file), std::move(info), {.offset = offset, .format = format, .order = array.order},
+                         options);
     }
     std::vector<StreamPart> parts;
-    for (const fs::path& file : samples.files) parts.push_back(part_of(samples, file, all / samples.files.size()));
-    const StreamLayout layout{.offset = samples.block * volume,
-                              .format = format,
-                              .components = samples.components,
-                              .component = samples.component};
+    for (const fs::path& file : files) parts.push_back(part_of(array, file, all / files.size()));
+    const StreamLayout layout{
+        .offset = array.block * volume, .format = format, .components = array.components, .component = array.component};
     return open_stream(std::make_unique<JoinedStream>(std::move(parts)), std::move(info), layout, options,
-                       "give --sweep z, or write the samples uncompressed in one file");
+                       std::string("give --sweep z, or ") + array.remedy);
+}
+
+std::unique_ptr<ByteStream> open_inflated(const fs::path& path, Encoding& encoding) {
+    InputFile file(path);
+    if (!is_gzipped(file)) return std::make_unique<PlainStream>(std::move(file));
+    encoding = Encoding::kDeflated;
+    return std::make_unique<DeflateStream>(std::move(file));
 }
 
 fs::path file_beside(const fs::path& header, std::string_view name) { return header.parent_path() / name; }

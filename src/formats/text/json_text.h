@@ -1,18 +1,24 @@
-// JSON beside the samples: small files that say what the large ones mean.
+// JSON from files, which may be damaged.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "formats/input_file.h"
 
 namespace regionmesh::formats {
 
-/// Nothing where there is no such file. Throws where it is no JSON, larger than 64 MiB or nested deeper than 100.
+/// Throws nlohmann::json::exception where `text` is no JSON, and Error(kInput) that names `path` where it is nested
+/// deeper than 100: copies of JSON recurse into it.
+nlohmann::json parse_json(const std::filesystem::path& path, const std::string& text);
+
+/// Nothing where there is no such file. Throws Error(kInput) where it is no JSON, larger than 64 MiB or nested deeper
+/// than 100.
 std::optional<nlohmann::json> read_json(const std::filesystem::path& path);
 
-/// Calls `read`, which looks into JSON from `path`; a key that is not there or of another type is an Error naming the
+/// Calls `read`, which looks into JSON from `path`; a key that is missing or of another type is an Error that names the
 /// file.
 template <class Read>
 auto reading(const std::filesystem::path& path, Read&& read) {

@@ -1,5 +1,4 @@
-#include "formats/images/png_image.h"
-
+// PNG files, by libpng.
 #include <png.h>
 
 #include <algorithm>
@@ -11,12 +10,13 @@
 #include <vector>
 
 #include "formats/array/volume_size.h"
+#include "formats/images/image_formats.h"
 #include "formats/input_file.h"
 
 namespace regionmesh::formats {
 namespace {
 
-/// All that libpng may leave by longjmp: only plain data, so that no destructor is passed over.
+/// The state of calls that libpng may leave by longjmp: plain data, so that no destructor is skipped.
 struct PngCall {
     const std::byte* bytes = nullptr;  // the file
     std::size_t size = 0;
@@ -139,8 +139,8 @@ ImageShape read_png_shape(const std::filesystem::path& path, std::uint64_t secti
     return image.shape();
 }
 
-void read_png(const std::filesystem::path& path, std::uint64_t section, const ImageShape& expected,
-              std::span<InputLabel> labels) {
+void read_png_image(const std::filesystem::path& path, std::uint64_t section, const ImageShape& expected,
+                    std::span<InputLabel> labels) {
     PngImage image(path, section);
     check_same_shape(path, section, image.shape(), expected);
     image.check_backing();

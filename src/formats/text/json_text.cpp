@@ -1,4 +1,4 @@
-#include "formats/chunked/metadata_file.h"
+#include "formats/text/json_text.h"
 
 #include <string>
 
@@ -6,7 +6,7 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20;
-constexpr int kMaxDepth = 100;  // copies of JSON go down it one call a level
+constexpr int kMaxDepth = 100;
 
 bool is_too_deep(const std::string& text) {
     int depth = 0;
@@ -25,6 +25,11 @@ bool is_too_deep(const std::string& text) {
 
 }  // namespace
 
+nlohmann::json parse_json(const std::filesystem::path& path, const std::string& text) {
+    if (is_too_deep(text)) fail(path, "the metadata are nested deeper than " + std::to_string(kMaxDepth));
+    return nlohmann::json::parse(text);
+}
+
 std::optional<nlohmann::json> read_json(const std::filesystem::path& path) {
     std::error_code ignored;
     if (std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found) return std::nullopt;
@@ -33,8 +38,7 @@ std::optional<nlohmann::json> read_json(const std::filesystem::path& path) {
         fail(path, "the metadata take " + std::to_string(file.size()) + " bytes; check the file");
     std::string text(file.size(), '\0');
     text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
-    if (is_too_deep(text)) fail(path, "the metadata are nested deeper than " + std::to_string(kMaxDepth));
-    return reading(path, [&] { return nlohmann::json::parse(text); });
+    return reading(path, [&] { return parse_json(path, text); });
 }
 
 }  // namespace regionmesh::formats

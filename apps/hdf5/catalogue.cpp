@@ -1,23 +1,21 @@
-#include "formats/chunked/hdf5_catalogue.h"
+#include "catalogue.h"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
 
-#include "formats/input_file.h"
-#include "regionmesh/read_sections.h"
-
-namespace regionmesh::formats {
+namespace regionmesh::hdf5 {
 namespace {
 
-constexpr hssize_t kMaxNumbers = 16;         // of an attribute, or of a dataset that is looked into
+using namespace formats;  // Hdf5Handle and its kin
+
+constexpr hssize_t kMaxNumbers = 16;         // in an attribute, or in a dataset whose values are reported
 constexpr std::size_t kMaxText = 64 << 10;   // bytes of an attribute
-constexpr std::size_t kMaxEntries = 100000;  // of a file without a path
-constexpr int kMaxDepth = 32;                // groups can hold themselves
+constexpr std::size_t kMaxEntries = 100000;  // of a file
+constexpr int kMaxDepth = 32;                // groups can contain themselves
 constexpr int kMaxAxes = 32;                 // H5S_MAX_RANK
 
-/// What went wrong first, in the library's words: the last call on its stack.
+/// The first error, as the library describes it: the last call on its stack.
 std::string library_words() {
     std::string words;
     const auto note = [](unsigned, const H5E_error2_t* error, void* place) -> herr_t {
@@ -28,13 +26,13 @@ std::string library_words() {
     return words.empty() ? "HDF5 error" : words;
 }
 
-Hdf5File open_file(const std::filesystem::path& path) {
+Hdf5File open_file(const std::string& name) {
     const Hdf5Properties access(H5Pcreate(H5P_FILE_ACCESS));
 #if H5_VERSION_GE(1, 10, 7)
-    H5Pset_file_locking(access.id(), false, true);  // nothing is written, and not every file system has locks
+    H5Pset_file_locking(access.id(), false, true);  // nothing is written, and some file systems have no locks
 #endif
-    Hdf5File file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()));
-    if (!file) fail(path, "the HDF5 library cannot open it (" + library_words() + "); fetch the file again");
+    Hdf5File file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.id()));
+    if (!file) throw Refusal("the HDF5 library cannot open it (" + library_words() + "); fetch the file again");
     return file;
 }
 
@@ -45,33 +43,34 @@ std::vector<std::uint64_t> shape_of(const Hdf5Space& space) {
     return {sizes.begin(), sizes.begin() + count};
 }
 
-/// Integers of odd sizes are read into the next larger type.
-std::optional<SampleType> integer_type(std::size_t bytes, bool is_signed) {
-    if (bytes == 0 || bytes > 8) return std::nullopt;
-    if (bytes == 1) return is_signed ? SampleType::kI8 : SampleType::kU8;
-    if (bytes == 2) return is_signed ? SampleType::kI16 : SampleType::kU16;
-    if (bytes <= 4) return is_signed ? SampleType::kI32 : SampleType::kU32;
-    return is_signed ? SampleType::kI64 : SampleType::kU64;
-}
+/// The type in which integers are handed over. The library converts integers and enumerations to integers, but bit
+/// fields only to bit fields.
+struct Integer {
+    const char* word;
+    std::size_t bytes;
+    bool is_signed;
+    hid_t native, bits;
+};
 
-std::optional<SampleType> sample_type(const Hdf5Type& type) {
+/// The smallest that holds the type; none where it is no integer of up to 64 bits.
+std::optional<Integer> integer_of(const Hdf5Type& type) {
+    const Integer known[] = {
+        {"int8", 1, true, H5T_NATIVE_INT8, H5I_INVALID_HID},   {"uint8", 1, false, H5T_NATIVE_UINT8, H5T_NATIVE_B8},
+        {"int16", 2, true, H5T_NATIVE_INT16, H5I_INVALID_HID}, {"uint16", 2, false, H5T_NATIVE_UINT16, H5T_NATIVE_B16},
+        {"int32", 4, true, H5T_NATIVE_INT32, H5I_INVALID_HID}, {"uint32", 4, false, H5T_NATIVE_UINT32, H5T_NATIVE_B32},
+        {"int64", 8, true, H5T_NATIVE_INT64, H5I_INVALID_HID}, {"uint64", 8, false, H5T_NATIVE_UINT64, H5T_NATIVE_B64}};
+    const H5T_class_t kind = H5Tget_class(type.id());
+    if (kind != H5T_INTEGER && kind != H5T_ENUM && kind != H5T_BITFIELD) return std::nullopt;
+    const Hdf5Type base(kind == H5T_ENUM ? H5Tget_super(type.id()) : H5I_INVALID_HID);
+    const bool is_signed = kind != H5T_BITFIELD && H5Tget_sign(base ? base.id() : type.id()) != H5T_SGN_NONE;
     const std::size_t bytes = H5Tget_size(type.id());
-    switch (H5Tget_class(type.id())) {
-        case H5T_INTEGER:
-            return integer_type(bytes, H5Tget_sign(type.id()) != H5T_SGN_NONE);
-        case H5T_ENUM: {
-            const Hdf5Type base(H5Tget_super(type.id()));
-            return integer_type(bytes, H5Tget_sign(base.id()) != H5T_SGN_NONE);
-        }
-        case H5T_BITFIELD:
-            return integer_type(bytes, false);
-        default:
-            return std::nullopt;
-    }
+    for (const Integer& integer : known)
+        if (bytes > 0 && integer.bytes >= bytes && integer.is_signed == is_signed) return integer;
+    return std::nullopt;
 }
 
 std::string type_words(const Hdf5Type& type) {
-    if (const auto known = sample_type(type)) return to_string(*known);
+    if (const auto known = integer_of(type)) return known->word;
     switch (H5Tget_class(type.id())) {
         case H5T_FLOAT:
             return "float" + std::to_string(8 * H5Tget_size(type.id()));
@@ -86,30 +85,6 @@ std::string type_words(const Hdf5Type& type) {
         default:
             return "other";
     }
-}
-
-/// The library converts integers and enumerations to integers, bit fields only to bit fields.
-hid_t memory_type(SampleType type, bool is_bit_field) {
-    switch (type) {
-        case SampleType::kU1:
-        case SampleType::kU8:
-            return is_bit_field ? H5T_NATIVE_B8 : H5T_NATIVE_UINT8;
-        case SampleType::kI8:
-            return H5T_NATIVE_INT8;
-        case SampleType::kU16:
-            return is_bit_field ? H5T_NATIVE_B16 : H5T_NATIVE_UINT16;
-        case SampleType::kI16:
-            return H5T_NATIVE_INT16;
-        case SampleType::kU32:
-            return is_bit_field ? H5T_NATIVE_B32 : H5T_NATIVE_UINT32;
-        case SampleType::kI32:
-            return H5T_NATIVE_INT32;
-        case SampleType::kU64:
-            return is_bit_field ? H5T_NATIVE_B64 : H5T_NATIVE_UINT64;
-        case SampleType::kI64:
-            return H5T_NATIVE_INT64;
-    }
-    return H5I_INVALID_HID;
 }
 
 bool is_number(const Hdf5Type& type) {
@@ -140,7 +115,7 @@ herr_t collect_name(hid_t, const char* name, const H5A_info_t*, void* place) {
 
 enum class Words { kAll, kShort };
 
-void add_attributes(hid_t object, Words words, Hdf5Entry& entry) {
+void add_attributes(hid_t object, Words words, Entry& entry) {
     std::vector<std::string> names;
     H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names);
     for (const std::string& name : names) {
@@ -159,7 +134,8 @@ void add_attributes(hid_t object, Words words, Hdf5Entry& entry) {
     }
 }
 
-/// Filters that this build of the library lacks, or samples kept in another file, which is not ours to open.
+/// Why the samples cannot be read: a filter that this build of the library lacks, or samples in another file, which is
+/// not opened.
 std::string obstacle_of(const Hdf5Properties& layout) {
     if (H5Pget_external_count(layout.id()) > 0) return "its samples are kept in another file";
     const int count = H5Pget_nfilters(layout.id());
@@ -177,13 +153,13 @@ std::string obstacle_of(const Hdf5Properties& layout) {
     return {};
 }
 
-void describe_dataset(hid_t object, Hdf5Entry& entry) {
+void describe_dataset(hid_t object, Entry& entry) {
     entry.is_dataset = true;
     const Hdf5Type type(H5Dget_type(object));
     const Hdf5Space space(H5Dget_space(object));
     const Hdf5Properties layout(H5Dget_create_plist(object));
     entry.type = type_words(type);
-    entry.sample_type = sample_type(type);
+    entry.is_integer = integer_of(type).has_value();
     entry.shape = shape_of(space);
     if (H5Pget_layout(layout.id()) == H5D_CHUNKED && !entry.shape.empty()) {
         std::array<hsize_t, kMaxAxes> chunk{};
@@ -205,8 +181,8 @@ herr_t collect_hard_link(hid_t, const char* name, const H5L_info_t* link, void* 
     return 0;
 }
 
-std::optional<Hdf5Entry> describe(const Hdf5Object& object, std::string path, Words words) {
-    Hdf5Entry entry{.path = std::move(path)};
+std::optional<Entry> describe(const Hdf5Object& object, std::string path, Words words) {
+    Entry entry{.path = std::move(path)};
     const H5I_type_t kind = H5Iget_type(object.id());
     if (kind != H5I_GROUP && kind != H5I_DATASET) return std::nullopt;
     if (kind == H5I_DATASET) describe_dataset(object.id(), entry);
@@ -214,8 +190,8 @@ std::optional<Hdf5Entry> describe(const Hdf5Object& object, std::string path, Wo
     return entry;
 }
 
-void walk(const std::filesystem::path& file, const Hdf5Object& group, const std::string& path, int depth,
-          std::vector<Hdf5Entry>& entries) {
+void walk(const std::string& file, const Hdf5Object& group, const std::string& path, int depth,
+          std::vector<Entry>& entries) {
     std::vector<std::string> names;
     H5Literate(group.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_hard_link, &names);
     for (const std::string& name : names) {
@@ -224,8 +200,8 @@ void walk(const std::filesystem::path& file, const Hdf5Object& group, const std:
         auto entry = describe(object, path + "/" + name, Words::kShort);
         if (!entry) continue;
         if (entries.size() == kMaxEntries) {
-            fail(file, "holds more than " + std::to_string(kMaxEntries) + " objects; name the dataset, as in " +
-                           file.string() + ":/path");
+            throw Refusal("holds more than " + std::to_string(kMaxEntries) + " objects; name the dataset, as in " +
+                          file + ":/path");
         }
         entries.push_back(std::move(*entry));
         if (!entries.back().is_dataset && depth < kMaxDepth) walk(file, object, path + "/" + name, depth + 1, entries);
@@ -234,43 +210,43 @@ void walk(const std::filesystem::path& file, const Hdf5Object& group, const std:
 
 }  // namespace
 
-Hdf5Catalogue::Hdf5Catalogue(const std::filesystem::path& path) : path_(path), file_(open_file(path)) {}
+Catalogue::Catalogue(const std::string& file) : name_(file), file_(open_file(file)) {}
 
-std::optional<Hdf5Entry> Hdf5Catalogue::entry(const std::string& path) {
+std::optional<Entry> Catalogue::entry(const std::string& path) {
     const Hdf5Object object(H5Oopen(file_.id(), path.c_str(), H5P_DEFAULT));
     return object ? describe(object, path, Words::kAll) : std::nullopt;
 }
 
-std::vector<Hdf5Entry> Hdf5Catalogue::entries() {
-    std::vector<Hdf5Entry> entries;
-    walk(path_, Hdf5Object(H5Oopen(file_.id(), "/", H5P_DEFAULT)), "", 0, entries);
+std::vector<Entry> Catalogue::entries() {
+    std::vector<Entry> entries;
+    walk(name_, Hdf5Object(H5Oopen(file_.id(), "/", H5P_DEFAULT)), "", 0, entries);
     return entries;
 }
 
-Bytes Hdf5Catalogue::read(const std::string& path, const Hdf5Box& box) {
+std::vector<std::byte> Catalogue::read(const std::string& path, const Box& box) {
     if (!dataset_ || open_path_ != path) {
         dataset_ = Hdf5Dataset(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT));
         open_path_ = path;
     }
     const Hdf5Type stored(H5Dget_type(dataset_.id()));
-    const auto type = sample_type(stored);
-    const bool is_real = H5Tget_class(stored.id()) == H5T_FLOAT;
-    if (!type && !is_real)
-        fail(path_, path + ": the samples cannot be read (" + library_words() + "); fetch the file again");
+    const auto integer = integer_of(stored);
+    if (!integer && H5Tget_class(stored.id()) != H5T_FLOAT)
+        throw Refusal(path + ": the samples cannot be read (" + library_words() + "); fetch the file again");
     const std::vector<hsize_t> start(box.start.begin(), box.start.end()), count(box.count.begin(), box.count.end());
     const Hdf5Space space(H5Dget_space(dataset_.id()));
-    if (shape_of(space).size() != count.size()) fail(path_, path + ": changed while it was read; start again");
+    if (shape_of(space).size() != count.size() || start.size() != count.size())
+        throw Refusal(path + ": changed while it was read; start again");
     const Hdf5Space memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr));
-    std::size_t bytes = is_real ? sizeof(double) : sample_bytes(*type);
+    std::size_t bytes = integer ? integer->bytes : sizeof(double);
     for (const std::uint64_t size : box.count) bytes *= size;
-    Bytes samples(bytes);
+    std::vector<std::byte> samples(bytes);
     const bool is_bit_field = H5Tget_class(stored.id()) == H5T_BITFIELD;
-    const hid_t native = is_real ? H5T_NATIVE_DOUBLE : memory_type(*type, is_bit_field);
+    const hid_t native = !integer ? H5T_NATIVE_DOUBLE : is_bit_field ? integer->bits : integer->native;
     if (H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) < 0 ||
         H5Dread(dataset_.id(), native, memory.id(), space.id(), H5P_DEFAULT, samples.data()) < 0) {
-        fail(path_, path + ": samples cannot be read (" + library_words() + "); the file is damaged, fetch it again");
+        throw Refusal(path + ": samples cannot be read (" + library_words() + "); the file is damaged, fetch it again");
     }
     return samples;
 }
 
-}  // namespace regionmesh::formats
+}  // namespace regionmesh::hdf5

@@ -1,0 +1,62 @@
+// A volume as the header of its format describes it, and the one function that opens a reader for it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "formats/codec/byte_stream.h"
+#include "formats/codec/sample_format.h"
+#include "regionmesh/read_sections.h"
+
+namespace regionmesh::formats {
+
+enum class Encoding { kRaw, kDeflated, kAscii };
+
+/// What NPY, NIfTI, NRRD, MetaImage, INR and raw files say. Samples lie without gaps.
+struct ArrayFile {
+    const char* format = "";                        // as VolumeInfo has it
+    std::filesystem::path source = {};              // the file that the user named, for messages
+    std::vector<std::filesystem::path> files = {};  // of samples, in order, of one size; none: `source`
+    Encoding encoding = Encoding::kRaw;
+    SampleFormat sample = {};
+    Lattice lattice = {};               // shape along x, y, z, and the affine map
+    std::array<int, 3> order{0, 1, 2};  // axes, the fastest first; raw samples in one file may have another order
+    std::uint64_t begin = 0;            // bytes to skip at the start of every file,
+    std::uint64_t skipped_lines = 0;    // then lines to skip,
+    std::int64_t skipped_bytes = 0;     // then bytes, counted after inflation; -1: the samples end the file
+    std::uint32_t components = 1;       // values at each sample, and the index of the one to read
+    std::uint32_t component = 0;
+    std::uint32_t blocks = 1;  // volumes one after another, and the index of the one to read
+    std::uint32_t block = 0;
+    LabelNames names = {};
+    bool can_sweep_all = true;  // if raw samples in one file; else along z alone
+    const char* remedy = "write the samples uncompressed in one file";  // if the user wants another sweep
+};
+
+inline constexpr std::uint64_t kMostLayers = 4096;
+
+/// Raw samples in one file can be swept along any axis, unless can_sweep_all is false; all others along z. Requires a
+/// lattice size from checked_size. Throws Error(kInput) where a file is missing or too short for the header.
+std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options);
+
+/// The bytes of a file from its start, inflated if it is gzipped, whatever its name. `encoding` becomes kDeflated then.
+std::unique_ptr<ByteStream> open_inflated(const std::filesystem::path& path, Encoding& encoding);
+
+/// The path of a file that a header names: in the folder of the header, if the name is relative.
+std::filesystem::path file_beside(const std::filesystem::path& header, std::string_view name);
+
+/// The files named in the lines of `text`.
+std::vector<std::filesystem::path> listed_files(const std::filesystem::path& header, std::string_view text);
+
+/// The files of "name%03d.raw 1 10 1": a pattern with one number in it, the first, the last and the step (default 1).
+/// Throws where one is missing.
+std::vector<std::filesystem::path> numbered_files(const std::filesystem::path& header, std::string_view text);
+
+/// Whether `text` has one number to fill in, as numbered_files needs it.
+bool is_pattern(std::string_view text);
+
+}  // namespace regionmesh::formats

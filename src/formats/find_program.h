@@ -1,0 +1,19 @@
+// Finds the programs of this project that the library runs: regionmesh-delaunay and regionmesh-hdf5.
+#pragma once
+
+#include <filesystem>
+
+namespace regionmesh::formats {
+
+/// A program by its file name, and the environment variable that may name another one.
+struct HelperProgram {
+    const char* name;
+    const char* variable;
+};
+
+/// The path of the program: `given` if it is not empty, else the value of the environment variable, else the file of
+/// that name in the folder of the running program, in the bin or libexec/regionmesh folder of the install prefix, or on
+/// PATH, in this order. Throws Error(kInput) that names the places searched.
+std::filesystem::path find_program(const HelperProgram& program, const std::filesystem::path& given = {});
+
+}  // namespace regionmesh::formats
