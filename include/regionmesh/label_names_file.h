@@ -1,4 +1,4 @@
-// Tables that say what labels are called.
+// Tables with the names of labels.
 #pragma once
 
 #include <filesystem>
@@ -7,22 +7,22 @@
 
 namespace regionmesh {
 
-/// Reads a table of labels and names, as many programs write one:
+/// Reads a table of labels and names in any of these forms:
 ///   CSV, TSV or ';'   with or without a header, columns in any order: `label,name`, `index<tab>name<tab>colour`
-///   index name ...    AAL, FreeSurfer and 3D Slicer colour tables: numbers behind the names (a code, colours) are
-///   dropped ITK-SNAP          idx r g b a vis mesh "name" XML atlas         <label index="0">name</label> (FSL),
-///   <label><index>1</index><name>name</name></label> (SPM, AAL3)
-/// Blank lines and lines that begin with #, % or // are passed over, and so are rows whose name is empty. Where a
-/// header does not say it, the labels are the first column of whole numbers, the names the first of anything but
-/// numbers. Text that is no UTF-8 is taken as Latin-1. Throws Error(kInput) naming file and line: no table, a label
-/// that is no whole number, two names for one label, or no names at all.
+///   index name ...    AAL, FreeSurfer and 3D Slicer colour tables; trailing numbers (codes, colours) are dropped
+///   ITK-SNAP          idx r g b a vis mesh "name"
+///   XML atlas         <label index="0">name</label> (FSL), or
+///                     <label><index>1</index><name>name</name></label> (SPM, AAL3)
+/// Ignores blank lines, lines that begin with #, % or //, and rows with an empty name. Without a header, the labels are
+/// the first column of whole numbers and the names the first column that has other text. Text that is no UTF-8 is read
+/// as Latin-1. Throws Error(kInput) naming file and row: no table, a label that is no whole number, two names for one
+/// label, or no names.
 LabelNames read_label_names(const std::filesystem::path& path);
 
 namespace formats {
 
-/// The names in a table beside a volume: for atlas.nii.gz atlas.nii.txt, atlas.txt, and with .xml, .tsv, .csv, .label
-/// or .ctbl likewise, in this order. A file that is no such table may stand there for another purpose: it is passed
-/// over.
+/// The names from a table beside a volume: for atlas.nii.gz atlas.nii.txt or atlas.txt, then likewise .xml, .tsv, .csv,
+/// .label and .ctbl. Ignores files of these names that are no tables of labels.
 LabelNames names_beside(const std::filesystem::path& volume);
 
 }  // namespace formats

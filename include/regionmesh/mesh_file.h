@@ -1,4 +1,4 @@
-// Surface models in files, by extension.
+// Reads and writes surface models; the extension selects the format.
 #pragma once
 
 #include <array>
@@ -14,29 +14,28 @@
 
 namespace regionmesh {
 
-/// A number for each vertex, to be written beside the model.
+/// A number for each vertex, written with the model.
 struct PointArray {
     std::string name;                // of letters, digits and '_'
     std::span<const double> values;  // by vertex id
 };
 
 struct WriteOptions {
-    std::vector<Label> background = {};         // written second in a pair, as the exterior is
+    std::vector<Label> background = {};         // second label of a face, like the exterior
     std::vector<PointArray> point_arrays = {};  // .vtp and .vtu only: Float64
     LabelNames names = {};                      // of regions, in formats that can hold them
     bool per_region = false;                    // .stl, .obj and .ply: a file for each region, NAME-LABEL.EXTENSION
     bool boundary_is_open = false;              // the box is not capped: refused where volumes are needed
 };
 
-/// Writes the living vertices and faces, numbered densely in order of id. First under temporary names beside `path`,
-/// then renamed: a failed run leaves nothing, and what stood there before still stands. All six exterior sides are
-/// written as labels.exterior_label(). Each face is turned so that its normal points from its first label to its
-/// second: the smaller label first, background or exterior second; of these two the background first.
+/// Writes the living vertices and faces, numbered densely in order of id. Writes under temporary names beside `path`
+/// and then renames: a failed run leaves no file and keeps an earlier one. All six exterior sides are written as
+/// labels.exterior_label(). Each face is oriented so that its normal points from its first label to its second: the
+/// smaller label first, background after other labels, the exterior last.
 ///   .vtp    VTK PolyData, inline base64 with zlib, UInt64 header. Points Float64; cell array BoundaryLabels (Int64,
-///   two
-///           components; unsigned labels keep their bits); point array NodeType (Int8: 2, 3, 4 labels, where each side
-///           of the box a vertex lies on counts as one; +10 on the box); field data ExteriorLabel where it is not -1,
-///           RegionLabels and RegionNames where there are names.
+///           2 components; unsigned labels keep their bits); point array NodeType (Int8: 2, 3 or 4 labels, where each
+///           side of the box counts as one; +10 on the box); field data ExteriorLabel where it is not -1, RegionLabels
+///           and RegionNames where there are names.
 ///   .vtu    the same as VTK UnstructuredGrid.
 ///   .ply    binary little endian: double x, y, z, uchar node_type; faces with vertex_indices (uint) and int
 ///           label_first, label_second; where a label needs more than 32 bits all are uint words label_first_low,
@@ -44,48 +43,45 @@ struct WriteOptions {
 ///           region LABEL NAME`; background is not named.
 ///   .obj    a group interface_A_B for each pair of labels.
 ///   .stl    text, a solid for each region (not the background), its normals outward. Per region: binary.
-///   .msh    MSH 4.1, text: a surface for each interface of two solid parts; and beside it a .geo that makes volumes.
+///   .msh    MSH 4.1, text: a surface for each interface of two solid parts; a .geo file beside it makes volumes.
 ///   .smesh .poly  for TetGen: faces with a marker for each interface, points in holes and regions.
 ///   .inp    for Abaqus and CalculiX: S3 elements, sets of interfaces, regions and sides of the box, surfaces.
-///   .glb    binary glTF, single precision round the middle of the model: a mesh for each region.
+///   .glb    binary glTF, single precision relative to the centre of the model: a mesh for each region.
 ///   .dream3d  version 8, single precision: a TriangleGeom with FaceLabels (32 bits; the exterior is -1) and NodeType.
-/// Text holds doubles to the last bit. The bytes depend on the model, the labels and the options only. Memory: a few
-/// megabytes, and 4 bytes a vertex where some were removed; 8 bytes a face for .obj and .stl, some hundred for those
-/// that volume meshers read and for .dream3d. Throws Error(kOutput) for another extension and for options that its
-/// format cannot hold, before anything is written, and Error(kOutput) when the file cannot be written or the disk is
-/// full.
+/// Doubles in text round-trip. The bytes depend only on the model, the labels and the options. Memory: a few megabytes;
+/// 4 bytes per vertex where ids are not dense; 8 bytes per face for .obj and .stl, some hundred for the formats of
+/// volume meshers and .dream3d. Throws Error(kOutput) for another extension and for options that the format does not
+/// support, before it writes anything, and where the file cannot be written.
 void write_mesh(const Mesh& mesh, const LabelTable& labels, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 
-/// Throws what write_mesh would for the extension, the options and the folder of `path`: before the work, not after
-/// it.
+/// Throws the errors of write_mesh for the extension, the options and the folder of `path`: for a check before long
+/// work.
 void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options = {},
                            bool with_point_arrays = false);
 
-/// ".vtp .ply ...", for a message.
+/// ".vtp .ply ...", for messages.
 std::string writable_extensions();
 
-/// A model read from a file, with its labels, as signed numbers. The file's exterior label (-1 if it names none)
-/// becomes the sides of the box again where every face with it lies exactly in a plane of the bounding box of all
-/// faces; vertices get the sides of their exterior faces. Where one does not (an oblique volume, another program's
-/// box), all exterior faces get side 0, and no vertex lies on a side.
+/// A model from a file, with signed labels. Faces with the exterior label of the file (-1 by default) become sides of
+/// the box where all of them lie exactly in planes of the bounding box of all faces; their vertices get these sides.
+/// Otherwise (an oblique volume, a box of another program) all exterior faces get side 0 and no vertex is on a side.
 struct MeshFile {
     Mesh mesh;
     LabelTable labels;
-    LabelNames names = {};  // that the file gives to labels
+    LabelNames names = {};  // of labels, from the file
 };
 
 struct ReadMeshOptions {
-    /// Joins points no farther apart than this, in the unit of the file, and then faces that lie back to back; 0:
-    /// points at one place. Points of .stl files, and of several files in a folder, are joined at 0 without being
-    /// asked.
+    /// Merges points within this distance, in the unit of the file, and then opposite faces on the same vertices; 0:
+    /// only points at the same place. Points of .stl files and of folders are always merged, by default with 0.
     std::optional<double> weld = {};
-    /// Turns faces so that neighbours agree on which side each region lies (io/file_surface.h).
+    /// Orients faces so that neighbours agree on the side of each region.
     bool orient = false;
 };
 
 /// Reads what write_mesh writes into .vtp, .ply, .stl and .obj, and surfaces of other programs:
-///   .vtp .vtu  polygons, and a cell array BoundaryLabels of two integers; ascii, inline or appended, raw or base64,
+///   .vtp .vtu  polygons with a cell array BoundaryLabels of two integers; ascii, inline or appended, raw or base64,
 ///              zlib or no compression; several pieces
 ///   .ply       text or binary, any properties; faces with two labels (label_first and label_second, label0 and label1
 ///              and so on), or with one (label, region), or with none: one region
@@ -93,10 +89,10 @@ struct ReadMeshOptions {
 ///   .obj       groups `interface_3_7` between two labels; any other group is a region
 ///   .dream3d   the triangle geometry with its FaceLabels, of version 6 to 8
 ///   a folder   a .ply, .stl or .obj for each region
-/// Where a surface comes region by region, faces that lie back to back become one face between their regions; the
-/// others bound region and exterior. Polygons are cut into triangles. Vertices keep their order and number, but where
-/// points are joined. Throws Error(kInput) naming the file and what is wrong; sizes in the file are believed only as
-/// far as its bytes go.
+/// Where each face has one label, opposite faces on the same vertices become one face between their regions; the other
+/// faces have the exterior on the other side. Polygons are split into triangles. Vertices keep their order and number,
+/// unless points are merged. Throws Error(kInput) that names the file. Memory is allocated only for data present in the
+/// file, whatever sizes its header gives.
 MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options = {});
 
 }  // namespace regionmesh

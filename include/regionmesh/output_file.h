@@ -1,4 +1,4 @@
-// A file that stands under its name only when it is whole.
+// Files that get their name only when they are complete.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace regionmesh {
 
-/// Writes under a temporary name in the directory of `path` (`.name.part-<pid>`) and renames in `commit`; without that
-/// the destructor removes it, and what stood under `path` before still stands. A link is followed. A path that is there
-/// and is no regular file (a device, a pipe) is written in place. Every write is checked: a failure throws
-/// Error(kOutput) that names the file and the reason. Does not survive loss of power: nothing is forced to the disk.
+/// Writes under a temporary name in the folder of `path` (`.name.part-<pid>`) and renames in commit(); without commit()
+/// the destructor removes the temporary file, and an earlier file at `path` stays. Follows links. Writes an existing
+/// path that is no regular file (a device, a pipe) in place. Every write is checked: a failure throws Error(kOutput)
+/// that names the file and the reason. Does not force data to disk, so it does not protect against loss of power.
 class OutputFile {
 public:
     explicit OutputFile(const std::filesystem::path& path);
@@ -23,13 +23,13 @@ public:
     OutputFile& operator=(const OutputFile&) = delete;
 
     void write(std::string_view bytes);
-    /// Writes over bytes written before. Requires a file that can be sought, which a pipe cannot.
+    /// Replaces bytes written before. Requires a seekable file, which a pipe is not.
     void overwrite(std::uint64_t offset, std::string_view bytes);
     /// Bytes written so far.
     std::uint64_t size() const { return size_; }
-    /// Closes the file under its temporary name. Nothing may be written afterwards.
+    /// Closes the file under its temporary name. No writes may follow.
     void close();
-    /// Closes the file if that is to be done, and gives it its name.
+    /// Closes the file if it is open, and renames it.
     void commit();
 
 private:
@@ -37,26 +37,26 @@ private:
     void put(std::string_view bytes);
     [[noreturn]] void fail(int error_number) const;
 
-    std::filesystem::path path_;       // as the caller named it, for messages
+    std::filesystem::path path_;       // as given, for messages
     std::filesystem::path target_;     // links followed
-    std::filesystem::path temporary_;  // empty when there is none to remove
+    std::filesystem::path temporary_;  // empty where there is none
     std::FILE* file_ = nullptr;
     std::uint64_t size_ = 0;
 };
 
-/// Files that belong together: none has its name before all are whole.
+/// Files that belong together: none gets its name before all are complete.
 class OutputFiles {
 public:
-    /// Closes the file before, so that any number can wait.
+    /// Closes the previous file, so that the number of files is not limited by open descriptors.
     OutputFile& add(const std::filesystem::path& path);
-    /// Gives all files their names. Should the system refuse one of them, those before it stand.
+    /// Renames all files. If one fails, those before it keep their new names.
     void commit();
 
 private:
     std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
-/// Throws Error(kOutput) where a file could not be written at `path`; leaves all as it is. For a look before long work.
+/// Throws Error(kOutput) where no file can be written at `path`; changes nothing. For a check before long work.
 void require_writable(const std::filesystem::path& path);
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-// What a set of sampled distances amounts to.
+// Statistics of sampled distances.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace regionmesh {
 struct DistanceStatistics {
     std::uint64_t samples = 0;
     double rms = 0, mean = 0;
-    double max = 0;          // of the samples: the surface may be a little further away between them
-    double quantile_95 = 0;  // the smallest sampled distance that 95 % of the area or length do not exceed
+    double max = 0;          // of the samples; between them the surface may be slightly farther away
+    double quantile_95 = 0;  // the smallest sampled distance that 95 % of the area or length does not exceed
 };
 
-/// Samples with one weight.
+/// Samples that share one weight.
 struct WeightedDistances {
     std::span<const double> distances;
     double weight;
 };
 
-/// Nothing where there is no sample.
+/// None where there is no sample.
 std::optional<DistanceStatistics> statistics_of(const std::vector<WeightedDistances>& parts);
 
 }  // namespace regionmesh

@@ -29,13 +29,13 @@ fs::path demand(const fs::path& path, const std::string& giver) {
                 path.string() + ": is no program that can be run; " + giver + " gives it as " + kName);
 }
 
-/// Empty where the system does not tell.
+/// Empty where the system does not report it.
 fs::path folder_of_this_program() {
     std::error_code ignored;
     return fs::read_symlink("/proc/self/exe", ignored).parent_path();
 }
 
-/// Empty if there is none.
+/// Empty where PATH has no such program.
 fs::path find_on_path() {
     const char* variable = std::getenv("PATH");
     std::string_view folders = variable == nullptr ? "" : variable;

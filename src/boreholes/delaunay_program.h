@@ -1,13 +1,13 @@
-// Where regionmesh-delaunay is.
+// Locates the program regionmesh-delaunay.
 #pragma once
 
 #include <filesystem>
 
 namespace regionmesh::formats {
 
-/// The program regionmesh-delaunay: `given` if that is not empty, else what the environment variable
-/// REGIONMESH_DELAUNAY names, else beside the running program, else on PATH. Throws Error(kInput) saying where it was
-/// looked for.
+/// The path of regionmesh-delaunay: `given` if not empty; otherwise the value of the environment variable
+/// REGIONMESH_DELAUNAY, the folder of the running program, or a folder on PATH. Throws Error(kInput) that lists these
+/// places.
 std::filesystem::path find_delaunay(const std::filesystem::path& given);
 
 }  // namespace regionmesh::formats

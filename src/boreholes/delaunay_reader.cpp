@@ -22,7 +22,7 @@ struct Header {
     std::uint64_t count;
 };
 
-/// For the exit codes of the program that speak of the points.
+/// For the exit codes that report degenerate points.
 const char* place_of_all(int exit_code) {
     switch (exit_code) {
         case 3:
@@ -37,7 +37,7 @@ const char* place_of_all(int exit_code) {
 }
 
 constexpr int kOutOfMemory = 6;
-constexpr int kKilled = 9;  // the signal with which the system ends what takes too much memory
+constexpr int kKilled = 9;  // the signal that ends a process that takes too much memory
 
 }  // namespace
 
@@ -51,7 +51,7 @@ LabelledPoints DelaunayReader::take_points() {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
     program_.emplace(path_);
     const Header header{kPointsMagic, point_count_};
-    // What went wrong shows in its answer.
+    // A failure shows in its answer.
     if (program_->send(std::as_bytes(std::span(&header, 1)))) {
         program_->send(std::as_bytes(std::span(table_.points.positions)));
     }
@@ -71,7 +71,7 @@ void DelaunayReader::refuse(const std::string& what) const {
     throw Error(ErrorCode::kInput, table_.info.source + ": " + what);
 }
 
-void DelaunayReader::tell_why() {
+void DelaunayReader::refuse_ending() {
     const PipedProgram::Ending ending = program_->end();
     program_.reset();
     const std::string points = std::to_string(point_count_) + " points";
@@ -97,20 +97,17 @@ void DelaunayReader::tell_why() {
 
 void DelaunayReader::read_header() {
     Header header;
-    if (program_->receive(std::as_writable_bytes(std::span(&header, 1))) < sizeof header) tell_why();
+    if (program_->receive(std::as_writable_bytes(std::span(&header, 1))) < sizeof header) refuse_ending();
     if (header.magic != kTetrahedraMagic) refuse(path_.string() + " did not write tetrahedra; is it another program?");
     left_ = header.count;
 }
 
 void DelaunayReader::check(const Corners& corners) const {
-    for (int i = 0; i < 4; ++i) {
-        bool is_good = corners[i] < point_count_;
-        for (int j = 0; j < i; ++j) is_good = is_good && corners[i] != corners[j];
-        if (!is_good) refuse(path_.string() + " wrote a tetrahedron without four points; is it another version?");
-    }
+    if (has_repeated_corner(corners) || *std::max_element(corners.begin(), corners.end()) >= point_count_)
+        refuse(path_.string() + " wrote a tetrahedron without four points; is it another version?");
 }
 
-/// The program is gone before the last tetrahedra are told of, and with it its memory.
+/// Ends the program, which frees its memory, before the last tetrahedra are returned.
 void DelaunayReader::finish() {
     std::byte more;
     if (program_->receive(std::span(&more, 1)) > 0) refuse(path_.string() + " wrote more than it announced");
@@ -129,7 +126,7 @@ std::size_t DelaunayReader::next(std::span<LabelledTetrahedron> tetrahedra) {
     if (count == 0) return 0;
     piece_.resize(count);
     const auto bytes = std::as_writable_bytes(std::span(piece_));
-    if (program_->receive(bytes) < bytes.size()) tell_why();
+    if (program_->receive(bytes) < bytes.size()) refuse_ending();
     for (std::size_t i = 0; i < count; ++i) {
         check(piece_[i]);
         tetrahedra[i] = {.corners = piece_[i]};

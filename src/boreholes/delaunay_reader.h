@@ -1,4 +1,4 @@
-// Points of a table, and the tetrahedra that regionmesh-delaunay puts between them.
+// The points of a table and their Delaunay tetrahedra, which regionmesh-delaunay makes.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace regionmesh::formats {
 
-/// Sends the points away in take_points() and reads the tetrahedra as they come; delaunay/README.md says how the two
-/// talk. Of the size of the points it holds the numbers of their rows only.
+/// Sends the points to the program in take_points() and streams the tetrahedra; apps/delaunay/README.md has the
+/// protocol. Keeps only the row number of each point.
 class DelaunayReader : public TetrahedronReader {
 public:
     DelaunayReader(PointTable table, std::filesystem::path program);
@@ -33,10 +33,10 @@ private:
     void check(const Corners& corners) const;
     void finish();
     [[noreturn]] void refuse(const std::string& what) const;
-    /// Its output ended too early.
-    [[noreturn]] void tell_why();
+    /// Reports why the output of the program ended early.
+    [[noreturn]] void refuse_ending();
 
-    PointTable table_;  // without points once they are taken
+    PointTable table_;  // without points after take_points()
     std::filesystem::path path_;
     std::optional<PipedProgram> program_;  // from take_points() to the last tetrahedron
     std::size_t point_count_ = 0;

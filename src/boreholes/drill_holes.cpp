@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMostOverlap = 0.05;  // of the longer interval
 
-/// Intervals of one label that overlap, joined.
+/// Overlapping intervals of one label, merged.
 struct Run {
     double top, bottom;
     const Interval* first;
@@ -27,7 +27,7 @@ std::string hole_of(const DrillHoles& holes, const Interval& interval) {
     return holes.holes.size() == 0 ? "" : fmt::format(" of hole '{}'", shown(holes.holes.text(interval.hole)));
 }
 
-/// Downwards at each place. Few runs are open at a time: none of two that are about as long overlap by much.
+/// Sweeps downwards at each x, y. Few runs are open at a time, since runs of similar length hardly overlap.
 class OverlapSweep {
 public:
     OverlapSweep(const DrillHoles& holes, const TableLabels& labels) : holes_(holes), labels_(labels) {}
@@ -66,7 +66,7 @@ private:
     std::vector<Run> open_;
 };
 
-/// How many parts an interval is cut into.
+/// The number of parts of an interval.
 double part_count(const Interval& interval, std::optional<double> step) {
     return step ? std::max(1.0, std::ceil(interval.length / *step)) : 1;
 }
@@ -88,7 +88,7 @@ void refuse_overlaps(const DrillHoles& holes, const TableLabels& labels) {
 
 namespace {
 
-/// Of a point: its place, label and row.
+/// Position, label and row.
 constexpr double kBytesPerPoint = 36;
 
 double physical_bytes() {

@@ -1,4 +1,4 @@
-// Drill holes: intervals of one label, and the points that stand for them.
+// Drill holes: intervals of one label, and the points that represent them.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace regionmesh::formats {
 struct Interval {
     double x = 0, y = 0;
     double top = 0, bottom = 0;  // elevations, top > bottom
-    double length = 0;           // from the numbers of the table: elevations may be rounded once more
+    double length = 0;           // of the numbers in the table; elevations may be rounded again
     std::uint32_t label = 0;     // of TableLabels
     std::uint32_t hole = 0;      // of DrillHoles::holes
     std::uint32_t row = 0;
@@ -24,17 +24,17 @@ struct Interval {
 struct DrillHoles {
     std::filesystem::path path;
     std::vector<Interval> intervals;
-    TextTable holes;  // their names; none where the table has none
+    TextTable holes;  // names of holes; empty where the table has none
 };
 
-/// Throws, naming both rows, where intervals of two labels at one x, y overlap by more than a twentieth of the longer
-/// one. Less is taken for what it nearly always is: a boundary read off twice, or a layer that is missing and is kept
-/// in the list with next to no thickness. Holes of one name at two places are two holes.
+/// Throws Error(kInput) naming both rows where intervals of two labels at one x, y overlap by more than a twentieth of
+/// the longer one. Smaller overlaps are accepted: nearly all are a boundary recorded twice, or a missing layer listed
+/// with almost no thickness. Holes of the same name at two places are two holes.
 void refuse_overlaps(const DrillHoles& holes, const TableLabels& labels);
 
-/// Appends the points that stand for the intervals, in their order: the centres of as few equal parts as are no longer
-/// than `step`, or the middle of each without one. Each gets its interval's row, and as label the number that
-/// TableLabels gave it. Throws before it appends any where there would be more points than kMostPoints.
+/// Appends the points that represent the intervals, in their order: the centres of the fewest equal parts no longer
+/// than `step`, or the middle of each interval without a step. A point gets the row of its interval and, as label, its
+/// number in TableLabels. Throws Error(kInput) before it appends any where there would be more than kMostPoints.
 void append_points(const DrillHoles& holes, std::optional<double> step, PointTable& table);
 
 }  // namespace regionmesh::formats

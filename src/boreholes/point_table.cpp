@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t kLeastRowBytes = 8;  // "0,0,0,0\n"
 
-/// Rows of one table on their way to points.
+/// Converts the rows of one table to points.
 class PointTableReader {
 public:
     PointTableReader(const std::filesystem::path& path, const TetrahedraOptions& options)
@@ -51,11 +51,12 @@ private:
     TableColumns columns_;
     TableLabels labels_;
     DrillHoles holes_;
-    std::uint32_t first_depth_ = 0, first_elevation_ = 0;  // rows where top and bottom are such
+    std::uint32_t first_depth_ = 0,
+                  first_elevation_ = 0;  // first rows in which top and bottom are depths, or elevations
     PointTable table_;
 };
 
-/// For no more rows than there are lines, so that nothing is held twice while vectors grow.
+/// Reserves memory for an upper bound on the rows, so that growing vectors hold nothing twice.
 void PointTableReader::reserve() {
     const auto most = static_cast<std::size_t>(std::min(rows_.most_rows(kLeastRowBytes), kMostPoints));
     if (columns_.are_intervals()) {
@@ -101,7 +102,7 @@ void PointTableReader::add_row() {
     table_.rows.push_back(row);
 }
 
-/// Elevations of top and bottom. Only depths need a surface, and intervals without a length, marks, have no label.
+/// Converts top and bottom to elevations. Only depths need a surface. Intervals without length (marks) are ignored.
 void PointTableReader::add_interval(double x, double y, std::uint32_t row) {
     Interval interval{.x = x, .y = y, .top = number(Role::kTop), .bottom = number(Role::kBottom), .row = row};
     if (interval.top == interval.bottom) return;
@@ -125,7 +126,7 @@ void PointTableReader::add_interval(double x, double y, std::uint32_t row) {
     holes_.intervals.push_back(interval);
 }
 
-/// Labels for the numbers of their texts, and z times its scale.
+/// Replaces the numbers of label texts by labels, and scales z.
 void PointTableReader::finish() {
     table_.info.source = rows_.path().string();
     table_.info.format = "csv";
@@ -140,7 +141,7 @@ void PointTableReader::finish() {
     }
 }
 
-/// What must not be empty.
+/// A field that must not be empty.
 std::string_view PointTableReader::words(Role role) const {
     const std::string_view found = text(role);
     if (found.empty()) rows_.refuse(fmt::format("column {} is empty; fill it in", columns_.titles[columns_.of(role)]));
@@ -161,7 +162,7 @@ std::uint32_t PointTableReader::add_label(std::uint32_t row) {
     return labels_.add(words(Role::kLabel), columns_.has(Role::kName) ? text(Role::kName) : std::string_view(), row);
 }
 
-/// Separators at the end of a row, with nothing between them, do no harm.
+/// Empty fields at the end of a row are ignored.
 bool PointTableReader::has_more_fields_than_titles() const {
     for (std::size_t i = columns_.titles.size(); i < rows_.field_count(); ++i)
         if (!rows_.field(i).empty()) return true;

@@ -16,7 +16,7 @@ struct PointTable {
     std::vector<std::uint32_t> rows;  // of each point; the header is row 1
 };
 
-/// Reads a table of points, or the points that stand for the intervals of drill holes. Throws Error(kInput) that names
+/// Reads a table of points, or the points that represent the intervals of drill holes. Throws Error(kInput) that names
 /// the row.
 PointTable read_point_table(const std::filesystem::path& path, const TetrahedraOptions& options);
 

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// Titles by which a column is known without being asked for, the likeliest first.
+// Titles that identify a column by default, the most likely first.
 const Words kXWords{"x", "easting", "east"};
 const Words kYWords{"y", "northing", "north"};
 const Words kZWord{"z"};
@@ -55,10 +55,10 @@ private:
 
     const CsvRows& rows_;
     TableColumns found_;
-    bool is_by_number_ = true;  // every wanted column
+    bool is_by_number_ = true;  // whether `wanted` gives every column by number
 };
 
-/// Numbers count from 1; anything else is a title, letter by letter or at least but for capitals.
+/// A number counts from 1; other text is a title, compared first exactly, then without regard to case.
 std::size_t ColumnFinder::wanted_column(std::string_view column) {
     if (column.empty()) fail(rows_.path(), "--columns names an empty column; give its number");
     if (const auto number = parse_size(column)) {
@@ -117,11 +117,11 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
 }
 
 void ColumnFinder::look_for(Role role, const Words& words) {
-    if (!found_.has_header) return;  // the first row is data, whatever words stand in it
+    if (!found_.has_header) return;  // the first row is data
     for (std::size_t i = 0; !place(role) && i < words.size(); ++i) place(role) = column_like(words[i], plain_title);
 }
 
-/// In a table of intervals an elevation is that of the surface, unless --columns says otherwise.
+/// In a table of intervals a column `elevation` is that of the surface, unless --columns says otherwise.
 void ColumnFinder::choose_kind() {
     const bool has_interval = found_.has(Role::kTop) || found_.has(Role::kBottom);
     if (found_.has(Role::kZ) && has_interval)

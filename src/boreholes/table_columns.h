@@ -1,4 +1,4 @@
-// Which column of a table is what.
+// The roles of the columns of a table.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@
 
 namespace regionmesh::formats {
 
-/// What a column may hold; TetrahedraOptions::columns calls them by these names.
+/// The role of a column; TetrahedraOptions::columns uses these names.
 enum class Role { kX, kY, kZ, kLabel, kName, kTop, kBottom, kSurface, kHole };
 inline constexpr std::array kRoleNames{"x", "y", "z", "label", "name", "top", "bottom", "surface", "hole"};
 
-/// A table has x, y, label, and z or else both top and bottom; the others are there or not.
+/// A table has x, y, label, and either z or both top and bottom; the others are optional.
 struct TableColumns {
     std::array<std::optional<std::size_t>, kRoleNames.size()> places;  // from 0
-    std::vector<std::string> titles;                                   // as an error shows them: 'x', 5
-    std::size_t least_fields = 0;                                      // a row must have
+    std::vector<std::string> titles;                                   // for messages: 'x', 5
+    std::size_t least_fields = 0;                                      // that a row must have
     bool has_header = true;
 
     bool has(Role role) const { return places[static_cast<std::size_t>(role)].has_value(); }
@@ -27,10 +27,10 @@ struct TableColumns {
     bool are_intervals() const { return !has(Role::kZ); }
 };
 
-/// `rows` stands on the first row. `wanted` is TetrahedraOptions::columns: "x,y,z,label" as names or numbers from 1, or
-/// pairs "x=east,label=3"; what it leaves open is found by the names that columns usually have. A table is one of
-/// intervals where `wanted` has a top or bottom, or the header has both and no column z. It has no header where
-/// `wanted` gives x and y by number and numbers stand there. Throws Error(kInput) saying which column is missing.
+/// Requires `rows` at the first row. `wanted` is TetrahedraOptions::columns: four columns "x,y,z,label" by name or
+/// number from 1, or pairs "x=east,label=3"; other columns are found by their usual names. It is a table of intervals
+/// where `wanted` has a top or bottom, or where the header has both and no column z. It has no header where `wanted`
+/// gives x and y by number and the first row has numbers there. Throws Error(kInput) that names the missing column.
 TableColumns find_columns(const CsvRows& rows, const std::string& wanted);
 
 }  // namespace regionmesh::formats

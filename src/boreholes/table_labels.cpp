@@ -13,7 +13,7 @@
 namespace regionmesh::formats {
 namespace {
 
-/// Nothing where they are no numbers of one type: some below 0, or some above 2^63 - 1, but not both.
+/// None where a text is no whole number, or where some are negative and others above 2^63 - 1.
 std::optional<std::vector<InputLabel>> numbers_of(const TextTable& texts, bool& is_unsigned) {
     std::vector<InputLabel> labels(texts.size());
     bool has_negative = false, has_large = false;
@@ -28,7 +28,7 @@ std::optional<std::vector<InputLabel>> numbers_of(const TextTable& texts, bool& 
     return labels;
 }
 
-/// Each text's place in the order of bytes, from 1.
+/// The rank of each text in byte order, from 1.
 std::vector<InputLabel> ranks_of(const TextTable& texts) {
     std::vector<std::uint32_t> order(texts.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -68,7 +68,7 @@ std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
     auto numbers = numbers_of(texts_, info.is_unsigned);
     const bool are_words = !numbers;
     const std::vector<InputLabel> labels = are_words ? ranks_of(texts_) : std::move(*numbers);
-    std::unordered_map<InputLabel, const Name*> named;  // several texts may be one number
+    std::unordered_map<InputLabel, const Name*> named;  // several texts may be the same number
     for (std::uint32_t i = 0; i < names_.size(); ++i) {
         if (names_[i].text.empty()) continue;
         const auto [place, is_new] = named.emplace(labels[i], &names_[i]);
@@ -76,7 +76,7 @@ std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
         info.names.emplace(labels[i], one_line(names_[i].text));
     }
     for (std::uint32_t i = 0; are_words && i < texts_.size(); ++i)
-        info.names.emplace(labels[i], one_line(texts_.text(i)));  // unless it has a name
+        info.names.emplace(labels[i], one_line(texts_.text(i)));  // unless the label has a name
     return labels;
 }
 

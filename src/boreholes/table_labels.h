@@ -13,7 +13,7 @@
 
 namespace regionmesh::formats {
 
-/// Different texts, counted from 0 as they come; each is held once.
+/// Numbers distinct texts from 0 in order of first use; stores each once.
 class TextTable {
 public:
     std::uint32_t number_of(std::string_view text);
@@ -30,19 +30,19 @@ private:
     std::uint32_t last_ = 0;
 };
 
-/// Collects the labels as they are written, since only the last row shows whether all of them are numbers.
+/// Collects labels as text, since only after the last row it is known whether all are numbers.
 class TableLabels {
 public:
     explicit TableLabels(std::filesystem::path path) : path_(std::move(path)) {}
 
-    /// The number by which labels() knows this text. Throws where another row gave the label another name, none empty.
+    /// The index of this text in labels(). Throws Error(kInput) where an earlier row gave the label another name; an
+    /// empty name is no name.
     std::uint32_t add(std::string_view text, std::string_view name, std::uint32_t row);
 
     const std::string& text(std::uint32_t number) const { return texts_.text(number); }
 
-    /// By those numbers: the labels. Whole numbers of 64 bits stay what they are ("3.0" is 3); any other text among
-    /// them makes all of them words, which get labels 1, 2, ... in the order of their bytes, and their text as name.
-    /// Puts is_unsigned and names into `info`.
+    /// The labels. Whole numbers of 64 bits keep their value ("3.0" is 3). If any text is no such number, all texts are
+    /// words: they get labels 1, 2, ... in byte order, and their text as name. Sets is_unsigned and names in `info`.
     std::vector<InputLabel> labels(TetrahedraInfo& info) const;
 
 private:
@@ -54,7 +54,7 @@ private:
 
     std::filesystem::path path_;
     TextTable texts_;
-    std::vector<Name> names_;  // by number; none of them are held as long as none was given
+    std::vector<Name> names_;  // by index; empty until the first name
 };
 
 }  // namespace regionmesh::formats

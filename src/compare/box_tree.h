@@ -1,4 +1,4 @@
-// Which boxes are near a point? Eight at a time, nearest first.
+// Search for the boxes near a point, eight at a time, nearest first.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@ namespace regionmesh {
 
 using FloatPoint = std::array<float, 3>;
 
-/// An axis-aligned box in single precision; whoever makes one rounds it outward.
+/// An axis-aligned box in single precision; callers round it outward.
 struct FloatBox {
     FloatPoint low, high;
 };
 
-/// Eight boxes side by side; those not put are infinitely far.
+/// Eight boxes side by side; empty places are infinitely far.
 struct alignas(32) EightBoxes {
     static constexpr std::uint32_t kCount = 8;
 
@@ -29,11 +29,11 @@ struct alignas(32) EightBoxes {
 
     EightBoxes();
     void put(std::uint32_t lane, const FloatBox& box);
-    /// The box round all that were put.
+    /// The bounding box of all boxes put so far.
     FloatBox hull() const;
 };
 
-/// Squares of the distances from p to eight boxes; bit n of the result is set where the one to box n is below `limit`.
+/// Squared distances from p to eight boxes; bit n of the result is set where that to box n is below `limit`.
 inline unsigned squared_distances(const EightBoxes& boxes, const FloatPoint& p, float limit,
                                   std::array<float, EightBoxes::kCount>& squared) {
     unsigned below = 0;
@@ -65,13 +65,13 @@ inline unsigned squared_distances(const EightBoxes& boxes, const FloatPoint& p, 
     return below;
 }
 
-/// A box and the square of its distance.
+/// A box and its squared distance.
 struct NearBox {
     float squared;
     std::uint32_t lane;
 };
 
-/// The boxes nearer than the root of `limit`, nearest first; returns how many.
+/// The boxes with a squared distance below `limit`, nearest first; returns their number.
 inline std::uint32_t near_boxes(const EightBoxes& boxes, const FloatPoint& p, float limit,
                                 std::array<NearBox, EightBoxes::kCount>& found) {
     std::array<float, EightBoxes::kCount> squared;
@@ -85,7 +85,7 @@ inline std::uint32_t near_boxes(const EightBoxes& boxes, const FloatPoint& p, fl
     return count;
 }
 
-/// An eight-fold tree over named boxes in the order given, which should be a spatial one.
+/// A tree with eight children a node over named boxes in the given order, which should be spatial.
 class BoxTree {
 public:
     BoxTree() = default;
@@ -93,7 +93,8 @@ public:
 
     bool is_empty() const { return names_.empty(); }
 
-    /// Calls visit(name) for boxes nearer to p than the root of `limit`, near ones first. A visit may lower the limit.
+    /// Calls visit(name) for the boxes with a squared distance to p below `limit`, near ones first. A visit may lower
+    /// the limit.
     template <class Visit>
     void search(const FloatPoint& p, const float& limit, Visit&& visit) const;
 
@@ -110,7 +111,7 @@ void BoxTree::search(const FloatPoint& p, const float& limit, Visit&& visit) con
         float squared;
         std::uint32_t level, node;  // of that level
     };
-    std::array<Entry, 128> stack;  // at most seven of each of eleven levels wait
+    std::array<Entry, 128> stack;  // at most seven entries of each of eleven levels wait
     int top = 0;
     stack[top++] = {0, static_cast<std::uint32_t>(starts_.size()) - 1, 0};
     std::array<NearBox, EightBoxes::kCount> near;

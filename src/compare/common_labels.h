@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// Numbers the labels of both tables in order as numbers. All sides of the box are one label: exterior(0).
+/// Numbers the labels of both tables in ascending order. All sides of the box are one label, exterior(0).
 class CommonLabels {
 public:
     CommonLabels(const LabelTable& a, const LabelTable& b);
@@ -19,7 +19,7 @@ public:
         return is_exterior(dense) ? exterior(0) : common_[static_cast<std::size_t>(mesh)][dense];
     }
     const LabelTable& table() const { return table_; }
-    /// The common labels of those input labels that either model knows.
+    /// The common labels of the input labels that at least one model has.
     std::vector<Label> common_of(const std::vector<InputLabel>& labels) const;
 
 private:

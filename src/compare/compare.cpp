@@ -15,12 +15,12 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kChunk = 4096;  // samples, or vertices, looked for one after the other
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // there is nothing to be at a distance from
+constexpr std::uint32_t kChunk = 4096;  // samples or vertices per task; each search starts at the result before
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // no distance: the other model lacks the part
 
 std::uint32_t chunks_of(std::uint64_t count) { return static_cast<std::uint32_t>((count + kChunk - 1) / kChunk); }
 
-/// One of both models, made ready to be sampled and searched.
+/// One of the two models, prepared for sampling and searching.
 struct Side {
     Side(const CommonView& v, bool sides_apart, std::uint64_t samples, std::uint32_t threads)
         : view(v),
@@ -38,7 +38,7 @@ struct Side {
     const Samples face_samples, line_samples;
 };
 
-/// Are the exterior's faces with this model told apart by side of the box? Not so in files where they lie anyhow.
+/// Whether the exterior faces of the model are labelled by side of the box. Files whose exterior is no box lack that.
 bool has_sides(const Mesh& mesh) {
     bool has_exterior = false;
     for (std::uint32_t f = 0; f < mesh.face_end() && !has_exterior; ++f)
@@ -49,14 +49,14 @@ bool has_sides(const Mesh& mesh) {
     return false;
 }
 
-/// By sample of a side: distances to the other one.
+/// By sample of a side: distances to the other side.
 struct FaceDistances {
     std::vector<double> to_all;
     std::array<std::vector<double>, 2> to_region;  // of the first and the second label of the interface
     std::vector<double> to_interface;
 };
 
-/// Distances below this are what rounding makes of 0.
+/// Distances below this are rounded to 0.
 double rounding_of(const Side& a, const Side& b) {
     double largest = 0;
     for (const Side* side : {&a, &b}) {
@@ -99,8 +99,8 @@ private:
         return !is_exterior(label) && std::ranges::find(background, label) == background.end();
     }
 
-    /// What is nearest of all is nearest of its region and its interface, too: only where it has other labels must the
-    /// search go on.
+    /// The nearest simplex of all is also the nearest of its region and interface, so these are searched only where it
+    /// has other labels.
     void measure_faces() {
         const Samples& samples = from_.face_samples;
         const auto twin_of = twins(from_.interfaces, to_.interfaces);
@@ -162,7 +162,7 @@ void add_part(std::vector<WeightedDistances>& parts, const std::vector<double>& 
 
 using Parts = std::array<std::vector<WeightedDistances>, 2>;  // from A, from B
 
-/// Nothing where one of both has nothing.
+/// None where one of the two models has no samples.
 TwoSidedDistance two_sided(const Parts& parts) {
     if (parts[0].empty() || parts[1].empty()) return {};
     std::vector<WeightedDistances> all = parts[0];
@@ -181,7 +181,7 @@ TwoSidedDistance whole_distance(const Sides& sides, const Directions& directions
     return two_sided(parts);
 }
 
-/// Where a label stands in an interface.
+/// The place of a label in an interface.
 struct Place {
     std::uint32_t stratum;
     int place;  // 0 or 1
@@ -263,7 +263,7 @@ std::vector<double> distances_of_vertices(const Mesh& mesh, const StrataTree& tr
     return result;
 }
 
-/// Measures of both models; what is wrong with them is for check to say.
+/// Measures of both models. Violations are not reported here; check does that.
 std::array<CheckReport, 2> measure(const std::array<ComparedMesh, 2>& meshes, const CompareOptions& options) {
     std::array<CheckReport, 2> reports;
     parallel_for(2, options.threads, [&](std::uint32_t n) {

@@ -1,4 +1,5 @@
-// Hilbert's curve through a box: what is near along it is near in space, without the jumps of a Morton curve.
+// Hilbert's curve through a box: places near each other along it are near in space; it has no jumps, unlike a Morton
+// curve.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +10,9 @@
 
 namespace regionmesh {
 
-inline constexpr int kHilbertBits = 10;  // an axis
+inline constexpr int kHilbertBits = 10;  // per axis
 
-/// Place along the curve of a cell of the grid of 2^kHilbertBits cells an axis (Skilling 2004, "Programming the Hilbert
+/// Place along the curve of a cell in a grid of 2^kHilbertBits cells per axis (Skilling 2004, "Programming the Hilbert
 /// curve").
 inline std::uint32_t hilbert_key(std::array<std::uint32_t, 3> x) {
     constexpr std::uint32_t kTop = 1u << (kHilbertBits - 1);
@@ -35,7 +36,7 @@ inline std::uint32_t hilbert_key(std::array<std::uint32_t, 3> x) {
     return key;
 }
 
-/// The grid laid over a box.
+/// The grid over a box.
 class HilbertGrid {
 public:
     explicit HilbertGrid(const Box& box) : origin_(box.low) {
@@ -43,7 +44,7 @@ public:
         cells_per_length_ = kLast / std::max({extent.x, extent.y, extent.z, 1e-300});
     }
 
-    /// Points outside the box count as being at its rim.
+    /// Points outside the box are moved to its boundary.
     std::uint32_t key(Vec3 p) const {
         std::array<std::uint32_t, 3> cell;
         for (int axis = 0; axis < 3; ++axis)

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastSamples = 100;
 constexpr std::uint32_t kChunk = 1 << 16;  // of simplices
 
-/// Random in [0, 1), for each sample three: place along the stratum, and place in the simplex.
+/// Random numbers in [0, 1), three per sample: one for the place along the stratum, two for that in the simplex.
 enum class Coordinate { kAlong, kFirst, kSecond };
 double unit(std::uint64_t sample, Coordinate coordinate) {
     return static_cast<double>(mix64(4 * sample + static_cast<std::uint64_t>(coordinate)) >> 11) * 0x1p-53;
@@ -63,7 +63,7 @@ std::uint32_t Samples::stratum_of(std::uint64_t sample) const {
 }
 
 std::uint32_t Samples::simplex_at(double along, std::uint32_t stratum, std::uint32_t from) const {
-    constexpr std::uint32_t kSteps = 16;  // near ones first: the next sample is rarely further
+    constexpr std::uint32_t kSteps = 16;  // linear search first: the next sample is rarely farther
     const std::uint32_t last = sorted_.strata[stratum].end - 1;
     std::uint32_t n = from;
     for (const std::uint32_t stop = std::min(last, from + kSteps); n < stop; ++n)

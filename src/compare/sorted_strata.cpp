@@ -14,11 +14,11 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kChunk = 1 << 16;  // of vertices or simplices, worked on as one
+constexpr std::uint32_t kChunk = 1 << 16;  // vertices or simplices per task
 
 std::uint32_t chunks_of(std::size_t count) { return static_cast<std::uint32_t>((count + kChunk - 1) / kChunk); }
 
-/// Simplices as they are found, of vertices of the model, each with the number of its label set.
+/// Simplices as found, by vertices of the model, each with the number of its label set.
 struct Found {
     std::vector<Simplex> simplices;
     std::vector<std::uint32_t> sets;
@@ -49,7 +49,7 @@ std::vector<KeyedIndex> along_curve(const Mesh& mesh, const std::vector<Simplex>
     return order;
 }
 
-/// From vertices of the model to points of our own, in order of use.
+/// Renumbers vertices of the model as points, in order of use.
 void take_points(const Mesh& mesh, SortedStrata& strata) {
     constexpr std::uint32_t kNew = 0xFFFFFFFFu;
     std::vector<std::uint32_t> numbers(mesh.vertex_end(), kNew);
@@ -124,7 +124,7 @@ SortedStrata interfaces_of(const CommonView& view, std::uint32_t threads) {
         }
         if (last_set == kNoStratum) continue;
         const auto& [a, b, c] = face.vertices;
-        // A broken face that repeats a vertex must not pass for an edge.
+        // A degenerate face that repeats a vertex must not be taken for an edge.
         found.simplices.push_back(b == c ? Simplex{index(b), index(c), index(a)}
                                          : Simplex{index(a), index(b), index(c)});
         found.sets.push_back(last_set);

@@ -12,7 +12,7 @@
 
 namespace regionmesh {
 
-/// Three points of a face; an edge repeats its second one, so that it is a face without area.
+/// Three points of a face; an edge repeats its second point: a face without area.
 using Simplex = std::array<std::uint32_t, 3>;
 inline bool is_edge(const Simplex& s) { return s[1] == s[2]; }
 
@@ -25,8 +25,8 @@ struct Stratum {
     bool contains(Label label) const;
 };
 
-/// Simplices one stratum after another, each along Hilbert's curve, and points in the order in which simplices use
-/// them: neighbours in space are neighbours in the arrays, whatever they were in the model.
+/// Simplices by stratum, each stratum along Hilbert's curve, and points in the order in which simplices use them: so
+/// neighbours in space are neighbours in the arrays, whatever their order in the model.
 struct SortedStrata {
     std::vector<Vec3> points;
     std::vector<Simplex> simplices;
@@ -42,14 +42,14 @@ struct CommonView {
     const Mesh& mesh;
     const CommonLabels& labels;
     int which = 0;                  // model 0 or 1 of `labels`
-    std::vector<Label> background;  // common; what has no other label but the exterior is left out
+    std::vector<Label> background;  // common; a simplex without other labels than these and the exterior is omitted
 };
 
 /// Interfaces: two labels each.
 SortedStrata interfaces_of(const CommonView& view, std::uint32_t threads);
 
-/// Lines: edges with three labels or more. Where `sides_apart`, each side of the box counts as one, and the exterior
-/// stands in `labels` as often as there are sides: an edge of the box is a line. Else the exterior counts once.
+/// Lines: edges with three labels or more. With `sides_apart` each side of the box counts as a label, and `labels` has
+/// the exterior once per side: an edge of the box is a line. Otherwise the exterior counts once.
 SortedStrata lines_of(const CommonView& view, bool sides_apart, std::uint32_t threads);
 
 }  // namespace regionmesh

@@ -10,8 +10,8 @@ struct Weighted {
     double distance, weight;
 };
 
-/// The smallest distance that a part `share` of the weight does not exceed; reorders. Halves the range that holds it,
-/// so that the time is linear.
+/// The smallest distance that a fraction `share` of the weight does not exceed. Reorders its argument. Halves the range
+/// that holds the result, so the time is linear.
 double quantile(std::vector<Weighted>& all, double weight, double share) {
     const auto is_nearer = [](const Weighted& a, const Weighted& b) { return a.distance < b.distance; };
     auto first = all.begin(), last = all.end();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kFan = EightBoxes::kCount, kRun = kFan * kFan;
 constexpr std::uint32_t kRunsPerTask = 1024;
-constexpr float kMargin = 0x1p-22f;  // of boxes, in half extents: more than single precision rounds away
+constexpr float kMargin = 0x1p-22f;  // of boxes, in half extents: exceeds the rounding of single precision
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void StrataTree::make_trees() {
         order.push_back({grid.key(middle_ + 0.5 / scale_ * sum), r});
     }
     radix_sort(order);
-    // Names of runs along the curve: of all, by label, by stratum.
+    // Runs along the curve: all, by label, by stratum.
     std::vector<std::uint32_t> all;
     std::vector<std::vector<std::uint32_t>> of_label, of_stratum(sorted_.strata.size());
     for (const KeyedIndex& item : order) {
@@ -91,7 +91,7 @@ FloatPoint StrataTree::to_frame(Vec3 p) const {
     return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
 }
 
-/// A bound on the squares of distances to boxes, with what single precision may add to them.
+/// A bound on squared distances to boxes that allows for the rounding of single precision.
 float StrataTree::limit_of(double squared) const { return static_cast<float>(squared * scale_ * scale_ * (1 + 4e-6)); }
 
 FloatBox StrataTree::outward(const Simplex& s) const {

@@ -1,4 +1,4 @@
-// What is nearest to a point: of all faces, of those of one region, of those of one interface? The same for lines.
+// The simplex nearest to a point: among all faces, those of one region or those of one interface; likewise for lines.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,23 @@ namespace regionmesh {
 
 inline constexpr std::uint32_t kNoSimplex = 0xFFFFFFFFu;
 
-/// A nearest simplex. Of several at one distance any: the same in every run.
+/// A nearest simplex. Among several at the same distance the choice is arbitrary but reproducible.
 struct Nearest {
     double squared = HUGE_VAL;  // distance
     std::uint32_t simplex = kNoSimplex;
     std::uint32_t stratum = kNoStratum;
 };
 
-/// Runs of 64 neighbouring simplices of one stratum, with small trees of boxes over the runs: one over all, one for
-/// each label, one for each stratum. About 30 bytes a simplex beside the simplices. Refers to its argument.
+/// Runs of 64 neighbouring simplices of one stratum, with trees of boxes over the runs: one over all runs, one for each
+/// label, one for each stratum. Takes about 30 bytes a simplex in addition to the simplices. Holds a reference to its
+/// argument.
 class StrataTree {
 public:
     StrataTree(const SortedStrata& sorted, std::uint32_t threads);
 
-    /// The search begins with what `guess` found for another point, and is quick where that is near.
+    /// Starts at the simplex `guess` of another point: fast where the two points are near each other.
     Nearest nearest(Vec3 p, const Nearest& guess = {}) const;
-    /// Nothing is found where no stratum has the label, or there is no such stratum.
+    /// Finds none where no stratum has the label, or the stratum does not exist.
     Nearest nearest_of_label(Vec3 p, Label label) const;
     Nearest nearest_of_stratum(Vec3 p, std::uint32_t stratum) const;
 
@@ -51,8 +52,8 @@ private:
     double squared_distance_to(Vec3 p, std::uint32_t simplex, double bound) const;
 
     const SortedStrata& sorted_;
-    Vec3 middle_;       // single precision counts from here,
-    double scale_ = 1;  // in half extents of the model
+    Vec3 middle_;       // origin of the single-precision coordinates,
+    double scale_ = 1;  // whose unit is the half extent of the model
     std::vector<Run> runs_;
     std::vector<EightBoxes> blocks_;
     BoxTree all_;

@@ -24,7 +24,7 @@ std::string why_not_opened(int error) {
 
 void fail(const std::filesystem::path& path, const std::string& text) {
     std::string line = path.string() + ": " + text;
-    // Words of a damaged file, or of a library, must not break the line.
+    // Text from a damaged file or a library must not break the line.
     for (char& c : line) {
         if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
     }
@@ -36,7 +36,7 @@ void fail_section(const std::filesystem::path& path, std::uint64_t section, cons
 }
 
 InputFile::InputFile(const std::filesystem::path& path) : path_(path) {
-    // O_NONBLOCK: a named pipe is refused below, not waited for.
+    // O_NONBLOCK: a named pipe is refused below instead of blocking.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) fail(path, why_not_opened(errno));
     struct stat status {};

@@ -1,4 +1,4 @@
-// A file opened for reading at any place, and the errors that name it.
+// Random access to a file, and errors that name it.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace regionmesh::formats {
 /// Throws Error(kInput) "path: section 17: text"; sections count from 0.
 [[noreturn]] void fail_section(const std::filesystem::path& path, std::uint64_t section, const std::string& text);
 
-/// A regular file. Its length is taken once, when it is opened.
+/// A regular file. Its length is determined once, when it is opened.
 class InputFile {
 public:
     /// Throws Error(kInput) where the file is missing, a directory, not readable or not a regular file.
@@ -27,7 +27,8 @@ public:
     const std::filesystem::path& path() const { return path_; }
     std::uint64_t size() const { return size_; }
 
-    /// Fills `bytes` from `offset`; returns how many there were: fewer than asked for only at the end of the file.
+    /// Fills `bytes` from `offset` and returns the number of bytes read, fewer than asked for only at the end of the
+    /// file.
     std::size_t read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
 private:

@@ -26,7 +26,7 @@ using formats::trim;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
 constexpr std::size_t kMostColumns = 1000;
-constexpr char kBlank = ' ';  // the separator of tables without another
+constexpr char kBlank = ' ';  // the separator of tables that have no other
 
 struct Row {
     std::uint64_t number;
@@ -39,7 +39,7 @@ bool is_number(std::string_view text) {
     return text.find_first_not_of("0123456789+-.eE") == std::string_view::npos && formats::parse_real(text).has_value();
 }
 
-/// The same lines, those with comments empty.
+/// The same lines, with comment lines made empty.
 std::string without_comments(std::string_view text) {
     std::string kept;
     while (!text.empty()) {
@@ -92,7 +92,7 @@ std::vector<Row> TableReader::split(char separator) const {
     return rows;
 }
 
-/// A separator stands in every row, and in the last, which is no header, it separates a label no worse than blanks do.
+/// Accepts a separator that occurs in every row, unless in the last row (never a header) only blanks separate a label.
 bool TableReader::find_rows(char separator) {
     for (std::string_view rest = text_; !rest.empty();) {
         const std::string_view line = formats::take_line(rest);
@@ -106,9 +106,9 @@ bool TableReader::find_rows(char separator) {
     return std::any_of(last.begin(), last.end(), is_label) || words.empty() || !is_label(words[0]);
 }
 
-/// In a table without separators a row becomes its label and its name: all words from the first that is no number.
-/// Numbers behind the names, as many as every row has, are no part of them where they are colours (three or more), or
-/// where names differ without them ("1 Precentral_L 2001", but not "1 Brodmann area 4").
+/// In a table without separators each row becomes its label and its name: all words from the first that is no number.
+/// Trailing numbers that every row has are dropped from the names where they are colours (three or more), or where the
+/// names differ without them ("1 Precentral_L 2001", but not "1 Brodmann area 4").
 void TableReader::join_words() {
     if (!rows_.empty() && !is_label(rows_[0].fields[0])) rows_.erase(rows_.begin());  // a header
     std::size_t dropped = SIZE_MAX;
@@ -138,7 +138,7 @@ void TableReader::join_words() {
     }
 }
 
-/// Whether that holds for all rows; those with too few columns are reported later.
+/// Whether the fields of a column satisfy `is_wanted`; rows with too few columns are reported later.
 bool TableReader::column_has(std::size_t column, bool (*is_wanted)(std::string_view)) const {
     return std::all_of(rows_.begin(), rows_.end(),
                        [&](const Row& row) { return column >= row.fields.size() || is_wanted(row.fields[column]); });
@@ -150,7 +150,7 @@ std::optional<std::size_t> TableReader::first_column(bool has_labels) const {
     return std::nullopt;
 }
 
-/// The column whose header is the first of `words` that one has, and that is not `other`.
+/// The column whose header is the earliest possible of `words`, other than column `other`.
 std::optional<std::size_t> TableReader::column_by_header(const Row& header, std::span<const std::string_view> words,
                                                          bool has_labels, std::optional<std::size_t> other) const {
     for (const std::string_view word : words) {
@@ -183,7 +183,7 @@ LabelNames TableReader::read() {
     if (!labels) labels = first_column(true);
     if (header) names = column_by_header(*header, kNameWords, false, labels);
     if (!names) names = first_column(false);
-    if (!labels) labels = 0;  // some row has none: it is named below
+    if (!labels) labels = 0;  // some row has no label; the error below names it
     if (!names) formats::fail(path_, "has no column of names, only numbers; write lines 'label,name'");
     LabelNames result;
     for (const Row& row : rows_) {
@@ -250,7 +250,7 @@ LabelNames formats::names_beside(const fs::path& volume) {
             try {
                 return read_label_names(beside);
             } catch (const Error&) {
-                // Another file by that name: the volume is read without it.
+                // A file of that name for another purpose: the volume is read without names.
             }
         }
     }

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 18;
 constexpr std::size_t kLongestName =
-    200;                               // of the 255 bytes a name may have, so that the rest of a temporary name fits
-constexpr int kMostTemporaries = 100;  // left by processes that were killed and had our number
+    200;                               // of the 255 bytes of a file name: leaves room for the rest of a temporary name
+constexpr int kMostTemporaries = 100;  // left by killed processes with the same process id
 
 }  // namespace
 

@@ -16,13 +16,14 @@ namespace regionmesh::formats {
 
 inline constexpr std::string_view kBlanks = " \t\r\n\v\f", kBlanksAndCommas = " \t\r\n\v\f,";
 
-/// Holds a megabyte at a time, or the longest line where that is more. What it hands out is good until the next call.
+/// Holds a megabyte at a time, or the longest line where that is more. Text that it returns is valid until the next
+/// call.
 class ByteReader {
 public:
     /// Throws Error(kInput) as InputFile does.
     explicit ByteReader(const std::filesystem::path& path) : ByteReader(InputFile(path)) {}
-    /// Reads the bytes from `begin` to `end`, or to the end of the file. Words end at blanks, and at commas where
-    /// `separators` says so.
+    /// Reads the bytes from `begin` to `end`, or to the end of the file. Words end at any of
+    /// `separators`.
     explicit ByteReader(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX,
                         std::string_view separators = kBlanks);
 
@@ -31,31 +32,31 @@ public:
     /// Bytes not yet taken.
     std::uint64_t left() const { return bytes_end_ - taken_; }
 
-    /// A number of type T. Throws where the file ends before.
+    /// A number of type T. Throws where the file ends too early.
     template <class T>
     T take_number(bool is_big_endian) {
         return load<T>(take(sizeof(T)).data(), is_big_endian);
     }
-    /// The next `count` bytes, at most a megabyte. Throws where the file ends before.
+    /// The next `count` bytes, at most a megabyte. Throws where the file ends too early.
     std::string_view take(std::size_t count);
-    /// The same, which stay to be taken.
+    /// The same bytes, without taking them.
     std::string_view peek(std::size_t count);
-    /// The next line, without what ends it (LF or CR LF); none at the end of the file. Throws for one of 16 MiB and
+    /// The next line, without its line end (LF or CR LF); none at the end of the file. Throws for a line of 16 MiB or
     /// more.
     std::optional<std::string_view> take_line();
-    /// The next run of bytes between spaces and ends of lines; none at the end of the file.
+    /// The next run of bytes between separators; none at the end of the file.
     std::optional<std::string_view> take_word();
 
-    /// Goes behind the next place where `text` stands; false, and to the end of the file, where it stands nowhere.
+    /// Moves behind the next occurrence of `text`; to the end of the file, and false, where there is none.
     bool skip_past(std::string_view text);
 
-    /// The byte that is taken next, and back or on to one, with the ends of lines before it.
+    /// The place of the next byte, and a move to a place with the given number of line ends before it.
     std::uint64_t place() const { return taken_; }
     void go_to(std::uint64_t place, std::uint64_t lines);
 
-    /// Ends of lines taken so far.
+    /// Line ends taken so far.
     std::uint64_t lines() const { return lines_; }
-    /// Throws Error(kInput) "path: text", and with "line 7: " before the text where lines or words were taken.
+    /// Throws Error(kInput) "path: text", and "path: line 7: text" with the number of lines taken.
     [[noreturn]] void fail(const std::string& text) const;
     [[noreturn]] void fail_line(const std::string& text) const;
 

@@ -1,4 +1,4 @@
-// Bytes that come forward, one piece after the other: stored plainly, deflated, or as text.
+// Forward streams of bytes: stored plainly, deflated, or as text.
 #pragma once
 
 #include <cstddef>
@@ -13,27 +13,27 @@
 
 namespace regionmesh::formats {
 
-/// Holds a bounded number of bytes, whatever the length of the stream.
+/// Holds a bounded number of bytes, independent of the length of the stream.
 class ByteStream {
 public:
     virtual ~ByteStream() = default;
 
-    /// Fills `bytes`; returns how many there were. Where they are fewer, problem() says why and what to do.
+    /// Fills `bytes` and returns the number of bytes read. Where that is too few, problem() says why and what to do.
     virtual std::size_t read(std::span<std::byte> bytes) = 0;
 
     /// Back to the first byte.
     virtual void rewind() = 0;
 
-    /// After the last byte that is needed: false, and a problem, where what follows shows that the stream is damaged.
+    /// To be called after the last byte needed: false, and a problem, where the rest shows that the stream is damaged.
     virtual bool finish() { return true; }
 
     virtual const std::string& problem() const = 0;
 
-    /// Passes over `count` bytes; false where there are fewer.
+    /// Skips `count` bytes; false where there are fewer.
     bool skip(std::uint64_t count);
 };
 
-/// The bytes of a file as they lie there, from one place to another or to its end.
+/// The bytes of a file, from `begin` to `end` or to the end of the file.
 class PlainStream final : public ByteStream {
 public:
     explicit PlainStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX)
@@ -49,13 +49,13 @@ private:
     std::string problem_;
 };
 
-/// A stream, and how many of its bytes count.
+/// A stream and the number of its bytes to use.
 struct StreamPart {
     std::function<std::unique_ptr<ByteStream>()> open;
     std::uint64_t bytes;
 };
 
-/// Several streams, one behind the other; one at a time is open.
+/// Several streams, one after another; one at a time is open.
 class JoinedStream final : public ByteStream {
 public:
     explicit JoinedStream(std::vector<StreamPart> parts) : parts_(std::move(parts)) {}

@@ -9,7 +9,8 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr std::size_t kPackedBytes = std::size_t{256} << 10;
-constexpr int kAnyWrapper = 15 + 32;  // zlib: the largest window; the header says whether zlib or gzip wrote it
+constexpr int kAnyWrapper =
+    15 + 32;  // for zlib: the largest window; the header says whether zlib or gzip wrote the stream
 constexpr std::array<std::byte, 2> kMagic{std::byte{0x1f}, std::byte{0x8b}};
 
 }  // namespace
@@ -28,7 +29,7 @@ void DeflateStream::rewind() {
     problem_.clear();
 }
 
-/// Reads on behind the bytes that are not yet inflated.
+/// Appends packed bytes to those not yet inflated; false where there are no more.
 bool DeflateStream::refill() {
     const std::size_t left = stream_.avail_in;
     if (left > 0) std::memmove(buffer_.data(), stream_.next_in, left);

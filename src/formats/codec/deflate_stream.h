@@ -27,7 +27,7 @@ public:
 
     std::size_t read(std::span<std::byte> bytes) override;
 
-    /// Reads to the end, so that the last check sum is verified too; false where the stream is damaged or cut off.
+    /// Reads to the end to verify the last check sum; false where the stream is damaged or truncated.
     bool finish() override;
 
     void rewind() override;

@@ -18,11 +18,11 @@ struct SampleFormat {
 NumberType number_type(SampleType type);
 SampleType sample_type(NumberType integer);
 
-/// Bytes of a stored sample. kU1 takes one byte here; images with packed bits have their own way (image_shape.h).
+/// Bytes of a stored sample. kU1 takes one byte here; image_shape.h decodes images with packed bits.
 std::size_t sample_bytes(SampleType type);
 
 /// Turns samples that begin `pitch` bytes apart into labels. Signed samples keep their sign, 64-bit unsigned ones their
-/// bits, and any kU1 sample but 0 is 1. Nothing need be aligned.
+/// bits, and any kU1 sample other than 0 is 1. `bytes` need not be aligned.
 void decode_samples(const std::byte* bytes, std::size_t pitch, SampleFormat format, std::span<InputLabel> labels);
 
 }  // namespace regionmesh::formats

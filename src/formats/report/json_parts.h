@@ -1,4 +1,4 @@
-// What the JSON of all reports shares.
+// Parts that the JSON of all reports shares.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,5 @@
-#include "regionmesh/write_report.h"
-
 #include "formats/report/json_parts.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 namespace {
@@ -43,7 +42,7 @@ Json change_json(const std::array<std::optional<RegionReport>, 2>& measures) {
             {"area", b.area - a.area}};
 }
 
-/// Names what is told apart by labels.
+/// Converts dense labels to JSON.
 class Labels {
 public:
     explicit Labels(const LabelTable& table) : table_(table), exterior_(table.exterior_label()) {}
@@ -86,7 +85,7 @@ Json strata_json(const std::vector<StratumComparison>& strata, const char* measu
     return json;
 }
 
-/// The names of what model `which` has and the other one has not.
+/// The labels of regions, interfaces and lines that only model `which` has.
 Json only_in(int which, const CompareReport& report, const Labels& name) {
     const auto is_only = [&](const auto& measures) { return measures[which] && !measures[1 - which]; };
     Json regions = Json::array(), interfaces = Json::array(), lines = Json::array();

@@ -9,7 +9,7 @@
 namespace regionmesh {
 namespace {
 
-/// By dense label, as far as known.
+/// `volumes` is by dense label and may be shorter than the table of labels.
 void put_volume(Json& json, const char* name, const std::vector<double>& volumes, Label label) {
     if (label < volumes.size()) json[name] = volumes[label];
 }
@@ -69,7 +69,7 @@ Json violations_json(const std::vector<Violation>& violations, const LabelTable&
         Json& met = json.back()["labels"] = Json::array();
         for (const Label label : violation.labels) {
             const Json text = label_json(is_exterior(label) ? labels.exterior_label() : labels.input(label), labels);
-            if (met.empty() || met.back() != text) met.push_back(text);  // the sides of the box are one exterior
+            if (met.empty() || met.back() != text) met.push_back(text);  // all sides of the box are one exterior
         }
     }
     return json;

@@ -6,15 +6,15 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::size_t kLongestWord = 60;  // so that with what is put before or behind it stays below 80, Abaqus's most
+constexpr std::size_t kLongestWord = 60;  // with prefixes and suffixes still below 80, the limit of Abaqus
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A label as part of a word: "3", "minus3".
+/// A label in a word: "3", "minus3".
 std::string word_of_label(const std::string& text) { return text[0] == '-' ? "minus" + text.substr(1) : text; }
 
-/// The letters and digits of a name, '_' for each run of others; empty where it has none.
+/// The letters and digits of a name, with '_' for each run of other characters; empty where it has none.
 std::string word_of_name(const std::string& name) {
     std::string word;
     for (const char c : name) {
@@ -29,7 +29,7 @@ std::string word_of_name(const std::string& name) {
     return word;
 }
 
-/// Programs that fold letters must not take two for one.
+/// In lower case: two words must also differ for programs that ignore case.
 std::string folded(std::string word) {
     for (char& c : word)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);

@@ -1,4 +1,4 @@
-// The regions and interfaces of a model as groups in a file: numbered, and named in letters that every program takes.
+// The regions and interfaces of a model as groups in a file: numbered, with names that all programs accept.
 #pragma once
 
 #include <cstdint>
@@ -12,35 +12,34 @@
 
 namespace regionmesh {
 
-/// A region with faces, background left out.
+/// A region that has faces and is no background.
 struct FileRegion {
     Label label;        // dense
-    std::string title;  // "region_3", and behind a space the name that the label was given
-    std::string word;   // of letters, digits and '_', a letter first, at most 60, and no two alike: the name, as far as
-                        // that allows, or else "region_3"
+    std::string title;  // "region_3", or "region_3 liver" where the label has a name
+    std::string word;   // unique, of at most 60 letters, digits and '_', a letter first: from the name, or "region_3"
 };
 
-/// Faces between the same two labels, in the order of files; all of the exterior is exterior(0).
+/// The faces between two labels, in the order of files; the whole exterior is exterior(0).
 struct FileInterface {
     std::array<Label, 2> labels;
     std::string name;  // "interface_3_7", "interface_3_exterior", "interface_minus3_7"
     std::uint32_t face_count = 0;
 };
 
-/// Sets of what lies on the sides of the box, in the order of exterior labels.
+/// Names of the sets on the sides of the box, in the order of exterior labels.
 inline constexpr std::array<const char*, 6> kSideNames{"XMIN", "XMAX", "YMIN", "YMAX", "ZMIN", "ZMAX"};
 
 class FileRegions {
 public:
     explicit FileRegions(const FileView& view);
 
-    /// In the order of files. The number of a region in a file is its place here, from 1.
+    /// In the order of files: all()[n] has number n + 1 in a file.
     const std::vector<FileRegion>& all() const { return regions_; }
-    /// 1 .. all().size(); 0 for background and exterior.
+    /// From 1 to all().size(); 0 for background and exterior.
     std::uint32_t number(Label label) const { return is_exterior(label) ? 0 : numbers_[label]; }
 
     const std::vector<FileInterface>& interfaces() const { return interfaces_; }
-    /// 1 .. interfaces().size()
+    /// From 1 to interfaces().size().
     std::uint32_t interface_number(FaceId f) const;
 
 private:
@@ -55,11 +54,11 @@ private:
     std::map<Key, std::uint32_t> interface_numbers_;
 };
 
-/// Faces in groups, by group and then by id: 8 bytes a face.
+/// Faces in groups, sorted by group and then by id. Takes 8 bytes per face.
 class GroupedFaces {
 public:
-    /// groups_of(FaceId, add) calls add(group, side) for each group that the face is in: none, one or two. Side 1 says
-    /// that the group has the face turned round.
+    /// groups_of(FaceId, add) calls add(group, side) for each group of the face, at most two. Side 1 means that the
+    /// group has the face reversed.
     template <class GroupsOf>
     GroupedFaces(const FileView& view, std::size_t group_count, GroupsOf&& groups_of) : starts_(group_count + 1) {
         view.for_faces(
@@ -86,11 +85,11 @@ private:
     std::vector<std::uint32_t> entries_;
 };
 
-/// The faces of each region, by its number less one, turned so that their normals point out of it: side 1 where that is
-/// against the model.
+/// The faces of each region, as group number - 1, with normals outward: side 1 where that reverses the face of the
+/// model.
 GroupedFaces faces_by_region(const FileView& view, const FileRegions& regions);
 
-/// The corners of a face, and on side 1 the other way round.
+/// The corners of a face, in reverse order on side 1.
 inline std::array<VertexId, 3> turned_vertices(const Mesh& mesh, FaceId f, std::uint32_t side) {
     const auto& [a, b, c] = mesh[f].vertices;
     return side == 0 ? std::array{a, b, c} : std::array{a, c, b};

@@ -1,4 +1,4 @@
-// A surface as a file brings it, and what is done to it before it becomes a model.
+// A surface as read from a file, and the operations on it before it becomes a mesh.
 #pragma once
 
 #include <array>
@@ -18,22 +18,22 @@
 
 namespace regionmesh {
 
-/// The readers promise that the arrays fit one another and every vertex number is in range.
+/// Readers guarantee that the sizes of the arrays agree and all vertex numbers are in range.
 struct FileSurface {
     std::vector<Vec3> points = {};
     std::vector<std::array<std::uint32_t, 3>> faces = {};
     std::vector<std::array<InputLabel, 2>> labels = {};  // by face; the normal points from the first to the second
-    std::vector<bool> is_on_hull = {};  // by point, as node types say: on the box, or another hull; empty: unknown
+    std::vector<bool> is_on_hull = {};  // by point, from node types: on the box or another hull; empty: unknown
     InputLabel exterior_label = -1;
     LabelNames names = {};
-    bool is_by_region = false;      // faces came region by region, each with the exterior on its other side
-    bool has_shared_points = true;  // false: each face, or region, has points of its own
+    bool is_by_region = false;      // each face has a region on one side and the exterior on the other
+    bool has_shared_points = true;  // false: each face or region has its own points
 };
 
-/// Node types (DREAM.3D's) of what lies on the box or hull begin here.
+/// The lowest node type (of DREAM.3D) of vertices on the box or hull.
 inline constexpr std::int64_t kFirstHullType = 10;
 
-/// Most faces and vertices of a Mesh: a corner packs a face id and a place into 32 bits.
+/// Limits of a Mesh: a corner packs a face id and a place into 32 bits.
 inline constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) - 1;
 inline constexpr std::uint64_t kMostVertices = (std::uint64_t{1} << 32) - 1;
 
@@ -42,49 +42,49 @@ inline bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) 
 /// Throws Error(kInput) naming the file where a coordinate is not finite, or the model would have too many vertices.
 void add_point(FileSurface& surface, Vec3 point, const std::filesystem::path& path);
 
-/// Adds a polygon of three or more corners as triangles with these labels: a quad is cut along its shorter diagonal,
-/// the others fan-wise from their first corner. Throws Error(kInput) naming the file where the model would have too
-/// many faces.
+/// Adds a polygon of three or more corners as triangles with these labels: splits a quad along its shorter diagonal,
+/// other polygons into a fan from their first corner. Throws Error(kInput) naming the file where the model would have
+/// too many faces.
 void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, const std::array<InputLabel, 2>& labels,
                  const std::filesystem::path& path);
 
-/// Three coordinates in a line of text, taken off its front. Throws Error(kInput) that names the line.
+/// Takes three coordinates off the front of a line of text. Throws Error(kInput) that names the line.
 Vec3 take_point(const formats::ByteReader& file, std::string_view& line);
 
-/// The comments of our own text files: "exterior_label -1", "region 3 liver". Others are ignored.
+/// Evaluates a comment of our own files, "exterior_label -1" or "region 3 liver"; ignores others.
 void read_comment(FileSurface& surface, std::string_view comment);
 
-/// Appends the points of `other`, and its faces with their labels.
+/// Appends the points and the labelled faces of `other`.
 void append(FileSurface& surface, const FileSurface& other);
 
-/// Joins points no farther apart than `distance` (0: at one place) to the first of them, in order, and drops points
-/// that are left over and faces that repeat a corner. A chain of near points is not joined as a whole: what has been
-/// joined to one point lies within the distance of it.
+/// Merges each point into an earlier kept point within `distance` (0: at the same place), then removes unused points
+/// and faces that repeat a corner. A chain of near points is not merged as a whole: every point merged into another
+/// lies within the distance of it.
 void weld_points(FileSurface& surface, double distance);
 
-/// Two faces on the same vertices that look opposite ways, each with the exterior behind it, become one between their
-/// two regions. Where they are of one region, or not two, they stay.
+/// Merges each pair of opposite faces on the same vertices, both with the exterior on one side, into one face between
+/// their two regions. Faces of the same region, and three or more faces on the same vertices, stay.
 void join_back_to_back(FileSurface& surface);
 
-/// Turns faces so that a region that has two faces at an edge has them pass it in opposite directions. Which way a part
-/// of the surface looks as a whole: where more than two labels meet in it, so that all volumes but one, that of what is
-/// outside, are above 0; where two meet, so that the exterior, or else label 0, is outside; else as most of its faces
-/// do.
+/// Orients faces consistently: where a region has two faces at an edge, they traverse it in opposite directions. The
+/// orientation of each part of the surface as a whole: with more than two labels, the one in which all volumes but that
+/// of the outer label are positive; with two, the one in which the exterior, or else label 0, is outside; otherwise
+/// that of the majority of its faces.
 void orient_faces(FileSurface& surface);
 
-/// The labels of faces that come in groups with names: "interface_3_7" has 3 behind its faces and 7 before them;
-/// "region_3", "region_3 liver" and "3" have 3 behind them and the exterior before; others likewise, with the first
-/// number from 1 that no group names.
+/// Labels of faces that come in named groups. "interface_3_7" has 3 behind its faces and 7 in front of them;
+/// "region_3", "region_3 liver" and "3" have 3 behind and the exterior in front; any other group is a region with the
+/// lowest unused label from 1.
 class RegionGroups {
 public:
-    /// The number of the group; that of an earlier one of the same name, unless each is to be apart or it has none.
+    /// The number of a group. Groups of the same name are one, unless `is_apart` or the name is empty.
     std::uint32_t add(const std::string& name, bool is_apart);
-    /// Replaces group numbers, which stand first in the labels of faces, by labels, and adds the names.
+    /// Replaces the group numbers, the first labels of the faces, by labels, and adds the names.
     void put_labels(FileSurface& surface) const;
 
 private:
     std::vector<std::string> names_;
-    std::unordered_map<std::string, std::uint32_t> numbers_;  // of names that are not apart
+    std::unordered_map<std::string, std::uint32_t> numbers_;  // of groups by name
 };
 
 }  // namespace regionmesh

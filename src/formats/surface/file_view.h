@@ -1,4 +1,4 @@
-// A model as the writers of files see it.
+// A mesh as the writers of files see it.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace regionmesh {
 
-/// A face as files hold it: dense vertex numbers, input labels, normal from the first label to the second.
+/// A face as in files: dense vertex numbers, input labels, normal from the first label to the second.
 struct FileFace {
     std::array<std::uint32_t, 3> vertices;
     std::array<InputLabel, 2> labels;
 };
 
-/// The living part of a model in the order of its ids, each face turned so that its labels stand in the order of files:
-/// the smaller first; background behind all others; the exterior last. Holds references.
+/// The living vertices and faces of a mesh in the order of their ids. Each face is oriented so that its labels are in
+/// the order of files: ascending, then background, then the exterior. Holds references.
 class FileView {
 public:
     FileView(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background);
@@ -31,18 +31,18 @@ public:
     const LabelNames& names() const { return names_; }
     InputLabel exterior_label() const { return exterior_label_; }
     FileFace face(FaceId f) const;
-    /// Whether files have the labels of the face in the other order than the model, and so its vertices.
+    /// Whether files have the labels of the face, and so its vertices, in the opposite order of the mesh.
     bool is_turned(FaceId f) const { return rank(mesh_[f].labels[0]) > rank(mesh_[f].labels[1]); }
     /// The number of a vertex in the file.
     std::uint32_t number(VertexId v) const { return numbers_.empty() ? index(v) : numbers_[index(v)]; }
-    /// The place of a dense label in the order of files; all of the exterior has the same.
+    /// The rank of a dense label in the order of files; all exterior labels have the same rank.
     std::uint32_t rank(Label label) const { return is_exterior(label) ? kFirstExterior : ranks_[label]; }
     /// Labels in the order of files, background last.
     std::vector<Label> ordered_labels() const;
     bool is_background(Label label) const { return rank(label) >= region_ranks_; }
-    /// As files have them, with the sign of the input.
+    /// The label as text, with the sign of the input.
     std::string label_text(Label label) const;
-    /// The name given to a label; empty where there is none.
+    /// The name of a label; empty where it has none.
     std::string name(Label label) const;
     /// Calls visit(label, name) for each label that has a name, in the order of files.
     template <class Visit>
@@ -50,7 +50,7 @@ public:
         for (const Label label : ordered_labels())
             if (const std::string text = name(label); !text.empty()) visit(label, text);
     }
-    /// 2, 3 or 4 labels round the vertex, where each side of the box it lies on counts as one; 10 more on the box.
+    /// The number of labels at the vertex, 2 to 4, where each side of the box counts as one; plus 10 on the box.
     std::uint8_t node_type(VertexId v) const;
 
     template <class Visit>
@@ -69,9 +69,9 @@ private:
     const LabelTable& labels_;
     const LabelNames& names_;
     InputLabel exterior_label_;
-    std::uint32_t region_ranks_ = 0;      // those from here on are background or exterior
-    std::vector<std::uint32_t> ranks_;    // by dense label: its place in the order of files
-    std::vector<std::uint32_t> numbers_;  // by vertex id: its number in the file; empty where that is the id
+    std::uint32_t region_ranks_ = 0;      // ranks from here on are background or exterior
+    std::vector<std::uint32_t> ranks_;    // by dense label
+    std::vector<std::uint32_t> numbers_;  // by vertex id; empty where numbers equal ids
 };
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-// What the formats of model files share: a model as their writers see it, and a surface as their readers bring it.
+// The readers and writers of surface files, one of each per format.
 #pragma once
 
 #include <array>
@@ -21,15 +21,15 @@ void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, Outp
 void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
 void write_ply(const FileView& view, OutputFile& file);
 void write_obj(const FileView& view, OutputFile& file);
-/// Files for one region, the first in the order of files: its faces with their normals outward.
+/// Files of one region, the first in the order of files, with normals outward.
 void write_region_ply(const FileView& view, OutputFile& file);
 void write_region_obj(const FileView& view, OutputFile& file);
 void write_region_stl(const FileView& view, OutputFile& file);
-/// In text, a solid for each region.
+/// Text with a solid for each region.
 void write_stl(const FileView& view, OutputFile& file);
 void write_smesh(const FileView& view, OutputFile& file);
 void write_poly(const FileView& view, OutputFile& file);
-/// The faces, and the text for Gmsh that makes volumes of them.
+/// Writes the faces, and beside them a .geo script with which Gmsh makes volumes.
 void write_msh(const FileView& view, OutputFiles& files, const std::filesystem::path& path);
 void write_inp(const FileView& view, OutputFile& file);
 void write_glb(const FileView& view, OutputFile& file);

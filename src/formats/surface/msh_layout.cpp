@@ -13,7 +13,7 @@
 namespace regionmesh::formats {
 namespace {
 
-/// What stands between the first quote of a line and its last.
+/// The text between the first and the last quote of a line.
 std::string quoted(std::string_view line) {
     const std::size_t begin = line.find('"'), end = line.rfind('"');
     if (begin == std::string_view::npos || begin == end) return one_line(line);
@@ -34,14 +34,14 @@ void read_entities(MshStream& stream, std::map<std::int64_t, std::int64_t>& phys
     for (int dimension = 0; dimension < 4; ++dimension) {
         for (std::uint64_t left = counts[dimension]; left > 0; --left) {
             const std::int64_t tag = stream.integer();
-            for (int n = dimension == 0 ? 3 : 6; n > 0; --n) stream.real();  // a place, or a box
+            for (int n = dimension == 0 ? 3 : 6; n > 0; --n) stream.real();  // a point, or a bounding box
             const std::uint64_t physical_count = stream.size();
             for (std::uint64_t n = 0; n < physical_count; ++n) {
                 const std::int64_t physical = stream.integer();
                 if (dimension == 3 && n == 0) physical_tags[tag] = without_sign(physical);
             }
             if (dimension == 0) continue;
-            for (std::uint64_t n = stream.size(); n > 0; --n) stream.integer();  // what bounds it
+            for (std::uint64_t n = stream.size(); n > 0; --n) stream.integer();  // its boundary
         }
     }
 }
@@ -114,7 +114,7 @@ void read_nodes_4(MshStream& stream, double scale_z, MshNodes& nodes) {
     }
 }
 
-/// Each of these stands once.
+/// Notes the place of a section that must not occur twice.
 void note_place(const MshStream& stream, const std::string& name, MshPlace& place) {
     if (place.byte != 0) stream.fail(fmt::format("a second ${}; write the mesh as one", name));
     place = stream.place();

@@ -1,4 +1,4 @@
-// The numbers of a Gmsh mesh, from text or binary alike.
+// The numbers of a Gmsh mesh, from text or binary files.
 // https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
 #pragma once
 
@@ -12,26 +12,26 @@
 
 namespace regionmesh::formats {
 
-/// Where to go on in a file.
+/// A place in a file.
 struct MshPlace {
     std::uint64_t byte = 0, lines = 0;
 };
 
-/// MSH 2.0 to 2.2, and 4.1; binary ones of either byte order. Throws Error(kInput) that names the file and the line or
-/// byte.
+/// Reads MSH 2.0 to 2.2 and 4.1, in binary of either byte order. Throws Error(kInput) that names the file and the line
+/// or byte.
 class MshStream {
 public:
-    /// Reads $MeshFormat. Throws for other versions, and for what is no such file.
+    /// Reads $MeshFormat. Throws for other versions and other files.
     explicit MshStream(const std::filesystem::path& path);
 
     const std::filesystem::path& path() const { return reader_.path(); }
     bool is_version_4() const { return is_version_4_; }
     bool is_binary() const { return is_binary_; }
 
-    /// The name of the next section, without '$'; what it holds comes next.
+    /// The name of the next section, without '$'; its contents follow.
     std::optional<std::string> next_section();
     void skip_section(const std::string& name);
-    /// Nothing but the end of the section may come here.
+    /// Requires the end of the section.
     void end_section(const std::string& name);
 
     MshPlace place() const { return {reader_.place(), reader_.lines()}; }
@@ -41,10 +41,10 @@ public:
     /// A count, or the number of a node or an element.
     std::uint64_t size();
     double real();
-    /// How many nodes or elements follow in MSH 2, a line of text in binary files, too.
+    /// The number of nodes or elements in MSH 2: a line of text, also in binary files.
     std::uint64_t count_line();
 
-    /// What is text in binary files, too.
+    /// Parts that are text also in binary files.
     std::int64_t text_integer();
     std::string_view text_word();
     std::string_view line();
@@ -58,7 +58,7 @@ private:
     }
 
     ByteReader reader_;
-    bool is_in_line_ = false;  // a word was taken, but not the end of its line
+    bool is_in_line_ = false;  // a word was taken, but not its line end
     bool is_version_4_ = false;
     bool is_binary_ = false;
     bool is_big_endian_ = false;

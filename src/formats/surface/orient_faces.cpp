@@ -8,12 +8,12 @@
 namespace regionmesh {
 namespace {
 
-/// Faces that must be turned together, or one without the other.
+/// Groups of faces with known relative orientation (union-find).
 class TurnGroups {
 public:
     explicit TurnGroups(std::size_t size) : up_(size), is_turned_(size) { std::iota(up_.begin(), up_.end(), 0u); }
 
-    /// The first face of the group of f; is_turned(f) then says whether f must be turned where that is not.
+    /// The first face of the group of f; after it is_turned(f) says whether f has the opposite orientation.
     std::uint32_t find(std::uint32_t f) {
         std::uint32_t root = f;
         bool turned = false;
@@ -33,7 +33,7 @@ public:
     }
     bool is_turned(std::uint32_t f) const { return is_turned_[f]; }
 
-    /// Says how two faces stand to each other; what was said before holds.
+    /// Sets the relative orientation of two faces, unless it is known already.
     void join(std::uint32_t f, std::uint32_t g, bool differ) {
         const std::uint32_t a = find(f), b = find(g);
         if (a == b) return;
@@ -45,15 +45,15 @@ public:
 
 private:
     std::vector<std::uint32_t> up_;
-    std::vector<bool> is_turned_;  // against the face above
+    std::vector<bool> is_turned_;  // relative to the parent
 };
 
-/// One side of a face at an edge, from the lower to the higher of its vertices.
+/// One side of a face at an edge, whose vertices are sorted.
 struct Use {
     std::uint32_t low, high;
     InputLabel label;
     std::uint32_t face;
-    bool is_back;  // the side passes the edge from high to low
+    bool is_back;  // the side traverses the edge from high to low
 };
 
 TurnGroups group_faces(const FileSurface& surface) {
@@ -80,11 +80,11 @@ TurnGroups group_faces(const FileSurface& surface) {
     return groups;
 }
 
-/// A group with its first face as it came.
+/// A group, in the given orientation of its first face.
 struct Part {
     std::map<InputLabel, double> volumes;
-    Vec3 origin;                 // rounding is least from near by
-    std::int64_t kept_more = 0;  // faces that stay, less those that are turned
+    Vec3 origin;                 // near the group, to keep rounding small
+    std::int64_t kept_more = 0;  // number of faces that keep their orientation, minus the others
 };
 
 bool must_turn(const Part& part, InputLabel exterior) {

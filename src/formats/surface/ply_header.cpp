@@ -15,7 +15,7 @@ using formats::NumberType;
 using formats::shown;
 using formats::take_word;
 
-constexpr std::uint64_t kLongestHeader = 1 << 24;  // names of regions stand in it
+constexpr std::uint64_t kLongestHeader = 1 << 24;  // it has the names of regions
 constexpr std::size_t kMostProperties = 1000;
 
 constexpr std::pair<std::string_view, NumberType> kTypes[] = {
@@ -89,7 +89,7 @@ std::optional<std::size_t> PlyElement::find(std::string_view property) const {
 
 PlyHeader read_ply_header(formats::ByteReader& file, FileSurface& surface) {
     PlyHeader header;
-    // Looked at before a line is asked for: other files may have none.
+    // Checked before taking a line: other files may not have lines.
     if (file.size() < 4 || !file.peek(4).starts_with("ply")) file.fail("is no PLY file");
     if (file.take_line() != "ply") file.fail("is no PLY file");
     bool has_format = false;

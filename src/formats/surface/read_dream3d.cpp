@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -23,23 +21,23 @@ constexpr std::string_view kPoints = "/SharedVertexList", kOldGroup = "/_SIMPL_G
 constexpr std::array<std::string_view, 3> kTriangles{"/SharedTriList", "/SharedFaceList", "/SharedTriangleList"};
 constexpr std::array<std::string_view, 3> kLabels{"/FaceLabels", "/Face Labels", "/SurfaceMeshFaceLabels"};
 
-constexpr std::uint64_t kRows = 1 << 17;        // read at a time
-constexpr std::uint64_t kMostInflation = 1032;  // zlib makes no more bytes of one
+constexpr std::uint64_t kRows = 1 << 17;        // per read
+constexpr std::uint64_t kMostInflation = 1032;  // the largest ratio of zlib
 
-/// Where the parts of one surface lie in the file.
+/// The parts of one surface in the file.
 struct TriangleGeometry {
-    std::string container;  // what holds all of it
+    std::string container;  // the group of all parts
     Hdf5Entry points, triangles;
     std::vector<Hdf5Entry> labels;
 };
 
-/// A table with this many columns.
+/// Whether an entry is a table with this number of columns.
 bool is_table(const Hdf5Entry& entry, std::uint64_t columns) {
     return entry.is_dataset && entry.obstacle.empty() && entry.shape.size() == 2 && entry.shape[1] == columns;
 }
 
-/// The version of the file shows in its groups only: up to 7 the lists stand in a group of their own, since then beside
-/// the groups of the labels.
+/// Only the groups show the version of the file: up to 7 the lists are in a separate group, from 8 beside the groups of
+/// the labels.
 std::vector<TriangleGeometry> triangle_geometries(const std::vector<Hdf5Entry>& entries) {
     std::vector<TriangleGeometry> geometries;
     for (const Hdf5Entry& points : entries) {
@@ -80,7 +78,7 @@ TriangleGeometry choose(const std::filesystem::path& path, std::vector<TriangleG
     return first;
 }
 
-/// Reads tables some rows at a time.
+/// Reads tables in blocks of rows.
 class TableReader {
 public:
     explicit TableReader(const std::filesystem::path& path)
@@ -101,27 +99,15 @@ public:
             const std::uint64_t count = std::min(kRows, rows - first);
             const formats::Bytes bytes = file_.read(table.path, {{first, 0}, {count, kColumns}});
             numbers.resize(count * kColumns);
-            take(bytes, table, numbers);
+            const auto type =
+                table.sample_type ? formats::number_type(*table.sample_type) : formats::NumberType::kFloat64;
+            formats::load_all(bytes.data(), bytes_of(type), type, false, std::span(numbers));
             for (std::size_t n = 0; n < numbers.size(); n += kColumns)
                 visit(std::span<const T, kColumns>(&numbers[n], kColumns));
         }
     }
 
 private:
-    static void take(const formats::Bytes& bytes, const Hdf5Entry& table, std::vector<std::int64_t>& numbers) {
-        formats::decode_samples(bytes.data(), formats::sample_bytes(*table.sample_type), {.type = *table.sample_type},
-                                numbers);
-    }
-    static void take(const formats::Bytes& bytes, const Hdf5Entry& table, std::vector<double>& numbers) {
-        if (!table.sample_type) {
-            std::memcpy(numbers.data(), bytes.data(), bytes.size());
-            return;
-        }
-        std::vector<std::int64_t> integers(numbers.size());
-        take(bytes, table, integers);
-        std::copy(integers.begin(), integers.end(), numbers.begin());
-    }
-
     std::filesystem::path path_;
     std::uint64_t file_bytes_;
     formats::Hdf5Reader file_;
@@ -138,9 +124,7 @@ FileSurface read_dream3d(const std::filesystem::path& path) {
                                   geometry.triangles.path, geometry.triangles.shape[0]));
     FileSurface surface;
     file.for_rows<double, 3>(geometry.points, kMostVertices, [&](std::span<const double, 3> p) {
-        if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-            formats::fail(path, fmt::format("point {} has a coordinate that is not finite", surface.points.size()));
-        surface.points.push_back({p[0], p[1], p[2]});
+        add_point(surface, {p[0], p[1], p[2]}, path);
     });
     file.for_rows<std::int64_t, 3>(geometry.triangles, kMostFaces, [&](std::span<const std::int64_t, 3> corners) {
         for (const std::int64_t v : corners)

@@ -20,12 +20,12 @@ constexpr std::int64_t kTetrahedron = 4;
 
 struct ElementType {
     std::int64_t number;
-    std::uint64_t nodes;     // 0: a solid that is no tetrahedron of four nodes
+    std::uint64_t nodes;     // 0: a solid other than the tetrahedron of four nodes
     const char* name = "";   // of a solid
     bool is_curved = false;  // a tetrahedron of higher order
 };
 
-/// Flat elements of first and second order, and what solids are called.
+/// Elements of at most two dimensions, of first and second order, and solids with their names.
 constexpr ElementType kTypes[] = {
     {4, 4},
     {2, 3},
@@ -52,8 +52,8 @@ struct MshTetrahedron {
     std::array<std::uint64_t, 4> nodes{};
 };
 
-/// Passes through $Elements. Elements of less than three dimensions are passed over, other solids refused. Gmsh writes
-/// an element of several physical groups once for each in MSH 2: only the first of these is handed out.
+/// Iterates over $Elements. Skips elements of fewer than three dimensions and refuses other solids. In MSH 2 Gmsh
+/// writes an element of several physical groups once per group: only the first copy is returned.
 class MshElements {
 public:
     /// Holds a reference to the layout.
@@ -73,8 +73,8 @@ private:
     std::uint64_t blocks_ = 0;          // MSH 4: not yet begun
     std::uint64_t elements_ = 0;        // MSH 2: not yet read
     std::uint64_t left_ = 0;            // of the block
-    std::int64_t type_ = 0, tags_ = 0;  // of the elements of the block; how many tags each has, MSH 2
-    MshTetrahedron block_;              // what all elements of the block have
+    std::int64_t type_ = 0, tags_ = 0;  // type of the elements of the block; tags per element, MSH 2
+    MshTetrahedron block_;              // the values that all elements of the block share
     std::array<std::uint64_t, 4> last_{};
     bool has_ended_ = false;
 };
@@ -175,8 +175,8 @@ bool MshElements::next(MshTetrahedron& tetrahedron) {
 constexpr const char* kPhysical = "gmsh:physical";
 constexpr const char* kGeometrical = "gmsh:geometrical";
 
-/// The elements are gone through when a file is opened, so that one of another kind is found before long work,
-/// and again for the name of a tetrahedron: names are for messages.
+/// Reads the elements when a file is opened, to refuse other solids before long work; and again for the name of a
+/// tetrahedron: names are for messages only.
 class MshReader final : public TetrahedronReader {
 public:
     MshReader(const std::filesystem::path& path, const TetrahedraOptions& options);
@@ -220,7 +220,7 @@ MshReader::MshReader(const std::filesystem::path& path, const TetrahedraOptions&
     elements_.emplace(path, layout_);
 }
 
-/// Whether any is in a physical group.
+/// Returns whether any tetrahedron is in a physical group.
 bool MshReader::count_tetrahedra() {
     std::uint64_t count = 0;
     bool has_physical = false;

@@ -13,7 +13,7 @@
 namespace regionmesh {
 namespace {
 
-/// What groups faces: the first of these that the file has.
+/// The words that begin a group; the first of these that the file has decides.
 constexpr std::array<std::string_view, 3> kGroupWords{"g", "o", "usemtl"};
 
 class ObjReader {
@@ -26,7 +26,7 @@ public:
         std::string whole;
         while (const auto line = file_.take_line()) {
             whole += *line;
-            if (whole.ends_with('\\')) {  // goes on in the next line
+            if (whole.ends_with('\\')) {  // continued on the next line
                 whole.back() = ' ';
                 if (whole.size() > kLongest) file_.fail_line("is longer than a line of such a file can be");
                 continue;
@@ -53,7 +53,7 @@ private:
         current_[kind] = groups_.add(formats::one_line(rest), false);
     }
 
-    /// Corners are "7", "7/1", "7/1/2" or "7//2", from 1; below 0 they count from the last point back.
+    /// Corners are "7", "7/1", "7/1/2" or "7//2", counted from 1; negative numbers count back from the last point.
     void read_face(std::string_view rest) {
         corners_.clear();
         for (std::string_view word = formats::take_word(rest); !word.empty(); word = formats::take_word(rest)) {
@@ -80,7 +80,7 @@ private:
     formats::ByteReader file_;
     FileSurface surface_;
     RegionGroups groups_;
-    std::array<std::uint32_t, 3> current_;             // group by each word
+    std::array<std::uint32_t, 3> current_;             // current group, by word
     std::array<bool, 3> has_{};                        // words seen
     std::vector<std::array<std::uint32_t, 3>> kinds_;  // by face
     std::vector<std::uint32_t> corners_;

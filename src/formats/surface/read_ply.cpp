@@ -1,4 +1,4 @@
-// PLY: in text or binary, with any properties; the labels of faces under the names that programs give them.
+// PLY in text or binary, with any properties; labels of faces under the names that programs use.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using formats::NumberType;
 
-/// Labels behind a face and before it.
+/// Properties with the labels behind a face and in front of it.
 constexpr std::array<std::array<std::string_view, 2>, 7> kPairs{{{"label_first", "label_second"},
                                                                  {"label0", "label1"},
                                                                  {"label_0", "label_1"},
@@ -25,14 +25,14 @@ constexpr std::array<std::array<std::string_view, 2>, 7> kPairs{{{"label_first",
                                                                  {"label_1", "label_2"},
                                                                  {"label_inside", "label_outside"},
                                                                  {"region_inside", "region_outside"}}};
-/// The label behind a face that has the exterior before it.
+/// Properties with the label behind a face that has the exterior in front.
 constexpr std::array<std::string_view, 3> kSingles{"label", "region", "region_id"};
 constexpr std::array<std::string_view, 2> kCorners{"vertex_indices", "vertex_index"};
 
-/// The longest list that is one face.
+/// Most corners of one face.
 constexpr std::uint64_t kMostCorners = 1 << 20;
 
-/// The numbers of a file one after the other, however they are written.
+/// The numbers of a file in order, from text or binary.
 class PlyNumbers {
 public:
     PlyNumbers(formats::ByteReader& file, PlyEncoding encoding) : file_(file), encoding_(encoding) {}
@@ -75,7 +75,7 @@ private:
     struct LabelPlaces {
         std::array<std::optional<std::size_t>, 2> low, high;  // of the first and second; high where it has two words
     };
-    /// Takes the properties of an element: values, and the corners of a face.
+    /// Takes the properties of an element into values_, and those of list `list` into list_.
     void take_element(const PlyElement& element, std::optional<std::size_t> list, PlyNumbers& numbers);
     void read_points(const PlyElement& element, PlyNumbers& numbers);
     void read_faces(const PlyElement& element, PlyNumbers& numbers);
@@ -85,7 +85,7 @@ private:
     formats::ByteReader file_;
     FileSurface surface_;
     RegionGroups groups_;
-    std::vector<double> values_;  // of the element at hand, by property
+    std::vector<double> values_;  // of the current element, by property
     std::vector<double> list_;
     std::vector<std::uint32_t> corners_;
 };
@@ -123,7 +123,7 @@ void PlyReader::read_points(const PlyElement& element, PlyNumbers& numbers) {
     }
 }
 
-/// The first of the pairs and single names that the faces have.
+/// The properties with labels: the first pair that the faces have, or else the first single name.
 PlyReader::LabelPlaces PlyReader::find_labels(const PlyElement& element) {
     for (const auto& pair : kPairs) {
         LabelPlaces places;
@@ -146,7 +146,7 @@ PlyReader::LabelPlaces PlyReader::find_labels(const PlyElement& element) {
 InputLabel PlyReader::label_at(const LabelPlaces& places, int side, std::uint64_t face) const {
     if (!places.low[side]) return surface_.exterior_label;
     const double low = values_[*places.low[side]];
-    // Integers of 32 bits are exact, and numbers in text may have more digits than a double.
+    // A double is exact for integers of 32 bits, but text may have more digits.
     if (low != std::floor(low) || std::abs(low) > 0x1p53)
         file_.fail(fmt::format("face {} has a label that is no integer", face));
     if (!places.high[side]) return static_cast<InputLabel>(low);

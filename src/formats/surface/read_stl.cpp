@@ -1,4 +1,4 @@
-// STL, in text or binary: triangles, each with its own points; a solid is a region.
+// STL in text or binary: triangles, each with its own points; a solid is a region.
 #include <array>
 #include <optional>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kHeadBytes = 80, kFaceBytes = 50;
 constexpr bool kIsBigEndian = false;
 
-/// A binary file has the size that its number of faces calls for; many begin with "solid" all the same.
+/// Recognises a binary file by its size, which follows from its number of faces; some begin with "solid", too.
 std::optional<std::uint32_t> faces_of_binary(const std::filesystem::path& path) {
     formats::ByteReader file(path);
     if (file.size() < kHeadBytes + 4) return std::nullopt;
@@ -33,7 +33,7 @@ void read_binary(formats::ByteReader& file, std::uint32_t count, RegionGroups& g
     file.take(kHeadBytes + 4);
     const std::uint32_t group = groups.add({}, true);
     for (std::uint32_t f = 0; f < count; ++f) {
-        file.take(3 * sizeof(float));  // the normal, which follows from the corners
+        file.take(3 * sizeof(float));  // the normal; it follows from the corners
         std::array<Vec3, 3> points;
         for (Vec3& point : points)
             for (int axis = 0; axis < 3; ++axis) point[axis] = file.take_number<float>(kIsBigEndian);

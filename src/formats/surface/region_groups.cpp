@@ -10,13 +10,13 @@ namespace {
 
 using Labels = std::array<InputLabel, 2>;
 
-/// What a name says by itself: the labels, and what the first of them is called.
-struct Told {
+/// The labels that a group name contains, and the name of the first.
+struct NamedLabels {
     Labels labels;
     std::string name;
 };
 
-std::optional<Told> told_by(std::string_view name, InputLabel exterior) {
+std::optional<NamedLabels> labels_in(std::string_view name, InputLabel exterior) {
     std::string_view rest = name;
     std::string_view word = formats::take_word(rest);
     if (word.starts_with("interface_")) {
@@ -24,14 +24,14 @@ std::optional<Told> told_by(std::string_view name, InputLabel exterior) {
         const std::size_t cut = word.find('_');
         const auto first = formats::parse_label(word.substr(0, cut));
         const auto second = cut == std::string_view::npos ? std::nullopt : formats::parse_label(word.substr(cut + 1));
-        if (first && second) return Told{{*first, *second}, {}};
+        if (first && second) return NamedLabels{{*first, *second}, {}};
         return std::nullopt;
     }
     if (word.starts_with("region_")) word.remove_prefix(7);
     const auto label = formats::parse_label(word);
     if (!label || *label == exterior) return std::nullopt;
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-    return Told{{*label, exterior}, std::string(rest)};
+    return NamedLabels{{*label, exterior}, std::string(rest)};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ void RegionGroups::put_labels(FileSurface& surface) const {
     for (const Labels& face : surface.labels) is_used[static_cast<std::size_t>(face[0])] = true;
     std::set<InputLabel> taken{surface.exterior_label};
     for (std::size_t n = 0; n < names_.size(); ++n) {
-        const auto told = told_by(names_[n], surface.exterior_label);
+        const auto told = labels_in(names_[n], surface.exterior_label);
         if (!told) continue;
         is_told[n] = true;
         labels[n] = told->labels;

@@ -1,4 +1,4 @@
-// What volume meshers are told of a model: its bodies in groups, holes, and points inside.
+// Points inside regions and holes, for volume meshers.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace regionmesh {
 
-/// Throws Error(kOutput) where a region has a boundary with an open edge: nothing can mesh its volume.
+/// Throws Error(kOutput) where the boundary of a region has an open edge: its volume cannot be meshed.
 void require_closed_regions(const FileView& view, const Bodies& bodies);
 
 /// A body and a point inside it.
@@ -20,8 +20,8 @@ struct Seed {
     Vec3 point;
 };
 
-/// One seed for each body of a region, and one for each body of background or exterior that regions enclose (a hole).
-/// Throws Error(kOutput) where a body is too thin to have one.
+/// One seed for each body of a region, and for each hole: a body of background or exterior that regions enclose. Throws
+/// Error(kOutput) where a body is too thin for a point inside.
 struct Seeds {
     std::vector<Seed> regions, holes;
 };

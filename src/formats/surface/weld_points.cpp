@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// Cells are not much smaller than the numbers of the file can tell apart.
+/// Smallest width of a cell, relative to the largest coordinate: near the precision of the coordinates.
 constexpr double kFinest = 0x1p-45;
 
-/// The points that others are joined to, in cells as wide as the distance.
+/// The kept points, in cells as wide as the distance.
 class PointCells {
 public:
     PointCells(const std::vector<Vec3>& points, double distance)
@@ -25,7 +25,7 @@ public:
         if (distance > 0) width_ = std::max(distance, most * kFinest);
     }
 
-    /// The nearest point held that is near enough, the first of those as near; or this one, which is held from now on.
+    /// The nearest kept point within the distance, the first of several; otherwise keeps point n and returns it.
     std::uint32_t find_or_add(std::uint32_t n) {
         const Vec3 p = points_[n], cell = cell_of(p);
         std::uint32_t nearest = kNone;
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// Without a distance each place is its own cell.
+    /// With distance 0 each place is its own cell.
     Vec3 cell_of(Vec3 p) const {
         if (!(width_ > 0)) return p;
         return {std::floor(p.x / width_), std::floor(p.y / width_), std::floor(p.z / width_)};
@@ -58,7 +58,7 @@ private:
         std::uint64_t hash = 0;
         for (int axis = 0; axis < 3; ++axis) {
             std::uint64_t bits;
-            const double value = cell[axis] + 0.0;  // -0 and 0 are one place
+            const double value = cell[axis] + 0.0;  // -0 and 0 are the same place
             std::memcpy(&bits, &value, sizeof bits);
             hash = mix64(hash ^ bits);
         }
@@ -71,7 +71,7 @@ private:
     std::vector<std::uint32_t> next_;                         // in the list of a cell
 };
 
-/// Numbers the points that faces use, in order, and drops the others.
+/// Renumbers the points that faces use, in order, and removes the others.
 void drop_unused(FileSurface& surface) {
     std::vector<std::uint32_t> number(surface.points.size(), kNone);
     for (const auto& face : surface.faces)
@@ -111,9 +111,9 @@ void weld_points(FileSurface& surface, double distance) {
 
 void join_back_to_back(FileSurface& surface) {
     struct Key {
-        std::array<std::uint32_t, 3> corners;  // in order
+        std::array<std::uint32_t, 3> corners;  // sorted
         std::uint32_t face;
-        bool is_odd;  // the face passes them the other way round
+        bool is_odd;  // the face has them in odd permutation
     };
     const InputLabel exterior = surface.exterior_label;
     std::vector<Key> keys;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace formats;
 
-constexpr hsize_t kRows = 1 << 16;        // written at a time
+constexpr hsize_t kRows = 1 << 16;        // per write
 constexpr std::size_t kGrowth = 1 << 22;  // of the file in memory
 
 template <class T>
@@ -47,7 +47,7 @@ struct ArrayType<std::int8_t> {
     static hid_t native() { return H5T_NATIVE_INT8; }
 };
 
-/// Made in memory and then written: the library does not get over a disk that is full.
+/// Makes the file in memory and then writes it: the HDF5 library does not recover from a full disk.
 class Dream3dWriter {
 public:
     Dream3dWriter(const FileView& view, OutputFile& file) : view_(view), output_(file) {}
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    /// The file lies in memory, so only that can fail.
+    /// The file is in memory, so only lack of memory can fail.
     template <class Id>
     static Id need(Id id) {
         if (id < 0) throw std::bad_alloc();
@@ -78,7 +78,7 @@ private:
     }
     static void need_done(herr_t status) { need(status); }
 
-    /// 32 bits with a sign, of which -1 is the exterior.
+    /// The format has signed 32-bit labels; -1 is the exterior.
     void require_labels() const {
         const LabelTable& labels = view_.labels();
         for (Label label = 0; label < labels.size(); ++label) {
@@ -124,7 +124,7 @@ private:
         return Hdf5Group(need(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)));
     }
 
-    /// Arrays with as many rows.
+    /// A group of arrays with the same number of rows.
     Hdf5Group matrix(hid_t parent, const char* name, hsize_t rows) {
         Hdf5Group made = group(parent, name);
         put_object(made.id(), "AttributeMatrix");
@@ -132,7 +132,7 @@ private:
         return made;
     }
 
-    /// What every object has.
+    /// Writes the attributes that every object has.
     void put_object(hid_t object, const char* type) {
         put_text(object, "ObjectType", type);
         put_numbers(object, "ObjectId", {next_id_++});
@@ -160,7 +160,7 @@ private:
         need_done(H5Awrite(attribute.id(), H5T_NATIVE_UINT64, numbers.begin()));
     }
 
-    /// make(put) gives all numbers in order to put().
+    /// make(put) calls put() with all numbers in order.
     template <class T, class Make>
     void put_array(hid_t parent, const char* name, std::array<hsize_t, 2> shape, Make&& make) {
         const Hdf5Space space(need(H5Screate_simple(2, shape.data(), nullptr)));

@@ -19,16 +19,16 @@ namespace regionmesh {
 namespace {
 
 constexpr int kFloat = 5126, kUnsignedInt = 5125;            // types of components
-constexpr int kArrayBuffer = 34962, kElementBuffer = 34963;  // what a view of the buffer is for
+constexpr int kArrayBuffer = 34962, kElementBuffer = 34963;  // purposes of buffer views
 constexpr std::uint64_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
-/// One region: its vertices and its faces, outward. glTF has no normals here: faces are shaded flat, as they are.
+/// Vertices and outward faces of one region. Without normals glTF shades faces flat.
 struct Part {
     std::vector<VertexId> vertices;
     std::vector<std::uint32_t> corners;
 };
 
-/// A light colour from the label alone; glTF wants it linear.
+/// A light colour that depends only on the label, in linear RGB as glTF needs.
 std::array<double, 4> colour_of(InputLabel label) {
     const double hue = 6 * std::abs(std::fmod(static_cast<double>(label) * 0.61803398875, 1.0));
     std::array<double, 4> colour{0, 0, 0, 1};
@@ -94,7 +94,7 @@ private:
         return part;
     }
 
-    /// Adds a view of the next `bytes` of the buffer, and what it holds.
+    /// Adds a view of the next `bytes` of the buffer and an accessor for its contents.
     std::size_t add_accessor(Json& json, Json accessor, std::uint64_t bytes, int target) {
         accessor["bufferView"] = json["bufferViews"].size();
         json["bufferViews"].push_back(
@@ -138,14 +138,14 @@ private:
         json["nodes"][0]["children"].push_back(n + 1);
     }
 
-    /// The text of the file; counts the bytes of the buffer.
+    /// The JSON of the file; counts the bytes of the buffer.
     std::string describe() {
-        const double half = std::sqrt(0.5);  // a quarter turn: glTF has y upward, volumes have z
+        const double half = std::sqrt(0.5);  // a quarter turn: y is up in glTF, z in volumes
         Json json{{"asset", {{"version", "2.0"}, {"generator", "regionmesh"}}}, {"scene", 0}};
         json["scenes"] = Json::array({{{"nodes", {0}}}});
         json["nodes"] = Json::array({{{"name", "model"}, {"rotation", {-half, 0, 0, half}}}});
         if (regions_.all().empty()) return json.dump();
-        // The turn goes before the shift.
+        // glTF applies the rotation before the translation.
         json["nodes"][0]["translation"] = {middle_.x, middle_.z, -middle_.y};
         for (std::size_t n = 0; n < regions_.all().size(); ++n) add_region(n, json);
         json["buffers"] = Json::array({{{"byteLength", bytes_}}});

@@ -9,11 +9,11 @@
 namespace regionmesh {
 namespace {
 
-/// CalculiX takes no more of a real number; what follows would be lost, an exponent too.
+/// CalculiX reads no more characters of a real number; the rest, even an exponent, would be lost.
 constexpr std::ptrdiff_t kMostLetters = 20;
 constexpr int kPerLine = 10;  // of at most 16
 
-/// The fewest digits that lead back to the same double; fewer where these do not fit.
+/// The fewest digits that give the same double when read; fewer where these do not fit.
 std::string real(double number) {
     char digits[32];
     auto end = std::to_chars(digits, digits + sizeof(digits), number).ptr;
@@ -62,7 +62,7 @@ private:
         }
     }
 
-    /// All elements of a region, and its surface: the sides of these that look outward.
+    /// A set of all elements of each region, and its surface: their outward sides.
     void write_regions() {
         for (const FileRegion& region : regions_.all()) {
             text_.line("** " + region.title);

@@ -1,4 +1,4 @@
-// Gmsh's MSH 4.1 for the faces, and a .geo that makes volumes of them:
+// Gmsh's MSH 4.1 with the faces, and a .geo script that makes volumes of them:
 // https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kTriangle = 2;  // Gmsh's number for the type of element
 
-/// A surface of Gmsh bounds one shell on each side, so that each volume is made of whole ones; and it lies on one side
-/// of the box or on none.
+/// A surface of Gmsh has one shell on each side, so that volumes consist of whole surfaces; it lies on at most one side
+/// of the box.
 struct Surface {
     std::array<std::uint32_t, 2> shells;  // of the first label and of the second, in the order of files
     int box_side;                         // -1: none
@@ -169,7 +169,7 @@ void MshWriter::write_mesh(OutputFile& file) const {
     text.flush();
 }
 
-/// A loop of surfaces for each shell of a region; a volume for each body: its outer loop, less those of its cavities.
+/// A loop of surfaces for each shell of a region; a volume for each body: its outer loop without those of its cavities.
 void MshWriter::write_volumes(const std::string& mesh_name, OutputFile& file) const {
     std::vector<std::string> loops(bodies_.shell_count());
     for (std::size_t n = 0; n < surfaces_.size(); ++n)

@@ -6,7 +6,7 @@
 namespace regionmesh {
 namespace {
 
-/// As signed numbers, like all labels in files that are read back.
+/// As signed numbers, like all labels in files that we read.
 InputLabel number_of(const FileView& view, Label label) {
     return is_exterior(label) ? view.exterior_label() : view.labels().input(label);
 }
@@ -37,7 +37,7 @@ void write_obj(const FileView& view, OutputFile& file) {
     text.flush();
 }
 
-/// The group has no second label: the file is for one region, its normals outward.
+/// The group has no second label: the file has one region, with normals outward.
 void write_region_obj(const FileView& view, OutputFile& file) {
     TextWriter text(file);
     text.line("g", FileRegions(view).all().front().title);

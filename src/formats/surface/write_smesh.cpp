@@ -23,9 +23,9 @@ void write_tables(const FileView& view, const FileRegions& regions, TextWriter& 
     }
 }
 
-/// TetGen makes one facet of neighbours with one marker that are flat to a tenth of a degree, and then moves volume
-/// from region to region. So neighbours that are nearly but not exactly flat get different markers: the number of
-/// their interface, or that and a multiple of the number of interfaces.
+/// TetGen merges neighbouring faces with the same marker into one facet where they are flat within a tenth of a degree,
+/// and so moves volume between regions. Neighbours that are nearly but not exactly flat therefore get different
+/// markers: the number of their interface, plus a multiple of the number of interfaces.
 class FaceMarkers {
 public:
     FaceMarkers(const FileView& view, const FileRegions& regions)
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// The first that no earlier neighbour has.
+    /// The first multiple that no earlier neighbour has.
     std::uint8_t round_of(FaceId f) const {
         unsigned taken = 0;
         for (int place = 0; place < 3; ++place) {
@@ -68,7 +68,7 @@ private:
     std::vector<std::uint8_t> rounds_;
 };
 
-/// In a .poly each facet is a list of polygons, here of one.
+/// In a .poly file each facet is a list of polygons, here one.
 enum class Facets { kTriangles, kPolygonLists };
 
 void write_tetgen(const FileView& view, Facets facets, OutputFile& file) {

@@ -10,10 +10,10 @@
 
 namespace regionmesh::formats {
 
-/// How the bytes of an AsciiStream are to be decoded, whatever type the header says: numbers of 64 bits.
+/// The format of the bytes of an AsciiStream, whatever type the header says: integers of 64 bits.
 inline constexpr SampleFormat kAsciiFormat{.type = SampleType::kI64};
 
-/// A number takes two letters at least, with the blank behind it, but for the last.
+/// A number takes at least two letters, a digit and a blank, except the last.
 constexpr std::uint64_t most_ascii_samples(std::uint64_t letters) { return letters / 2 + 1; }
 
 /// The whole numbers in a text between blanks or commas, each as the eight bytes of a little-endian integer; above

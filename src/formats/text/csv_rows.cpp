@@ -19,7 +19,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::span<std::byte> bytes_of(std::string& text) { return std::as_writable_bytes(std::span(text)); }
 
-/// The one of tab, semicolon and comma that stands most often outside of quotes.
+/// The most frequent of tab, semicolon and comma outside quotes.
 char find_separator(std::string_view header) {
     constexpr std::string_view kSeparators = "\t;,";
     std::array<std::size_t, kSeparators.size()> counts{};
@@ -60,7 +60,7 @@ std::size_t CsvRows::read(std::span<std::byte> bytes) {
     return count;
 }
 
-/// The parser knows of no comments: those before the header, which may hold quotes, are kept from it.
+/// The parser has no comments: those before the header, which may contain quotes, are skipped here.
 char CsvRows::skip_to_header() {
     std::string head(kMostRowBytes, '\0');
     head.resize(file_.read(0, bytes_of(head)));
@@ -114,7 +114,7 @@ void CsvRows::refuse(std::uint64_t row, const std::string& text) const {
     fail(file_.path(), fmt::format("row {}: {}", row, text));
 }
 
-/// The callbacks of the parser come through C, where nothing may be thrown: what they can lack is memory only.
+/// The callbacks of the parser are called from C and must not throw; only lack of memory could make them.
 bool CsvRows::parse_more() {
     if (is_at_end_) return false;
     drop_used();
@@ -128,14 +128,14 @@ bool CsvRows::parse_more() {
         refuse(begun_, csv_strerror(csv_error(&parser_)));
     if (count < part.size()) {
         is_at_end_ = true;
-        csv_set_opts(&parser_, CSV_STRICT | CSV_STRICT_FINI);  // only now: a lone quote within a field is a letter
+        csv_set_opts(&parser_, CSV_STRICT | CSV_STRICT_FINI);  // only now: a lone quote in a field is a letter
         if (csv_fini(&parser_, take_field, take_row, this) != 0) refuse(begun_, "a quote is not closed; close it");
     }
     check_size();
     return true;
 }
 
-/// What is left are the fields of a row that is not yet whole.
+/// Keeps the fields of the row that is not yet complete.
 void CsvRows::drop_used() {
     const std::size_t fields = rows_.empty() ? 0 : rows_.back().field_end;
     const std::size_t bytes = fields == 0 ? 0 : field_ends_[fields - 1];
@@ -161,7 +161,7 @@ void CsvRows::add_field(std::string_view text) {
     field_ends_.push_back(text_.size());
 }
 
-/// `letter` ended the line; -1: the file did.
+/// `letter` ended the line; -1 at the end of the file.
 void CsvRows::end_row(int letter) {
     const std::size_t begin = rows_.empty() ? 0 : rows_.back().field_end;
     const bool belongs_to_cr = is_after_cr_ && letter == '\n' && begin == field_ends_.size();

@@ -1,4 +1,4 @@
-// The rows of a table in text, one after the other.
+// The rows of a CSV table, in order.
 #pragma once
 
 #include <csv.h>
@@ -16,9 +16,9 @@
 
 namespace regionmesh::formats {
 
-/// Rows as a spreadsheet shows and counts them, from 1: what stands between quotes may hold separators and ends of
-/// lines. The first row that is neither blank nor begins with # says which of tab, semicolon and comma separates.
-/// Holds a bounded part of the file. Throws Error(kInput) naming the row.
+/// Rows as a spreadsheet shows and counts them, from 1: text in quotes may contain separators and line ends. The first
+/// row that is neither blank nor begins with # decides which of tab, semicolon and comma is the separator. Holds a
+/// bounded part of the file. Throws Error(kInput) naming the row.
 class CsvRows {
 public:
     explicit CsvRows(const std::filesystem::path& path);
@@ -28,20 +28,20 @@ public:
     CsvRows(const CsvRows&) = delete;
     CsvRows& operator=(const CsvRows&) = delete;
 
-    /// Goes on to the next row that has anything in it; false where there is none.
+    /// Moves to the next row that is not empty; false where there is none.
     bool next();
 
     const std::filesystem::path& path() const { return file_.path(); }
 
-    /// Of the row it stands on: its number and its fields, without blanks around them.
+    /// Number and fields of the current row; fields have no blanks around them.
     std::uint64_t number() const { return row_.number; }
     std::size_t field_count() const { return row_.field_end - row_.field_begin; }
     std::string_view field(std::size_t index) const;
 
-    /// No file of this many bytes and lines has more rows of `least_bytes` or more, ends of lines included.
+    /// An upper bound on the number of rows, if each takes `least_bytes` or more, line end included.
     std::uint64_t most_rows(std::uint64_t least_bytes) const;
 
-    /// Throws Error(kInput) "path: row 12: text", of the row it stands on.
+    /// Throws Error(kInput) "path: row 12: text" for the current row or another.
     [[noreturn]] void refuse(const std::string& text) const { refuse(row_.number, text); }
     [[noreturn]] void refuse(std::uint64_t row, const std::string& text) const;
 
@@ -63,17 +63,17 @@ private:
     InputFile file_;
     csv_parser parser_;
     std::optional<std::string> given_;  // read instead of the file
-    std::uint64_t place_ = 0;           // in the file or the given text, of what is parsed next
+    std::uint64_t place_ = 0;           // of the next byte to parse, in the file or the given text
     bool is_at_end_ = false;
 
-    // Rows that are parsed: their text, and where each field of it ends. Behind them fields of a row not yet whole.
+    // Parsed rows: their text and the ends of their fields; then the fields of a row not yet complete.
     std::string text_;
     std::vector<std::size_t> field_ends_;
     std::vector<Row> rows_;
     std::size_t next_ = 0;      // of rows_
-    Row row_;                   // the one it stands on
-    std::uint64_t begun_ = 1;   // number of the row not yet whole
-    bool is_after_cr_ = false;  // a line feed now belongs to the carriage return before it
+    Row row_;                   // the current one
+    std::uint64_t begun_ = 1;   // number of the row not yet complete
+    bool is_after_cr_ = false;  // a line feed now belongs to the preceding carriage return
 };
 
 }  // namespace regionmesh::formats

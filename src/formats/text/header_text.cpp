@@ -29,7 +29,7 @@ std::optional<std::vector<Number>> parse_all(std::string_view text, std::optiona
     return numbers;
 }
 
-/// How many bytes the UTF-8 character at the front of `text` takes; 0 where there is none.
+/// Length in bytes of the UTF-8 character at the front of `text`; 0 where there is none.
 std::size_t utf8_length(std::string_view text) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : 4;

@@ -12,14 +12,14 @@ namespace regionmesh::formats {
 std::string_view trim(std::string_view text);
 std::string lower(std::string_view text);  // ASCII letters
 
-/// What stands between blanks, or between any of `separators`.
+/// The words between blanks, or between any of `separators`.
 std::vector<std::string_view> split_words(std::string_view text, std::string_view separators = " \t\r\n\v\f");
 
 /// Takes the first word off a line; empty at its end.
 std::string_view take_word(std::string_view& line);
 
-/// The whole of `text` as a number, with or without a plus sign in front; none for any other text. Reals too small for
-/// a double are 0; infinities are none, and NaN only counts where it is written as such.
+/// All of `text` as a number, with or without a plus sign in front; none for any other text. Reals too small for a
+/// double are 0. "nan" is a real, infinities are not.
 std::optional<double> parse_real(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_size(std::string_view text);
@@ -28,20 +28,20 @@ std::optional<std::uint64_t> parse_size(std::string_view text);
 std::optional<double> parse_finite(std::string_view text);
 /// A whole number; above 2^63 - 1 the bits of an unsigned one.
 std::optional<std::int64_t> parse_label(std::string_view text);
-/// A label in a table: programs that know of no missing integers write "3.0".
+/// A label in a table: programs without missing integers write "3.0".
 std::optional<std::int64_t> parse_table_label(std::string_view text);
 
-/// Several of them between blanks; nothing where one is no number.
+/// Several numbers between blanks; none where one of the words is no number.
 std::optional<std::vector<double>> parse_reals(std::string_view text);
 std::optional<std::vector<std::uint64_t>> parse_sizes(std::string_view text);
 
-/// Takes the first line off `text`, without its end.
+/// Takes the first line off `text`; returns it without its line end.
 std::string_view take_line(std::string_view& text);
 
-/// As much of a word or line of a file as an error shows.
+/// The beginning of a word or line of a file, for messages.
 std::string shown(std::string_view text);
 
-/// A name as files give it, trimmed, as one line of UTF-8: what is none is taken as Latin-1.
+/// A name from a file, trimmed, as one line of UTF-8. Bytes that are no UTF-8 are read as Latin-1.
 std::string one_line(std::string_view text);
 
 }  // namespace regionmesh::formats

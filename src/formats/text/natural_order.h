@@ -5,8 +5,8 @@
 
 namespace regionmesh::formats {
 
-/// Compares runs of digits as numbers, of any length, and all else byte by byte: s2 < s10. Total: names that differ
-/// only in leading zeros have the one with fewer first.
+/// Compares runs of digits as numbers of any length, and other text byte by byte: s2 < s10. A total order: among names
+/// that differ only in leading zeros, the one with fewer comes first.
 bool natural_less(std::string_view a, std::string_view b);
 
 }  // namespace regionmesh::formats

@@ -1,4 +1,4 @@
-// Lines of words and numbers, written fast and to the last bit.
+// Writes lines of words and numbers; reals round-trip.
 #pragma once
 
 #include <charconv>
@@ -11,7 +11,7 @@
 
 namespace regionmesh {
 
-/// Reals get the fewest digits that lead back to the same double. Text is handed on by the megabyte; flush() at the
+/// Reals get the fewest digits that give the same double when read. Writes a megabyte at a time; call flush() at the
 /// end.
 class TextWriter {
 public:
@@ -19,14 +19,14 @@ public:
     TextWriter(const TextWriter&) = delete;
     TextWriter& operator=(const TextWriter&) = delete;
 
-    /// The words with a space between each two, and a newline.
+    /// Writes the words with a space between each two, and a newline.
     template <class First, class... Rest>
     void line(const First& first, const Rest&... rest) {
         put(first);
         ((text_ += ' ', put(rest)), ...);
         end_line();
     }
-    /// Without spaces or newline.
+    /// Writes the words without spaces or newline.
     template <class... Words>
     void add(const Words&... words) {
         (put(words), ...);

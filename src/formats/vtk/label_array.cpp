@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 11> kRegionNames{"label",         "labels
                                                         "material",      "materialids", "gmsh:physical",   "medit:ref",
                                                         "cellentityids", "featureids",  "gmsh:geometrical"};
 
-/// Numbers of nodes and cells, or of ghosts.
+/// Names of arrays that number nodes or cells, or mark ghosts.
 constexpr std::array<std::string_view, 11> kOtherNames{
     "globalids", "globalnodeids", "globalelementids", "pedigreeids", "vtkoriginalcellids", "vtkoriginalpointids",
     "nodeids",   "elementids",    "cellids",          "pointids",    "gmsh:dim_tags"};

@@ -1,4 +1,4 @@
-// Which array of a mesh says the labels.
+// Selects the array of a mesh that has the labels.
 #pragma once
 
 #include <cstddef>
@@ -11,28 +11,28 @@
 
 namespace regionmesh::formats {
 
-/// An array of a mesh, as its header tells of it.
+/// The description of an array in the header of a mesh.
 struct MeshArray {
     std::string name;
-    bool is_cell = true;  // one value a cell, else a point
+    bool is_cell = true;  // one value per cell, otherwise per point
     bool is_integer = true;
     std::string type = {};  // for messages
     std::uint64_t components = 1;
 };
 
-/// Names that usually mean regions, the most telling one first: the place of this one among them; none for others.
+/// The rank of a name among those that usually mean regions, the most specific first; none for other names.
 std::optional<std::size_t> region_rank(std::string_view name);
 
-/// The array called `wanted`, cells before points. Where that is empty: the only one of integers that is no number of a
-/// node or the like; else the one whose name says most that it means regions, which may have reals. Arrays of several
-/// components never count. Throws Error(kInput) that lists what there is.
+/// The array named `wanted`, that of cells before that of points. Where `wanted` is empty: the only array of integers
+/// that is no numbering of nodes or cells; otherwise the array with the best region_rank, which may have reals. Never
+/// an array of several components. Throws Error(kInput) that lists the arrays.
 std::size_t choose_label_array(const std::filesystem::path& path, std::span<const MeshArray> arrays,
                                const std::string& wanted);
 
-/// "label (cells, Int32); u (points, Float64, 3 components)", of the first twenty.
+/// "label (cells, Int32); u (points, Float64, 3 components)", for the first twenty arrays.
 std::string list_of(std::span<const MeshArray> arrays);
 
-/// A real as the integer it is; none for others, and from 2^53 on.
+/// A whole real as an integer; none for other reals, and from 2^53 on.
 std::optional<std::int64_t> whole_number(double real);
 
 }  // namespace regionmesh::formats

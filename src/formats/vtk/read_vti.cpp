@@ -51,7 +51,7 @@ pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece) {
                          list_of(arrays)));
 }
 
-/// Samples of cells lie at their centres, one fewer on each axis; an axis of one point has one cell, there.
+/// Samples of cells lie at the cell centres, one fewer per axis; an axis of one point has one cell at that point.
 void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, Lattice& lattice) {
     const auto numbers = [&](const char* name, std::size_t count, std::vector<double> otherwise) {
         const std::string_view text = xml.dataset().attribute(name).value();

@@ -13,7 +13,7 @@ namespace {
 
 using namespace formats;
 
-/// Names of the array of two labels a face, the first behind it: ours and VTK's, PyVista's, DREAM.3D's.
+/// Names of the array of two labels per face, the first one behind the face: ours and VTK's, PyVista's, DREAM.3D's.
 constexpr const char* kLabelArrays[] = {"BoundaryLabels", "boundary_labels", "FaceLabels"};
 
 /// VTK's numbers of cells that are polygons.
@@ -53,7 +53,7 @@ std::vector<std::string> read_strings(const VtkXml& xml, pugi::xml_node array) {
     return strings;
 }
 
-/// Labels and names side by side; other arrays with these names are ignored.
+/// Two arrays of equal length, labels and their names; other arrays with these names are ignored.
 void VtkSurfaceReader::read_names(pugi::xml_node fields) {
     const pugi::xml_node labels = array_named(fields, "RegionLabels"),
                          names = fields.find_child_by_attribute("Array", "Name", "RegionNames");
@@ -122,7 +122,7 @@ void VtkSurfaceReader::read_types(pugi::xml_node cells, std::uint64_t count) con
     types.finish();
 }
 
-/// Each cell gives its labels to all the triangles that are made of it.
+/// All triangles of a cell get its labels.
 void VtkSurfaceReader::read_faces(pugi::xml_node piece, pugi::xml_node cells, std::uint64_t count) {
     VtkNumbers offsets = integers_of(xml_, xml_.required_array(cells, "offsets"), count),
                connectivity = integers_of(xml_, xml_.required_array(cells, "connectivity"), std::nullopt),

@@ -22,9 +22,10 @@ namespace {
 
 constexpr std::int64_t kTetrahedron = 10;
 constexpr std::uint64_t kMostCells = 0xFFFFFFFFu;
-constexpr std::int64_t kDuplicateOrHidden = 1 | 32;  // of vtkGhostType: cells of another piece, or taken out
+constexpr std::int64_t kDuplicateOrHidden =
+    1 | 32;  // flags of vtkGhostType: a copy of a cell of another piece, or a removed cell
 
-/// VTK's cells of two dimensions at most: linear, quadratic, and of Lagrange and Bezier.
+/// VTK's cell types of at most two dimensions: linear, quadratic, Lagrange and Bezier.
 constexpr std::array<std::int64_t, 24> kFlat{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  21, 22,
                                              23, 28, 30, 34, 35, 36, 68, 69, 70, 75, 76, 77};
 
@@ -38,7 +39,7 @@ constexpr std::array<std::pair<std::int64_t, const char*>, 8> kSolids{{{11, "a v
                                                                        {78, "a Bezier tetrahedron"}}};
 constexpr std::array<std::int64_t, 3> kCurvedTetrahedra{24, 71, 78};
 
-/// The arrays that may have the labels: no numbers of cells and points that the grid declares.
+/// The arrays that may have the labels: all except those that the grid declares as global ids.
 std::vector<MeshArray> label_candidates(pugi::xml_node piece) {
     std::vector<MeshArray> arrays;
     for (const pugi::xml_node node : arrays_of(piece, true))
@@ -48,7 +49,7 @@ std::vector<MeshArray> label_candidates(pugi::xml_node piece) {
     return arrays;
 }
 
-/// A part of a grid with points of its own; those of all pieces are counted one after the other.
+/// A part of a grid with its own points; points are numbered through all pieces.
 struct VtuPiece {
     pugi::xml_node node;
     std::uint64_t points = 0, cells = 0;
@@ -70,17 +71,17 @@ struct VtuGrid {
     std::uint64_t point_count = 0, cell_count = 0;
 };
 
-/// Passes through the cells of a grid, which it holds a reference to. Cells of less than three dimensions, and those
-/// that are copies of another piece's, are passed over; other solids are refused.
+/// Iterates over the cells of a grid; holds a reference to it. Skips cells of fewer than three dimensions and copies of
+/// cells of another piece; refuses other solids.
 class VtuCells {
 public:
     enum class Depth { kTypes, kCornersAndLabels };
 
     VtuCells(const VtuGrid& grid, Depth depth) : grid_(grid), depth_(depth) {}
 
-    /// Goes to the next tetrahedron and fills it, where the depth is enough; false once there are no more.
+    /// Moves to the next tetrahedron and, with kCornersAndLabels, fills it; false after the last.
     bool next(LabelledTetrahedron& tetrahedron);
-    /// The number of the tetrahedron met last among all cells, from 0.
+    /// The number of the current tetrahedron among all cells, from 0.
     std::uint64_t cell() const { return met_ - 1; }
 
 private:
@@ -94,7 +95,7 @@ private:
     std::size_t next_piece_ = 0;
     VtuPiece piece_;
     std::uint64_t left_ = 0, met_ = 0;  // cells, of the piece and of the file
-    std::int64_t offset_ = 0;           // where the corners of the last cell end
+    std::int64_t offset_ = 0;           // end of the corners of the last cell
     std::optional<VtkNumbers> types_, ghosts_, offsets_, corners_, labels_;
 };
 
@@ -190,8 +191,8 @@ void VtuCells::read_corners(LabelledTetrahedron& tetrahedron, std::uint64_t coun
     tetrahedron.label = labels_ ? labels_->integer() : 0;
 }
 
-/// The types of all cells are looked at when a file is opened, so that one of another kind is found before long work,
-/// and again for the name of a tetrahedron that is not the only kind of cell: names are for messages.
+/// Reads the types of all cells when a file is opened, to refuse other solids before long work; and again for the name
+/// of a tetrahedron in a grid with other cells: names are for messages only.
 class VtuReader final : public TetrahedronReader {
 public:
     VtuReader(const std::filesystem::path& path, const TetrahedraOptions& options);

@@ -19,7 +19,7 @@ public:
     /// Both streams begin at the array: one reads the table while the other reads blocks.
     VtkBlocks(std::unique_ptr<ByteStream> table, std::unique_ptr<ByteStream> blocks, const VtkEncoding& encoding);
 
-    /// How many bytes the array says it inflates to; nothing where it does not say it, or that is more than 63 bits.
+    /// The inflated size in bytes, as the header says; none where that is missing or needs more than 63 bits.
     std::optional<std::uint64_t> inflated_bytes();
 
     std::size_t read(std::span<std::byte> bytes) override;

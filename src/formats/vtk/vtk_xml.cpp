@@ -18,12 +18,12 @@ namespace {
 constexpr std::size_t kMostTagBytes = std::size_t{4} << 20;  // of all tags together
 constexpr std::size_t kChunkBytes = std::size_t{64} << 10;
 
-/// The tags of a file, where the text of each DataArray is replaced by its place: "begin end".
+/// Collects the tags of a file; replaces the text of each DataArray by its place in the file, "begin end".
 class TagScanner {
 public:
     explicit TagScanner(const InputFile& file) : file_(file) {}
 
-    /// Up to the appended data, or to the end of the root.
+    /// The tags up to the appended data, or to the end of the root.
     std::string scan();
     std::uint64_t appended() const { return appended_; }  // the byte behind the underscore; 0 if there is none
 
@@ -57,7 +57,7 @@ void TagScanner::skip_to(char wanted) {
     }
 }
 
-/// From '<' to '>', which may stand in quotes; comments whole.
+/// The text from '<' to the closing '>', one that is not in quotes; comments to their end.
 std::string TagScanner::take_tag() {
     std::string tag;
     char quote = '\0';

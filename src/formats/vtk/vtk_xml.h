@@ -54,7 +54,7 @@ public:
     pugi::xml_node dataset() const { return dataset_; }
     const VtkEncoding& encoding() const { return encoding_; }
 
-    /// Of a DataArray. Throws where it begins behind the end of the file, or has an unknown format.
+    /// The place of a DataArray. Throws where it begins beyond the end of the file, or has an unknown format.
     VtkArrayPlace place_of(pugi::xml_node array) const;
     /// Opens an array that is not ascii, at the beginning of its stream.
     VtkBytes open(pugi::xml_node array) const;
@@ -85,11 +85,11 @@ inline pugi::xml_node array_named(pugi::xml_node parent, const char* name) {
     return parent.find_child_by_attribute("DataArray", "Name", name);
 }
 
-/// By the attribute `type`; none for text and the like.
+/// From the attribute `type`; none for text.
 std::optional<NumberType> vtk_type_named(std::string_view name);
 std::optional<NumberType> vtk_type(pugi::xml_node array);
 
-/// 1 where the array does not say it.
+/// The number of components, 1 by default.
 std::uint64_t components(pugi::xml_node array);
 
 /// All arrays of numbers of a piece, those of points first or those of cells.

@@ -37,8 +37,8 @@ constexpr const char* vtk_type() {
     if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
 }
 
-// Smoothed positions have few bytes that repeat: zlib would take most of the writing for a tenth of their size. Where
-// the beginning of a block saves less than an eighth, the block is stored.
+// Smoothed positions hardly compress: zlib would take most of the time to save a tenth of their size. A block whose
+// beginning shrinks by less than an eighth is stored.
 int compression_level(std::span<const Bytef> block, std::span<Bytef> scratch) {
     const std::size_t probe = std::min(kProbeBytes, block.size());
     uLongf size = scratch.size();
@@ -46,8 +46,8 @@ int compression_level(std::span<const Bytef> block, std::span<Bytef> scratch) {
     return size > probe / 8 * 7 ? kStored : kFast;
 }
 
-// One DataArray: numbers are gathered into blocks, and each full block goes to the file compressed. The header, with
-// the compressed sizes, stands before the blocks but is known after them: room is left for it.
+// One DataArray: collects numbers into blocks and writes each full block compressed. The header with the compressed
+// sizes precedes the blocks but is known only after them, so its place is filled in last.
 template <class T>
 class ArrayWriter {
 public:
@@ -112,7 +112,7 @@ void write_number(std::string_view name, std::int64_t number, OutputFile& file) 
         "<DataArray type=\"Int64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name, number));
 }
 
-// Strings in ascii are the codes of their bytes, with a 0 behind each string.
+// Strings in ascii are the codes of their bytes, with a 0 after each string.
 void write_names(const FileView& view, OutputFile& file) {
     std::string labels, codes;
     int count = 0;
@@ -175,7 +175,7 @@ void write_labels(const FileView& view, OutputFile& file) {
     file.write("</CellData>\n");
 }
 
-// `Index` holds the largest vertex number and three times the number of faces.
+// Requires an `Index` that can represent the largest vertex number and three times the number of faces.
 template <class Index>
 void write_faces(const FileView& view, DataSet kind, OutputFile& file) {
     const std::uint64_t count = view.mesh().face_count();
