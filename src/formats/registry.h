@@ -11,7 +11,7 @@
 #include "formats/array/volume_formats.h"
 #include "formats/images/image_formats.h"
 #include "formats/surface/file_surface.h"
-#include "formats/surface/file_view.h"
+#include "mesh/file_view.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/read_sections.h"

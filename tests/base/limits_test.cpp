@@ -6,7 +6,7 @@
 #include "mesh/bytes_per_face.h"
 #include "regionmesh/error.h"
 #include "regionmesh/mesh.h"
-#include "stream/memory_plan.h"
+#include "stream/budget.h"
 
 namespace regionmesh {
 namespace {
@@ -45,11 +45,9 @@ TEST(Limits, a_mesh_makes_no_room_beyond_them) {
     EXPECT_NO_THROW(mesh.reserve(10, 10));
 }
 
-TEST(Limits, a_plan_of_memory_expects_no_more_faces_than_a_mesh_can_hold) {
-    MemoryDemand demand{
-        .lattice = {.size = {10, 10, 10}}, .sweep = kSweepZ, .strip_faces = std::vector<std::uint64_t>(9, 100)};
-    demand.asked_budget = kMostFaces * 10;
-    EXPECT_EQ(plan_memory(std::uint64_t{1} << 50, demand).face_budget(0), kMostFaces);
+TEST(Limits, a_budget_expects_no_more_faces_than_a_mesh_can_hold) {
+    BudgetDemand demand{.strip_faces = std::vector<std::uint64_t>(9, 100), .asked_budget = kMostFaces * 10};
+    EXPECT_EQ(plan_budget(std::uint64_t{1} << 50, demand).face_budget(0), kMostFaces);
 }
 
 TEST(BytesPerFace, follow_from_the_structs) {

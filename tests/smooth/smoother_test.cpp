@@ -236,10 +236,10 @@ TEST(Determinism, smoothing_gives_the_same_bytes_on_any_number_of_threads) {
 }
 
 TEST(Determinism, every_filter_gives_the_same_bytes_on_any_number_of_threads) {
-    test::ArrayVolume volume = test::noise_volume({12, 12, 10}, 3, 5);
     for (const SmoothOptions& smooth :
          {SmoothOptions{.filter = SmoothFilter::kLaplacian, .passes = 40}, {.filter = SmoothFilter::kNifpms}}) {
-        if (smooth.filter == SmoothFilter::kNifpms) volume = test::grain_volume({12, 12, 10}, 6, 5);
+        test::ArrayVolume volume = smooth.filter == SmoothFilter::kNifpms ? test::grain_volume({12, 12, 10}, 6, 5)
+                                                                          : test::noise_volume({12, 12, 10}, 3, 5);
         ReconstructOptions options = test::reduced(0.8);
         options.smooth = smooth;
         options.threads = 1;

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesh/assemble.h"
 #include "formats/codec/byte_reader.h"
+#include "mesh/assemble.h"
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/limits.h"
