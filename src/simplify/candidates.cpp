@@ -13,8 +13,8 @@ constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-Candidates::Candidates(const Mesh& mesh, const VertexQuadrics& quadrics, const DecimateOptions& options)
-    : mesh_(mesh), quadrics_(quadrics), options_(options), heap_(mesh.vertex_end()) {
+Candidates::Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options)
+    : mesh_(mesh), placement_(placement), options_(options), heap_(mesh.vertex_end()) {
     partner_.resize(mesh.vertex_end(), kNoVertex);
     floor_.resize(mesh.vertex_end(), kNoFloor);
 }
@@ -42,7 +42,7 @@ void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
     } else {
         count_edge_labels(v, found);
     }
-    find_edge_costs(mesh_, quadrics_, v, found.vertices, found.costs);
+    placement_.rank(mesh_, v, found.vertices, found.costs);
 }
 
 void Candidates::count_edge_labels(VertexId v, Neighbours& found) {

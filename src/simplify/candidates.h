@@ -5,8 +5,8 @@
 
 #include "mesh/label_set.h"
 #include "regionmesh/simplify.h"
-#include "simplify/edge_costs.h"
 #include "simplify/edge_heap.h"
+#include "simplify/placement.h"
 
 namespace regionmesh {
 
@@ -14,7 +14,7 @@ namespace regionmesh {
 /// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
 class Candidates {
 public:
-    Candidates(const Mesh& mesh, const VertexQuadrics& quadrics, const DecimateOptions& options);
+    Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options);
 
     /// Gathers all candidates anew. Returns the number of edges that strata forbid.
     std::uint64_t refresh();
@@ -57,8 +57,8 @@ private:
     void rank(VertexId v, Best best);
 
     const Mesh& mesh_;
-    const VertexQuadrics& quadrics_;
-    const DecimateOptions& options_;
+    Placement& placement_;
+    const SimplifyOptions& options_;
     FlatArray<VertexId> partner_;  // where the cheapest edge of a vertex in the heap leads
     FlatArray<float> floor_;       // edges up to this key were refused since the last change
     EdgeHeap heap_;

@@ -48,6 +48,12 @@ struct EdgeStar {
         const double level = at_goes[axis];
         return at_stays[axis] == level && link_box.low[axis] == level && link_box.high[axis] == level;
     }
+    /// Where the whole star lies in a plane square to an axis, a position in it, to the last bit.
+    Vec3 kept_level(Vec3 position) const {
+        for (int axis = 0; axis < 3; ++axis)
+            if (is_level(axis)) position[axis] = at_goes[axis];
+        return position;
+    }
     Vec3 new_normal(int n) const { return pairs[n / 2].new_normal[n % 2]; }
     double new_length2(int n) const { return pairs[n / 2].new_length2[n % 2]; }
 };

@@ -3,7 +3,7 @@
 
 #include "regionmesh/flat_array.h"
 #include "regionmesh/mesh.h"
-#include "simplify/placement.h"
+#include "simplify/least_cost.h"
 
 namespace regionmesh {
 

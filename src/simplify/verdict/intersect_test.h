@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "mesh/face_tree.h"
-#include "simplify/legality.h"
-#include "simplify/star_planes.h"
+#include "regionmesh/verdict.h"
+#include "simplify/verdict/pinch.h"
+#include "simplify/verdict/star_planes.h"
 
 namespace regionmesh {
 
 /// Holds the scratch space of the test. Exact: no epsilon decides, cheap tests only rule out.
-class Obstruction {
+class IntersectTest {
 public:
-    /// Looks at all faces round the star. Requires that shape_verdict accepted the star with this position.
+    /// Looks at all faces round the star. Requires that fold, quality and pinch accepted the star with this position.
     ///   pinch      a new face comes closer than 5 degrees to a face beyond the link edge that both have, or has swept
     ///              over it.
     ///   intersect  a new face would meet another, new or old, other than in shared vertices and edges, or the star
