@@ -75,7 +75,7 @@ VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
     return a_may ? a : b_may ? b : kNoVertex;
 }
 
-/// Rank of an edge; infinite beyond the cost level or the largest error.
+/// Rank of an edge; infinite above the threshold or the largest error.
 float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
     constexpr float kNever = std::numeric_limits<float>::infinity();
     if (!(edge.cost <= options_.max_cost)) return kNever;

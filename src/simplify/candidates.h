@@ -1,4 +1,4 @@
-// Which edges may be collapsed, what each would cost, and the heap that ranks them.
+// The edges that may be collapsed, their costs, and the heap that ranks them.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace regionmesh {
 
-/// Ranks the candidate edges of a model. An edge is a candidate when its label set is that of the end that goes, which
+/// Ranks the candidate edges of a mesh. An edge is a candidate when its label set is that of the end that goes, which
 /// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
 class Candidates {
 public:
@@ -28,6 +28,7 @@ public:
     /// After a collapse: `goes` has left, and the edges round `stays` are ranked again.
     void update(VertexId goes, VertexId stays);
 
+    static constexpr std::size_t kBytesPerVertex = EdgeHeap::kBytesPerVertex + sizeof(VertexId) + sizeof(float);
     std::size_t bytes() const;
 
 private:

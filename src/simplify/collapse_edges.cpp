@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/strata.h"
+#include "simplify/bytes.h"
 #include "simplify/candidates.h"
 #include "simplify/prepass.h"
 #include "simplify/tuning.h"

@@ -1,4 +1,4 @@
-// Everything round an edge that a collapse touches.
+// The faces and vertices round an edge that a collapse changes.
 #pragma once
 
 #include <vector>
@@ -66,7 +66,7 @@ inline bool is_on_line(const Mesh& mesh, const EdgeStar& star, VertexId end) {
 /// Collects the star. Requires that goes-stays is an edge.
 void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star);
 
-/// Collects all faces of a vertex as if it would go, nowhere yet.
+/// Collects all faces of a vertex that may go, before its target is known.
 void gather_vertex(const Mesh& mesh, VertexId goes, EdgeStar& star);
 
 /// Collects the faces of `goes` only. Requires that goes-stays is an edge.

@@ -39,7 +39,8 @@ void simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
     const std::size_t before = bytes_of(chunk);
     result.bytes += before;
     const double share = static_cast<double>(options.target_faces) / static_cast<double>(chunk.faces.size());
-    PassOptions passes{.target_faces = options.target_faces,
+    const double aim = std::min(options.target_faces * kTrimMargin, static_cast<double>(chunk.faces.size()));
+    PassOptions passes{.target_faces = static_cast<std::uint64_t>(aim),
                        .tiles = {.threshold = kTileThreshold * std::pow(kEdgesPerSpacing * edge / options.scale, 4),
                                  .keep_share = share * kTileMargin,
                                  .free_share = share > kFreeFrom ? share * kFreeMargin : 1,

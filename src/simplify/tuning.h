@@ -70,12 +70,12 @@ inline constexpr std::size_t kPrepassAttempts = 2;
 /// microseconds) and leave the same rms; memory falls from 77 to 47 MB.
 inline constexpr std::uint32_t kTileCells = 24;
 
-/// Strips of a run, and the samples that it aims at: a run holds a fraction of the model, and its tiles are cubes.
+/// Strips of a run, and the samples that it aims at: a run holds a fraction of the mesh, and its tiles are cubes.
 inline constexpr std::uint32_t kShortestRun = 8;
 inline constexpr std::uint64_t kSamplesPerRun = 2u << 20;
 
 /// Tiles in work at a time where memory is not short: one that is slow keeps no thread waiting, and they hold less than
-/// the heap over the whole model takes.
+/// the heap over the whole mesh takes.
 inline constexpr std::uint32_t kTilesInFlight = 16;
 
 /// Threshold of the first stage. 0.015 is 3 % slower (rms of the AAL atlas 0.0295 instead of 0.0313); 0.06 is 8 %
@@ -101,6 +101,10 @@ inline constexpr double kMostCells = 1 << 20;
 /// of the first stage is in units of the spacing.
 inline constexpr double kEdgesPerSpacing = 1.74;
 
+/// The threshold passes over such a mesh aim at this multiple of the target, so that more is left to the ranking over the
+/// whole mesh.
+inline constexpr double kTrimMargin = 1.4;
+
 /// Passes of the first stage of such a mesh. Its walls cross faces, which leaves more locked vertices than walls in
 /// planes of samples; the second pass takes them at the low threshold, too.
 inline constexpr int kLowPasses = 2;
@@ -111,11 +115,11 @@ inline constexpr int kLowPasses = 2;
 /// atlas) and 3.0 s instead of 8.5 s (25.6 million faces) on two threads, and rms is 0.031 instead of 0.033.
 inline constexpr std::uint32_t kTileFaces = 8u << 10;
 
-/// Models of fewer tiles are simplified by ranked collapses alone. Of the others at most one part in kPartsInFlight is
+/// Meshes of fewer tiles are simplified by ranked collapses alone. Of the others at most one part in kPartsInFlight is
 /// in work at a time.
 inline constexpr std::uint32_t kFewestTiles = 6, kPartsInFlight = 6;
 
-/// A pass aims at kPassMargin times the target, and is made while the model has more than kWorthPass times the target.
+/// A pass aims at kPassMargin times the target, and is made while the mesh has more than kWorthPass times the target.
 /// The pass that removes less than kLeastPassGain of the faces is the last.
 inline constexpr double kPassMargin = 1.02, kWorthPass = 1.05, kLeastPassGain = 0.02;
 inline constexpr int kMostPasses = 3;

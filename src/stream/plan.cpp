@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simplify/simplify_boxes.h"
+#include "simplify/simplify_tiles.h"
 #include "smooth/filter.h"
 #include "stream/footprint.h"
 #include "stream/tuning.h"

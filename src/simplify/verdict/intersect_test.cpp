@@ -14,7 +14,7 @@ bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
            orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
 
-/// The plane of a face and those through its edges, square to it; and how sure they are of sides.
+/// The plane of a face and those through its edges, square to it. Conservative: certain outside the rounding error.
 class FacePlanes {
 public:
     explicit FacePlanes(const PlacedFace& face) : face_(face) {
@@ -26,7 +26,7 @@ public:
         }
         is_sure_ = length2(planes_[3].out) > 1e-12 * length2(u) * length2(v);
     }
-    /// Is it sure that a plane has the other face beyond it, but for corners of both that it passes through?
+    /// Does the other face lie for certain beyond one plane, except for shared corners on the plane?
     bool are_beside(const PlacedFace& other) const {
         if (!is_sure_) return false;
         std::array<int, 3> place;  // of each corner in this face
@@ -73,7 +73,7 @@ bool are_of_few_digits(const Lanes3<Double2>& p) {
     return ok == 3;
 }
 
-/// Do all corners lie in one plane, exactly? Told only where the coordinates have few digits, as those of samples do,
+/// Do all corners lie in one plane, exactly? True only where the coordinates have few digits, as those of samples do,
 /// and lie less than 64 apart: products of three differences are exact then.
 bool is_in_one_plane(const EdgeStar& star) {
     const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
@@ -135,8 +135,8 @@ bool IntersectTest::is_simple_disk(const EdgeStar& star) const {
     return true;
 }
 
-/// Does a new face in hand meet one that comes after it, outside the merged vertex or the edge that they share? Planes
-/// through the merged vertex tell most apart.
+/// Does one of the current new faces meet one that comes after it, outside the merged vertex or the edge that they
+/// share? Planes through the merged vertex separate most pairs.
 bool IntersectTest::meets_itself(const Mesh& mesh, const EdgeStar& star) {
     for (int j = first_ + 1; j < star.face_count(); ++j) {
         const StarFace& g = star.faces[j];
@@ -158,7 +158,7 @@ bool IntersectTest::meet_in_star(const EdgeStar& star, int i, int j) const {
     return meet_beyond_vertex(position_, f_a, f_b, g_a, g_b);
 }
 
-/// Takes new faces from `first` on in hand. What they know of their own corners: the planes through them.
+/// Begins with new faces from `first` on. Sides of their own corners follow from the planes that pass through them.
 void IntersectTest::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
     first_ = first;
     const int count = std::min(star.face_count() - first, StarPlanes::kMost);
@@ -208,7 +208,7 @@ IntersectTest::Place& IntersectTest::find_place(const Mesh& mesh, VertexId v, in
     return place;
 }
 
-/// Is it beyond doubt that the face does not meet any new face, comes near none, and is not swept over?
+/// Does the face meet a new face, come too close to one, or lie in the space swept?
 Verdict IntersectTest::look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
     const auto& v = mesh[f].vertices;
     const Place &p = place_of(mesh, v[0], 0), &q = place_of(mesh, v[1], 1), &r = place_of(mesh, v[2], 2);
@@ -246,7 +246,7 @@ bool IntersectTest::pinches(const Mesh& mesh, const EdgeStar& star, const ShapeB
     return false;
 }
 
-/// Does the face meet one of the new faces named? Its own planes tell most apart.
+/// Does the face meet one of these new faces? Its own planes separate most pairs.
 bool IntersectTest::meets(const Mesh& mesh, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
     const PlacedFace own{
         {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},

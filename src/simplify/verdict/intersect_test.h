@@ -1,4 +1,4 @@
-// Would the merged vertex's faces come too close to any other face? (P tests 2 and 6; DESIGN 6: `pinch`, `intersect`)
+// Would the faces of the merged vertex come too close to any other face? (P tests 2 and 6: `pinch`, `intersect`)
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ public:
                     const ShapeBounds& bounds);
 
 private:
-    /// What is known of a vertex near the star.
+    /// A vertex near the star, looked up once.
     struct Place {
         std::uint64_t key = 0;  // search and vertex
         Sides sides;
@@ -61,8 +61,8 @@ private:
     Vec3 position_;
     Box box_;  // of all that the star sweeps
     StarPlanes planes_;
-    int first_ = 0;                                           // of the new faces in hand
-    Sides apex_;                                              // of their apexes: where they are not, for sure
+    int first_ = 0;                                           // of the new faces under test
+    Sides apex_;                                              // of their apexes: the opposite of their certain sides
     std::vector<Place> table_ = std::vector<Place>(kPlaces);  // by vertex, hashed
     std::uint32_t search_ = 0, used_ = 0;
     std::array<Place, 3> spare_;  // for the corners of a face when the table is full

@@ -55,7 +55,7 @@ bool closes_loop_of_lines(const Mesh& mesh, const EdgeStar& star) {
     });
 }
 
-/// Would an edge come to lie on an edge of the box that lay beside it before? Where the box has faces this is a loop of
+/// Would the collapse move an edge onto an edge of the box? Where the box has faces this is a loop of
 /// lines; where it has none (not capped, or background) the rim of a sheet would close on itself unseen.
 bool lands_on_box_edge(const Mesh& mesh, const EdgeStar& star) {
     const SideSet stays = mesh[star.stays].sides, both = stays & mesh[star.goes].sides;

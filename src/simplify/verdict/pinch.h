@@ -1,4 +1,4 @@
-// Do faces of the new star come too close to faces beside it? (P test 2)
+// Do faces of the new star come too close to neighbouring faces? (P test 2)
 #pragma once
 
 #include "simplify/edge_star.h"
@@ -19,11 +19,11 @@ struct KeptFace {
     bool is_on_line;  // three or more faces may be at the edge
 };
 
-/// Pinch at an edge from `stays` that a face beside the star has: does new face n come closer than 5 degrees to that
+/// Pinch at an edge from `stays` that a face outside the star has: does new face n come closer than 5 degrees to that
 /// face, or has it taken a place beyond it? `at_a` tells which of its corners the other end of the edge is.
 bool pinches_beside(const EdgeStar& star, int n, bool at_a, const KeptFace& kept, const ShapeBounds& bounds);
 
-/// Both for all edges that the star shares with its surroundings, looked up in the model.
+/// Both for all edges that the star shares with its surroundings, looked up in the mesh.
 bool pinches_around(const Mesh& mesh, const EdgeStar& star, Vec3 position, const ShapeBounds& bounds);
 
 }  // namespace regionmesh
