@@ -24,7 +24,7 @@ int main() {
         // Any labelled triangles can come in this way.
         regionmesh::LabelledMesh other = regionmesh::import_arrays(arrays);
         const auto target = static_cast<std::uint32_t>(arrays.faces.size() / 2);
-        regionmesh::decimate(other.mesh, {.target_faces = target});
+        regionmesh::simplify(other.mesh, {.target_faces = target});
         const regionmesh::MeshArrays fewer = regionmesh::export_arrays(other.mesh, other.labels);
         const regionmesh::CheckReport report = regionmesh::check(other.mesh);
         std::printf("%zu faces, then %zu; %llu violations\n", arrays.faces.size(), fewer.faces.size(),

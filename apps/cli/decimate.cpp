@@ -10,9 +10,9 @@
 namespace regionmesh::cli {
 namespace {
 
-DecimateOptions to_options(const Settings& settings, const Mesh& mesh) {
+SimplifyOptions to_options(const Settings& settings, const Mesh& mesh) {
     const ReconstructOptions& asked = settings.reconstruct;
-    DecimateOptions options;
+    SimplifyOptions options;
     if (asked.target_faces)
         options.target_faces =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
@@ -22,23 +22,24 @@ DecimateOptions to_options(const Settings& settings, const Mesh& mesh) {
     options.min_quality = asked.min_quality;
     options.perturbation = asked.perturbation;
     options.intersect_check = asked.intersect_check;
+    options.placement = asked.placement;
+    options.threads = asked.threads;
     options.scale = typical_edge(mesh);
     return options;
 }
 
-/// Decimates, and reports it as reconstruct does.
-Report decimated(Mesh& mesh, const DecimateOptions& options) {
+/// Simplifies, and reports it as reconstruct does.
+Report simplified(Mesh& mesh, const SimplifyOptions& options) {
     Report report;
     report.initial_faces = report.peak_faces = mesh.face_count();
     report.initial_vertices = mesh.vertex_count();
     {
         const Timer timer(report.seconds["decimate"]);
-        const std::size_t mesh_bytes = mesh.bytes();
-        const DecimateResult done = decimate(mesh, options);
+        const SimplifyResult done = simplify(mesh, options);
         report.verdicts = done.verdicts;
         report.refreshes = done.refreshes;
         report.stopped = to_string(done.stopped);
-        report.bytes_per_face = static_cast<double>(mesh_bytes + done.bytes) / report.peak_faces;
+        report.bytes_per_face = static_cast<double>(done.bytes) / report.peak_faces;
     }
     report.final_faces = mesh.face_count();
     report.final_vertices = mesh.vertex_count();
@@ -61,9 +62,8 @@ int run_decimate(const Settings& settings) {
     MeshFile file = read_mesh(settings.models.front(), settings.surface);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
-    file.mesh.sort_spatially();
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
-    Report report = decimated(file.mesh, to_options(settings, file.mesh));
+    Report report = simplified(file.mesh, to_options(settings, file.mesh));
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);

@@ -11,6 +11,7 @@
 #include "regionmesh/mesh.h"
 #include "regionmesh/report.h"
 #include "regionmesh/section_reader.h"
+#include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/tetrahedron_reader.h"
 
@@ -18,12 +19,13 @@ namespace regionmesh {
 
 /// Options of a run. The words are those of the command line.
 struct ReconstructOptions {
-    std::optional<std::uint64_t> target_faces = {};  // decimate to this number of faces or fewer
-    std::optional<double> reduce = {};               // or remove this share of the faces, 0 to 1
-    std::optional<double> max_error = {};            // or up to this rms distance, in the unit of the spacing
-    SmoothOptions smooth = {};                       // its scale, quality, tests and threads are set from the run
-    double min_quality = 0.1;                        // of every face that smoothing or decimation changes
-    double perturbation = 1e-7;                      // of costs: share of scale^4, hashed from the edge (P 4.5)
+    std::optional<std::uint64_t> target_faces = {};     // decimate to this number of faces or fewer
+    std::optional<double> reduce = {};                  // or remove this share of the faces, 0 to 1
+    std::optional<double> max_error = {};               // or up to this rms distance, in the unit of the spacing
+    SmoothOptions smooth = {};                          // its scale, quality, tests and threads are set from the run
+    double min_quality = 0.1;                           // of every face that smoothing or decimation changes
+    double perturbation = 1e-7;                         // of costs: share of scale^4, hashed from the edge (P 4.5)
+    PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool preserve_volume = false;  // finally give each region its volume before smoothing and decimation
     bool decimate = true;          // false: no decimation, even with a target
     bool intersect_check = true;

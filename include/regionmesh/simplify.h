@@ -1,6 +1,7 @@
-// The whole loop: rank the candidate edges, collapse the cheapest that no verdict forbids, refresh, stop (P 3.5-3.7).
+// Fewer faces, the same regions: the whole loop on all threads (P 3.5-3.7).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -10,20 +11,24 @@
 
 namespace regionmesh {
 
-struct DecimateOptions {
-    std::uint32_t target_faces = 0;                              // stop at this many faces or fewer
-    double max_cost = std::numeric_limits<double>::infinity();   // cost level, squared length times area
-    double max_error = std::numeric_limits<double>::infinity();  // rms distance to the planes gathered, in length
-    double min_quality = 0.1;                                    // of modified faces; 0 for no bound
+/// Where a merged vertex goes, and what ranks its edge.
+///   quadric         the least sum of squared distances to the planes gathered (Garland and Heckbert 1997).
+///   lindstrom-turk  the volumes of all regions stay, and the squared volume swept is least; nothing is kept from one
+///                   collapse to the next (Lindstrom and Turk 1998, 1999).
+enum class PlacementKind { kQuadric, kLindstromTurk };
+inline constexpr std::array<const char*, 2> kPlacementNames{"quadric", "lindstrom-turk"};
+
+struct SimplifyOptions {
+    std::uint32_t target_faces = 0;                              // stop at this number of faces or fewer
+    double max_cost = std::numeric_limits<double>::infinity();   // threshold: squared length times area
+    double max_error = std::numeric_limits<double>::infinity();  // rms distance to the planes gathered, a length
+    double min_quality = 0.1;                                    // of changed faces; 0 for no bound
     double perturbation = 1e-7;  // largest share of scale^4 added to a cost, hashed from the edge (P 4.5)
-    double scale = 1;            // length of a typical edge: the sample spacing
+    double scale = 1;            // length of a typical edge: the sample spacing, or typical_edge(mesh)
     bool intersect_check = true;
-    bool refresh = true;  // begin again when candidates run out (P 3.7)
-    Box limits{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL},
-               {HUGE_VAL, HUGE_VAL, HUGE_VAL}};  // merged vertices stay strictly inside, unless on a
-                                                 // side of the box, and faces that reach out stay as they
-                                                 // are: beyond lies what was not read yet
-    std::function<void()> on_progress = {};      // called now and then
+    PlacementKind placement = PlacementKind::kQuadric;
+    std::uint32_t threads = 0;               // at work at a time; 0: one per core. The result is the same
+    std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };
 
 enum class StopReason { kTarget, kMaxError, kTopology };
@@ -33,17 +38,21 @@ constexpr const char* to_string(StopReason reason) {
     return reason == StopReason::kTarget ? "target" : reason == StopReason::kMaxError ? "max_error" : "topology";
 }
 
-struct DecimateResult {
-    VerdictCounts verdicts{};     // strata: edges that cannot be candidates, counted once a refresh
-    std::uint32_t refreshes = 0;  // times that the candidates were gathered after the first
+struct SimplifyResult {
+    VerdictCounts verdicts{};       // strata: edges that cannot be candidates, counted once a refresh
+    std::uint32_t tile_passes = 0;  // passes over the mesh tile by tile
+    std::uint32_t refreshes = 0;    // times that the candidates of the last trim were gathered after the first
     StopReason stopped = StopReason::kTarget;
-    std::size_t bytes = 0;  // of the structures beside the model
+    std::size_t bytes = 0;  // held at most, the mesh included
 };
 
-/// Decimates in place. Fixed vertices neither move nor go; everything else may. Candidates are edges between vertices
-/// that are not fixed. Quadrics are gathered from the model as it comes (each face a third of its area to each vertex;
-/// edges of lines the planes square to each face). Deterministic. Requires that every vertex that is not fixed has all
-/// its faces in the model. Renumbers faces. Fast when vertices and faces lie along a curve (Mesh::sort_spatially).
-DecimateResult decimate(Mesh& mesh, const DecimateOptions& options);
+/// Simplifies in place: large meshes tile by tile on all threads, up to a threshold that leaves a little more than the
+/// target; then the whole mesh on one thread, cheapest edge first, down to the target (docs/decimate.md,
+/// docs/tiles.md). Fixed vertices (Vertex::is_fixed) neither move nor go, and no edge that ends in one is collapsed;
+/// everything else may. A target below what topology and quality allow is not reached; `stopped` says why. Renumbers
+/// vertices and faces. Deterministic: the result depends on the mesh and the options, not on `threads`. `max_error`
+/// bounds the distance to the surface as it is at the beginning of each pass, not the sum over passes. Requires that
+/// every vertex that is not fixed has all its faces in the mesh.
+SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options);
 
 }  // namespace regionmesh

@@ -6,13 +6,17 @@
 
 namespace regionmesh {
 
-/// In the order of the tests (docs/decimate.md), cheap ones first; a collapse is refused with the first that fails.
+/// In the order of the tests, cheap ones first; a collapse is refused with the first that fails (docs/decimate.md).
 enum class Verdict { kAccepted, kStrata, kLink, kFold, kQuality, kPinch, kIntersect };
 
-inline constexpr int kVerdictCount = 7;
-inline constexpr std::array<const char*, kVerdictCount> kVerdictNames{"accepted", "strata", "link",     "fold",
-                                                                      "quality",  "pinch",  "intersect"};
+inline constexpr std::array kVerdictNames{"accepted", "strata", "link", "fold", "quality", "pinch", "intersect"};
+inline constexpr int kVerdictCount = static_cast<int>(kVerdictNames.size());
 
+/// Number of collapses by verdict.
 using VerdictCounts = std::array<std::uint64_t, kVerdictCount>;
+
+inline void add(VerdictCounts& counts, const VerdictCounts& more) {
+    for (int n = 0; n < kVerdictCount; ++n) counts[n] += more[n];
+}
 
 }  // namespace regionmesh

@@ -77,7 +77,7 @@ Rows run_rows() {
             {.name = "threads",
              .help = "number of threads; 0: one per core. The result is the same for any number",
              .group = kGroup,
-             .commands = kReconstruct | kSmooth | kCheck | kCompare},
+             .commands = kDecimators | kSmooth | kCheck | kCompare},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
         option({.name = "quiet",
                 .help = "print nothing but errors",

@@ -49,6 +49,13 @@ Rows decimation_rows() {
                 .group = kGroup,
                 .commands = kDecimators},
                [](Settings& s) { return &s.reconstruct.perturbation; }),
+        word_option({.name = "placement",
+                     .help = "where a collapse puts the merged vertex: quadric, nearest to the planes of the merged "
+                             "faces; lindstrom-turk, keeping all volumes",
+                     .group = kGroup,
+                     .commands = kDecimators},
+                    {kPlacementNames.begin(), kPlacementNames.end()},
+                    [](Settings& s, std::size_t word) { s.reconstruct.placement = static_cast<PlacementKind>(word); }),
         inverted_flag({.name = "no-decimate",
                        .help = "do not decimate, whatever the targets",
                        .group = kGroup,

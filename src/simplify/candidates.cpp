@@ -13,8 +13,8 @@ constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-Candidates::Candidates(const Mesh& mesh, const VertexQuadrics& quadrics, const DecimateOptions& options)
-    : mesh_(mesh), quadrics_(quadrics), options_(options), heap_(mesh.vertex_end()) {
+Candidates::Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options)
+    : mesh_(mesh), placement_(placement), options_(options), heap_(mesh.vertex_end()) {
     partner_.resize(mesh.vertex_end(), kNoVertex);
     floor_.resize(mesh.vertex_end(), kNoFloor);
 }
@@ -42,7 +42,7 @@ void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
     } else {
         count_edge_labels(v, found);
     }
-    find_edge_costs(mesh_, quadrics_, v, found.vertices, found.costs);
+    placement_.rank(mesh_, v, found.vertices, found.costs);
 }
 
 void Candidates::count_edge_labels(VertexId v, Neighbours& found) {
@@ -75,7 +75,7 @@ VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
     return a_may ? a : b_may ? b : kNoVertex;
 }
 
-/// Rank of an edge; infinite beyond the cost level or the largest error.
+/// Rank of an edge; infinite above the threshold or the largest error.
 float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
     constexpr float kNever = std::numeric_limits<float>::infinity();
     if (!(edge.cost <= options_.max_cost)) return kNever;

@@ -1,20 +1,20 @@
-// Which edges may be collapsed, what each would cost, and the heap that ranks them.
+// The edges that may be collapsed, their costs, and the heap that ranks them.
 #pragma once
 
 #include <vector>
 
 #include "mesh/label_set.h"
 #include "regionmesh/simplify.h"
-#include "simplify/edge_costs.h"
 #include "simplify/edge_heap.h"
+#include "simplify/placement.h"
 
 namespace regionmesh {
 
-/// Ranks the candidate edges of a model. An edge is a candidate when its label set is that of the end that goes, which
+/// Ranks the candidate edges of a mesh. An edge is a candidate when its label set is that of the end that goes, which
 /// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
 class Candidates {
 public:
-    Candidates(const Mesh& mesh, const VertexQuadrics& quadrics, const DecimateOptions& options);
+    Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options);
 
     /// Gathers all candidates anew. Returns the number of edges that strata forbid.
     std::uint64_t refresh();
@@ -28,6 +28,7 @@ public:
     /// After a collapse: `goes` has left, and the edges round `stays` are ranked again.
     void update(VertexId goes, VertexId stays);
 
+    static constexpr std::size_t kBytesPerVertex = EdgeHeap::kBytesPerVertex + sizeof(VertexId) + sizeof(float);
     std::size_t bytes() const;
 
 private:
@@ -57,8 +58,8 @@ private:
     void rank(VertexId v, Best best);
 
     const Mesh& mesh_;
-    const VertexQuadrics& quadrics_;
-    const DecimateOptions& options_;
+    Placement& placement_;
+    const SimplifyOptions& options_;
     FlatArray<VertexId> partner_;  // where the cheapest edge of a vertex in the heap leads
     FlatArray<float> floor_;       // edges up to this key were refused since the last change
     EdgeHeap heap_;

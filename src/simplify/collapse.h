@@ -1,10 +1,36 @@
-// One collapse: the model and its tree afterwards.
+// One collapse: what its tests look at, and the mesh and its tree afterwards.
 #pragma once
+
+#include <optional>
 
 #include "mesh/face_tree.h"
 #include "simplify/edge_star.h"
+#include "simplify/verdict/intersect_test.h"
+#include "simplify/verdict/shape_bounds.h"
 
 namespace regionmesh {
+
+/// The box that holds everything.
+inline constexpr Box kUnbounded{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+
+/// Places for the merged vertex; of two, the one that leaves the better worst face is taken.
+struct Places {
+    Vec3 first;
+    std::optional<Vec3> second = {};
+};
+
+/// The collapse under test. Reused from one to the next, so that nothing is allocated in the long run.
+struct Collapse {
+    const Mesh& mesh;
+    const FaceTree& tree;
+    ShapeBounds bounds;
+    Box limits = kUnbounded;  // a merged vertex that moves stays strictly inside, unless on a side of the box
+    bool intersect_check = true;
+    EdgeStar star = {};
+    Vec3 position = {};         // of the merged vertex
+    double worst_quality3 = 0;  // third power of the least quality of a changed face
+    IntersectTest intersect = {};
+};
 
 /// Collapses the edge whose star is given, and moves `stays` to `position`.
 inline void collapse_edge(Mesh& mesh, FaceTree& tree, const EdgeStar& star, Vec3 position) {

@@ -79,7 +79,7 @@ struct Systems {
     }
 };
 
-/// The least of the quadrics of v and of four neighbours, `way` from v, drawn toward the middle as in place().
+/// The least of the quadrics of v and of four neighbours, `way` from v, drawn toward the middle as in least_cost().
 Float4 least_costs(const Quadrics& own, const Quadrics& other, const Lanes3<Float4>& way, const Locks& locks,
                    Float4& weight) {
     const Lanes3<Float4> half{all_four(0.5f) * way.x, all_four(0.5f) * way.y, all_four(0.5f) * way.z};

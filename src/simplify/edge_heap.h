@@ -48,6 +48,7 @@ public:
         else
             sink(place, last);
     }
+    static constexpr std::size_t kBytesPerVertex = 12;  // an entry and a place, at most
     std::size_t bytes() const { return entries_.bytes() + place_.bytes(); }
 
 private:
@@ -85,6 +86,8 @@ private:
         }
         put(place, entry);
     }
+
+    static_assert(kBytesPerVertex == sizeof(Entry) + sizeof(std::uint32_t));
 
     FlatArray<Entry> entries_;
     FlatArray<std::uint32_t> place_;

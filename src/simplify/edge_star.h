@@ -1,4 +1,4 @@
-// Everything round an edge that a collapse touches.
+// The faces and vertices round an edge that a collapse changes.
 #pragma once
 
 #include <vector>
@@ -48,6 +48,12 @@ struct EdgeStar {
         const double level = at_goes[axis];
         return at_stays[axis] == level && link_box.low[axis] == level && link_box.high[axis] == level;
     }
+    /// Where the whole star lies in a plane square to an axis, a position in it, to the last bit.
+    Vec3 kept_level(Vec3 position) const {
+        for (int axis = 0; axis < 3; ++axis)
+            if (is_level(axis)) position[axis] = at_goes[axis];
+        return position;
+    }
     Vec3 new_normal(int n) const { return pairs[n / 2].new_normal[n % 2]; }
     double new_length2(int n) const { return pairs[n / 2].new_length2[n % 2]; }
 };
@@ -60,7 +66,7 @@ inline bool is_on_line(const Mesh& mesh, const EdgeStar& star, VertexId end) {
 /// Collects the star. Requires that goes-stays is an edge.
 void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star);
 
-/// Collects all faces of a vertex as if it would go, nowhere yet.
+/// Collects all faces of a vertex that may go, before its target is known.
 void gather_vertex(const Mesh& mesh, VertexId goes, EdgeStar& star);
 
 /// Collects the faces of `goes` only. Requires that goes-stays is an edge.

@@ -1,38 +1,60 @@
-// Where a merged vertex goes, and what that costs.
+// Where a merged vertex goes, and what that costs: one policy for ranking and collapse.
 #pragma once
 
-#include "regionmesh/label.h"
-#include "simplify/quadric.h"
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "regionmesh/simplify.h"
+#include "simplify/collapse.h"
 
 namespace regionmesh {
 
-struct Placement {
-    Vec3 position;
-    double cost;  // squared length times area
+/// The cost of an edge, a squared length times an area; the weight that the cost is a sum over, so that cost / weight
+/// is a mean squared distance; and the key that the edge is ranked by, which draws short edges forward.
+struct EdgeCost {
+    float cost, weight, rank;
 };
 
-/// Share of the sum of weights that draws toward the middle of the edge.
-inline constexpr double kRegularisation = 1e-3;
-
-/// Share of weight times squared length that is added to a cost when edges are ranked: of edges that cost about the
-/// same the shorter goes first. Faces stay rounder, and far fewer collapses are refused (docs/decimate.md).
-inline constexpr double kLengthShare = 3e-4;
-
-/// The two ends of an edge, each with its quadric relative to itself. `stays` has every side that `goes` has.
-struct EdgeEnds {
-    Vec3 goes, stays;
-    const PackedQuadric &goes_quadric, &stays_quadric;
-    SideSet stays_sides;
+/// The same for a vertex that goes to a neighbour, which stays where it is.
+struct HalfCost {
+    double cost, weight;
 };
 
-/// The least cost, regularised toward the middle of the edge so that flat neighbourhoods have one answer; on sides of
-/// the box the merged vertex keeps the coordinate of `stays` exactly.
-Placement place(const EdgeEnds& edge);
+/// One instance serves one mesh from its first collapse to its last. Calls come from one thread.
+class Placement {
+public:
+    virtual ~Placement() = default;
 
-/// The cost of a given place.
-double cost_at(const EdgeEnds& edge, Vec3 position);
+    /// Costs of the edges from v to each of `to`, in floats: to rank by. `costs` gets a multiple of four.
+    virtual void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) = 0;
 
-/// Both quadrics together, relative to `origin`.
-Quadric merged_quadric(const EdgeEnds& edge, Vec3 origin);
+    /// Costs where the vertex of `around` (gather_vertex) goes to each of `to`.
+    virtual void rank_halves(const Mesh& mesh, const EdgeStar& around, std::span<const VertexId> to,
+                             std::vector<HalfCost>& costs) = 0;
+
+    /// Where the merged vertex of a star goes (gather). On sides of the box it keeps the coordinates of `stays`, and in
+    /// a star that lies in a plane square to an axis it keeps that coordinate.
+    virtual Places place(const Mesh& mesh, const EdgeStar& star) = 0;
+
+    /// The star is about to be collapsed to `position`.
+    virtual void collapse(const Mesh& mesh, const EdgeStar& star, Vec3 position) = 0;
+
+    /// Cost up to which the prepass collapses, in units of scale^4.
+    virtual double prepass_cost() const = 0;
+
+    virtual std::size_t bytes() const = 0;
+};
+
+/// On a flat star every place in its plane has the same cost: the average of the link often leaves better faces (P
+/// quality test 2). Coordinates on sides of the box stay.
+Vec3 average_of_link(const Mesh& mesh, const EdgeStar& star);
+
+/// Requires the label counts of the vertices (count_labels).
+std::unique_ptr<Placement> make_placement(const Mesh& mesh, const SimplifyOptions& options);
+
+/// The rows of the table in placement.cpp; each is one file.
+std::unique_ptr<Placement> make_quadric_placement(const Mesh& mesh, const SimplifyOptions& options);
+std::unique_ptr<Placement> make_lindstrom_turk_placement(const Mesh& mesh, const SimplifyOptions& options);
 
 }  // namespace regionmesh

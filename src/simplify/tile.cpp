@@ -5,7 +5,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kRim = BoxedFaces::kRim, kNone = BoxedFaces::kNone;
+constexpr std::uint32_t kLocked = TiledFaces::kLocked, kNone = TiledFaces::kNone;
 constexpr std::uint32_t kFree = 0xFFFFFFFFu;
 constexpr std::size_t kFirstRoom = 1024;
 
@@ -43,53 +43,53 @@ void NumberTable::grow() {
         if (item.key != kFree) items_[find(item.key)] = item;
 }
 
-void Tile::take_out(BoxedFaces& faces, std::uint32_t box) {
-    const auto own = faces.faces_of(box);
-    const auto obstacles = faces.obstacles_of(box);
+void Tile::take_out(TiledFaces& faces, std::uint32_t tile) {
+    const auto own = faces.faces_of(tile);
+    const auto halo = faces.halo_of(tile);
     mesh_ = {};
-    mesh_.reserve((own.size() + obstacles.size()) * 5 / 8, own.size() + obstacles.size());
+    mesh_.reserve((own.size() + halo.size()) * 5 / 8, own.size() + halo.size());
     inside_count_ = 0;
     locals_.clear();
-    rim_.clear();
+    locked_.clear();
     for (std::uint32_t f : own) put_in(faces, f);
-    for (const KeyedIndex& obstacle : obstacles) put_in(faces, obstacle.index);
+    for (const KeyedIndex& face : halo) put_in(faces, face.index);
     sorted_ = mesh_.sort_spatially();
 }
 
-void Tile::put_in(BoxedFaces& faces, std::uint32_t f) {
-    const ChunkFace& face = faces.batch().faces[f];
+void Tile::put_in(TiledFaces& faces, std::uint32_t f) {
+    const ChunkFace& face = faces.chunk().faces[f];
     std::array<VertexId, 3> corner;
     for (int c = 0; c < 3; ++c) {
         const std::uint32_t local = face.vertices[c];
-        const bool is_rim = faces.is_rim(local);
-        std::uint32_t& place = is_rim ? rim_[local] : faces.place(local);
+        const bool is_locked = faces.is_locked(local);
+        std::uint32_t& place = is_locked ? locked_[local] : faces.place(local);
         if (place == kNone) {
             const ChunkVertex& vertex = faces.vertex(local);
-            place = index(mesh_.add_vertex(vertex.position, vertex.sides, is_rim));
+            place = index(mesh_.add_vertex(vertex.position, vertex.sides, is_locked));
             locals_.push_back(local);
-            inside_count_ += !is_rim;
+            inside_count_ += !is_locked;
         }
         corner[c] = VertexId{place};
     }
     mesh_.add_face(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]);
 }
 
-/// Faces all of rim vertices have not changed, and may be in several tiles: those of the box itself count.
-void Tile::note_left(BoxedFaces& faces, std::uint32_t box) {
+/// A face with three locked vertices has not changed, and may be in several tiles: the one that it belongs to keeps it.
+void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
     left_vertices_.clear();
     left_faces_.clear();
-    const auto is_rim = [&](std::uint32_t local) { return faces.is_rim(local); };
-    for (std::uint32_t f : faces.faces_of(box)) {
-        ChunkFace face = faces.batch().faces[f];
-        if (!std::all_of(face.vertices.begin(), face.vertices.end(), is_rim)) continue;
-        for (std::uint32_t& v : face.vertices) v = kRim | faces.rim_number(v);
+    const auto is_locked = [&](std::uint32_t local) { return faces.is_locked(local); };
+    for (std::uint32_t f : faces.faces_of(tile)) {
+        ChunkFace face = faces.chunk().faces[f];
+        if (!std::all_of(face.vertices.begin(), face.vertices.end(), is_locked)) continue;
+        for (std::uint32_t& v : face.vertices) v = kLocked | faces.locked_number(v);
         left_faces_.push_back(face);
     }
     number_.assign(mesh_.vertex_end(), kNone);
     for (std::uint32_t n = 0; n < locals_.size(); ++n) {
         const std::uint32_t local = locals_[n];
-        if (faces.is_rim(local))
-            number_[index(sorted_[n])] = kRim | faces.rim_number(local);
+        if (faces.is_locked(local))
+            number_[index(sorted_[n])] = kLocked | faces.locked_number(local);
         else
             faces.place(local) = kNone;
     }
@@ -97,7 +97,7 @@ void Tile::note_left(BoxedFaces& faces, std::uint32_t box) {
         if (!mesh_.is_alive(FaceId{f})) continue;
         const auto& corners = mesh_[FaceId{f}].vertices;
         ChunkFace face{{}, mesh_[FaceId{f}].labels};
-        std::uint32_t of_rim = kRim;
+        std::uint32_t all_locked = kLocked;
         for (int c = 0; c < 3; ++c) {
             std::uint32_t& number = number_[index(corners[c])];
             if (number == kNone) {
@@ -105,9 +105,9 @@ void Tile::note_left(BoxedFaces& faces, std::uint32_t box) {
                 left_vertices_.push_back({mesh_[corners[c]].position, mesh_[corners[c]].sides});
             }
             face.vertices[c] = number;
-            of_rim &= number;
+            all_locked &= number;
         }
-        if (of_rim == 0) left_faces_.push_back(face);
+        if (all_locked == 0) left_faces_.push_back(face);
     }
 }
 
@@ -116,7 +116,7 @@ void Tile::put_back(Chunk& made) const {
     made.vertices.insert(made.vertices.end(), left_vertices_.begin(), left_vertices_.end());
     for (const ChunkFace& left : left_faces_) {
         ChunkFace& face = made.faces.emplace_back(left);
-        for (std::uint32_t& v : face.vertices) v = (v & kRim) != 0 ? v & ~kRim : first + v;
+        for (std::uint32_t& v : face.vertices) v = (v & kLocked) != 0 ? v & ~kLocked : first + v;
     }
 }
 

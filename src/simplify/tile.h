@@ -1,4 +1,4 @@
-// One box's faces as a model of their own: taken out of a batch, decimated with the rim fixed, and ready to go back.
+// The faces of one tile as a mesh of their own: taken out of a chunk, simplified with locked vertices fixed, put back.
 #pragma once
 
 #include <cstdint>
@@ -6,15 +6,15 @@
 
 #include "regionmesh/mesh.h"
 #include "regionmesh/simplify.h"
-#include "simplify/boxed_faces.h"
+#include "simplify/tiled_faces.h"
 
 namespace regionmesh {
 
-/// Finds the numbers of a few among many: open addressing, by the low bits of a product.
+/// Numbers of a few keys out of many: a hash table with open addressing.
 class NumberTable {
 public:
     void clear();
-    /// The place of the number for a key; kNone in it where there is none yet.
+    /// The number of a key, to read or set; kNone at first.
     std::uint32_t& operator[](std::uint32_t key);
 
 private:
@@ -25,34 +25,34 @@ private:
     std::uint32_t used_ = 0;
 };
 
-/// Used for one box after the other, so that its arrays keep their room.
+/// Used for one tile after the other, so that its arrays keep their room.
 class Tile {
 public:
-    /// Takes the box's faces and its obstacles. Threads may do so for different boxes at the same time.
-    void take_out(BoxedFaces& faces, std::uint32_t box);
-    /// The faces taken out, along a curve, and the vertices that they share; rim is fixed.
+    /// Takes the faces of the tile and its halo. Threads may do so for different tiles at the same time.
+    void take_out(TiledFaces& faces, std::uint32_t tile);
+    /// The faces taken out, along a curve, and their vertices; locked ones are fixed.
     Mesh& mesh() { return mesh_; }
-    /// Notes what is left of the box's own faces. The box may then be taken out again.
-    void note_left(BoxedFaces& faces, std::uint32_t box);
-    /// Appends it: corners that are rim have their numbers already.
+    /// Notes which of the tile's own faces are left. The tile may then be taken out again.
+    void note_left(TiledFaces& faces, std::uint32_t tile);
+    /// Appends them to a chunk that begins with the locked vertices.
     void put_back(Chunk& made) const;
 
     std::size_t left_faces() const { return left_faces_.size(); }
-    /// Vertices that are not rim: as taken out, and those left.
+    /// Vertices that are not locked: taken out, and left.
     std::size_t inside_count() const { return inside_count_; }
     std::size_t left_inside() const { return left_vertices_.size(); }
 
 private:
-    void put_in(BoxedFaces& faces, std::uint32_t f);
+    void put_in(TiledFaces& faces, std::uint32_t f);
 
     Mesh mesh_;
     std::size_t inside_count_ = 0;
-    std::vector<std::uint32_t> locals_;  // batch numbers of its vertices
-    NumberTable rim_;                    // batch numbers to those of its vertices
-    std::vector<VertexId> sorted_;       // where the vertices went when the model was sorted
-    std::vector<std::uint32_t> number_;  // by vertex of the model: of what is left
+    std::vector<std::uint32_t> locals_;  // chunk numbers of its vertices
+    NumberTable locked_;                 // chunk numbers to those of its vertices
+    std::vector<VertexId> sorted_;       // ids of the vertices after the mesh was sorted
+    std::vector<std::uint32_t> number_;  // by vertex of the mesh: its number among those left
     std::vector<ChunkVertex> left_vertices_;
-    std::vector<ChunkFace> left_faces_;  // corners: kRim and a number of the rim, or one of the vertices left
+    std::vector<ChunkFace> left_faces_;  // corners: kLocked and a locked number, or a number in left_vertices_
 };
 
 }  // namespace regionmesh

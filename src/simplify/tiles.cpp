@@ -2,24 +2,25 @@
 
 #include <algorithm>
 
+#include "simplify/collapse_edges.h"
+
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kTileCells = 24;
-constexpr std::uint32_t kShortestRun = 8;
-constexpr std::uint64_t kSamplesPerRun = 2u << 20;
-
 /// Columns along the sweep.
-BoxGrid grid_of(const TilePlan& plan, RunExtent extent) {
-    BoxGrid grid{.origin = plan.lattice.origin, .spacing = plan.lattice.spacing, .size = {}, .cells = {}};
+TileGrid grid_of(const TilePlan& plan, SafeInterval safe) {
+    const int sweep = plan.sweep.axes[2];
+    TileGrid grid{.origin = plan.lattice.origin,
+                  .spacing = plan.lattice.spacing,
+                  .size = {},
+                  .cells = {},
+                  .extent = box_of(safe, sweep),
+                  .is_bounded = plan.is_bounded};
     for (int axis = 0; axis < 3; ++axis) {
         grid.size[axis] = plan.lattice.size[axis] - 1;
         grid.cells[axis] = plan.tile_cells;
     }
-    const int along = plan.sweep.axes[2];
-    grid.cells[along] = std::max(grid.size[along], 1u);
-    grid.extent.low[along] = extent.low;
-    grid.extent.high[along] = extent.high;
+    grid.cells[sweep] = std::max(grid.size[sweep], 1u);
     return grid;
 }
 
@@ -32,12 +33,12 @@ TilePlan plan_tiles(const Lattice& lattice, Sweep sweep) {
     return {lattice, sweep, strips, kTileCells};
 }
 
-VerdictCounts decimate_tiles(Chunk& batch, std::span<const ChunkVertex> carried, RunExtent extent, const TilePlan& plan,
-                             const TileOptions& options) {
-    const BoxGrid grid = grid_of(plan, extent);
-    BoxedFaces faces(batch, carried, grid, options.threads);
-    TileResult result = decimate_boxes(faces, options);
-    batch = std::move(result.left);
+VerdictCounts simplify_run(Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe, const TilePlan& plan,
+                           const TileOptions& options) {
+    const TileGrid grid = grid_of(plan, safe);
+    TiledFaces faces(chunk, carried, grid, options.threads);
+    TileResult result = simplify_tiles(faces, options);
+    chunk = std::move(result.left);
     return result.verdicts;
 }
 

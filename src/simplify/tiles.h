@@ -1,34 +1,31 @@
-// The first stage of decimation: boxes of cells, each worked on alone and in cache, before they reach the model.
+// The first stage: the tiles of a run of strips, before they join the mesh.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "mesh/chunk.h"
+#include "mesh/safe_interval.h"
 #include "regionmesh/lattice.h"
-#include "simplify/simplify_boxes.h"
+#include "simplify/simplify_tiles.h"
 
 namespace regionmesh {
 
-/// How a volume is cut: from its size only, so that nothing else changes the result.
+/// How a volume is cut into tiles: from its size only, so that nothing else changes the result.
 struct TilePlan {
     Lattice lattice;  // whose origin and spacing made the positions
     Sweep sweep;
-    std::uint32_t run_strips;  // strips of a run; the tiles of a run are so long along the sweep
-    std::uint32_t tile_cells;  // and so wide along the other two axes
+    std::uint32_t run_strips;  // strips of a run, and length of its tiles along the sweep
+    std::uint32_t tile_cells;  // width of a tile along the other two axes
+    bool is_bounded = true;    // false: vertices may move beyond the lattice
 };
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
 
-/// Along the sweep faces of earlier runs reach up to `low` at most, those of later ones down to `high`.
-struct RunExtent {
-    double low, high;
-};
-
-/// Decimates the batch of a whole run in place, tile by tile. Vertices that two tiles share, or that are carried or
-/// open, are fixed, and so are those of faces that reach out of their tile's box; a tile's merged vertices stay
-/// strictly inside its box, so that what two tiles change cannot meet. `carried` are the batch's carried vertices. The
-/// order of tiles, vertices and faces depends on the batch.
-VerdictCounts decimate_tiles(Chunk& batch, std::span<const ChunkVertex> carried, RunExtent extent, const TilePlan& plan,
-                             const TileOptions& options);
+/// Simplifies the chunk of a whole run in place, tile by tile, up to the threshold of the options. Locked vertices and
+/// faces outside the safe interval stay as they are (TiledFaces); a tile's merged vertices stay strictly inside it, so
+/// that the changes of two tiles cannot meet. `carried` are the chunk's carried vertices. The order of tiles, vertices
+/// and faces depends on the chunk only.
+VerdictCounts simplify_run(Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe, const TilePlan& plan,
+                           const TileOptions& options);
 
 }  // namespace regionmesh

@@ -4,17 +4,6 @@
 #include "mesh/strata.h"
 
 namespace regionmesh {
-namespace {
-
-/// Weight of the planes along lines, against that of faces with an edge of the same length.
-constexpr double kLineWeight = 1;
-
-/// Weight of the faces on a hull that is no box, against others: points are where they are, interfaces between them are
-/// not so sure.
-constexpr double kHullWeight = 10;
-
-}  // namespace
-
 VertexQuadrics::VertexQuadrics(const Mesh& mesh) {
     quadrics_.resize(mesh.vertex_end());
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {

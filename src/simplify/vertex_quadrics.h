@@ -3,11 +3,11 @@
 
 #include "regionmesh/flat_array.h"
 #include "regionmesh/mesh.h"
-#include "simplify/placement.h"
+#include "simplify/least_cost.h"
 
 namespace regionmesh {
 
-/// Gathered from the model as it comes: each face gives a third of its area to each vertex; edges of lines give the
+/// Gathered from the mesh as it comes: each face gives a third of its area to each vertex; edges of lines give the
 /// planes square to each face (Garland and Heckbert 1997). Each is relative to its vertex.
 class VertexQuadrics {
 public:
@@ -23,6 +23,7 @@ public:
     void merge(const Mesh& mesh, VertexId goes, VertexId stays, Vec3 position) {
         quadrics_[index(stays)] = PackedQuadric(merged_quadric(ends(mesh, goes, stays), position));
     }
+    static constexpr std::size_t kBytesPerVertex = sizeof(PackedQuadric);
     std::size_t bytes() const { return quadrics_.bytes(); }
 
 private:

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simplify/simplify_boxes.h"
+#include "simplify/simplify_tiles.h"
 #include "smooth/filter.h"
 #include "stream/footprint.h"
 #include "stream/tuning.h"
@@ -48,7 +48,7 @@ BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vect
     demand.fewest_chunk_strips = std::min(demand.chunk_strips, stream::kFewestStrips);
     demand.target_share = is_counted ? std::min(target.share(), 1.0) : 0;
     const double left = shape.strip_overlap > 0 ? stream::kLeftByTilesOfLongFaces : stream::kLeftByTiles;
-    if (const double share = target.share() * stream::kTileMargin; share < 1) demand.tile_share = std::max(share, left);
+    if (const double share = target.share() * kTileMargin; share < 1) demand.tile_share = std::max(share, left);
     return demand;
 }
 

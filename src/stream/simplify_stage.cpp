@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simplify/raise_level.h"
+#include "simplify/collapse_edges.h"
+#include "simplify/threshold_passes.h"
 #include "stream/stage_options.h"
 #include "stream/tuning.h"
 
@@ -63,16 +64,17 @@ void SimplifyStage::bring_to_target() {
 /// Brings the mesh near the goal, tile by tile: mesh -> chunk -> tiles -> chunk -> mesh.
 void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
     const Timer timer = log_.time("raise level");
-    const TileOptions tile_options{.cost_level = 0,
+    const TileOptions tile_options{.threshold = 0,
                                    .keep_share = 0,
                                    .threads = options_.threads,
                                    .in_flight = budget_.in_flight,
-                                   .decimate = decimate_options(options_, shape_.scale)};
+                                   .simplify = simplify_options(options_, shape_.scale)};
     const std::size_t held = mesh_.face_count(), mesh_bytes = mesh_.bytes();
     Chunk whole = merger_.take_apart();
     log_.note_bytes(held, mesh_bytes + whole.vertices.size() * sizeof(ChunkVertex) + held * sizeof(ChunkFace));
     give_back_freed_memory();
-    log_.add(raise_level(whole, plan_.tiles, {.goal_faces = goal, .high = safe_high, .tiles = tile_options}).verdicts);
+    const PassOptions passes{.target_faces = goal, .safe = {.high = safe_high}, .tiles = tile_options};
+    log_.add(simplify_in_passes(whole, plan_.tiles, passes).verdicts);
     merger_.add(whole);
     give_back_freed_memory();
 }
@@ -80,14 +82,13 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
 /// Brings the mesh to the goal exactly, with one heap over all edges.
 void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     const Timer timer = log_.time("decimate");
-    DecimateOptions own = decimate_options(options_, shape_.scale);
+    SimplifyOptions own = simplify_options(options_, shape_.scale);
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
-    own.refresh = is_last;
-    own.limits.high[shape_.axis()] = safe_high;
+    const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()), .refresh = is_last};
     own.on_progress = [&] { log_.report_progress(is_last ? "decimate" : "reconstruct"); };
     const std::uint64_t held = mesh_.face_count();
     const std::size_t mesh_bytes = mesh_.bytes();
-    const DecimateResult done = decimate(mesh_, own);
+    const CollapseResult done = collapse_edges(mesh_, own, bounds);
     log_.add(done.verdicts);
     log_.report().refreshes += done.refreshes;
     stopped_ = done.stopped;

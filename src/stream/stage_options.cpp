@@ -13,13 +13,14 @@ SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
     return own;
 }
 
-DecimateOptions decimate_options(const ReconstructOptions& options, double scale) {
-    DecimateOptions own;
+SimplifyOptions simplify_options(const ReconstructOptions& options, double scale) {
+    SimplifyOptions own;
     if (options.max_error) own.max_error = *options.max_error;
     own.min_quality = options.min_quality * (options.preserve_volume ? stream::kQualityMargin : 1);
     own.perturbation = options.perturbation;
     own.scale = scale;
     own.intersect_check = options.intersect_check;
+    own.placement = options.placement;
     return own;
 }
 

@@ -8,7 +8,7 @@ namespace regionmesh {
 
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 
-/// Without target and safe interval.
-DecimateOptions decimate_options(const ReconstructOptions& options, double scale);
+/// Without a target.
+SimplifyOptions simplify_options(const ReconstructOptions& options, double scale);
 
 }  // namespace regionmesh

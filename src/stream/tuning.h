@@ -5,17 +5,6 @@
 
 namespace regionmesh::stream {
 
-// Tiles (docs/tiles.md).
-
-/// Tiles make collapses up to this cost, in units of spacing^4. Of 0.001, 0.01, 0.03 and 0.1 it is the largest with
-/// the volume error of the smaller ones (docs/tiles.md, "How far").
-inline constexpr double kTileCost = 3e-2;
-/// Tiles stop at this multiple of the share of faces that the target leaves, so that the last collapses are ranked over
-/// the whole mesh.
-inline constexpr double kTileMargin = 1.25;
-/// Zero-cost collapses stop at this multiple of the share, where the target leaves more than kFreeFrom.
-inline constexpr double kFreeMargin = 1.02, kFreeFrom = 0.45;
-
 // The budget (docs/memory.md, "The plan").
 
 /// Chunks are not shortened below this number of strips: nearly all vertices of their tiles would be locked.

@@ -86,7 +86,7 @@ void mesh(const fs::path& path, Random& random) {
     check(file.mesh, {.threads = 1});
     file.mesh.sort_spatially();
     lock_violations(file.mesh, {.threads = 1});
-    decimate(file.mesh, {.target_faces = file.mesh.face_count() / 4});
+    simplify(file.mesh, {.target_faces = file.mesh.face_count() / 4});
 }
 
 constexpr std::size_t kMostTetrahedra = std::size_t{1} << 22;

@@ -45,7 +45,7 @@ TEST(MeshArrays, simplify_without_a_file) {
     const Reconstruction made = grains();
     LabelledMesh mesh = import_arrays(export_arrays(made.mesh, made.labels));
     const std::uint32_t before = mesh.mesh.face_count();
-    decimate(mesh.mesh, {.target_faces = before / 2});
+    simplify(mesh.mesh, {.target_faces = before / 2});
     const MeshArrays arrays = export_arrays(mesh.mesh, mesh.labels);
     EXPECT_LE(arrays.faces.size(), before / 2);
     test::expect_sound(check(import_arrays(arrays).mesh));

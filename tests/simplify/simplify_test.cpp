@@ -2,275 +2,132 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <map>
 #include <set>
 
-#include "base/triangle.h"
+#include "regionmesh/mesh.h"
+#include "simplify/tuning.h"
 #include "support/digest.h"
 #include "support/runs.h"
-#include "support/shapes.h"
+#include "support/strata_list.h"
 
 namespace regionmesh {
 namespace {
 
 using test::run;
 
-std::uint64_t count(const DecimateResult& result, Verdict verdict) {
-    return result.verdicts[static_cast<int>(verdict)];
-}
-
-Mesh noise() { return run(test::noise_volume({8, 8, 8}, 3, 5)).mesh; }
-Mesh grains() { return run(test::grain_volume({12, 12, 12}, 8, 5)).mesh; }
-
-/// The sheet with only its middle edge free.
-Mesh sheet_with_fixed_rim() {
-    Mesh mesh = test::edge_in_sheet();
-    for (std::uint32_t v = 2; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].is_fixed = true;
-    return mesh;
-}
-
-double volume_of(const Mesh& mesh, Label label) {
-    double volume = 0;
-    for (const RegionReport& region : check(mesh).regions)
-        if (region.label == label) volume = region.volume;
-    return volume;
-}
-
-TEST(Decimate, a_box_of_one_label_goes_down_to_twelve_faces) {
-    Mesh mesh = run(test::solid_volume({7, 6, 5})).mesh;
-    const DecimateResult done = decimate(mesh, {});
-    EXPECT_EQ(mesh.face_count(), 12u);
-    EXPECT_EQ(mesh.vertex_count(), 8u);
-    EXPECT_EQ(done.stopped, StopReason::kTopology);
-    EXPECT_EQ(volume_of(mesh, 0), 6 * 5 * 4);
-    test::expect_sound(check(mesh));
-}
-
-TEST(Decimate, does_nothing_at_the_target) {
-    Mesh mesh = noise();
-    const std::uint64_t before = test::digest(mesh);
-    EXPECT_EQ(decimate(mesh, {.target_faces = mesh.face_count()}).stopped, StopReason::kTarget);
-    EXPECT_EQ(test::digest(mesh), before);
-}
-
-TEST(Decimate, stops_at_the_target) {
-    Mesh mesh = grains();
-    const std::uint32_t target = mesh.face_count() / 3;
-    EXPECT_EQ(decimate(mesh, {.target_faces = target}).stopped, StopReason::kTarget);
-    EXPECT_LE(mesh.face_count(), target);
-    EXPECT_GE(mesh.face_count(), target - 6) << "one collapse takes a few faces";
-}
-
-TEST(Decimate, one_free_edge_is_collapsed_once) {
-    Mesh mesh = sheet_with_fixed_rim();
-    const DecimateResult done = decimate(mesh, {});
-    EXPECT_EQ(count(done, Verdict::kAccepted), 1u);
-    EXPECT_EQ(done.verdicts, (VerdictCounts{1}));
-    EXPECT_EQ(mesh.face_count(), 8u);
-}
-
-TEST(Decimate, counts_a_link_verdict) {
-    Mesh mesh = test::shape(test::kTetrahedronCorners, test::tetrahedron_faces());
-    const DecimateResult done = decimate(mesh, {});
-    EXPECT_EQ(done.verdicts, (VerdictCounts{0, 0, 6}));
-    EXPECT_EQ(done.stopped, StopReason::kTopology);
-    EXPECT_EQ(mesh.face_count(), 4u);
-}
-
-TEST(Decimate, counts_edges_that_strata_forbid) {
-    Mesh mesh = run(test::solid_volume({2, 2, 2})).mesh;
-    const DecimateResult done = decimate(mesh, {});
-    EXPECT_EQ(done.verdicts, (VerdictCounts{0, 18})) << "twelve edges and six diagonals between eight points";
-}
-
-TEST(Decimate, counts_a_quality_verdict) {
-    Mesh mesh = sheet_with_fixed_rim();
-    mesh[VertexId{2}].position.y = 0.1;
-    mesh[VertexId{3}].position.y = -0.1;
-    const DecimateResult done = decimate(mesh, {.min_quality = 0.2});
-    EXPECT_EQ(done.verdicts, (VerdictCounts{0, 0, 0, 0, 1}));
-}
-
-/// The sheet as a pyramid frustum: its middle edge lies at this height, and would go up to the tip.
-Mesh frustum(double height) {
-    Mesh mesh = sheet_with_fixed_rim();
-    for (std::uint32_t v : {0u, 1u}) mesh[VertexId{v}].position.z = height;
-    return mesh;
-}
-
-TEST(Decimate, counts_an_intersect_verdict) {
-    Mesh free = frustum(0.5);
-    EXPECT_EQ(decimate(free, {.min_quality = 0}).verdicts, (VerdictCounts{1}));
-    const Vec3 tip = free.position(VertexId{free.is_alive(VertexId{0}) ? 0u : 1u});
-    // A thin face where the tip would be.
-    Mesh mesh = frustum(0.5);
-    test::add_shape(mesh, {tip + Vec3{0, 0, -0.01}, tip + Vec3{0.01, 0, 0.1}, tip + Vec3{-0.01, 0.01, 0.1}},
-                    {{{0, 1, 2}, 1, 2}});
-    for (std::uint32_t v = 10; v < 13; ++v) mesh[VertexId{v}].is_fixed = true;
-    Mesh unchecked = frustum(0.5);
-    test::add_shape(unchecked, {tip + Vec3{0, 0, -0.01}, tip + Vec3{0.01, 0, 0.1}, tip + Vec3{-0.01, 0.01, 0.1}},
-                    {{{0, 1, 2}, 1, 2}});
-    for (std::uint32_t v = 10; v < 13; ++v) unchecked[VertexId{v}].is_fixed = true;
-    EXPECT_EQ(decimate(mesh, {.min_quality = 0}).verdicts, (VerdictCounts{0, 0, 0, 0, 0, 0, 1}));
-    EXPECT_EQ(decimate(unchecked, {.min_quality = 0, .intersect_check = false}).verdicts, (VerdictCounts{1}));
-}
-
-TEST(Decimate, noise_meets_every_verdict) {
-    Mesh mesh = noise();
-    const DecimateResult done = decimate(mesh, {});
-    for (int n = 0; n < kVerdictCount; ++n) EXPECT_GT(done.verdicts[n], 0u) << kVerdictNames[n];
-}
-
-TEST(Decimate, fixed_vertices_stay) {
-    Mesh mesh = grains();
-    mesh.sort_spatially();
-    std::map<std::uint32_t, Vec3> fixed;
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); v += 7) {
-        mesh[VertexId{v}].is_fixed = true;
-        fixed[v] = mesh.position(VertexId{v});
-    }
-    decimate(mesh, {.target_faces = mesh.face_count() / 2});
-    for (const auto& [v, position] : fixed) {
-        EXPECT_TRUE(mesh.is_alive(VertexId{v}));
-        EXPECT_EQ(mesh.position(VertexId{v}), position);
-    }
-    test::expect_sound(check(mesh));
-}
-
-TEST(Decimate, faces_that_reach_beyond_the_limits_stay) {
-    Mesh mesh = run(test::ball_volume({14, 14, 14}, 5)).mesh;
-    DecimateOptions options;
-    options.limits.high = {7.3, 9.1, HUGE_VAL};
-    const auto faces_beyond = [&] {
-        std::set<std::array<double, 9>> faces;
-        test::for_faces(mesh, [&](FaceId f) {
-            std::array<double, 9> place;
-            bool reaches_out = false;
-            for (int n = 0; n < 3; ++n) {
-                const Vec3 p = mesh.corners(f)[n];
-                reaches_out |= p.x > 7.3 || p.y > 9.1;
-                for (int axis = 0; axis < 3; ++axis) place[3 * n + axis] = p[axis];
-            }
-            if (reaches_out) faces.insert(place);
-        });
-        return faces;
-    };
-    const auto before = faces_beyond();
-    const std::uint32_t count_before = mesh.face_count();
-    decimate(mesh, options);
-    EXPECT_EQ(faces_beyond(), before);
-    EXPECT_LT(mesh.face_count(), count_before * 0.8);
-    test::for_vertices(mesh, [&](VertexId v) { EXPECT_FALSE(mesh[v].is_fixed); });
-    test::expect_sound(check(mesh));
-}
-
-TEST(Decimate, merged_vertices_stay_within_the_limits) {
-    Mesh mesh = run(test::grain_volume({10, 10, 10}, 5, 3)).mesh;
-    std::set<std::array<double, 3>> before;
-    const auto key = [&](VertexId v) { return std::array{mesh.position(v).x, mesh.position(v).y, mesh.position(v).z}; };
-    test::for_vertices(mesh, [&](VertexId v) { before.insert(key(v)); });
-    DecimateOptions options;
-    options.limits.high.z = 4;
-    decimate(mesh, options);
-    std::uint32_t beyond = 0;
-    test::for_vertices(mesh, [&](VertexId v) {
-        if (mesh.position(v).z < 4 || (mesh[v].sides & 0x30)) return;
-        ++beyond;
-        EXPECT_TRUE(before.contains(key(v)));
+/// Enough faces for tiles.
+Mesh large() {
+    static const Mesh made = run(test::grain_volume({64, 60, 56}, 60, 21)).mesh;
+    EXPECT_GT(made.face_count(), 2 * kFewestTiles * kTileFaces) << "this test needs tiles";
+    Mesh copy;
+    test::for_vertices(made, [&](VertexId v) { copy.add_vertex(made.position(v), made[v].sides); });
+    test::for_faces(made, [&](FaceId f) {
+        const auto& [a, b, c] = made[f].vertices;
+        copy.add_face(a, b, c, made[f].labels[0], made[f].labels[1]);
     });
-    EXPECT_GT(beyond, 0u);
-    test::expect_sound(check(mesh));
+    return copy;
 }
+Mesh small() { return run(test::grain_volume({16, 16, 16}, 8, 5)).mesh; }
 
-TEST(Decimate, at_cost_level_zero_only_flat_parts_go) {
-    Mesh mesh =
-        run(test::TextVolume({{"1111", "1111", "1111"}, {"1111", "1221", "1111"}, {"1111", "1111", "1111"}})).mesh;
-    const CheckReport before = check(mesh);
-    const std::uint32_t faces = mesh.face_count();
-    decimate(mesh, {.max_cost = 1e-12});
-    const CheckReport after = check(mesh);
-    EXPECT_LT(mesh.face_count(), faces);
-    for (std::size_t n = 0; n < before.regions.size(); ++n)
-        EXPECT_NEAR(after.regions[n].volume, before.regions[n].volume, 1e-5);
-}
-
-TEST(Decimate, a_higher_cost_level_or_error_leaves_fewer_faces) {
-    std::uint32_t last = ~0u;
-    for (double cost : {1e-9, 1e-3, 1e-1}) {
-        Mesh mesh = grains();
-        decimate(mesh, {.max_cost = cost});
-        EXPECT_LT(mesh.face_count(), last);
-        last = mesh.face_count();
-    }
-    last = ~0u;
-    for (double error : {1e-6, 0.05, 0.3}) {
-        Mesh mesh = grains();
-        EXPECT_EQ(decimate(mesh, {.max_error = error}).stopped, StopReason::kMaxError);
-        EXPECT_LT(mesh.face_count(), last);
-        last = mesh.face_count();
-    }
-}
-
-TEST(Decimate, a_small_error_keeps_a_ball_round) {
-    Mesh mesh = run(test::ball_volume({20, 20, 20}, 7)).mesh;
-    const double before = volume_of(mesh, 1);
-    const std::uint32_t faces = mesh.face_count();
-    decimate(mesh, {.max_error = 0.2});
-    EXPECT_LT(mesh.face_count(), faces / 2);
-    EXPECT_NEAR(volume_of(mesh, 1), before, 0.03 * before);
-    test::for_faces(mesh, [&](FaceId f) {
-        if (is_exterior(mesh[f].labels[1])) return;
-        for (Vec3 p : mesh.corners(f)) EXPECT_NEAR(length(p - Vec3{9.5, 9.5, 9.5}), 7, 1.5);
-    });
-}
-
-TEST(Decimate, a_ball_that_outgrows_its_first_box_meets_no_face_that_is_not_there) {
-    Mesh mesh = run(test::ball_volume({10, 10, 10}, 4.325), {.decimate = false}).mesh;
-    mesh.sort_spatially();
-    decimate(mesh, {.min_quality = 0, .perturbation = 0.9});
-    test::expect_sound(check(mesh));
-}
-
-TEST(Decimate, the_same_run_twice_gives_the_same_bytes) {
-    for (double perturbation : {0.0, 1e-7, 1e-2}) {
-        Mesh first = noise(), second = noise();
-        decimate(first, {.target_faces = 2000, .perturbation = perturbation});
-        decimate(second, {.target_faces = 2000, .perturbation = perturbation});
-        EXPECT_EQ(test::digest(first), test::digest(second));
-    }
-}
-
-TEST(Decimate, keeps_every_face_above_the_quality_floor) {
-    for (double floor : {0.0, 0.05, 0.1, 0.13}) {
-        Mesh mesh = noise();
-        decimate(mesh, {.min_quality = floor});
-        EXPECT_GE(check(mesh).quality.min, floor);
-        test::expect_sound(check(mesh));
-    }
-}
-
-TEST(Decimate, vertices_on_box_sides_keep_that_coordinate_to_the_bit) {
-    Mesh mesh = run(test::noise_volume({6, 7, 8}, 3, 9).spaced({0.1, 0.7, 1.0 / 3})).mesh;
-    const Vec3 high{5 * 0.1, 6 * 0.7, 7 * (1.0 / 3)};
-    decimate(mesh, {.scale = 0.3});
-    test::for_vertices(mesh, [&](VertexId v) {
-        for (int side = 0; side < 6; ++side) {
-            if (!(mesh[v].sides >> side & 1)) continue;
-            EXPECT_EQ(mesh.position(v)[side / 2], side % 2 ? high[side / 2] : 0.0);
-        }
-    });
-}
-
-TEST(Decimate, reports_progress) {
-    Mesh mesh = grains();
-    int calls = 0;
-    DecimateOptions options;
-    options.on_progress = [&] { ++calls; };
+TEST(Simplify, large_meshes_reach_the_target_in_tiles_and_stay_sound) {
+    Mesh mesh = large();
     const std::uint32_t before = mesh.face_count();
-    decimate(mesh, options);
-    EXPECT_GT(calls, 0);
-    EXPECT_LT(static_cast<std::uint32_t>(calls), before / 10) << "now and then";
+    const SimplifyResult done = simplify(mesh, {.target_faces = before / 10});
+    EXPECT_GT(done.tile_passes, 0u);
+    EXPECT_EQ(done.stopped, StopReason::kTarget);
+    EXPECT_LE(mesh.face_count(), before / 10);
+    EXPECT_GE(mesh.face_count(), before / 10 - 6) << "one collapse takes a few faces";
+    EXPECT_GT(done.bytes, mesh.bytes());
+    test::expect_sound(check(mesh));
+}
+
+TEST(Simplify, keeps_all_strata) {
+    Mesh mesh = large();
+    const test::StrataList strata = test::list_strata(mesh);
+    simplify(mesh, {.target_faces = mesh.face_count() / 20});
+    test::expect_same_strata(test::list_strata(mesh), strata);
+}
+
+TEST(Simplify, small_meshes_need_no_tiles) {
+    Mesh mesh = small();
+    const SimplifyResult done = simplify(mesh, {.target_faces = mesh.face_count() / 4});
+    EXPECT_EQ(done.tile_passes, 0u);
+    EXPECT_EQ(done.stopped, StopReason::kTarget);
+}
+
+TEST(Determinism, simplify_gives_the_same_bytes_for_any_number_of_threads) {
+    for (PlacementKind placement : {PlacementKind::kQuadric, PlacementKind::kLindstromTurk}) {
+        std::set<std::uint64_t> digests;
+        for (std::uint32_t threads : {1u, 2u, 3u, 8u}) {
+            Mesh mesh = large();
+            simplify(mesh, {.target_faces = mesh.face_count() / 10, .placement = placement, .threads = threads});
+            digests.insert(test::digest(mesh));
+        }
+        EXPECT_EQ(digests.size(), 1u) << kPlacementNames[static_cast<int>(placement)];
+    }
+}
+
+TEST(Simplify, does_not_depend_on_the_order_of_vertices_and_faces) {
+    Mesh first = large(), second;
+    std::vector<VertexId> ids(first.vertex_end());
+    for (std::uint32_t v = first.vertex_end(); v-- > 0;)
+        ids[v] = second.add_vertex(first.position(VertexId{v}), first[VertexId{v}].sides);
+    for (std::uint32_t f = first.face_end(); f-- > 0;) {
+        const auto& [a, b, c] = first[FaceId{f}].vertices;
+        second.add_face(ids[index(a)], ids[index(b)], ids[index(c)], first[FaceId{f}].labels[0],
+                        first[FaceId{f}].labels[1]);
+    }
+    const std::uint32_t target = first.face_count() / 10;
+    simplify(first, {.target_faces = target});
+    simplify(second, {.target_faces = target});
+    EXPECT_EQ(test::digest(first), test::digest(second));
+}
+
+TEST(Simplify, fixed_vertices_stay_and_stay_fixed) {
+    Mesh mesh = large();
+    std::set<std::array<double, 3>> fixed;
+    const auto key = [&](VertexId v) { return std::array{mesh.position(v).x, mesh.position(v).y, mesh.position(v).z}; };
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); v += 50) {
+        mesh[VertexId{v}].is_fixed = true;
+        fixed.insert(key(VertexId{v}));
+    }
+    EXPECT_GT(simplify(mesh, {.target_faces = mesh.face_count() / 5}).tile_passes, 0u);
+    std::set<std::array<double, 3>> left;
+    test::for_vertices(mesh, [&](VertexId v) {
+        if (mesh[v].is_fixed) left.insert(key(v));
+    });
+    EXPECT_EQ(left, fixed);
+    test::expect_sound(check(mesh));
+}
+
+TEST(Simplify, works_at_any_scale) {
+    Mesh unit = large(), tiny = large();
+    constexpr double kScale = 1.0 / 1024;
+    test::for_vertices(tiny, [&](VertexId v) { tiny[v].position = kScale * tiny[v].position; });
+    const std::uint32_t target = unit.face_count() / 10;
+    simplify(unit, {.target_faces = target});
+    const SimplifyResult done = simplify(tiny, {.target_faces = target, .scale = kScale});
+    EXPECT_GT(done.tile_passes, 0u);
+    EXPECT_EQ(unit.face_count(), tiny.face_count());
+    test::expect_sound(check(tiny));
+}
+
+TEST(Simplify, stops_at_the_largest_error_or_cost) {
+    for (const SimplifyOptions& options : {SimplifyOptions{.max_cost = 1e-2}, SimplifyOptions{.max_error = 0.1}}) {
+        Mesh mesh = large();
+        const std::uint32_t before = mesh.face_count();
+        const SimplifyResult done = simplify(mesh, options);
+        EXPECT_NE(done.stopped, StopReason::kTarget);
+        EXPECT_LT(mesh.face_count(), before / 2);
+        EXPECT_GT(mesh.face_count(), before / 20);
+    }
+}
+
+TEST(Simplify, typical_edge_serves_as_scale) {
+    Mesh mesh = large();
+    const std::uint32_t target = mesh.face_count() / 10;
+    EXPECT_EQ(simplify(mesh, {.target_faces = target, .scale = typical_edge(mesh)}).stopped, StopReason::kTarget);
+    EXPECT_LE(mesh.face_count(), target);
 }
 
 }  // namespace

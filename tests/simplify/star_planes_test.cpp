@@ -1,4 +1,4 @@
-#include "simplify/star_planes.h"
+#include "simplify/verdict/star_planes.h"
 
 #include <gtest/gtest.h>
 

@@ -34,7 +34,7 @@ TEST(StrataKept, when_decimated_as_far_as_topology_allows) {
         SCOPED_TRACE(c.name);
         Mesh mesh = test::run(c.volume, c.options).mesh;
         const test::StrataList before = test::list_strata(mesh);
-        decimate(mesh, {});
+        simplify(mesh, {});
         test::expect_same_strata(test::list_strata(mesh), before);
     }
 }
@@ -44,7 +44,7 @@ TEST(StrataKept, with_neither_quality_nor_intersect_verdicts) {
         SCOPED_TRACE(c.name);
         Mesh mesh = test::run(c.volume, c.options).mesh;
         const test::StrataList before = test::list_strata(mesh);
-        decimate(mesh, {.min_quality = 0, .perturbation = 1e-3, .intersect_check = false});
+        simplify(mesh, {.min_quality = 0, .perturbation = 1e-3, .intersect_check = false});
         test::expect_same_strata(test::list_strata(mesh), before);
     }
 }
@@ -54,7 +54,7 @@ TEST(StrataKept, and_every_vertex_stays_generic) {
         if (!c.options.cap || !c.options.background.empty()) continue;
         SCOPED_TRACE(c.name);
         Mesh mesh = test::run(c.volume, c.options).mesh;
-        decimate(mesh, {});
+        simplify(mesh, {});
         test::expect_generic(mesh);
     }
 }
@@ -77,7 +77,7 @@ TEST(StrataKept, pockets_on_the_box_without_caps) {
                 test::TextVolume volume(kPockets[n]);
                 Mesh mesh = test::run(volume, {.decimate = false, .cap = cap, .background = background}).mesh;
                 const test::StrataList before = test::list_strata(mesh);
-                decimate(mesh, {});
+                simplify(mesh, {});
                 test::expect_same_strata(test::list_strata(mesh), before);
                 EXPECT_GT(mesh.face_count(), 0u);
             }
@@ -87,7 +87,7 @@ TEST(StrataKept, after_a_decimated_model_is_decimated_again) {
     Mesh mesh = test::run(test::grain_volume({12, 12, 12}, 9, 4)).mesh;
     const test::StrataList before = test::list_strata(mesh);
     for (std::uint32_t target : {2000u, 1000u, 500u, 0u}) {
-        decimate(mesh, {.target_faces = target});
+        simplify(mesh, {.target_faces = target});
         mesh.sort_spatially();
         test::expect_same_strata(test::list_strata(mesh), before);
     }

@@ -54,7 +54,7 @@ TilePlan plan_of(const Batch& batch, std::uint32_t cells) {
 }
 
 /// One run of all sections: nothing comes before or after.
-RunExtent extent_of(const Batch& batch) { return {0, (batch.lattice.size[2] - 1) * batch.lattice.spacing.z}; }
+SafeInterval extent_of(const Batch& batch) { return {0, (batch.lattice.size[2] - 1) * batch.lattice.spacing.z}; }
 
 TEST(Chunk, appended_strips_make_the_model_of_strips_welded_one_by_one) {
     test::ArrayVolume volume = test::noise_volume({6, 5, 7}, 4, 1);
@@ -67,8 +67,8 @@ TEST(Tiles, remove_faces_and_keep_what_the_labels_say) {
     test::ArrayVolume volume = test::grain_volume({33, 26, 9}, 9, 3);
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    const VerdictCounts verdicts = decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
-                                                  {.cost_level = 1e-3, .keep_share = 0, .threads = 1, .decimate = {}});
+    const VerdictCounts verdicts = simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
+                                                {.threshold = 1e-3, .keep_share = 0, .threads = 1, .simplify = {}});
     EXPECT_LT(batch.whole.faces.size(), faces * 7 / 10);
     EXPECT_GT(verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
     CheckOptions options;
@@ -80,8 +80,8 @@ TEST(Tiles, stay_in_their_boxes) {
     test::ArrayVolume volume = test::ball_volume({21, 21, 21}, 7);
     Batch batch(volume);
     Mesh before = batch.mesh();
-    decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 5),
-                   {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
+    simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 5),
+                 {.threshold = 1, .keep_share = 0, .threads = 1, .simplify = {}});
     // A face that reaches across x = 5, 10, 15 would lie in two tiles.
     for (const ChunkFace& face : batch.whole.faces)
         for (double wall : {5.0, 10.0, 15.0}) {
@@ -110,8 +110,8 @@ TEST(Tiles, leave_faces_that_reach_out_of_them_and_do_not_run_into_them) {
         }
         EXPECT_GT(reaching, 100u) << "this test needs faces across walls";
         const std::size_t faces = batch.whole.faces.size();
-        decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 6),
-                       {.cost_level = 1, .keep_share = 0, .threads = 1, .decimate = {}});
+        simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 6),
+                     {.threshold = 1, .keep_share = 0, .threads = 1, .simplify = {}});
         EXPECT_LT(batch.whole.faces.size(), faces * 9 / 10);
         CheckOptions options;
         options.oracle = batch.oracle;
@@ -123,8 +123,8 @@ TEST(Tiles, keep_the_share_they_are_told_to) {
     test::ArrayVolume volume = test::solid_volume({17, 17, 5});
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    decimate_tiles(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
-                   {.cost_level = 1e-3, .keep_share = 0.5, .threads = 1, .decimate = {}});
+    simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
+                 {.threshold = 1e-3, .keep_share = 0.5, .threads = 1, .simplify = {}});
     EXPECT_GE(batch.whole.faces.size(), faces / 2 - 16);
     EXPECT_LE(batch.whole.faces.size(), faces / 2 + 16);
 }
@@ -147,8 +147,8 @@ TEST(Tiles, leave_carried_and_active_vertices_as_they_are) {
         std::vector<ChunkVertex> active;
         for (std::uint32_t v : run.active)
             active.push_back(v < run.carried ? carried[v] : run.vertices[v - run.carried]);
-        decimate_tiles(run, carried, {strip - 2.0, strip + 1.0}, plan,
-                       {.cost_level = 1e-2, .keep_share = 0, .threads = 1, .decimate = {}});
+        simplify_run(run, carried, {strip - 2.0, strip + 1.0}, plan,
+                     {.threshold = 1e-2, .keep_share = 0, .threads = 1, .simplify = {}});
         ASSERT_EQ(run.active.size(), active.size());
         for (std::size_t n = 0; n < active.size(); ++n) {
             const std::uint32_t v = run.active[n];

@@ -54,7 +54,7 @@ TEST_P(Damaged, model_is_decimated_and_no_worse) {
         const LockedPart fixed = lock_violations(mesh, {});
         EXPECT_GT(fixed.vertices, 0u);
         EXPECT_LT(fixed.vertices, mesh.vertex_count() / 2) << "more than what is broken was fixed";
-        decimate(mesh, {.target_faces = faces / 4});
+        simplify(mesh, {.target_faces = faces / 4});
         const CheckReport after = check(mesh);
         expect_no_worse(before, after);
         EXPECT_EQ(topology_of(before), topology_of(after));
@@ -158,7 +158,7 @@ TEST(Unsound, soups_of_faces_are_told_and_come_to_no_harm) {
         const CheckReport before = check(mesh, {.threads = 1});
         mesh.sort_spatially();
         lock_violations(mesh, {.threads = 1});
-        decimate(mesh, {.target_faces = 0});
+        simplify(mesh, {.target_faces = 0});
         expect_no_worse(before, check(mesh, {.threads = 1}));
         lock_violations(smoothed, {.threads = 1});
         smooth(smoothed, {.threads = 1});

@@ -93,7 +93,7 @@ TEST(Smooth, moves_vertices_and_nothing_else) {
 
 TEST(Smooth, a_model_with_free_places_keeps_its_ids) {
     Mesh mesh = grains();
-    decimate(mesh, {.target_faces = mesh.face_count() / 4});
+    simplify(mesh, {.target_faces = mesh.face_count() / 4});
     Mesh same;
     std::vector<VertexId> ids(mesh.vertex_end());
     test::for_vertices(mesh, [&](VertexId v) { ids[index(v)] = same.add_vertex(mesh.position(v), mesh[v].sides); });

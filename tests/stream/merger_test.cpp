@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cells/strip_mesher.h"
-#include "regionmesh/simplify.h"
+#include "simplify/collapse_edges.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "volume/section_window.h"
@@ -71,9 +71,7 @@ TEST(Merger, puts_together_what_it_took_apart) {
 TEST(Merger, merges_into_a_mesh_that_was_decimated_up_to_its_active_vertices) {
     const Mesh mesh = merged(grains(), [](Mesh& part, Merger& merger, double z) {
         merger.renumber(part.sort_spatially());
-        DecimateOptions options;
-        options.limits.high.z = z;
-        decimate(part, options);
+        collapse_edges(part, {}, {.limits = box_of({.high = z}, 2)});
     });
     test::expect_sound(check(mesh));
     EXPECT_LT(mesh.face_count(), merged(grains(), [](const Mesh&, const Merger&, double) {}).face_count() / 2);

@@ -1,4 +1,4 @@
-#include "simplify/star_planes.h"
+#include "simplify/verdict/star_planes.h"
 
 #include <algorithm>
 
@@ -45,7 +45,7 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
             const std::size_t n = std::min(first / 2 + 2 * g + half, star.pairs.size() - 1);
             const StarPair& pair = star.pairs[n];
             const Lanes3<Double2> a = scaled(pair.a - merged, scale), b = scaled(pair.b - merged, scale);
-            // Where a face is so thin that its normal is not sure, no plane is told of.
+            // A face so thin that its normal is not certain reports no plane.
             const Double2 is_sure =
                 pair.new_length2 * scale2 * scale2 > thin * dot(a, a) * dot(b, b) ? both(1) : both(0);
             const Lanes3<Double2> normal = scaled(pair.new_normal, scale2 * is_sure);
@@ -64,7 +64,7 @@ void StarPlanes::prepare(const EdgeStar& star, Vec3 position, int first, int cou
     }
 }
 
-/// What lies before a plane lies beyond the same plane seen from the other side, where all signs are turned.
+/// Before a plane is beyond the same plane with all signs turned.
 template <bool kIsFar>
 Sides StarPlanes::find_sides(Vec3 p) const {
     const Vec3 step = (kIsFar ? -scale_ : scale_) * (p - position_);

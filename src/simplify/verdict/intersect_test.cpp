@@ -1,4 +1,4 @@
-#include "simplify/obstruction.h"
+#include "simplify/verdict/intersect_test.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
            orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
 }
 
-/// The plane of a face and those through its edges, square to it; and how sure they are of sides.
+/// The plane of a face and those through its edges, square to it. Conservative: certain outside the rounding error.
 class FacePlanes {
 public:
     explicit FacePlanes(const PlacedFace& face) : face_(face) {
@@ -26,7 +26,7 @@ public:
         }
         is_sure_ = length2(planes_[3].out) > 1e-12 * length2(u) * length2(v);
     }
-    /// Is it sure that a plane has the other face beyond it, but for corners of both that it passes through?
+    /// Does the other face lie for certain beyond one plane, except for shared corners on the plane?
     bool are_beside(const PlacedFace& other) const {
         if (!is_sure_) return false;
         std::array<int, 3> place;  // of each corner in this face
@@ -73,7 +73,7 @@ bool are_of_few_digits(const Lanes3<Double2>& p) {
     return ok == 3;
 }
 
-/// Do all corners lie in one plane, exactly? Told only where the coordinates have few digits, as those of samples do,
+/// Do all corners lie in one plane, exactly? True only where the coordinates have few digits, as those of samples do,
 /// and lie less than 64 apart: products of three differences are exact then.
 bool is_in_one_plane(const EdgeStar& star) {
     const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
@@ -100,8 +100,8 @@ bool is_flat(const EdgeStar& star, Vec3 position) {
 
 }  // namespace
 
-Verdict Obstruction::verdict(const Mesh& mesh, const FaceTree& tree, const EdgeStar& star, Vec3 position,
-                             const ShapeBounds& bounds) {
+Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const EdgeStar& star, Vec3 position,
+                               const ShapeBounds& bounds) {
     if (is_flat(star, position)) return Verdict::kAccepted;
     position_ = position;
     const bool is_simple = is_simple_disk(star);
@@ -121,7 +121,7 @@ Verdict Obstruction::verdict(const Mesh& mesh, const FaceTree& tree, const EdgeS
 
 /// The new star is a disk of one interface whose faces, seen along their mean normal, all look up and go round the
 /// merged vertex once: no two of them meet but in what they share. The ray that is counted lies in the first face.
-bool Obstruction::is_simple_disk(const EdgeStar& star) const {
+bool IntersectTest::is_simple_disk(const EdgeStar& star) const {
     if (!star.is_interface) return false;
     Vec3 up;
     for (int n = 0; n < star.face_count(); ++n) up += star.new_normal(n);
@@ -135,9 +135,9 @@ bool Obstruction::is_simple_disk(const EdgeStar& star) const {
     return true;
 }
 
-/// Does a new face in hand meet one that comes after it, outside the merged vertex or the edge that they share? Planes
-/// through the merged vertex tell most apart.
-bool Obstruction::meets_itself(const Mesh& mesh, const EdgeStar& star) {
+/// Does one of the current new faces meet one that comes after it, outside the merged vertex or the edge that they
+/// share? Planes through the merged vertex separate most pairs.
+bool IntersectTest::meets_itself(const Mesh& mesh, const EdgeStar& star) {
     for (int j = first_ + 1; j < star.face_count(); ++j) {
         const StarFace& g = star.faces[j];
         const Sides sides = place_of(mesh, g.a, 0).sides & place_of(mesh, g.b, 1).sides;
@@ -149,7 +149,7 @@ bool Obstruction::meets_itself(const Mesh& mesh, const EdgeStar& star) {
     return false;
 }
 
-bool Obstruction::meet_in_star(const EdgeStar& star, int i, int j) const {
+bool IntersectTest::meet_in_star(const EdgeStar& star, int i, int j) const {
     const StarFace &f = star.faces[i], &g = star.faces[j];
     const Vec3 f_a = star.at_a(i), f_b = star.at_b(i), g_a = star.at_a(j), g_b = star.at_b(j);
     const Vec3 other = g.a == f.a || g.a == f.b ? g_b : g_a;
@@ -158,8 +158,8 @@ bool Obstruction::meet_in_star(const EdgeStar& star, int i, int j) const {
     return meet_beyond_vertex(position_, f_a, f_b, g_a, g_b);
 }
 
-/// Takes new faces from `first` on in hand. What they know of their own corners: the planes through them.
-void Obstruction::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
+/// Begins with new faces from `first` on. Sides of their own corners follow from the planes that pass through them.
+void IntersectTest::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
     first_ = first;
     const int count = std::min(star.face_count() - first, StarPlanes::kMost);
     planes_.prepare(star, position_, first, count);
@@ -195,7 +195,7 @@ void Obstruction::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
     stays.sides.a = stays.sides.b = stays.sides.above = stays.sides.below = planes_.all();
 }
 
-Obstruction::Place& Obstruction::find_place(const Mesh& mesh, VertexId v, int corner) {
+IntersectTest::Place& IntersectTest::find_place(const Mesh& mesh, VertexId v, int corner) {
     std::uint32_t at = hash(v);
     for (; table_[at].key >> 32 == search_; at = (at + 1) % kPlaces)
         if (table_[at].key == key_of(v)) return table_[at];
@@ -208,8 +208,8 @@ Obstruction::Place& Obstruction::find_place(const Mesh& mesh, VertexId v, int co
     return place;
 }
 
-/// Is it beyond doubt that the face does not meet any new face, comes near none, and is not swept over?
-Verdict Obstruction::look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
+/// Does the face meet a new face, come too close to one, or lie in the space swept?
+Verdict IntersectTest::look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
     const auto& v = mesh[f].vertices;
     const Place &p = place_of(mesh, v[0], 0), &q = place_of(mesh, v[1], 1), &r = place_of(mesh, v[2], 2);
     if ((p.is_of_star | q.is_of_star | r.is_of_star) != 0) return Verdict::kAccepted;
@@ -224,7 +224,8 @@ Verdict Obstruction::look_at(const Mesh& mesh, const EdgeStar& star, const Shape
 
 /// At an edge that is one of the link, or leads from there to `stays`. A corner beyond the plane that is square to the
 /// new face is far from it.
-bool Obstruction::pinches(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const {
+bool IntersectTest::pinches(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds,
+                            const Corners& old) const {
     for (int n = 0; n < 3; ++n) {
         const Place &from = *old[n], &to = *old[(n + 1) % 3], &third = *old[(n + 2) % 3];
         for (std::uint32_t rest = faces_at(from, to) & ~third.sides.link; rest != 0; rest &= rest - 1) {
@@ -245,8 +246,8 @@ bool Obstruction::pinches(const Mesh& mesh, const EdgeStar& star, const ShapeBou
     return false;
 }
 
-/// Does the face meet one of the new faces named? Its own planes tell most apart.
-bool Obstruction::meets(const Mesh& mesh, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
+/// Does the face meet one of these new faces? Its own planes separate most pairs.
+bool IntersectTest::meets(const Mesh& mesh, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
     const PlacedFace own{
         {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
         {mesh.position(old[0]->vertex()), mesh.position(old[1]->vertex()), mesh.position(old[2]->vertex())}};
@@ -262,7 +263,7 @@ bool Obstruction::meets(const Mesh& mesh, const EdgeStar& star, const Corners& o
 
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
 /// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
-bool Obstruction::is_swept(const Mesh& mesh, const EdgeStar& star, const Corners& old) const {
+bool IntersectTest::is_swept(const Mesh& mesh, const EdgeStar& star, const Corners& old) const {
     const Place* best = nullptr;
     std::uint32_t doubtful = 0;
     for (const Place* place : old) {

@@ -1,4 +1,4 @@
-#include "simplify/raise_level.h"
+#include "simplify/threshold_passes.h"
 
 #include <gtest/gtest.h>
 
@@ -22,17 +22,17 @@ Mesh mesh_of(const Chunk& batch) {
     return mesh;
 }
 TilePlan plan_of(const test::ArrayVolume& volume) { return {volume.info().lattice, kSweepZ, 8, 8}; }
-RaiseOptions to(std::uint64_t faces) {
-    return {.goal_faces = faces, .box_faces = 1500, .tiles = {.cost_level = 0, .keep_share = 0, .decimate = {}}};
+PassOptions to(std::uint64_t faces) {
+    return {.target_faces = faces, .tile_faces = 1500, .tiles = {.threshold = 0, .keep_share = 0, .simplify = {}}};
 }
 
-TEST(RaiseLevel, comes_near_the_goal_from_above_and_stays_sound) {
+TEST(ThresholdPasses, comes_near_the_goal_from_above_and_stays_sound) {
     test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 20, 11);
     Chunk batch = whole(volume);
     const std::uint64_t faces = batch.faces.size();
     for (std::uint64_t goal : {faces / 2, faces / 5, faces / 9}) {
-        const RaiseResult done = raise_level(batch, plan_of(volume), to(goal));
-        EXPECT_GT(done.raises, 0u);
+        const PassResult done = simplify_in_passes(batch, plan_of(volume), to(goal));
+        EXPECT_GT(done.passes, 0u);
         EXPECT_GT(done.verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
         EXPECT_GE(batch.faces.size(), goal);
         EXPECT_LE(batch.faces.size(), goal * 3 / 2);
@@ -40,15 +40,15 @@ TEST(RaiseLevel, comes_near_the_goal_from_above_and_stays_sound) {
     }
 }
 
-TEST(RaiseLevel, gives_the_same_bytes_for_any_number_of_threads_and_of_tiles_in_flight) {
+TEST(ThresholdPasses, gives_the_same_bytes_for_any_number_of_threads_and_of_tiles_in_flight) {
     test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 20, 12);
     const Chunk before = whole(volume);
     const auto digest = [&](std::uint32_t threads, std::uint32_t in_flight) {
         Chunk batch = before;
-        RaiseOptions options = to(before.faces.size() / 6);
+        PassOptions options = to(before.faces.size() / 6);
         options.tiles.threads = threads;
         options.tiles.in_flight = in_flight;
-        raise_level(batch, plan_of(volume), options);
+        simplify_in_passes(batch, plan_of(volume), options);
         return test::digest(mesh_of(batch));
     };
     const std::uint64_t one = digest(1, 16);
@@ -56,7 +56,7 @@ TEST(RaiseLevel, gives_the_same_bytes_for_any_number_of_threads_and_of_tiles_in_
         for (std::uint32_t in_flight : {1u, 3u, 16u}) EXPECT_EQ(digest(threads, in_flight), one);
 }
 
-TEST(RaiseLevel, leaves_open_vertices_and_what_reaches_beyond_as_they_are) {
+TEST(ThresholdPasses, leaves_open_vertices_and_what_reaches_beyond_as_they_are) {
     test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 20, 13);
     Chunk batch = whole(volume);
     constexpr double kHigh = 20.25;
@@ -71,9 +71,9 @@ TEST(RaiseLevel, leaves_open_vertices_and_what_reaches_beyond_as_they_are) {
         return count;
     };
     const std::size_t beyond = faces_beyond(), before = batch.faces.size();
-    RaiseOptions options = to(before / 2);
-    options.high = kHigh;
-    raise_level(batch, plan_of(volume), options);
+    PassOptions options = to(before / 2);
+    options.safe.high = kHigh;
+    simplify_in_passes(batch, plan_of(volume), options);
     EXPECT_LT(batch.faces.size(), before * 3 / 4);
     EXPECT_EQ(faces_beyond(), beyond);
     ASSERT_EQ(batch.active.size(), open.size());
@@ -81,24 +81,24 @@ TEST(RaiseLevel, leaves_open_vertices_and_what_reaches_beyond_as_they_are) {
     test::expect_sound(check(mesh_of(batch)));
 }
 
-TEST(RaiseLevel, leaves_small_models_and_those_near_the_goal_to_the_heap) {
+TEST(ThresholdPasses, leaves_small_models_and_those_near_the_goal_to_the_heap) {
     test::ArrayVolume volume = test::grain_volume({20, 20, 20}, 10, 14);
     Chunk batch = whole(volume);
     const std::size_t faces = batch.faces.size();
-    EXPECT_EQ(raise_level(batch, plan_of(volume), to(faces * 97 / 100)).raises, 0u);
-    RaiseOptions large = to(faces / 10);
-    large.box_faces = static_cast<std::uint32_t>(faces);
-    EXPECT_EQ(raise_level(batch, plan_of(volume), large).raises, 0u);
+    EXPECT_EQ(simplify_in_passes(batch, plan_of(volume), to(faces * 97 / 100)).passes, 0u);
+    PassOptions large = to(faces / 10);
+    large.tile_faces = static_cast<std::uint32_t>(faces);
+    EXPECT_EQ(simplify_in_passes(batch, plan_of(volume), large).passes, 0u);
     EXPECT_EQ(batch.faces.size(), faces);
 }
 
-TEST(RaiseLevel, stops_at_the_largest_error_where_there_is_no_goal) {
+TEST(ThresholdPasses, stops_at_the_largest_error_where_there_is_no_goal) {
     test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 20, 15);
     Chunk batch = whole(volume);
     const std::size_t faces = batch.faces.size();
-    RaiseOptions options = to(0);
-    options.tiles.decimate.max_error = 0.1;
-    raise_level(batch, plan_of(volume), options);
+    PassOptions options = to(0);
+    options.tiles.simplify.max_error = 0.1;
+    simplify_in_passes(batch, plan_of(volume), options);
     EXPECT_LT(batch.faces.size(), faces / 2);
     EXPECT_GT(batch.faces.size(), faces / 20);
     test::expect_sound(check(mesh_of(batch)));

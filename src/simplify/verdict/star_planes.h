@@ -1,4 +1,4 @@
-// On which side of the planes of a new star does a point lie?
+// The sides of the planes of a new star that a point lies on.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace regionmesh {
 
-/// The new faces of a star on one side of whose planes something lies, beyond doubt: a bit for each of up to 32 faces.
+/// The planes of up to 32 new faces beyond which something lies for certain: one bit a face.
 struct Sides {
     std::uint32_t link = 0;   // beyond the plane through the link edge, square to the face
     std::uint32_t a = 0;      // beyond the one through the edge from the merged vertex to a
@@ -27,8 +27,8 @@ struct Sides {
     std::uint32_t any() const { return link | a | b | above | below; }
 };
 
-/// The planes of the new faces, as floats relative to the merged vertex: what they cannot tell beyond their rounding,
-/// they do not tell. A face whose three corners lie beyond one plane of a new face does not meet it. A corner that the
+/// The planes of the new faces, as floats relative to the merged vertex. Conservative: reports a side only outside the
+/// rounding error. A face whose three corners lie beyond one plane of a new face does not meet it. A corner that the
 /// plane passes through, since both faces have it, may be counted as beyond: then they meet in such corners only.
 class StarPlanes {
 public:
@@ -37,7 +37,7 @@ public:
     /// For new faces first .. first + count - 1, count <= kMost, with the normals of set_normals.
     void prepare(const EdgeStar& star, Vec3 position, int first, int count);
     Sides sides_of(Vec3 p) const { return find_sides<false>(p); }
-    /// The sides on which what is beyond is not: before the planes through edges, and the other of the face's own.
+    /// The opposite sides: before the planes through edges, and the other side of the face's own.
     Sides far_sides_of(Vec3 p) const { return find_sides<true>(p); }
     /// A bit for each face.
     std::uint32_t all() const { return all_; }

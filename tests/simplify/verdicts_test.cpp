@@ -1,7 +1,8 @@
-#include "simplify/legality.h"
+#include "simplify/verdict/verdicts.h"
 
 #include <gtest/gtest.h>
 
+#include "mesh/strata.h"
 #include "support/shapes.h"
 
 namespace regionmesh {
@@ -11,20 +12,28 @@ using test::halved_octahedron;
 using test::shape;
 using test::ShapeFace;
 
-Verdict topology_of(const Mesh& mesh, std::uint32_t goes, std::uint32_t stays) {
-    EdgeStar star;
-    gather(mesh, VertexId{goes}, VertexId{stays}, star);
-    return topology_verdict(mesh, star);
+Verdict topology_of(Mesh& mesh, std::uint32_t goes, std::uint32_t stays) {
+    count_labels(mesh);
+    const FaceTree tree(mesh);
+    Collapse collapse{.mesh = mesh, .tree = tree, .bounds = {}};
+    gather(mesh, VertexId{goes}, VertexId{stays}, collapse.star);
+    return topology_verdict(collapse);
 }
+
+struct ShapeResult {
+    Verdict verdict;
+    double worst_quality3;
+};
+
+Verdict topology_of(Mesh&& mesh, std::uint32_t goes, std::uint32_t stays) { return topology_of(mesh, goes, stays); }
 
 /// Collapses edge 0-1.
 ShapeResult shape_of(const Mesh& mesh, Vec3 position, const ShapeBounds& bounds = {}) {
-    EdgeStar star;
-    gather(mesh, VertexId{0}, VertexId{1}, star);
-    ShapeResult result = shape_verdict(star, position, bounds);
-    if (result.verdict == Verdict::kAccepted && pinches_around(mesh, star, position, bounds))
-        result.verdict = Verdict::kPinch;
-    return result;
+    const FaceTree tree(mesh);
+    Collapse collapse{.mesh = mesh, .tree = tree, .bounds = bounds, .intersect_check = false};
+    gather(mesh, VertexId{0}, VertexId{1}, collapse.star);
+    const Verdict verdict = verdict_at(collapse, {position});
+    return {verdict, collapse.worst_quality3};
 }
 
 /// A triangle 0 1 2 between regions 0 and 1, and on each side a roof over three more vertices: no two corners have a
@@ -74,16 +83,16 @@ TEST(TopologyVerdict, a_line_may_be_collapsed_along_itself) {
 
 TEST(TopologyVerdict, an_edge_between_two_lines_within_an_interface_may_not) {
     // The membrane without its middle: 0-1 crosses it from line to line.
-    const Mesh mesh = shape({{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}, {{{0, 1, 3}, 0, 1},
-                                                                                                    {{1, 0, 2}, 0, 1},
-                                                                                                    {{1, 3, 5}, 1, 2},
-                                                                                                    {{3, 0, 5}, 1, 2},
-                                                                                                    {{0, 2, 5}, 1, 2},
-                                                                                                    {{2, 1, 5}, 1, 2},
-                                                                                                    {{3, 1, 4}, 0, 2},
-                                                                                                    {{0, 3, 4}, 0, 2},
-                                                                                                    {{2, 0, 4}, 0, 2},
-                                                                                                    {{1, 2, 4}, 0, 2}});
+    Mesh mesh = shape({{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}, {{{0, 1, 3}, 0, 1},
+                                                                                              {{1, 0, 2}, 0, 1},
+                                                                                              {{1, 3, 5}, 1, 2},
+                                                                                              {{3, 0, 5}, 1, 2},
+                                                                                              {{0, 2, 5}, 1, 2},
+                                                                                              {{2, 1, 5}, 1, 2},
+                                                                                              {{3, 1, 4}, 0, 2},
+                                                                                              {{0, 3, 4}, 0, 2},
+                                                                                              {{2, 0, 4}, 0, 2},
+                                                                                              {{1, 2, 4}, 0, 2}});
     EXPECT_EQ(topology_of(mesh, 0, 1), Verdict::kStrata);
 }
 
@@ -93,8 +102,8 @@ TEST(TopologyVerdict, a_tetrahedron_may_not_be_collapsed) {
 
 TEST(TopologyVerdict, a_neck_may_not_be_collapsed) {
     // Two tetrahedra on the hollow triangle 0 1 2.
-    const Mesh mesh = shape({{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 1, 1}, {1, 1, -1}},
-                            {{{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}, {{1, 0, 4}}, {{2, 1, 4}}, {{0, 2, 4}}});
+    Mesh mesh = shape({{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 1, 1}, {1, 1, -1}},
+                      {{{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}, {{1, 0, 4}}, {{2, 1, 4}}, {{0, 2, 4}}});
     for (auto [u, v] : {std::pair{0u, 1u}, {1u, 2u}, {2u, 0u}}) EXPECT_EQ(topology_of(mesh, u, v), Verdict::kLink);
     EXPECT_EQ(topology_of(mesh, 3, 0), Verdict::kAccepted);
 }

@@ -1,10 +1,10 @@
-#include "simplify/obstruction.h"
+#include "simplify/verdict/intersect_test.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "simplify/legality.h"
+#include "simplify/verdict/verdicts.h"
 #include "support/shapes.h"
 
 namespace regionmesh {
@@ -25,41 +25,41 @@ Mesh sheet_and_octahedron(Vec3 middle, double size) {
 
 /// Edge 0-1 of the sheet, merged at `position`.
 bool is_blocked(const Mesh& mesh, Vec3 position) {
-    EdgeStar star;
-    gather(mesh, VertexId{0}, VertexId{1}, star);
-    const ShapeBounds bounds{.min_quality = 0};
-    EXPECT_EQ(shape_verdict(star, position, bounds).verdict, Verdict::kAccepted);
-    return Obstruction().verdict(mesh, FaceTree(mesh), star, position, bounds) == Verdict::kIntersect;
+    const FaceTree tree(mesh);
+    Collapse collapse{.mesh = mesh, .tree = tree, .bounds = {.min_quality = 0}};
+    gather(mesh, VertexId{0}, VertexId{1}, collapse.star);
+    EXPECT_EQ(shape_verdict(collapse, position), Verdict::kAccepted);
+    return verdict_at(collapse, {position}) == Verdict::kIntersect;
 }
 
 constexpr Vec3 kTop{0.5, 0, 1};
 
-TEST(Obstruction, nothing_is_in_the_way_of_a_sheet_alone) {
+TEST(IntersectTest, nothing_is_in_the_way_of_a_sheet_alone) {
     EXPECT_FALSE(is_blocked(test::edge_in_sheet(), {0.5, 0, 0}));
     EXPECT_FALSE(is_blocked(test::edge_in_sheet(), kTop));
     EXPECT_FALSE(is_blocked(test::edge_in_sheet(), {0.5, 0, -1}));
 }
 
-TEST(Obstruction, a_face_through_a_new_face_is) {
+TEST(IntersectTest, a_face_through_a_new_face_is) {
     const std::vector<Vec3> wall{{0.5, 0, 0.6}, {0.5, 0.2, 2}, {0.5, -0.2, 2}};
     EXPECT_TRUE(is_blocked(sheet_and(wall, {{{0, 1, 2}, 1, 2}}), kTop));
     EXPECT_FALSE(is_blocked(sheet_and(wall, {{{0, 1, 2}, 1, 2}}), {0.5, 0, 0.5}));
 }
 
-TEST(Obstruction, touching_is_meeting) {
+TEST(IntersectTest, touching_is_meeting) {
     const std::vector<Vec3> needle{kTop, {0.5, 0.2, 2}, {0.5, -0.2, 2}};
     EXPECT_TRUE(is_blocked(sheet_and(needle, {{{0, 1, 2}, 1, 2}}), kTop));
     EXPECT_FALSE(is_blocked(sheet_and(needle, {{{0, 1, 2}, 1, 2}}), {0.5, 0, std::nextafter(1, 0)}));
 }
 
-TEST(Obstruction, an_island_that_the_star_sweeps_over_is) {
+TEST(IntersectTest, an_island_that_the_star_sweeps_over_is) {
     EXPECT_TRUE(is_blocked(sheet_and_octahedron({0.5, 0.1, 0.4}, 0.05), kTop)) << "no face meets it, before or after";
     EXPECT_FALSE(is_blocked(sheet_and_octahedron({0.5, 0.1, 0.4}, 0.05), {0.5, 0, 0.1})) << "below it";
     EXPECT_FALSE(is_blocked(sheet_and_octahedron({0.5, 0.1, -0.4}, 0.05), kTop)) << "on the other side";
     EXPECT_FALSE(is_blocked(sheet_and_octahedron({3, 0, 0.4}, 0.05), kTop)) << "beside it";
 }
 
-TEST(Obstruction, islands_anywhere_within_the_swept_cone_are) {
+TEST(IntersectTest, islands_anywhere_within_the_swept_cone_are) {
     for (double x = -0.6; x < 1.7; x += 0.23)
         for (double y = -0.6; y < 0.7; y += 0.19) {
             // The cone from the top over the hexagon: at height z it is scaled by 1 - z.
@@ -72,7 +72,7 @@ TEST(Obstruction, islands_anywhere_within_the_swept_cone_are) {
         }
 }
 
-TEST(Obstruction, a_face_that_hangs_on_the_link_is_only_where_it_crosses) {
+TEST(IntersectTest, a_face_that_hangs_on_the_link_is_only_where_it_crosses) {
     // Vertices 10 and 11 with vertex 5 of the sheet at (-1, 0, 0).
     const auto page = [](Vec3 a, Vec3 b) {
         Mesh mesh = test::edge_in_sheet();
@@ -87,7 +87,7 @@ TEST(Obstruction, a_face_that_hangs_on_the_link_is_only_where_it_crosses) {
     EXPECT_TRUE(is_blocked(page({2, 0.1, 1}, {2, -0.1, 1}), kTop));
 }
 
-TEST(Obstruction, a_face_on_a_link_edge_is_not) {
+TEST(IntersectTest, a_face_on_a_link_edge_is_not) {
     const auto page = [](Vec3 tip) {
         Mesh mesh = test::edge_in_sheet();
         const VertexId t = mesh.add_vertex(tip);
@@ -99,7 +99,7 @@ TEST(Obstruction, a_face_on_a_link_edge_is_not) {
     EXPECT_FALSE(is_blocked(page({0, -1, 4}), kTop)) << "a roof over it";
 }
 
-TEST(Obstruction, a_flat_star_that_stays_flat_passes_by_islands) {
+TEST(IntersectTest, a_flat_star_that_stays_flat_passes_by_islands) {
     EXPECT_FALSE(is_blocked(sheet_and_octahedron({0.5, 0, 0.3}, 0.2), {0.5, 0.1, 0}));
 }
 

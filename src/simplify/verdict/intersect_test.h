@@ -1,19 +1,20 @@
-// Would the merged vertex's faces come too close to any other face? (P tests 2 and 6: `pinch`, `intersect`)
+// Would the faces of the merged vertex come too close to any other face? (P tests 2 and 6: `pinch`, `intersect`)
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "mesh/face_tree.h"
-#include "simplify/legality.h"
-#include "simplify/star_planes.h"
+#include "regionmesh/verdict.h"
+#include "simplify/verdict/pinch.h"
+#include "simplify/verdict/star_planes.h"
 
 namespace regionmesh {
 
 /// Holds the scratch space of the test. Exact: no epsilon decides, cheap tests only rule out.
-class Obstruction {
+class IntersectTest {
 public:
-    /// Looks at all faces round the star. Requires that shape_verdict accepted the star with this position.
+    /// Looks at all faces round the star. Requires that fold, quality and pinch accepted the star with this position.
     ///   pinch      a new face comes closer than 5 degrees to a face beyond the link edge that both have, or has swept
     ///              over it.
     ///   intersect  a new face would meet another, new or old, other than in shared vertices and edges, or the star
@@ -22,7 +23,7 @@ public:
                     const ShapeBounds& bounds);
 
 private:
-    /// What is known of a vertex near the star.
+    /// A vertex near the star, looked up once.
     struct Place {
         std::uint64_t key = 0;  // search and vertex
         Sides sides;
@@ -60,8 +61,8 @@ private:
     Vec3 position_;
     Box box_;  // of all that the star sweeps
     StarPlanes planes_;
-    int first_ = 0;                                           // of the new faces in hand
-    Sides apex_;                                              // of their apexes: where they are not, for sure
+    int first_ = 0;                                           // of the new faces under test
+    Sides apex_;                                              // of their apexes: the opposite of their certain sides
     std::vector<Place> table_ = std::vector<Place>(kPlaces);  // by vertex, hashed
     std::uint32_t search_ = 0, used_ = 0;
     std::array<Place, 3> spare_;  // for the corners of a face when the table is full

@@ -1,0 +1,142 @@
+#include "simplify/collapse_edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/strata.h"
+#include "simplify/bytes.h"
+#include "simplify/candidates.h"
+#include "simplify/prepass.h"
+#include "simplify/tuning.h"
+#include "simplify/verdict/verdicts.h"
+
+namespace regionmesh {
+namespace {
+
+/// Fixes the vertices of faces that reach out of a box while it lives, so that all faces that change lie inside, before
+/// and after: the box is convex.
+class FixedOutside {
+public:
+    FixedOutside(Mesh& mesh, const Box& box) : mesh_(mesh) {
+        const auto is_inside = [&](VertexId v) {
+            const Vec3 p = mesh.position(v);
+            return max(p, box.low) == p && min(p, box.high) == p;
+        };
+        for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+            if (!mesh.is_alive(FaceId{f})) continue;
+            const auto& corners = mesh[FaceId{f}].vertices;
+            if (std::all_of(corners.begin(), corners.end(), is_inside)) continue;
+            for (VertexId v : corners) {
+                if (mesh[v].is_fixed) continue;
+                mesh[v].is_fixed = true;
+                fixed_.push_back(v);
+            }
+        }
+    }
+    ~FixedOutside() {
+        for (VertexId v : fixed_) mesh_[v].is_fixed = false;
+    }
+    FixedOutside(const FixedOutside&) = delete;
+    FixedOutside& operator=(const FixedOutside&) = delete;
+
+private:
+    Mesh& mesh_;
+    std::vector<VertexId> fixed_;  // that were not before
+};
+
+class CollapseLoop {
+public:
+    CollapseLoop(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds)
+        : mesh_(mesh),
+          options_(options),
+          is_refreshing_(bounds.refresh),
+          tree_(mesh),
+          outside_(mesh, bounds.limits),
+          placement_((count_labels(mesh), make_placement(mesh, options))),
+          candidates_(mesh, *placement_, options),
+          collapse_{.mesh = mesh,
+                    .tree = tree_,
+                    .bounds = {.min_quality = options.min_quality},
+                    .limits = bounds.limits,
+                    .intersect_check = options.intersect_check} {}
+
+    CollapseResult run() {
+        sweep();
+        for (;;) {
+            if (is_at_target()) break;
+            result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
+            result_.bytes = std::max(result_.bytes, tree_.bytes() + candidates_.bytes() + placement_->bytes());
+            const std::uint64_t before = accepted();
+            while (!candidates_.empty() && !is_at_target()) {
+                step();
+                pack();
+            }
+            if (is_at_target()) break;
+            if (accepted() == before || !is_refreshing_) {
+                result_.stopped = std::isfinite(options_.max_error) ? StopReason::kMaxError : StopReason::kTopology;
+                break;
+            }
+            ++result_.refreshes;
+        }
+        return result_;
+    }
+
+private:
+    bool is_at_target() const { return mesh_.face_count() <= options_.target_faces; }
+    std::uint64_t accepted() const { return result_.verdicts[static_cast<int>(Verdict::kAccepted)]; }
+
+    /// The prepass, as long as a whole sweep stays above the target.
+    void sweep() {
+        const double scale2 = options_.scale * options_.scale;
+        Prepass prepass(mesh_, tree_, *placement_, collapse_, options_,
+                        std::min(options_.max_cost, placement_->prepass_cost() * scale2 * scale2));
+        for (int n = 0; n < kMostSweeps && mesh_.face_count() * kLeastSweepLeft > options_.target_faces; ++n) {
+            const std::uint32_t before = mesh_.face_count();
+            if (2 * prepass.sweep(result_.verdicts) < kLeastSweepGain * before) break;
+            pack();
+        }
+    }
+
+    /// When many faces are gone, the others are brought together, and their tree is built anew.
+    void pack() {
+        if (mesh_.face_count() >= mesh_.face_end() * kCompactBelow) return;
+        mesh_.compact_faces();
+        tree_.build(mesh_);
+    }
+
+    /// Tests the cheapest candidate: collapses it, or puts it aside.
+    void step() {
+        const EdgeStar& star = collapse_.star;
+        gather(mesh_, candidates_.goes(), candidates_.stays(), collapse_.star);
+        const Verdict verdict = examine(collapse_, [&] { return placement_->place(mesh_, star); });
+        ++result_.verdicts[static_cast<int>(verdict)];
+        if (verdict == Verdict::kAccepted) {
+            placement_->collapse(mesh_, star, collapse_.position);
+            collapse_edge(mesh_, tree_, star, collapse_.position);
+            candidates_.update(star.goes, star.stays);
+        } else {
+            candidates_.refuse();
+        }
+        if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress();
+    }
+
+    Mesh& mesh_;
+    const SimplifyOptions& options_;
+    bool is_refreshing_;
+    FaceTree tree_;
+    FixedOutside outside_;
+    std::unique_ptr<Placement> placement_;
+    Candidates candidates_;
+    Collapse collapse_;
+    CollapseResult result_;
+    std::uint64_t steps_ = 0;
+};
+
+}  // namespace
+
+CollapseResult collapse_edges(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds) {
+    if (mesh.face_count() <= options.target_faces) return {};
+    return CollapseLoop(mesh, options, bounds).run();
+}
+
+}  // namespace regionmesh

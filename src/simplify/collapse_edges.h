@@ -1,0 +1,38 @@
+// One mesh simplified by one heap on one thread: prepass, then ranked collapses (P 3.5-3.7).
+#pragma once
+
+#include "mesh/safe_interval.h"
+#include "regionmesh/simplify.h"
+#include "simplify/collapse.h"
+
+namespace regionmesh {
+
+/// The box in which faces may change: `safe` along an axis, everything across it.
+inline Box box_of(SafeInterval safe, int axis) {
+    Box box = kUnbounded;
+    box.low[axis] = safe.low;
+    box.high[axis] = safe.high;
+    return box;
+}
+
+struct CollapseBounds {
+    Box limits = kUnbounded;  // faces that reach out of it stay as they are; merged vertices stay strictly inside,
+                              // unless on a side of the sampled box
+    bool refresh = true;      // begin again when candidates run out (P 3.7)
+};
+
+struct CollapseResult {
+    VerdictCounts verdicts{};     // strata: edges that cannot be candidates, counted once a refresh
+    std::uint32_t refreshes = 0;  // times that the candidates were gathered after the first
+    StopReason stopped = StopReason::kTarget;
+    std::size_t bytes = 0;  // of the structures in addition to the mesh, at most
+};
+
+/// Collapses the cheapest edge that no verdict forbids, again and again, down to the target or up to the largest cost.
+/// Fixed vertices neither move nor go; an edge that ends in one is no candidate. Quadrics are gathered from the mesh as
+/// it comes and live for one call. Uses one thread, whatever the options say. Requires that every vertex that is not
+/// fixed has all its faces in the mesh. Renumbers faces. Fast when vertices and faces lie along a curve
+/// (Mesh::sort_spatially).
+CollapseResult collapse_edges(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds = {});
+
+}  // namespace regionmesh

@@ -1,0 +1,110 @@
+#include "simplify/prepass.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/strata.h"
+#include "simplify/tuning.h"
+#include "simplify/verdict/quality.h"
+#include "simplify/verdict/verdicts.h"
+
+namespace regionmesh {
+namespace {
+
+/// Nothing near the vertex has changed since it could not be removed.
+constexpr std::uint8_t kSettled = 255;
+static_assert(kMostSweeps < kSettled);
+
+}  // namespace
+
+Prepass::Prepass(Mesh& mesh, FaceTree& tree, Placement& placement, Collapse& collapse, const SimplifyOptions& options,
+                 double max_cost)
+    : mesh_(mesh),
+      tree_(tree),
+      placement_(placement),
+      collapse_(collapse),
+      options_(options),
+      max_cost_(max_cost),
+      seen_(mesh.vertex_end(), 0) {}
+
+std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
+    ++sweep_;
+    std::uint32_t removed = 0;
+    for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
+        if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress();
+        const Vertex& vertex = mesh_[VertexId{v}];
+        if (!vertex.is_alive || vertex.is_fixed || vertex.label_count > 3) continue;
+        if (seen_[v] == kSettled || seen_[v] == sweep_) continue;
+        if (try_to_remove(VertexId{v}, verdicts))
+            ++removed;
+        else
+            seen_[v] = kSettled;
+    }
+    return removed;
+}
+
+bool Prepass::try_to_remove(VertexId v, VerdictCounts& verdicts) {
+    find_targets(v);
+    std::sort(targets_.begin(), targets_.end(), [](const Target& a, const Target& b) {
+        return a.worst_quality3 != b.worst_quality3 ? a.worst_quality3 > b.worst_quality3 : a.vertex < b.vertex;
+    });
+    for (std::size_t n = 0; n < std::min(targets_.size(), kPrepassAttempts); ++n) {
+        const Verdict verdict = test(targets_[n].vertex);
+        ++verdicts[static_cast<int>(verdict)];
+        if (verdict != Verdict::kAccepted) continue;
+        apply(targets_[n].vertex);
+        return true;
+    }
+    return false;
+}
+
+/// Neighbours that pass the cheap tests: strata, cost, fold and quality.
+void Prepass::find_targets(VertexId v) {
+    targets_.clear();
+    gather_vertex(mesh_, v, around_);
+    if (around_.face_count() > kMostPrepassFaces) return;
+    gather_ends(v);
+    placement_.rank_halves(mesh_, around_, ends_, costs_);
+    for (std::size_t n = 0; n < ends_.size(); ++n) {
+        const auto [cost, weight] = costs_[n];
+        if (!(cost <= max_cost_) || cost > options_.max_error * options_.max_error * weight) continue;
+        const double quality3 = fan_quality3(around_, ends_[n], mesh_.position(ends_[n]), collapse_.bounds);
+        if (quality3 > 0) targets_.push_back({ends_[n], quality3});
+    }
+}
+
+void Prepass::gather_ends(VertexId v) {
+    ends_.clear();
+    if (mesh_[v].label_count == 2) {
+        for (const StarFace& face : around_.faces) add_end(face.a);
+        return;
+    }
+    line_ends_.clear();
+    for (const StarFace& face : around_.faces) {
+        for (VertexId end : {face.a, face.b}) {
+            if (mesh_[end].label_count < 3 || std::find(line_ends_.begin(), line_ends_.end(), end) != line_ends_.end())
+                continue;
+            line_ends_.push_back(end);
+            if (edge_labels(mesh_, v, end).size() == mesh_[v].label_count) add_end(end);
+        }
+    }
+}
+
+void Prepass::add_end(VertexId end) {
+    if (!mesh_[end].is_fixed && seen_[index(end)] != sweep_) ends_.push_back(end);
+}
+
+Verdict Prepass::test(VertexId target) {
+    gather_half(mesh_, around_.goes, target, collapse_.star);
+    return examine(collapse_, [&] { return Places{collapse_.star.at_stays}; });
+}
+
+void Prepass::apply(VertexId target) {
+    const EdgeStar& star = collapse_.star;
+    placement_.collapse(mesh_, star, star.at_stays);
+    collapse_edge(mesh_, tree_, star, star.at_stays);
+    seen_[index(target)] = sweep_;
+    for (VertexId v : star.link) seen_[index(v)] = sweep_;
+}
+
+}  // namespace regionmesh

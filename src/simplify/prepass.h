@@ -1,0 +1,54 @@
+// Sweeps of nearly free half-edge collapses before edges are ranked.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simplify/placement.h"
+
+namespace regionmesh {
+
+/// Most vertices of an unsimplified surface lie in flat places, where the order of collapses matters little. A sweep
+/// visits all vertices in their order and collapses those within interfaces into a neighbour, and those of lines into
+/// the next vertex of their line; the neighbour does not move. Of the neighbours that cost at most the threshold, the
+/// one that leaves the best faces is taken. The neighbourhood of a collapse stays as it is until the next sweep, so
+/// that collapses spread evenly. Several times as fast as ranked collapses: no ranks are kept, only the faces of one
+/// vertex change, and vertices near in space are near in time. The tests are the same.
+class Prepass {
+public:
+    /// `max_cost` is the threshold, squared length times area. Tests have their bounds in `collapse`.
+    Prepass(Mesh& mesh, FaceTree& tree, Placement& placement, Collapse& collapse, const SimplifyOptions& options,
+            double max_cost);
+
+    /// Returns the number of collapses, and adds the verdicts of all that were tried.
+    std::uint32_t sweep(VerdictCounts& verdicts);
+
+private:
+    struct Target {
+        VertexId vertex;
+        double worst_quality3;
+    };
+
+    bool try_to_remove(VertexId v, VerdictCounts& verdicts);
+    void find_targets(VertexId v);
+    void gather_ends(VertexId v);
+    void add_end(VertexId end);
+    Verdict test(VertexId target);
+    void apply(VertexId target);
+
+    Mesh& mesh_;
+    FaceTree& tree_;
+    Placement& placement_;
+    Collapse& collapse_;
+    const SimplifyOptions& options_;
+    double max_cost_;
+    EdgeStar around_;                  // all faces of the current vertex
+    std::vector<VertexId> line_ends_;  // of edges between lines, at the current vertex
+    std::vector<VertexId> ends_;       // neighbours in its stratum that may take it
+    std::vector<HalfCost> costs_;      // of these
+    std::vector<Target> targets_;
+    std::vector<std::uint8_t> seen_;  // by vertex: the sweep in which its star changed, or kSettled
+    std::uint8_t sweep_ = 0;
+};
+
+}  // namespace regionmesh

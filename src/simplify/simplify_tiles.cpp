@@ -1,0 +1,73 @@
+#include "simplify/simplify_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel_in_order.h"
+#include "simplify/collapse_edges.h"
+#include "simplify/tile.h"
+
+namespace regionmesh {
+namespace {
+
+/// First what is free, where that may go further than the rest.
+VerdictCounts simplify_tile(Tile& tile, TiledFaces& faces, std::uint32_t number, const TileOptions& options) {
+    tile.take_out(faces, number);
+    Mesh& mesh = tile.mesh();
+    SimplifyOptions own = options.simplify;
+    own.on_progress = {};
+    const CollapseBounds bounds{.limits = faces.grid().limits(number), .refresh = false};
+    const std::uint32_t face_count = mesh.face_count();
+    VerdictCounts verdicts{};
+    const auto simplify_to = [&](double share, double threshold) {
+        own.target_faces = static_cast<std::uint32_t>(std::ceil(share * face_count));
+        own.max_cost = std::min(options.simplify.max_cost, threshold * std::pow(own.scale, 4));
+        add(verdicts, collapse_edges(mesh, own, bounds).verdicts);
+    };
+    if (options.free_share < options.keep_share) simplify_to(options.free_share, kFreeCost);
+    simplify_to(options.keep_share, options.threshold);
+    tile.note_left(faces, number);
+    return verdicts;
+}
+
+}  // namespace
+
+TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
+    const Chunk& chunk = faces.chunk();
+    TileResult result{
+        .left = {.carried = chunk.carried, .vertices = faces.locked_vertices(), .faces = {}, .active = {}}};
+    Chunk& left = result.left;
+    // Reserved pages that are never written cost no memory.
+    left.vertices.reserve(chunk.vertices.size());
+    left.faces.reserve(chunk.faces.size());
+    for (std::uint32_t local : chunk.active) left.active.push_back(faces.locked_number(local));
+    std::vector<Tile> tiles(std::max(options.in_flight, 1u));
+    std::vector<VerdictCounts> verdicts(tiles.size());
+    const auto work = [&](std::uint32_t n, std::uint32_t place) {
+        verdicts[place] = simplify_tile(tiles[place], faces, n, options);
+    };
+    const auto finish = [&](std::uint32_t, std::uint32_t place) {
+        tiles[place].put_back(left);
+        add(result.verdicts, verdicts[place]);
+    };
+    parallel_in_order(faces.grid().tile_count(), options.in_flight, options.threads, {work, finish});
+    return result;
+}
+
+TileCounts try_tiles(TiledFaces& faces, std::span<const std::uint32_t> numbers, const TileOptions& options) {
+    TileCounts counts;
+    std::vector<Tile> tiles(std::max(options.in_flight, 1u));
+    const auto work = [&](std::uint32_t n, std::uint32_t place) {
+        simplify_tile(tiles[place], faces, numbers[n], options);
+    };
+    const auto finish = [&](std::uint32_t n, std::uint32_t place) {
+        counts.faces += faces.faces_of(numbers[n]).size();
+        counts.left_faces += tiles[place].left_faces();
+        counts.inside += tiles[place].inside_count();
+        counts.left_inside += tiles[place].left_inside();
+    };
+    parallel_in_order(static_cast<std::uint32_t>(numbers.size()), options.in_flight, options.threads, {work, finish});
+    return counts;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,40 @@
+// Simplifies a chunk of faces tile by tile, on all threads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "mesh/chunk.h"
+#include "regionmesh/simplify.h"
+#include "simplify/tiled_faces.h"
+#include "simplify/tuning.h"
+
+namespace regionmesh {
+
+struct TileOptions {
+    double threshold;                          // in units of scale^4: collapses up to this cost
+    double keep_share;                         // tiles stop at this share of their faces,
+    double free_share = 1;                     // and free collapses at this one where it is less
+    std::uint32_t threads = 1;                 // tiles at work at a time; 0: one per core. The result is the same
+    std::uint32_t in_flight = kTilesInFlight;  // tiles out of the chunk at a time; the result is the same
+    SimplifyOptions simplify;                  // quality, error, perturbation, scale, placement, tests
+};
+
+struct TileResult {
+    Chunk left;
+    VerdictCounts verdicts{};
+};
+
+/// Simplifies each tile alone with its locked vertices fixed; merged vertices stay strictly inside their tile, so that
+/// the changes of two tiles cannot meet. Active vertices stay active, in their order.
+TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options);
+
+/// Size of a sample of tiles, before and after.
+struct TileCounts {
+    std::uint64_t faces = 0, left_faces = 0;    // their own
+    std::uint64_t inside = 0, left_inside = 0;  // vertices that are not locked
+};
+/// Simplifies some tiles and leaves them as they were.
+TileCounts try_tiles(TiledFaces& faces, std::span<const std::uint32_t> tiles, const TileOptions& options);
+
+}  // namespace regionmesh

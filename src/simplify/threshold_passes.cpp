@@ -1,0 +1,183 @@
+#include "simplify/threshold_passes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/hash.h"
+#include "simplify/collapse_edges.h"
+
+namespace regionmesh {
+namespace {
+
+/// Side in cells of cubes with about `tile_faces` faces each; along an axis that is shorter than the side there is one
+/// tile, and `is_cut` is false.
+double side_of_tiles(const TileGrid& grid, double tiles, std::array<bool, 3>& is_cut) {
+    double side = 0;
+    is_cut.fill(true);
+    for (int round = 0; round < 3; ++round) {
+        double cells = 1;
+        int axes = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            if (is_cut[axis]) cells *= grid.size[axis], ++axes;
+        side = axes > 0 ? std::pow(cells / tiles, 1.0 / axes) : 0;
+        for (int axis = 0; axis < 3; ++axis) is_cut[axis] = is_cut[axis] && grid.size[axis] > side;
+    }
+    return side;
+}
+
+/// Walls lie in each pass elsewhere: between those of the first stage where there is a lattice, and at golden sections
+/// of a tile otherwise.
+TileGrid grid_of(const TilePlan& plan, const PassOptions& options, std::uint64_t faces, int pass) {
+    const int sweep = plan.sweep.axes[2];
+    TileGrid grid{.origin = plan.lattice.origin,
+                  .spacing = plan.lattice.spacing,
+                  .size = {},
+                  .cells = {},
+                  .extent = box_of(options.safe, sweep),
+                  .is_bounded = plan.is_bounded};
+    for (int axis = 0; axis < 3; ++axis) grid.size[axis] = plan.lattice.size[axis] - 1;
+    std::array<bool, 3> is_cut;
+    const double side = side_of_tiles(grid, std::max(static_cast<double>(faces) / options.tile_faces, 1.0), is_cut);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::uint32_t step = std::max(axis == sweep ? plan.run_strips : plan.tile_cells, 1u);
+        const auto steps = static_cast<std::uint32_t>(std::max(std::round(side / step), 1.0));
+        grid.cells[axis] = is_cut[axis] ? steps * step : std::max(grid.size[axis], 1u);
+        if (!is_cut[axis]) continue;
+        const std::uint32_t half = steps == 1 ? step / 2 : steps / 2 * step;
+        grid.shift[axis] = (step / 2 + pass % 2 * half + pass / 2 * (step / 3)) % grid.cells[axis];
+        if (!plan.is_bounded)
+            grid.shift[axis] = static_cast<std::uint32_t>(std::fmod(0.618 * pass, 1.0) * grid.cells[axis]);
+    }
+    return grid;
+}
+
+/// One of every kSampledTiles tiles that have faces, drawn by a hash.
+std::vector<std::uint32_t> sample(const TiledFaces& faces) {
+    std::vector<std::uint32_t> full, chosen;
+    for (std::uint32_t tile = 0; tile < faces.grid().tile_count(); ++tile)
+        if (!faces.faces_of(tile).empty()) full.push_back(tile);
+    const std::uint32_t every = std::clamp(static_cast<std::uint32_t>(full.size()) / kSampledTiles, 1u, kSampledTiles);
+    for (std::uint32_t n = 0; n + every <= full.size(); n += every)
+        chosen.push_back(full[n + static_cast<std::uint32_t>(hash_unit(n, every) * every)]);
+    return chosen;
+}
+
+/// Searches for the threshold at which a sample keeps a share of its faces, and not much less of the vertices that are
+/// not locked.
+class ThresholdSearch {
+public:
+    ThresholdSearch(TiledFaces& faces, const TileOptions& options)
+        : faces_(faces), tiles_(sample(faces)), options_(options) {}
+
+    double find(double share, double threshold) {
+        for (int n = 0; n < kMostThresholds; ++n) {
+            const double left = left_at(threshold);
+            is_free_ = n > 0 && left < share && threshold * kMuchLower < last_threshold_ &&
+                       left < last_left_ * (1 + kNearEnough);
+            threshold = next(threshold, left, share);
+            if (is_free_ || std::abs(left / share - 1) < kNearEnough) break;
+        }
+        return threshold;
+    }
+
+    /// A much lower threshold left no more, and both left too few: the collapses are free, and no threshold leaves
+    /// enough.
+    bool is_free() const { return is_free_; }
+
+    /// The threshold to try after one that left the share `left`.
+    double next(double threshold, double left, double share) {
+        if (last_threshold_ > 0 && last_threshold_ != threshold)
+            power_ = std::clamp(std::log(left / last_left_) / std::log(threshold / last_threshold_),
+                                kMostThresholdPower, kLeastThresholdPower);
+        last_threshold_ = threshold;
+        last_left_ = left;
+        return threshold * std::clamp(std::pow(share / left, 1 / power_), 1 / kMostThresholdStep, kMostThresholdStep);
+    }
+
+private:
+    double left_at(double threshold) {
+        options_.threshold = threshold;
+        const TileCounts counts = try_tiles(faces_, tiles_, options_);
+        const auto share = [](std::uint64_t left, std::uint64_t of) {
+            return (static_cast<double>(left) + 1) / (static_cast<double>(of) + 1);
+        };
+        return std::min(share(counts.left_faces, counts.faces),
+                        share(counts.left_inside, counts.inside) / kLeastInside);
+    }
+
+    TiledFaces& faces_;
+    std::vector<std::uint32_t> tiles_;
+    TileOptions options_;
+    double power_ = kThresholdPower, last_threshold_ = 0, last_left_ = 0;
+    bool is_free_ = false;
+};
+
+/// One pass; nothing where all thresholds tried leave less than the target. Sets the threshold found.
+std::optional<TileResult> pass_over(TiledFaces& faces, TileOptions options, double target, double& threshold) {
+    const auto held = static_cast<double>(faces.chunk().faces.size());
+    options.keep_share = target / held * kLeastShare;
+    ThresholdSearch search(faces, options);
+    double share = target * kPassMargin / held;
+    if (target > 0) threshold = search.find(share, threshold);
+    if (search.is_free()) options.keep_share = share;  // every tile gives the same share
+    for (int n = 0; n < kMostAttempts; ++n) {
+        options.threshold = threshold;
+        TileResult done = simplify_tiles(faces, options);
+        const auto left = static_cast<double>(done.left.faces.size());
+        if (left >= target) return done;
+        share *= kPassMargin;
+        // A larger least share, too: where collapses are free, no threshold leaves more.
+        options.keep_share += target / held * (1 + kMostAbove - kLeastShare) / (kMostAttempts - 1);
+        threshold = search.next(threshold, left / held, share);
+    }
+    return {};
+}
+
+}  // namespace
+
+PassResult simplify_below(Chunk& chunk, const TilePlan& plan, const PassOptions& options) {
+    PassResult result{.threshold = options.tiles.threshold};
+    TileOptions tiles = options.tiles;
+    const auto total = static_cast<double>(chunk.faces.size());
+    for (int pass = 0; pass < kLowPasses; ++pass) {
+        const auto share_of_left = [&](double share) {
+            return std::min(share * total / static_cast<double>(chunk.faces.size()), 1.0);
+        };
+        tiles.keep_share = share_of_left(options.tiles.keep_share);
+        tiles.free_share = share_of_left(options.tiles.free_share);
+        const TileGrid grid = grid_of(plan, options, chunk.faces.size(), kMostPasses + pass);
+        TiledFaces faces(chunk, {}, grid, tiles.threads);
+        TileResult done = simplify_tiles(faces, tiles);
+        chunk = std::move(done.left);
+        add(result.verdicts, done.verdicts);
+        ++result.passes;
+    }
+    return result;
+}
+
+PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOptions& options) {
+    PassResult result;
+    const auto target = static_cast<double>(options.target_faces);
+    if (chunk.faces.size() < std::uint64_t{kFewestTiles} * options.tile_faces) return result;
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+        const std::size_t held = chunk.faces.size();
+        if (static_cast<double>(held) <= target * kWorthPass) break;
+        const TileGrid grid = grid_of(plan, options, held, pass);
+        TiledFaces faces(chunk, {}, grid, options.tiles.threads);
+        TileOptions tiles = options.tiles;
+        tiles.in_flight = std::clamp(static_cast<std::uint32_t>(held / options.tile_faces / kPartsInFlight), 1u,
+                                     std::max(tiles.in_flight, 1u));
+        double threshold = target == 0 ? HUGE_VAL : pass == 0 ? kFirstThreshold : result.threshold * kNextThreshold;
+        std::optional<TileResult> done = pass_over(faces, tiles, target, threshold);
+        if (!done) break;
+        chunk = std::move(done->left);
+        add(result.verdicts, done->verdicts);
+        ++result.passes;
+        result.threshold = threshold;
+        if (static_cast<double>(chunk.faces.size()) > static_cast<double>(held) * (1 - kLeastPassGain)) break;
+    }
+    return result;
+}
+
+}  // namespace regionmesh

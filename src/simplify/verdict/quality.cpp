@@ -1,0 +1,87 @@
+#include "simplify/verdict/quality.h"
+
+#include <algorithm>
+
+#include "base/triangle.h"
+#include "simplify/verdict/verdicts.h"
+
+namespace regionmesh {
+namespace {
+
+double cube_of_bound(const ShapeBounds& bounds) {
+    // A little more than asked, so that rounding does not take a face below when it is measured from another corner.
+    return bounds.min_quality * bounds.min_quality * bounds.min_quality * (1 + 1e-12);
+}
+
+/// Third power of the quality of each of two faces from a vertex to the link, given twice the areas squared
+/// (QualityTerms::cube, side by side).
+Double2 quality3(const StarPair& pair, const Lanes3<Double2>& to_a, const Lanes3<Double2>& to_b, Double2 length2) {
+    const Double2 a = square_root(dot(to_a, to_a)), b = square_root(dot(to_b, to_b)),
+                  c = square_root(pair.link_length2), area = both(0.5) * square_root(length2);
+    const Double2 shortest = least(a, least(b, c));
+    const Double2 others = greatest(a, greatest(b, c)) * greatest(least(a, b), least(greatest(a, b), c));
+    const Double2 product = others * (shortest + both(8) * area / (a + b + c));
+    return area * area * area / (product * product);
+}
+
+/// The least quality of the faces of a star, to the third power, and how many are below the bound.
+struct LowQuality {
+    double worst3;
+    int below;
+};
+
+/// Where faces came in below the bound, a collapse may leave some: no more, and none worse than the worst.
+bool was_worse(const EdgeStar& star, const LowQuality& after, double bound3) {
+    LowQuality before{1, 0};
+    const auto look_at = [&](Vec3 a, Vec3 b, Vec3 c) {
+        const double own3 = quality_terms(a, b, c).cube();
+        before.worst3 = std::min(before.worst3, own3);
+        before.below += own3 < bound3;
+    };
+    for (int face = 0; face < star.face_count(); ++face) look_at(star.at_apex(face), star.at_a(face), star.at_b(face));
+    return after.below <= before.below && after.worst3 >= before.worst3;
+}
+
+}  // namespace
+
+Verdict test_quality(Collapse& collapse) {
+    const EdgeStar& star = collapse.star;
+    const double bound3 = cube_of_bound(collapse.bounds);
+    const Lanes3<Double2> merged = both(collapse.position);
+    double worst3 = 1;
+    int below = 0;
+    for (std::size_t n = 0; n < star.pairs.size(); ++n) {
+        const StarPair& pair = star.pairs[n];
+        const Double2 own3 = quality3(pair, pair.a - merged, pair.b - merged, pair.new_length2);
+        for (int lane = 0; lane < 2; ++lane) {
+            if (own3[lane] < worst3) worst3 = own3[lane];
+            below += own3[lane] < bound3 && 2 * static_cast<int>(n) + lane < star.face_count();
+        }
+    }
+    collapse.worst_quality3 = worst3;
+    return below > 0 && !was_worse(star, {worst3, below}, bound3) ? Verdict::kQuality : Verdict::kAccepted;
+}
+
+double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, const ShapeBounds& bounds) {
+    const Lanes3<Double2> merged = both(at_target);
+    const Double2 bound3 = both(cube_of_bound(bounds));
+    double worst3 = 1;
+    for (int first = 0; first < around.face_count(); first += 2) {
+        const StarPair& pair = around.pairs[first / 2];
+        const Lanes3<Double2> to_a = pair.a - merged, to_b = pair.b - merged, normal = cross(to_a, to_b);
+        const Double2 normal2 = dot(normal, normal);
+        const Double2 own3 = quality3(pair, to_a, to_b, normal2);
+        const unsigned good =
+            bits_of(keep_direction(pair.old_normal, pair.old_length2, normal, normal2, bounds.min_turn_cosine) &
+                    (own3 >= bound3));
+        for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
+            const StarFace& face = around.faces[first + lane];
+            if (face.a == target || face.b == target) continue;  // vanishes
+            if ((good >> lane & 1) == 0) return 0;
+            worst3 = std::min<double>(worst3, own3[lane]);
+        }
+    }
+    return worst3;
+}
+
+}  // namespace regionmesh
