@@ -144,7 +144,7 @@ TEST_F(ReadVtuMesh, arrays_that_are_missing_or_short_are_named) {
     EXPECT_THAT(failure(replaced(grid(piece()), "NumberOfCells=\"2\"", "NumberOfCells=\"4294967295\"")),
                 HasSubstr("array 'types': "));
     EXPECT_THAT(failure(replaced(grid(piece()), "NumberOfCells=\"2\"", "NumberOfCells=\"4294967296\"")),
-                HasSubstr("a count of at most 4294967294 is needed"));
+                HasSubstr("a count of at most 4294967295 is needed"));
     EXPECT_THAT(failure(replaced(grid(piece()), "<CellData>", "<CellData/><Else>") + "</Else>"), HasSubstr("no XML"));
 }
 
