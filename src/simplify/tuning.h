@@ -101,8 +101,8 @@ inline constexpr double kMostCells = 1 << 20;
 /// of the first stage is in units of the spacing.
 inline constexpr double kEdgesPerSpacing = 1.74;
 
-/// The threshold passes over such a mesh aim at this multiple of the target, so that more is left to the ranking over the
-/// whole mesh.
+/// The threshold passes over such a mesh aim at this multiple of the target, so that more is left to the ranking over
+/// the whole mesh.
 inline constexpr double kTrimMargin = 1.4;
 
 /// Passes of the first stage of such a mesh. Its walls cross faces, which leaves more locked vertices than walls in
