@@ -28,7 +28,7 @@ const std::map<std::string, Names> kArrows{
     {"mesh", {"base"}},
     {"cells", {"base", "mesh", "volume"}},
     {"simplify", {"base", "mesh", "volume"}},
-    {"smooth", {"base", "mesh"}},
+    {"smooth", {"base", "mesh", "cells"}},
     {"check", {"base", "mesh"}},
     {"compare", {"base", "mesh", "volume", "check"}},
     {"stream", {"base", "mesh", "volume", "cells", "simplify", "smooth", "check"}},
