@@ -37,15 +37,21 @@ CasePatch patch(std::initializer_list<CornerSet> vertices, int first, int second
     return made;
 }
 
-/// Cuts the patches along the better diagonals for these corners.
+/// Patches of three and four labels list their vertices so that diagonals from the first of each end at one vertex: for
+/// three labels in a tetrahedron the centroid of one triangle, else the centroid of the whole.
+bool has_shared_diagonals(const std::vector<CasePatch>& patches) { return patches.size() > 2; }
+
+/// Cuts the patches along the better diagonals for these corners, or into cones.
 template <std::size_t N>
-void cut(const std::vector<CasePatch>& patches, const std::array<Vec3, N>& corners, bool mirrors,
+void cut(const std::vector<CasePatch>& patches, const std::array<Vec3, N>& corners, bool mirrors, QuadCuts cuts,
          std::vector<CaseFace>& faces) {
+    const bool is_cone = cuts == QuadCuts::kCones && has_shared_diagonals(patches);
     for (const CasePatch& patch : patches) {
         std::array<Vec3, 4> at;
         for (int n = 0; n < patch.vertex_count; ++n) at[n] = centroid_of(patch.vertices[n], corners);
         std::array<CaseFace, 2> made;
-        const int count = patch.cut(patch.vertex_count == 4 ? better_cut(at) : 0, patch.turns != mirrors, made);
+        const int start = patch.vertex_count == 4 && !is_cone ? better_cut(at) : 0;
+        const int count = patch.cut(start, patch.turns != mirrors, made);
         faces.insert(faces.end(), made.begin(), made.begin() + count);
     }
 }
@@ -149,21 +155,21 @@ TrianglePatches make_triangle_patches() {
     return cases;
 }
 
-TetrahedronCases make_tetrahedron_cases(const std::array<Step, 4>& steps) {
+TetrahedronCases make_tetrahedron_cases(const std::array<Step, 4>& steps, QuadCuts cuts) {
     std::array<Vec3, 4> corners;
     std::transform(steps.begin(), steps.end(), corners.begin(), place_of);
     const TetrahedronPatches patches = make_tetrahedron_patches();
     TetrahedronCases cases;
-    for (std::size_t n = 0; n < cases.size(); ++n) cut(patches[n], corners, volume(corners) < 0, cases[n]);
+    for (std::size_t n = 0; n < cases.size(); ++n) cut(patches[n], corners, volume(corners) < 0, cuts, cases[n]);
     return cases;
 }
 
-TriangleCases make_triangle_cases(const std::array<Step, 3>& steps) {
+TriangleCases make_triangle_cases(const std::array<Step, 3>& steps, QuadCuts cuts) {
     std::array<Vec3, 3> corners;
     std::transform(steps.begin(), steps.end(), corners.begin(), place_of);
     const TrianglePatches patches = make_triangle_patches();
     TriangleCases cases;
-    for (std::size_t n = 0; n < cases.size(); ++n) cut(patches[n], corners, false, cases[n]);
+    for (std::size_t n = 0; n < cases.size(); ++n) cut(patches[n], corners, false, cuts, cases[n]);
     return cases;
 }
 

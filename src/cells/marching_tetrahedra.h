@@ -33,6 +33,13 @@ struct CasePatch {
     int cut(int start, bool turn, std::array<CaseFace, 2>& faces) const;
 };
 
+/// Which diagonal cuts a quad.
+enum class QuadCuts {
+    kBestQuality,  // the better worst quality at unit spacing
+    kCones,  // all faces of a tetrahedron or triangle share one vertex: they stay embedded wherever vertices go in
+             // their simplices (docs/explanation/lattice-smoothing.md)
+};
+
 /// The vertex of a quad, 0 or 1, whose diagonal gives the higher minimum quality; 0 in a draw.
 int better_cut(const std::array<Vec3, 4>& quad);
 
@@ -57,13 +64,12 @@ using TrianglePatches = std::array<std::vector<CasePatch>, 8>;
 TrianglePatches make_triangle_patches();
 
 /// All cases of the tetrahedron with corners at the given steps: 0, 2, 2 (one against three, two against two), 5 or 12
-/// faces for 1 to 4 labels: 1, 2, 5, 12. Quads are cut along the diagonal that gives the higher minimum quality at
-/// unit spacing. Patterns that no labels make are empty.
+/// faces for 1 to 4 labels: 1, 2, 5, 12. Patterns that no labels make are empty.
 using TetrahedronCases = std::array<std::vector<CaseFace>, 64>;
-TetrahedronCases make_tetrahedron_cases(const std::array<Step, 4>& corners);
+TetrahedronCases make_tetrahedron_cases(const std::array<Step, 4>& corners, QuadCuts cuts = QuadCuts::kBestQuality);
 
 /// All cases of a lattice triangle on the box: 1, 3 or 6 faces for 1, 2 or 3 labels, oriented like the corners.
 using TriangleCases = std::array<std::vector<CaseFace>, 8>;
-TriangleCases make_triangle_cases(const std::array<Step, 3>& corners);
+TriangleCases make_triangle_cases(const std::array<Step, 3>& corners, QuadCuts cuts = QuadCuts::kBestQuality);
 
 }  // namespace regionmesh

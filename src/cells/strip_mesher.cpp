@@ -70,7 +70,7 @@ void StripMesher::plan_tetrahedra() {
     for (int t = 0; t < 6; ++t) {
         TetrahedronPlan& plan = tetrahedra_[t];
         plan.corners = kKinds[kFirstTetrahedron + t].steps;
-        plan.cases = make_tetrahedron_cases(plan.corners);
+        plan.cases = make_tetrahedron_cases(plan.corners, options_.cuts);
         for (unsigned set = 1; set < 16; ++set) plan.simplices[set] = place_of(plan.corners.data(), set);
     }
 }
@@ -91,7 +91,7 @@ void StripMesher::plan_triangles() {
             const bool points_high = (first + 1) % 3 == second;
             const bool turn = points_high != is_high;
             if (turn) std::swap(plan.corners[1], plan.corners[2]);
-            plan.cases = make_triangle_cases(plan.corners);
+            plan.cases = make_triangle_cases(plan.corners, options_.cuts);
             for (unsigned set = 1; set < 8; ++set) {
                 unsigned sorted = set;
                 if (turn) sorted = (set & 1) | (set >> 2 & 1) << 1 | (set >> 1 & 1) << 2;

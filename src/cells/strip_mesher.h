@@ -18,6 +18,7 @@ namespace regionmesh {
 struct StripOptions {
     bool cap = true;                     // split the lattice triangles on the six sides of the box into faces
     std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
+    QuadCuts cuts = QuadCuts::kBestQuality;
 
     bool is_background(Label label) const {
         return std::find(background.begin(), background.end(), label) != background.end();

@@ -252,5 +252,22 @@ TEST(TrianglePatches, one_to_three_labels_make_a_triangle_a_triangle_and_a_quad_
     for (unsigned pattern : {1u, 2u, 4u}) EXPECT_TRUE(patches[pattern].empty()) << "no labels make it";
 }
 
+TEST(MarchingTetrahedra, cone_cuts_share_one_vertex) {
+    for (int kind = kFirstTetrahedron; kind < kKindCount; ++kind) {
+        const TetrahedronCases cases = make_tetrahedron_cases(kKinds[kind].steps, QuadCuts::kCones);
+        const TetrahedronCases usual = make_tetrahedron_cases(kKinds[kind].steps);
+        for (std::size_t pattern = 0; pattern < cases.size(); ++pattern) {
+            EXPECT_EQ(cases[pattern].size(), usual[pattern].size());
+            if (cases[pattern].empty()) continue;
+            int shared = 0;
+            for (CornerSet vertex = 1; vertex < 16; ++vertex)
+                shared += std::all_of(cases[pattern].begin(), cases[pattern].end(), [&](const CaseFace& face) {
+                    return std::count(face.vertices.begin(), face.vertices.end(), vertex) > 0;
+                });
+            EXPECT_GE(shared, 1) << "pattern " << pattern;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace regionmesh

@@ -1,0 +1,82 @@
+#include "smooth/lattice_simplex.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+/// Positions are rounded: far from the origin of the lattice by more than a unit in the last place.
+constexpr double kFarFromTwelfth = 0.01;
+
+[[noreturn]] void refuse(Vec3 p) {
+    throw Error(ErrorCode::kInput, "smoothing in the lattice: the vertex at " + std::to_string(p.x) + ", " +
+                                       std::to_string(p.y) + ", " + std::to_string(p.z) +
+                                       " is not the centroid of a lattice simplex; only an unsmoothed, undecimated "
+                                       "reconstruction of sections can be smoothed so");
+}
+
+}  // namespace
+
+LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame) {
+    // A centroid's offsets are multiples of 1/2, 1/3 or 1/4: of 1/12. Offset times node_count is the number of nodes
+    // that have the axis, which gives the chain of steps.
+    LatticeSimplex simplex;
+    std::array<int, 3> twelfths;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double offset = (position[axis] - frame.origin[axis]) / frame.spacing[axis];
+        const double scaled = std::round(offset * 12);
+        if (!(std::abs(offset * 12 - scaled) < kFarFromTwelfth)) refuse(position);
+        simplex.base[axis] = std::floor(scaled / 12);
+        twelfths[axis] = static_cast<int>(scaled - 12 * simplex.base[axis]);
+    }
+    for (int kind = 0; kind < kKindCount; ++kind) {
+        const Vec3 middle = centroid(kind);
+        bool is_same = true;
+        for (int axis = 0; axis < 3; ++axis) is_same &= std::lround(12 * middle[axis]) == twelfths[axis];
+        if (!is_same) continue;
+        simplex.kind = static_cast<std::uint8_t>(kind);
+        return simplex;
+    }
+    refuse(position);
+}
+
+Barycentric clamp_inside(const Barycentric& weights, int node_count, double margin) {
+    assert(margin * node_count < 1);
+    Barycentric inside{};
+    double room = 0;
+    for (int n = 0; n < node_count; ++n) room += inside[n] = std::max(weights[n] - margin, 0.0);
+    const double share = (1 - node_count * margin) / room;
+    for (int n = 0; n < node_count; ++n) inside[n] = margin + share * inside[n];
+    return inside;
+}
+
+Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame) {
+    constexpr double kUnit = 1 << 20;
+    const SimplexKind& kind = kKinds[simplex.kind];
+    // Weights are rounded, not sums of them: axes with the same nodes get the same offset, bit for bit.
+    Vec3 offset;
+    for (int n = 1; n < kind.node_count; ++n) {
+        const double weight = std::round(weights[n] * kUnit) / kUnit;
+        for (int axis = 0; axis < 3; ++axis)
+            if (kind.steps[n] >> axis & 1) offset[axis] += weight;
+    }
+    Vec3 position;
+    for (int axis = 0; axis < 3; ++axis)
+        position[axis] = frame.origin[axis] + (simplex.base[axis] + offset[axis]) * frame.spacing[axis];
+    return position;
+}
+
+SimplexEdges edges_of(int kind, Vec3 spacing) {
+    SimplexEdges result{kKinds[kind].node_count - 1, {}};
+    for (int n = 0; n < result.count; ++n)
+        for (int axis = 0; axis < 3; ++axis)
+            if (kKinds[kind].steps[n + 1] >> axis & 1) result.edges[n][axis] = spacing[axis];
+    return result;
+}
+
+}  // namespace regionmesh

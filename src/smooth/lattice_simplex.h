@@ -1,0 +1,49 @@
+// The lattice simplex that a vertex of the reconstruction belongs to, and positions strictly inside it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "cells/kuhn.h"
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+/// Node (i, j, k) of the lattice lies at origin + (i, j, k) * spacing.
+struct LatticeFrame {
+    Vec3 origin{0, 0, 0};
+    Vec3 spacing{1, 1, 1};
+
+    double finest() const { return std::min({spacing.x, spacing.y, spacing.z}); }
+};
+
+/// Weights of the nodes of a simplex, in the order of kKinds; they add up to 1.
+using Barycentric = std::array<double, 4>;
+
+struct LatticeSimplex {
+    Vec3 base;  // first node, in whole lattice units
+    std::uint8_t kind = 0;
+
+    int node_count() const { return kKinds[kind].node_count; }
+};
+
+/// The simplex whose centroid an unsmoothed vertex is. Throws Error(kInput) for any other position.
+LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame);
+
+/// Moves weights into the smaller simplex in which none is below `margin`. Keeps weights that are there already.
+/// Requires margin < 1 / node_count.
+Barycentric clamp_inside(const Barycentric& weights, int node_count, double margin);
+
+/// The point of the simplex with the given weights. Coordinates in lattice units are rounded to multiples of 2^-20, so
+/// that with unit spacing the point lies exactly in the simplex; along axes in which the simplex does not extend it has
+/// the exact coordinate of the node.
+Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame);
+
+/// Edge vectors from the first node to the others, in the unit of the spacing.
+struct SimplexEdges {
+    int count;
+    std::array<Vec3, 3> edges;
+};
+SimplexEdges edges_of(int kind, Vec3 spacing);
+
+}  // namespace regionmesh

@@ -1,0 +1,171 @@
+#include "smooth/lattice_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "regionmesh/error.h"
+#include "support/cone_mesh.h"
+#include "support/crossings.h"
+#include "support/digest.h"
+#include "support/runs.h"
+
+namespace regionmesh {
+namespace {
+
+/// The mesh as the filter takes it.
+struct Surface {
+    std::vector<Vec3> positions;
+    std::vector<LatticeFace> faces;
+
+    explicit Surface(const Mesh& mesh) {
+        for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) positions.push_back(mesh.position(VertexId{v}));
+        for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+            const auto& [v, next, labels] = mesh[FaceId{f}];
+            faces.push_back({{index(v[0]), index(v[1]), index(v[2])}, labels});
+        }
+    }
+};
+
+Mesh smoothed(test::ArrayVolume& volume, std::uint32_t threads = 1) {
+    const Lattice& lattice = volume.info().lattice;
+    Mesh mesh = test::cone_mesh(volume);
+    const Surface surface(mesh);
+    const std::vector<Vec3> moved =
+        lattice_positions(surface.positions, surface.faces, {lattice.origin, lattice.spacing}, {.threads = threads});
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].position = moved[v];
+    return mesh;
+}
+
+using Distance = std::function<double(Vec3)>;
+
+test::ArrayVolume sampled(test::Size size, Vec3 spacing, const Distance& distance) {
+    std::vector<InputLabel> labels;
+    for (std::uint32_t z = 0; z < size[2]; ++z)
+        for (std::uint32_t y = 0; y < size[1]; ++y)
+            for (std::uint32_t x = 0; x < size[0]; ++x)
+                labels.push_back(distance({x * spacing.x, y * spacing.y, z * spacing.z}) < 0);
+    test::ArrayVolume volume(size, std::move(labels));
+    volume.lattice().spacing = spacing;
+    return volume;
+}
+
+struct Deviation {
+    double rms = 0, degrees = 0;  // area-weighted; inside the box only
+};
+
+/// Requires a distance of gradient 1.
+Deviation error_of(const Mesh& mesh, const Distance& distance, double low, double high) {
+    Deviation error;
+    double areas = 0;
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+        const auto p = mesh.corners(FaceId{f});
+        const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
+        bool is_inside = true;
+        for (int axis = 0; axis < 3; ++axis) is_inside &= middle[axis] > low && middle[axis] < high;
+        if (!is_inside || is_exterior(mesh[FaceId{f}].labels[1])) continue;
+        const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+        const double area = length(normal), far = distance(middle);
+        Vec3 slope;
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 step;
+            step[axis] = 1e-5;
+            slope[axis] = (distance(middle + step) - distance(middle - step)) / 2e-5;
+        }
+        const double cosine = std::min(1.0, std::abs(dot(normal, slope)) / (area * length(slope)));
+        error.degrees += area * std::acos(cosine) * 180 / std::acos(-1.0);
+        error.rms += area * far * far;
+        areas += area;
+    }
+    return {std::sqrt(error.rms / areas), error.degrees / areas};
+}
+
+TEST(LatticeFilter, makes_round_what_is_round) {
+    const Distance ball = [](Vec3 p) { return length(p - Vec3{15.3, 15.7, 16.1}) - 11.2; };
+    auto fine = sampled({32, 32, 32}, {1, 1, 1}, ball), coarse = sampled({32, 32, 8}, {1, 1, 5}, ball);
+    const Deviation at_1 = error_of(smoothed(fine), ball, 0.5, 31);
+    EXPECT_LT(at_1.degrees, 2);
+    EXPECT_LT(at_1.rms, 0.06);
+    const Deviation at_5 = error_of(smoothed(coarse), ball, 0.5, 31);
+    EXPECT_LT(at_5.degrees, 9);
+    EXPECT_LT(at_5.rms, 0.35);
+}
+
+TEST(LatticeFilter, makes_plane_what_is_plane) {
+    for (Vec3 normal : {Vec3{.31, .17, .93}, Vec3{.1, .07, 1}, Vec3{.8, .55, .12}}) {
+        normal = normal / length(normal);
+        const Distance plane = [&](Vec3 p) { return dot(p - Vec3{15.3, 15.7, 16.1}, normal); };
+        auto volume = sampled({32, 32, 32}, {1, 1, 1}, plane);
+        const Deviation error = error_of(smoothed(volume), plane, 4, 27);
+        EXPECT_LT(error.degrees, 0.6);
+        EXPECT_LT(error.rms, 0.02);
+    }
+}
+
+/// The same simplex as before smoothing, and inside it.
+void expect_inside(const std::vector<Vec3>& before, const std::vector<Vec3>& after, const LatticeFrame& frame,
+                   double margin) {
+    ASSERT_EQ(before.size(), after.size());
+    for (std::uint32_t v = 0; v < before.size(); ++v) {
+        const LatticeSimplex simplex = simplex_of(before[v], frame);
+        // Offsets along the chain of steps: differences of them are the weights.
+        const Vec3 at = after[v];
+        std::array<double, 4> offset{1, 0, 0, 0};
+        const SimplexKind& kind = kKinds[simplex.kind];
+        for (int n = 1; n < kind.node_count; ++n) {
+            const int fresh = kind.steps[n] & ~kind.steps[n - 1];
+            for (int axis = 0; axis < 3; ++axis)
+                if (fresh >> axis & 1)
+                    offset[n] = (at[axis] - frame.origin[axis]) / frame.spacing[axis] - simplex.base[axis];
+        }
+        for (int n = 0; n < kind.node_count; ++n) {
+            const double weight = offset[n] - (n + 1 < kind.node_count ? offset[n + 1] : 0);
+            EXPECT_GE(weight, margin - 2e-6);
+        }
+    }
+}
+
+TEST(LatticeFilter, keeps_vertices_in_their_simplices_and_the_model_sound) {
+    const LatticeFrame frame{{-7.3, 100.1, 0.7}, {0.7, 1.3, 5.1}};
+    test::ArrayVolume volumes[] = {test::noise_volume({7, 7, 7}, 2, 1), test::noise_volume({7, 7, 7}, 5, 2),
+                                   test::grain_volume({14, 14, 14}, 12, 3)};
+    for (test::ArrayVolume& volume : volumes) {
+        volume.lattice().spacing = frame.spacing;
+        volume.lattice().origin = frame.origin;
+        const Surface before(test::cone_mesh(volume));
+        const Mesh mesh = smoothed(volume);
+        test::expect_sound(check(mesh));
+        EXPECT_TRUE(test::crossings_in(mesh).empty());
+        expect_inside(before.positions, Surface(mesh).positions, frame, 0.01);
+    }
+}
+
+TEST(LatticeFilter, keeps_box_sides_plane_and_edges_straight) {
+    auto volume = test::grain_volume({14, 14, 14}, 12, 3);
+    const Mesh mesh = smoothed(volume);
+    std::uint32_t on_sides = 0;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        for (int side = 0; side < 6; ++side) {
+            if (!(mesh[VertexId{v}].sides >> side & 1)) continue;
+            EXPECT_EQ(mesh.position(VertexId{v})[side / 2], side % 2 ? 13.0 : 0.0);
+            ++on_sides;
+        }
+    EXPECT_GT(on_sides, 500u);
+}
+
+TEST(LatticeFilter, does_not_depend_on_threads) {
+    auto volume = test::grain_volume({14, 14, 14}, 12, 3);
+    const std::uint64_t once = test::digest(smoothed(volume, 1));
+    EXPECT_EQ(test::digest(smoothed(volume, 2)), once);
+    EXPECT_EQ(test::digest(smoothed(volume, 5)), once);
+}
+
+TEST(LatticeFilter, refuses_a_surface_that_is_not_of_the_lattice) {
+    auto volume = test::grain_volume({8, 8, 8}, 4, 3);
+    const Surface surface(smoothed(volume));
+    EXPECT_THROW(lattice_positions(surface.positions, surface.faces, {}), Error);
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,35 @@
+// The unsmoothed reconstruction whose quads are cut into cones, as the lattice filter needs it.
+#pragma once
+
+#include "cells/strip_mesher.h"
+#include "regionmesh/mesh.h"
+#include "support/volumes.h"
+
+namespace regionmesh::test {
+
+/// Labels of the volume are dense labels already.
+inline Mesh cone_mesh(const ArrayVolume& volume) {
+    const Size size = volume.size();
+    const std::size_t area = std::size_t{size[0]} * size[1];
+    const std::vector<Label> labels(volume.labels().begin(), volume.labels().end());
+    StripMesher mesher(volume.info().lattice, kSweepZ, {.cuts = QuadCuts::kCones});
+    Mesh mesh;
+    Chunk chunk;
+    std::vector<VertexId> number, active;
+    for (std::uint32_t strip = 0; strip + 1 < size[2]; ++strip) {
+        chunk.clear();
+        mesher.mesh(std::span(labels).subspan(strip * area, area), std::span(labels).subspan((strip + 1) * area, area),
+                    chunk);
+        number = active;
+        for (const ChunkVertex& vertex : chunk.vertices)
+            number.push_back(mesh.add_vertex(vertex.position, vertex.sides));
+        for (const ChunkFace& face : chunk.faces)
+            mesh.add_face(number[face.vertices[0]], number[face.vertices[1]], number[face.vertices[2]], face.labels[0],
+                          face.labels[1]);
+        active.clear();
+        for (std::uint32_t local : chunk.active) active.push_back(number[local]);
+    }
+    return mesh;
+}
+
+}  // namespace regionmesh::test
