@@ -62,8 +62,7 @@ struct SweepOrder {
 
 /// Ranks the points; returns the ranks by the reader's numbers. Positions are sorted in place: a second copy would take
 /// half as much memory again.
-std::vector<std::uint32_t> rank_points(const TetrahedronReader& reader, LabelledPoints given, LabelTable& labels,
-                                       RankedPoints& ranked) {
+std::vector<std::uint32_t> rank_points(LabelledPoints given, LabelTable& labels, RankedPoints& ranked) {
     const bool has_labels = !given.labels.empty();
     std::vector<Vec3>& positions = given.positions;
     const SweepOrder order{ranked.sweep};
@@ -162,7 +161,7 @@ RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, 
     ranked.points.sweep = options.sweep ? *options.sweep : longest(all);
     const std::uint64_t count = given.positions.size();
     require_memory(reader, count, points_across(all, ranked.points.sweep, static_cast<double>(count)), options.memory);
-    const std::vector<std::uint32_t> rank_of = rank_points(reader, std::move(given), labels, ranked.points);
+    const std::vector<std::uint32_t> rank_of = rank_points(std::move(given), labels, ranked.points);
     Ranker ranker(reader, labels, rank_of, ranked);
     std::vector<LabelledTetrahedron> piece(kPiece);
     while (const std::size_t got = reader.next(piece))

@@ -46,7 +46,9 @@ TEST(Limits, a_mesh_makes_no_room_beyond_them) {
 }
 
 TEST(Limits, a_budget_expects_no_more_faces_than_a_mesh_can_hold) {
-    BudgetDemand demand{.strip_faces = std::vector<std::uint64_t>(9, 100), .asked_budget = kMostFaces * 10};
+    BudgetDemand demand;
+    demand.strip_faces.assign(9, 100);
+    demand.asked_budget = kMostFaces * 10;
     EXPECT_EQ(plan_budget(std::uint64_t{1} << 50, demand).face_budget(0), kMostFaces);
 }
 

@@ -345,8 +345,9 @@ TEST_F(Cli, convert_brings_regions_together_and_other_commands_read_them) {
     EXPECT_EQ(run("convert " + out("m.vtp") + " " + out("m.ply") + " --quiet").out, "");
     EXPECT_EQ(run("check " + out("m.ply")).code, 0);
     EXPECT_EQ(run("check " + regions).code, 0);
-    if (readable_extensions().find(".dream3d") != std::string::npos)
+    if (readable_extensions().find(".dream3d") != std::string::npos) {
         EXPECT_EQ(run("decimate " + data("surfaces/dream3d_8.dream3d") + " --reduce 10% -o " + out("d.vtp")).code, 0);
+    }
     EXPECT_EQ(run("smooth " + data("surfaces/vtk_quads.vtp") + " -o " + out("s.vtp")).code, 0);
 }
 
