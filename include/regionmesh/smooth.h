@@ -11,6 +11,8 @@
 namespace regionmesh {
 
 enum class SmoothFilter {
+    kAuto,       // kLattice for sections, kTaubin for all else
+    kLattice,    // of sections: inside the simplices of the lattice, keeps every sample (docs/explanation/lattice-smoothing.md)
     kTaubin,     // passes with lambda and mu in turn (Taubin 1995; P 2.3): roughly preserves volumes
     kLaplacian,  // passes with lambda (P eq. 2): shrinks
     kNifpms,     // one pass onto the tangent planes nearby (Jones, Durand, Desbrun 2003): keeps features
@@ -18,9 +20,10 @@ enum class SmoothFilter {
 
 /// The words are those of the command line.
 struct SmoothOptions {
-    SmoothFilter filter = SmoothFilter::kTaubin;
+    SmoothFilter filter = SmoothFilter::kAuto;
     std::uint32_t passes = 20;    // sweeps over all vertices; Taubin: every second one uses mu; NIFPMS: one is
                                   // enough; 0: no smoothing
+    double reach = 0;             // kLattice: largest blocks, in finest spacings: 2, 4, 8, 16; 0: from the spacing
     double lambda = 0.6;          // share of the way to the mean of the neighbours
     double mu_per_lambda = 1.02;  // mu = - mu_per_lambda * lambda (Bade et al. 2006)
     double scale = 1;             // a typical length, the sample spacing: unit of the next two

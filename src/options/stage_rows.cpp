@@ -11,7 +11,8 @@ constexpr Range kPasses{0, 100'000}, kSampleCounts{1, 1e9}, kShareRange{0, 1},
     kPositive{.low = 0, .is_low_included = false};
 
 void choose_filter(Settings& settings, std::size_t word) {
-    constexpr SmoothFilter kFilters[] = {SmoothFilter::kTaubin, SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
+    constexpr SmoothFilter kFilters[] = {SmoothFilter::kAuto, SmoothFilter::kLattice, SmoothFilter::kTaubin,
+                                         SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
     if (word < std::size(kFilters))
         settings.reconstruct.smooth.filter = kFilters[word];
     else
@@ -78,7 +79,7 @@ Rows smoothing_rows() {
                      .help = "taubin keeps volumes roughly, laplacian shrinks, nifpms keeps sharp edges (one pass)",
                      .group = kGroup,
                      .commands = kSmoothers},
-                    {"taubin", "laplacian", "nifpms", "none"}, choose_filter),
+                    {"auto", "lattice", "taubin", "laplacian", "nifpms", "none"}, choose_filter),
         option(
             {.name = "smooth-lambda",
              .help = "share of the way to the mean of the neighbours, for taubin and laplacian",

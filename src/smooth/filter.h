@@ -8,6 +8,7 @@
 
 #include "regionmesh/smooth.h"
 #include "smooth/chunk_stars.h"
+#include "smooth/lattice_simplex.h"
 #include "smooth/neighbours.h"
 #include "smooth/surface_window.h"
 
@@ -20,6 +21,7 @@ struct ChunkOrder {
     double thickness = std::numeric_limits<double>::infinity();
     std::uint32_t overlap = 0;  // chunks that follow and begin before the end of one, at most
     std::uint32_t extra = 0;    // chunks held beyond those that the reach of the filter calls for
+    LatticeFrame frame = {};    // of the vertices; for SmoothFilter::kLattice
 
     std::uint32_t chunks_within(double length) const {
         return static_cast<std::uint32_t>(std::ceil(length / thickness));

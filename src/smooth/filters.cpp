@@ -37,6 +37,8 @@ const FilterRow& row_of(SmoothFilter filter) {
 
 std::unique_ptr<Filter> make_filter(const FilterInput& input) { return row_of(input.options.filter).make(input); }
 
-std::uint64_t filter_bytes_per_face(SmoothFilter filter) { return row_of(filter).bytes_per_face; }
+std::uint64_t filter_bytes_per_face(SmoothFilter filter) {
+    return filter == SmoothFilter::kLattice ? 0 : row_of(filter).bytes_per_face;
+}
 
 }  // namespace regionmesh

@@ -2,137 +2,177 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
+#include <utility>
 
 #include "base/parallel_for.h"
 
 namespace regionmesh {
 namespace {
 
-/// Sites of one kind of simplex in a cell of a third of a block are one sample.
-constexpr int kCellsPerBlock = 3;
-
 /// Normals count as of one sheet above this cosine; two sides of a thin region face away from each other.
-constexpr double kSameSheet = 0.2;
+constexpr float kSameSheet = 0.2f;
 
 /// Groups of sites in a block are one sheet above this cosine.
-constexpr double kJoins = 0.7;
+constexpr float kJoins = 0.7f;
 
 /// A quadric may miss a simplex by this share of the spacing along its normal.
-constexpr double kTolerance = 0.3;
-
-/// Least extent of a simplex in weights, as a share of the finest spacing.
-constexpr double kFinestExtent = 0.1;
+constexpr float kTolerance = 0.3f;
 
 /// Weight of a quadric in the corners of its own block, which may lie beyond kBlend.
-constexpr double kOwnWeight = 1e-6;
+constexpr float kOwnWeight = 1e-6f;
+
+/// Extents of simplices depend on the slope of the quadric: fitted again with the slopes found first.
+constexpr int kRounds = 2;
 
 /// The axis along which a normal is longest, and its sign: sites of a block are parted by it.
-std::uint8_t direction_of(Vec3 normal) {
-    int axis = 0;
-    for (int other = 1; other < 3; ++other)
-        if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
-    return static_cast<std::uint8_t>(2 * axis + (normal[axis] > 0));
-}
-
-std::span<const Vec3> span_of(const SimplexEdges& edges) {
-    return {edges.edges.data(), static_cast<std::size_t>(edges.count)};
+std::uint8_t direction_of(Float3 normal) {
+    const float sizes[3] = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    const float signs[3] = {normal.x, normal.y, normal.z};
+    const int axis = sizes[1] > sizes[0] ? (sizes[2] > sizes[1] ? 2 : 1) : (sizes[2] > sizes[0] ? 2 : 0);
+    return static_cast<std::uint8_t>(2 * axis + (signs[axis] > 0));
 }
 
 }  // namespace
 
-LatticeLevel::LatticeLevel(std::span<const LatticeSite> sites, const LatticeFrame& frame, const Options& options)
-    : sites_(sites), frame_(frame), options_(options), finest_extent_(kFinestExtent * frame.finest()) {
-    for (int axis = 0; axis < 3; ++axis) size_[axis] = std::max(options.size, frame.spacing[axis]);
-    for (int kind = 0; kind < kKindCount; ++kind) edges_[kind] = edges_of(kind, frame.spacing);
-    sort_sites();
-    for (Block& block : blocks_) {
-        make_samples(block);
-        make_fits(block);
-    }
+LatticeLevel::LatticeLevel(const LatticeSites& sites, SlidingArray<SiteEstimate>& estimates, const Options& options)
+    : sites_(sites), estimates_(estimates), options_(options) {
+    const LatticeFrame& frame = sites.frame();
+    spacing_ = Float3(frame.spacing / frame.finest());
+    const auto size = static_cast<float>(options.size);
+    size_ = {std::max(size, spacing_.x), std::max(size, spacing_.y), std::max(size, spacing_.z)};
 }
 
 /// Square of a length measured in blocks.
-double LatticeLevel::distance2(Vec3 d) const { return length2({d.x / size_.x, d.y / size_.y, d.z / size_.z}); }
+float LatticeLevel::distance2(Float3 d) const {
+    const Float3 in_blocks{d.x / size_.x, d.y / size_.y, d.z / size_.z};
+    return dot(in_blocks, in_blocks);
+}
 
-void LatticeLevel::sort_sites() {
+/// The cell, a third of a block, of a coordinate in finest spacings. The small shift keeps centroids on a plane between
+/// cells on one side of it, whatever their rounding.
+std::int64_t LatticeLevel::place_of(double coordinate, int axis) const {
+    return static_cast<std::int64_t>(std::floor(coordinate / size_along(axis) * kCells + 1e-4));
+}
+
+/// The level before has to refine up to this coordinate before a layer can be refined.
+void LatticeLevel::require_before(std::int64_t layer, double coordinate) {
+    std::int64_t& before = layers_[layer - first_layer_].before;
+    if (options_.before) before = std::max(before, options_.before->layer_of(coordinate));
+}
+
+void LatticeLevel::add(std::uint32_t site, double coordinate) {
+    const std::int64_t layer = layer_of(coordinate);
+    while (layer_end() <= layer) layers_.emplace_back();
+    layers_[layer - first_layer_].sites.push_back(site);
+    require_before(layer, coordinate);
+}
+
+std::int64_t LatticeLevel::cell_of(std::uint32_t site, int axis) const {
+    return place_of(sites_[site].centroid.at[axis] * LatticePoint::kStep, axis);
+}
+
+void LatticeLevel::seal_before(std::int64_t end) {
+    for (; sealed_ < end; ++sealed_) {
+        if (sealed_ == layer_end()) layers_.emplace_back();
+        // Nearly the end of the layer: on the way it takes as long with few sites as with many.
+        require_before(sealed_, (static_cast<double>(sealed_) + 0.99) * size_along(options_.sweep_axis));
+        seal(layers_[sealed_ - first_layer_]);
+    }
+}
+
+/// Sorts the sites of a layer into rows and blocks.
+void LatticeLevel::seal(Layer& layer) {
+    const int axis = (options_.sweep_axis + 2) % 3;
+    for (std::uint32_t s : layer.sites) {
+        const std::size_t n = cell_of(s, axis) / kCells;
+        if (layer.rows.size() <= n) layer.rows.resize(n + 1);
+        layer.rows[n].sites.push_back(s);
+    }
+    layer.sites = {};
+    parallel_for(static_cast<std::uint32_t>(layer.rows.size()), options_.threads,
+                 [&](std::uint32_t n) { fill_row(layer.rows[n]); });
+}
+
+void LatticeLevel::fill_row(Row& row) const {
     struct Entry {
-        std::array<std::int32_t, 3> place;  // slow axis first
-        std::uint32_t group;
-        std::uint32_t site;
-    };
-    std::vector<Entry> entries(sites_.size());
-    for (std::uint32_t s = 0; s < sites_.size(); ++s) {
-        Entry& entry = entries[s];
-        std::uint32_t cell = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            // The small shift keeps centroids on a plane between cells on one side of it, whatever their rounding.
-            const double at = (sites_[s].position[axis] - frame_.origin[axis]) / size_[axis] * kCellsPerBlock + 1e-6;
-            const auto whole = static_cast<std::int32_t>(std::floor(at));
-            entry.place[2 - axis] = whole / kCellsPerBlock;
-            cell = cell * kCellsPerBlock + static_cast<std::uint32_t>(whole % kCellsPerBlock);
+        std::uint64_t key;  // block, cell in the block, kind, direction
+        std::uint32_t interface, site;
+        bool operator<(const Entry& other) const {
+            return std::tie(key, interface, site) < std::tie(other.key, other.interface, other.site);
         }
-        entry.group = (cell * kKindCount + sites_[s].kind) * 6 + direction_of(sites_[s].normal);
-        entry.site = s;
+    };
+    const int axes[3] = {options_.sweep_axis, (options_.sweep_axis + 2) % 3, (options_.sweep_axis + 1) % 3};
+    std::vector<Entry> entries;
+    entries.reserve(row.sites.size());
+    for (std::uint32_t s : row.sites) {
+        const LatticeSite& site = sites_[s];
+        const std::int64_t along = cell_of(s, axes[2]);
+        std::uint64_t key = static_cast<std::uint64_t>(along / kCells);
+        key = key * kCells + static_cast<std::uint64_t>(cell_of(s, axes[0]) % kCells);
+        key = key * kCells + static_cast<std::uint64_t>(cell_of(s, axes[1]) % kCells);
+        key = key * kCells + static_cast<std::uint64_t>(along % kCells);
+        entries.push_back({(key * kKindCount + site.kind) * 6 + direction_of(site.normal), site.interface, s});
     }
-    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
-        return std::tie(a.place, a.group, sites_[a.site].interface, a.site) <
-               std::tie(b.place, b.group, sites_[b.site].interface, b.site);
-    });
-    order_.resize(entries.size());
-    for (std::uint32_t n = 0; n < entries.size(); ++n) {
-        order_[n] = entries[n].site;
-        if (n == 0 || entries[n].place != entries[n - 1].place) blocks_.push_back({entries[n].place, {n, n}, {}, {}});
-        blocks_.back().sites.end = n + 1;
+    std::sort(entries.begin(), entries.end());
+    constexpr std::uint64_t kKeysPerCell = kKindCount * 6, kKeysPerBlock = kKeysPerCell * kCells * kCells * kCells;
+    row.sites.clear();
+    row.sites.reserve(entries.size());
+    for (std::size_t n = 0; n < entries.size(); ++n) {
+        const Entry& entry = entries[n];
+        const std::uint64_t block = entry.key / kKeysPerBlock;
+        if (n == 0 || block != entries[n - 1].key / kKeysPerBlock)
+            row.blocks.push_back({static_cast<std::int32_t>(block), static_cast<std::uint32_t>(n), 0, 0});
+        row.sites.push_back(entry.site);
     }
+    row.blocks.push_back({std::numeric_limits<std::int32_t>::max(), static_cast<std::uint32_t>(entries.size()), 0, 0});
+    std::vector<std::uint64_t> keys;
+    keys.reserve(entries.size());
+    for (const Entry& entry : entries) keys.push_back(entry.key);
+    make_samples(row, keys);
+    make_fits(row);
 }
 
-void LatticeLevel::make_samples(Block& block) {
-    block.samples.first = static_cast<std::uint32_t>(samples_.size());
-    std::array<std::int64_t, 3> last{-1, -1, -1};
-    for (std::uint32_t n = block.sites.first; n < block.sites.end; ++n) {
-        const LatticeSite& site = sites_[order_[n]];
-        std::array<std::int64_t, 3> cell;
-        for (int axis = 0; axis < 3; ++axis)
-            cell[axis] = static_cast<std::int64_t>(
-                std::floor((site.position[axis] - frame_.origin[axis]) / size_[axis] * kCellsPerBlock + 1e-6));
-        const std::uint8_t direction = direction_of(site.normal);
-        if (n == block.sites.first || cell != last || samples_.back().kind != site.kind ||
-            samples_.back().direction != direction || samples_.back().interface != site.interface)
-            samples_.push_back({{}, {}, 0, site.interface, site.kind, direction});
-        last = cell;
-        Sample& sample = samples_.back();
-        sample.position += site.position;
-        sample.normal += site.normal;
-        sample.count += 1;
+/// One sample for the sites of a block that have the same key and interface.
+void LatticeLevel::make_samples(Row& row, const std::vector<std::uint64_t>& keys) const {
+    for (std::size_t b = 0; b + 1 < row.blocks.size(); ++b) {
+        row.blocks[b].sample = static_cast<std::uint32_t>(row.samples.size());
+        const std::uint32_t end = row.blocks[b + 1].site;
+        for (std::uint32_t first = row.blocks[b].site, next; first < end; first = next) {
+            const LatticeSite& site = sites_[row.sites[first]];
+            Float3 offset, normal;
+            for (next = first; next < end; ++next) {
+                const LatticeSite& other = sites_[row.sites[next]];
+                if (keys[next] != keys[first] || other.interface != site.interface) break;
+                offset += other.centroid - site.centroid;
+                normal += other.normal;
+            }
+            const auto count = static_cast<float>(next - first);
+            row.samples.push_back({site.centroid + (1 / count) * offset, (1 / length(normal)) * normal, count,
+                                   site.interface, site.kind, direction_of(site.normal)});
+        }
     }
-    block.samples.end = static_cast<std::uint32_t>(samples_.size());
-    for (std::uint32_t s = block.samples.first; s < block.samples.end; ++s) {
-        samples_[s].position = samples_[s].position / samples_[s].count;
-        samples_[s].normal = samples_[s].normal / length(samples_[s].normal);
-    }
+    row.blocks.back().sample = static_cast<std::uint32_t>(row.samples.size());
 }
 
-/// Sites of a block by interface and direction; a group that faces about the same way as a larger one joins it.
-std::vector<LatticeLevel::Group> LatticeLevel::groups_of(const Block& block) const {
-    std::vector<std::uint32_t> sorted;
-    for (std::uint32_t s = block.samples.first; s < block.samples.end; ++s) sorted.push_back(s);
-    std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::tie(samples_[a].interface, samples_[a].direction, a) <
-               std::tie(samples_[b].interface, samples_[b].direction, b);
-    });
+/// Samples of a block by interface and direction; a group that faces about the same way as a larger one joins it.
+/// Positions are sums of offsets from the first sample of the block.
+std::vector<LatticeLevel::Group> LatticeLevel::groups_of(const Row& row, std::uint32_t block) const {
+    const std::uint32_t first = row.blocks[block].sample, end = row.blocks[block + 1].sample;
     std::vector<Group> groups;
-    for (std::uint32_t n = 0; n < sorted.size(); ++n) {
-        const Sample& sample = samples_[sorted[n]];
-        if (n == 0 || sample.interface != groups.back().interface ||
-            sample.direction != samples_[sorted[n - 1]].direction)
-            groups.push_back({{}, {}, 0, sample.interface});
-        groups.back().position += sample.count * sample.position;
-        groups.back().normal += sample.count * sample.normal;
-        groups.back().count += sample.count;
+    for (std::uint32_t n = first; n < end; ++n) {
+        const Sample& sample = row.samples[n];
+        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& other) {
+            return other.interface == sample.interface && other.direction == sample.direction;
+        });
+        if (group == groups.end()) group = groups.insert(group, {{}, {}, 0, sample.interface, sample.direction});
+        group->position += sample.count * (sample.position - row.samples[first].position);
+        group->normal += sample.count * sample.normal;
+        group->count += sample.count;
     }
-    std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
-        return a.interface != b.interface ? a.interface < b.interface : a.count > b.count;
+    std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+        return std::tuple(a.interface, -a.count, a.direction) < std::tuple(b.interface, -b.count, b.direction);
     });
     std::vector<Group> joined;
     for (const Group& group : groups) {
@@ -151,142 +191,188 @@ std::vector<LatticeLevel::Group> LatticeLevel::groups_of(const Block& block) con
     return joined;
 }
 
-void LatticeLevel::make_fits(Block& block) {
-    block.fits.first = static_cast<std::uint32_t>(fits_.size());
-    for (const Group& group : groups_of(block))
-        fits_.push_back(
-            {HeightQuadric(group.position / group.count, group.normal / length(group.normal)), group.interface, 0});
-    block.fits.end = static_cast<std::uint32_t>(fits_.size());
-}
-
-/// In order of place, the block itself included.
-template <class Visit>
-void LatticeLevel::for_blocks_near(const Block& block, int rings, Visit&& visit) const {
-    const auto& [k, j, i] = block.place;
-    for (std::int32_t z = k - rings; z <= k + rings; ++z)
-        for (std::int32_t y = j - rings; y <= j + rings; ++y) {
-            const std::array<std::int32_t, 3> low{z, y, i - rings}, high{z, y, i + rings};
-            auto found = std::lower_bound(blocks_.begin(), blocks_.end(), low,
-                                          [](const Block& b, const auto& place) { return b.place < place; });
-            for (; found != blocks_.end() && found->place <= high; ++found) visit(*found);
+void LatticeLevel::make_fits(Row& row) const {
+    for (std::uint32_t b = 0; b + 1 < row.blocks.size(); ++b) {
+        row.blocks[b].fit = static_cast<std::uint32_t>(row.fits.size());
+        for (const Group& group : groups_of(row, b)) {
+            const LatticePoint centre = row.samples[row.blocks[b].sample].position + (1 / group.count) * group.position;
+            row.fits.push_back({HeightQuadric(centre, (1 / length(group.normal)) * group.normal), group.interface});
         }
+    }
+    row.blocks.back().fit = static_cast<std::uint32_t>(row.fits.size());
 }
 
-bool LatticeLevel::is_undecided(const Block& block, std::span<const SiteEstimate> estimates) const {
-    for (std::uint32_t n = block.sites.first; n < block.sites.end; ++n)
-        if (estimates[order_[n]].rest > 0) return true;
+/// Calls visit(layer, row number, row, first block, end block) for the rows near a block, the block itself included.
+template <class Visit>
+void LatticeLevel::for_rows_near(const BlockPlace& at, Visit&& visit) {
+    const std::int32_t place = row(at).blocks[at.block].place;
+    const std::int64_t end_layer = std::min(layer_end(), at.layer + kRings + 1);
+    for (std::int64_t l = std::max(first_layer_, at.layer - kRings); l < end_layer; ++l) {
+        std::vector<Row>& rows = layers_[l - first_layer_].rows;
+        const auto row_end = std::min(static_cast<std::int32_t>(rows.size()), at.row + kRings + 1);
+        for (std::int32_t r = std::max(0, at.row - kRings); r < row_end; ++r) {
+            const std::vector<Block>& blocks = rows[r].blocks;
+            const auto first = std::lower_bound(blocks.begin(), blocks.end(), place - kRings,
+                                                [](const Block& block, std::int32_t p) { return block.place < p; });
+            auto end = first;
+            while (end != blocks.end() && end->place <= place + kRings) ++end;
+            if (first != end)
+                visit(l, r, rows[r], static_cast<std::uint32_t>(first - blocks.begin()),
+                      static_cast<std::uint32_t>(end - blocks.begin()));
+        }
+    }
+}
+
+void LatticeLevel::refine(bool is_last) {
+    const std::int64_t end = is_last ? sealed_ : sealed_ - 2 * kRings;
+    const auto is_due = [&] {
+        return refined_ < end &&
+               (!options_.before || layers_[refined_ - first_layer_].before < options_.before->refined() || is_last);
+    };
+    for (; is_due(); ++refined_) {
+        refine_layer(refined_);
+        // Layers that come read fits and samples of the last few.
+        while (first_layer_ + 2 * kRings <= refined_) {
+            layers_.pop_front();
+            ++first_layer_;
+        }
+    }
+}
+
+bool LatticeLevel::is_open(const Row& row, std::uint32_t block) const {
+    for (std::uint32_t n = row.blocks[block].site; n < row.blocks[block + 1].site; ++n)
+        if (estimates_[row.sites[n]].rest > 0) return true;
     return false;
 }
 
-void LatticeLevel::refine(std::span<SiteEstimate> estimates) {
-    const auto count = static_cast<std::uint32_t>(blocks_.size());
-    const int rings = static_cast<int>(std::ceil(kBlend));
-    std::vector<char> is_open(count), is_wanted(count);
-    for (std::uint32_t b = 0; b < count; ++b) is_open[b] = is_undecided(blocks_[b], estimates);
-    for (std::uint32_t b = 0; b < count; ++b)
-        if (is_open[b])
-            for_blocks_near(blocks_[b], rings, [&](const Block& near) { is_wanted[&near - blocks_.data()] = 1; });
-    parallel_for(count, options_.threads, [&](std::uint32_t b) {
-        if (is_wanted[b]) fit_block(blocks_[b]);
-    });
-    parallel_for(count, options_.threads, [&](std::uint32_t b) {
-        if (is_open[b]) blend_block(blocks_[b], estimates);
-    });
+/// Fits are made when a block that needs them is refined: where a coarser level has decided there are none.
+void LatticeLevel::refine_layer(std::int64_t layer) {
+    std::vector<BlockPlace> open, wanted;
+    std::vector<Row>& rows = layers_[layer - first_layer_].rows;
+    for (std::int32_t r = 0; r < static_cast<std::int32_t>(rows.size()); ++r)
+        for (std::uint32_t b = 0; b + 1 < rows[r].blocks.size(); ++b)
+            if (is_open(rows[r], b)) open.push_back({layer, r, b});
+    for (const BlockPlace& at : open)
+        for_rows_near(at, [&](std::int64_t l, std::int32_t r, Row& near, std::uint32_t first, std::uint32_t end) {
+            for (std::uint32_t b = first; b < end; ++b)
+                if (!std::exchange(near.blocks[b].is_fitted, true)) wanted.push_back({l, r, b});
+        });
+    parallel_for(static_cast<std::uint32_t>(wanted.size()), options_.threads,
+                 [&](std::uint32_t n) { fit_block(wanted[n]); });
+    parallel_for(static_cast<std::uint32_t>(open.size()), options_.threads,
+                 [&](std::uint32_t n) { blend_block(open[n]); });
 }
 
-void LatticeLevel::fit_block(const Block& block) {
-    std::vector<std::uint32_t> near_samples, near_sites;
-    for_blocks_near(block, static_cast<int>(std::ceil(kReach)), [&](const Block& near) {
-        for (std::uint32_t s = near.samples.first; s < near.samples.end; ++s) near_samples.push_back(s);
-    });
-    if (!options_.takes_all)
-        for_blocks_near(block, static_cast<int>(std::ceil(kBlend)), [&](const Block& near) {
-            near_sites.insert(near_sites.end(), &order_[near.sites.first],
-                              &order_[near.sites.first] + (near.sites.end - near.sites.first));
-        });
-    const double reach = kReach * options_.size;
-    std::vector<HeightSample> chosen;
-    for (std::uint32_t f = block.fits.first; f < block.fits.end; ++f) {
-        Fit& fit = fits_[f];
+void LatticeLevel::fit_block(const BlockPlace& at) {
+    thread_local HeightSamples chosen;
+    Row& own = row(at);
+    const float size = static_cast<float>(options_.size);
+    for (std::uint32_t f = own.blocks[at.block].fit; f < own.blocks[at.block + 1].fit; ++f) {
+        Fit& fit = own.fits[f];
+        HeightQuadric& quadric = fit.quadric;
         chosen.clear();
-        for (std::uint32_t s : near_samples) {
-            const Sample& sample = samples_[s];
-            if (sample.interface != fit.interface) continue;
-            const double share = 1 - distance2(sample.position - fit.quadric.centre) / (kReach * kReach);
-            const double along = dot(sample.normal, fit.quadric.normal);
-            if (share <= 0 || along <= kSameSheet) continue;
-            chosen.push_back({sample.position, share * share * along * sample.count, span_of(edges_[sample.kind])});
-        }
-        if (!fit.quadric.fit(chosen, reach, finest_extent_))
+        for_rows_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t first, std::uint32_t end) {
+            for (std::uint32_t s = near.blocks[first].sample; s < near.blocks[end].sample; ++s) {
+                const Sample& sample = near.samples[s];
+                if (sample.interface != fit.interface) continue;
+                const Float3 d = sample.position - quadric.centre;
+                const float share = 1 - distance2(d) / (kReach * kReach);
+                const float along = dot(sample.normal, quadric.normal);
+                if (share <= 0 || along <= kSameSheet) continue;
+                chosen.push_back(quadric.along(d), share * share * along * sample.count, sample.kind);
+            }
+        });
+        if (!quadric.fit(chosen, spacing_, kReach * size, kRounds))
             fit.accepted = -1;
         else
-            fit.accepted = options_.takes_all ? 1 : acceptance(fit, near_sites);
+            fit.accepted = options_.takes_all ? 1 : acceptance(at, fit);
     }
 }
 
 /// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
-double LatticeLevel::acceptance(const Fit& fit, std::span<const std::uint32_t> sites) const {
+float LatticeLevel::acceptance(const BlockPlace& at, const Fit& fit) {
     const HeightQuadric& quadric = fit.quadric;
-    Vec3 along;
-    for (int axis = 0; axis < 3; ++axis) along[axis] = quadric.normal[axis] * frame_.spacing[axis];
-    const double tolerance = kTolerance * length(along);
-    double worst = 0;
-    for (std::uint32_t s : sites) {
-        const LatticeSite& site = sites_[s];
-        if (site.interface != fit.interface || distance2(site.position - quadric.centre) >= kBlend * kBlend ||
-            dot(site.normal, quadric.normal) <= kSameSheet)
-            continue;
-        const Vec3 slope = quadric.gradient(site.position);
-        const double height = quadric.height(site.position);
-        const ExtentAlong extent = extent_along(span_of(edges_[site.kind]), slope);
-        worst = std::max(worst, std::max(height + extent.low, -height - extent.high) / length(slope));
-        if (worst >= tolerance) return 0;
-    }
-    return std::min(1.0, 2 - 2 * worst / tolerance);
+    const Float3& normal = quadric.normal;
+    const float tolerance = kTolerance * length(Float3{normal.x * spacing_.x, normal.y * spacing_.y, normal.z * spacing_.z});
+    float worst = 0;
+    for_rows_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t n = near.blocks[first].site; worst < tolerance && n < near.blocks[end].site; ++n) {
+            const LatticeSite& site = sites_[near.sites[n]];
+            if (site.interface != fit.interface) continue;
+            const Float3 d = site.centroid - quadric.centre;
+            if (distance2(d) >= kBlend * kBlend || dot(site.normal, normal) <= kSameSheet) continue;
+            const Float3 place = quadric.along(d), slope = quadric.gradient(place);
+            const float height = quadric.height(place);
+            const ExtentAlong extent = extent_along(site.kind, slope, spacing_);
+            worst = std::max(worst, std::max(height + extent.low, -height - extent.high) / length(slope));
+        }
+    });
+    return worst >= tolerance ? 0 : std::min(1.0f, 2 - 2 * worst / tolerance);
 }
 
-void LatticeLevel::blend_block(const Block& block, std::span<SiteEstimate> estimates) const {
-    std::vector<std::uint32_t> near;
-    for_blocks_near(block, static_cast<int>(std::ceil(kBlend)), [&](const Block& other) {
-        for (std::uint32_t f = other.fits.first; f < other.fits.end; ++f)
-            if (fits_[f].accepted >= 0) near.push_back(f);
+void LatticeLevel::blend_block(const BlockPlace& at) {
+    thread_local std::vector<const Fit*> near_fits;
+    near_fits.clear();
+    for_rows_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t f = near.blocks[first].fit; f < near.blocks[end].fit; ++f)
+            if (near.fits[f].accepted >= 0) near_fits.push_back(&near.fits[f]);
     });
-    for (std::uint32_t n = block.sites.first; n < block.sites.end; ++n) {
-        const LatticeSite& site = sites_[order_[n]];
-        SiteEstimate& estimate = estimates[order_[n]];
+    const Row& own = row(at);
+    const Fit* const own_first = own.fits.data() + own.blocks[at.block].fit;
+    const Fit* const own_end = own.fits.data() + own.blocks[at.block + 1].fit;
+    for (std::uint32_t n = own.blocks[at.block].site; n < own.blocks[at.block + 1].site; ++n) {
+        const LatticeSite& site = sites_[own.sites[n]];
+        SiteEstimate& estimate = estimates_[own.sites[n]];
         if (estimate.rest == 0) continue;
-        double all = 0, accepted = 0, height = 0;
-        Vec3 slope;
-        for (std::uint32_t f : near) {
-            const Fit& fit = fits_[f];
-            if (fit.interface != site.interface) continue;
-            const double share = 1 - distance2(site.position - fit.quadric.centre) / (kBlend * kBlend);
-            const double along = dot(site.normal, fit.quadric.normal) - kSameSheet;
-            double weight = share > 0 && along > 0 ? share * share * along : 0;
-            if (f >= block.fits.first && f < block.fits.end && along > -kSameSheet) weight += kOwnWeight;
+        float all = 0, accepted = 0, height = 0;
+        Float3 slope;
+        for (const Fit* fit : near_fits) {
+            if (fit->interface != site.interface) continue;
+            const HeightQuadric& quadric = fit->quadric;
+            const Float3 d = site.centroid - quadric.centre;
+            const float share = 1 - distance2(d) / (kBlend * kBlend);
+            const float along = dot(site.normal, quadric.normal) - kSameSheet;
+            float weight = share > 0 && along > 0 ? share * share * along : 0;
+            if (fit >= own_first && fit < own_end && along > -kSameSheet) weight += kOwnWeight;
             if (weight == 0) continue;
             all += weight;
-            weight *= fit.accepted;
+            weight *= fit->accepted;
             if (weight == 0) continue;
             accepted += weight;
-            Vec3 at = site.position;
-            const SimplexEdges& edges = edges_[site.kind];
-            if (edges.count == 1) {
-                // Where the quadric crosses the edge, so that it is linear there and not at the midpoint.
-                const double steep = dot(fit.quadric.gradient(at), edges.edges[0]);
-                const double step = steep == 0 ? 0 : std::clamp(-fit.quadric.height(at) / steep, -0.5, 0.5);
-                at += step * edges.edges[0];
-            }
-            const Vec3 gradient = fit.quadric.gradient(at);
-            height += weight * (fit.quadric.height(at) + dot(gradient, site.position - at));
-            slope += weight * gradient;
+            const LinearHeight linear = linear_height(quadric, d, site.kind);
+            height += weight * linear.height;
+            slope += weight * linear.slope;
         }
         if (accepted == 0) continue;
-        const double share = estimate.rest / all;
-        estimate.height += share * height;
-        estimate.slope += share * slope;
-        estimate.rest *= 1 - accepted / all;
+        const float portion = estimate.rest / all;
+        estimate.height += portion * height;
+        estimate.slope += portion * slope;
+        estimate.rest = accepted == all ? 0 : estimate.rest * (1 - accepted / all);
     }
+}
+
+/// The quadric near a centroid, linear; for an edge where the quadric crosses it, so that it is linear there and not
+/// at the midpoint.
+LatticeLevel::LinearHeight LatticeLevel::linear_height(const HeightQuadric& quadric, Float3 d, int kind) const {
+    const Float3 centroid = quadric.along(d);
+    if (kKinds[kind].node_count != 2) return {quadric.height(centroid), quadric.gradient(centroid)};
+    const int steps = kKinds[kind].steps[1];
+    const Float3 edge{steps & 1 ? spacing_.x : 0, steps & 2 ? spacing_.y : 0, steps & 4 ? spacing_.z : 0};
+    const float steep = dot(quadric.gradient(centroid), edge);
+    const float step = steep == 0 ? 0 : std::clamp(-quadric.height(centroid) / steep, -0.5f, 0.5f);
+    const Float3 crossing = quadric.along(d + step * edge), slope = quadric.gradient(crossing);
+    return {quadric.height(crossing) - dot(slope, step * edge), slope};
+}
+
+std::size_t LatticeLevel::bytes() const {
+    std::size_t sum = 0;
+    for (const Layer& layer : layers_) {
+        sum += layer.sites.capacity() * sizeof(std::uint32_t);
+        for (const Row& row : layer.rows)
+            sum += row.sites.capacity() * sizeof(std::uint32_t) + row.blocks.capacity() * sizeof(Block) +
+                   row.samples.capacity() * sizeof(Sample) + row.fits.capacity() * sizeof(Fit);
+    }
+    return sum;
 }
 
 }  // namespace regionmesh

@@ -1,9 +1,8 @@
 // One scale of the lattice filter: overlapping quadrics that explain the labels near their centres.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
+#include <deque>
 #include <vector>
 
 #include "smooth/lattice_quadric.h"
@@ -11,78 +10,122 @@
 
 namespace regionmesh {
 
-/// The interface near a site, linear: height over the surface at the centroid, and the height's gradient.
+/// The interface near a site, linear: height over the surface at the centroid in finest spacings, and the height's
+/// gradient.
 struct SiteEstimate {
-    double height = 0;
-    Vec3 slope;
-    double rest = 1;  // share that no scale has decided yet; height and slope are sums with weights 1 - rest
+    float height = 0;
+    Float3 slope;
+    float rest = 1;  // share that no scale has decided yet; height and slope are sums with weights 1 - rest
 };
 
 /// Cuts space into blocks of about `size` and fits one quadric to each sheet of an interface in a block, from the sites
 /// within kReach blocks. A quadric is accepted if it passes through (nearly) every simplex within kBlend blocks: then
-/// it is a surface that explains the labels there.
+/// it is a surface that explains the labels there. Works layer by layer of blocks along the sweep.
 class LatticeLevel {
 public:
-    static constexpr double kReach = 2.2, kBlend = 1.3;  // radii in blocks
+    static constexpr float kReach = 2.2f, kBlend = 1.3f;  // radii in blocks
+    static constexpr int kRings = 2;                      // blocks on each side that are looked at
 
     struct Options {
-        double size;             // of blocks; along an axis with wider spacing that spacing
+        double size;             // of blocks in finest spacings; along an axis with wider spacing that spacing
         bool takes_all = false;  // accept every quadric: the finest scale
+        const LatticeLevel* before = nullptr;  // the level that refines the same sites first
+        int sweep_axis = 2;
         std::uint32_t threads = 0;
     };
 
-    LatticeLevel(std::span<const LatticeSite> sites, const LatticeFrame& frame, const Options& options);
+    LatticeLevel(const LatticeSites& sites, SlidingArray<SiteEstimate>& estimates, const Options& options);
 
-    /// Gives accepted quadrics the rest of each site's estimate, blended.
-    void refine(std::span<SiteEstimate> estimates);
+    /// The layer of blocks that a coordinate along the sweep lies in.
+    std::int64_t layer_of(double coordinate) const { return place_of(coordinate, options_.sweep_axis) / kCells; }
+    /// Adds a site whose normal is final, in order of number.
+    void add(std::uint32_t site, double coordinate);
+    /// Layers before `end` get no more sites.
+    void seal_before(std::int64_t end);
+    std::int64_t layer_end() const { return first_layer_ + static_cast<std::int64_t>(layers_.size()); }
+    /// Gives accepted quadrics the rest of the estimates of each site, blended; as far as sealed layers and the level
+    /// before allow. `is_last`: all sites were added.
+    void refine(bool is_last);
+    /// Layers before this one are refined.
+    std::int64_t refined() const { return refined_; }
+
+    std::size_t bytes() const;
 
 private:
+    static constexpr int kCells = 3;  // per block along each axis: sites of one kind of simplex in a cell are one sample
+
     struct Sample {
-        Vec3 position, normal;
-        double count;
-        std::uint32_t interface;
-        std::uint8_t kind, direction;
+        LatticePoint position;
+        Float3 normal;
+        float count;
+        std::uint32_t interface : 27;
+        std::uint32_t kind : 5;
+        std::uint8_t direction;
     };
     struct Fit {
         HeightQuadric quadric;
         std::uint32_t interface;
-        double accepted;  // 0 to 1; below 0: could not be fitted
+        float accepted = 0;  // 0 to 1; below 0: could not be fitted
     };
-    struct Range {
-        std::uint32_t first, end;
-    };
+    /// Ranges end where those of the next block of the row begin.
     struct Block {
-        std::array<std::int32_t, 3> place;
-        Range sites, samples, fits;
+        std::int32_t place;  // along the row
+        std::uint32_t site, sample, fit;
+        bool is_fitted = false;
     };
-
-    void sort_sites();
-    void make_samples(Block& block);
+    struct Row {
+        std::vector<std::uint32_t> sites;  // by block
+        std::vector<Block> blocks;         // and one more at the end
+        std::vector<Sample> samples;
+        std::vector<Fit> fits;
+    };
+    struct Layer {
+        std::vector<std::uint32_t> sites;  // until the layer is sealed
+        std::vector<Row> rows;
+        std::int64_t before = -1;  // layer of the level before that has to be refined first
+    };
     struct Group {
-        Vec3 position, normal;  // sums
-        double count;
+        Float3 position, normal;  // sums
+        float count;
         std::uint32_t interface;
+        std::uint8_t direction;
     };
-    void make_fits(Block& block);
-    std::vector<Group> groups_of(const Block& block) const;
-    template <class Visit>
-    void for_blocks_near(const Block& block, int rings, Visit&& visit) const;
-    bool is_undecided(const Block& block, std::span<const SiteEstimate> estimates) const;
-    void fit_block(const Block& block);
-    double acceptance(const Fit& fit, std::span<const std::uint32_t> sites) const;
-    void blend_block(const Block& block, std::span<SiteEstimate> estimates) const;
-    double distance2(Vec3 d) const;
+    struct BlockPlace {
+        std::int64_t layer;
+        std::int32_t row;
+        std::uint32_t block;  // in the row
+    };
+    struct LinearHeight {
+        float height;
+        Float3 slope;
+    };
 
-    std::span<const LatticeSite> sites_;
-    LatticeFrame frame_;
+    double size_along(int axis) const { return axis == 0 ? size_.x : axis == 1 ? size_.y : size_.z; }
+    std::int64_t place_of(double coordinate, int axis) const;
+    std::int64_t cell_of(std::uint32_t site, int axis) const;
+    Row& row(const BlockPlace& at) { return layers_[at.layer - first_layer_].rows[at.row]; }
+    void require_before(std::int64_t layer, double coordinate);
+    void seal(Layer& layer);
+    void fill_row(Row& row) const;
+    void make_samples(Row& row, const std::vector<std::uint64_t>& keys) const;
+    void make_fits(Row& row) const;
+    std::vector<Group> groups_of(const Row& row, std::uint32_t block) const;
+    template <class Visit>
+    void for_rows_near(const BlockPlace& at, Visit&& visit);
+    void refine_layer(std::int64_t layer);
+    bool is_open(const Row& row, std::uint32_t block) const;
+    void fit_block(const BlockPlace& at);
+    float acceptance(const BlockPlace& at, const Fit& fit);
+    void blend_block(const BlockPlace& at);
+    LinearHeight linear_height(const HeightQuadric& quadric, Float3 d, int kind) const;
+    float distance2(Float3 d) const;
+
+    const LatticeSites& sites_;
+    SlidingArray<SiteEstimate>& estimates_;
     Options options_;
-    Vec3 size_;
-    double finest_extent_;
-    std::array<SimplexEdges, kKindCount> edges_;
-    std::vector<std::uint32_t> order_;  // sites by block
-    std::vector<Block> blocks_;         // by place, the first axis fastest
-    std::vector<Sample> samples_;
-    std::vector<Fit> fits_;
+    Float3 spacing_, size_;  // of samples, of blocks; in finest spacings
+    std::int64_t first_layer_ = 0, sealed_ = 0, refined_ = 0;
+    std::deque<Layer> layers_;
 };
 
 }  // namespace regionmesh

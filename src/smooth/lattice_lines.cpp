@@ -1,6 +1,9 @@
 #include "smooth/lattice_lines.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/parallel_for.h"
 
 namespace regionmesh {
 namespace {
@@ -14,10 +17,11 @@ constexpr double kFarthest = 1;
 }  // namespace
 
 void NearestPoint::add(const SiteEstimate& estimate, const SimplexEdges& edges) {
-    const double unit = 1 / length2(estimate.slope);
+    const Vec3 slope = estimate.slope.wide();
+    const double unit = 1 / length2(slope);
     for (int i = 0; i < count; ++i) {
-        const double along = unit * dot(estimate.slope, edges.edges[i]);
-        for (int j = 0; j < count; ++j) a[i][j] += along * dot(estimate.slope, edges.edges[j]);
+        const double along = unit * dot(slope, edges.edges[i]);
+        for (int j = 0; j < count; ++j) a[i][j] += along * dot(slope, edges.edges[j]);
         b[i] -= along * estimate.height;
     }
 }
@@ -53,7 +57,7 @@ std::array<double, 3> NearestPoint::solve() const {
 Barycentric weights_of(const NearestPoint& nearest) {
     const std::array<double, 3> step = nearest.solve();
     const double equal = 1.0 / (nearest.count + 1);
-    Barycentric weights{equal};
+    Barycentric weights{equal, 0, 0, 0};
     for (int n = 0; n < nearest.count; ++n) {
         const double bounded = std::clamp(step[n], -kFarthest, kFarthest);
         weights[n + 1] = equal + bounded;
@@ -62,50 +66,81 @@ Barycentric weights_of(const NearestPoint& nearest) {
     return weights;
 }
 
-LatticeLines::LatticeLines(std::span<const LatticeSimplex> simplices, std::span<const LatticeFace> faces) {
-    constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    std::vector<std::uint32_t> number(simplices.size(), kNone);
-    const auto node_of = [&](std::uint32_t vertex) {
-        if (number[vertex] == kNone) {
-            number[vertex] = static_cast<std::uint32_t>(nodes_.size());
-            nodes_.push_back({.vertex = vertex, .centroid = {}});
-        }
-        return number[vertex];
-    };
+LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites, std::uint32_t vertex) {
+    const LatticeFrame& frame = sites.frame();
+    const int kind = sites.kind(vertex);
+    const Vec3 middle = centroid(kind);
+    LatticeSimplex simplex{{}, static_cast<std::uint8_t>(kind)};
+    for (int axis = 0; axis < 3; ++axis)
+        simplex.base[axis] = std::round(
+            (window.origin[vertex][axis] - frame.origin[axis]) / frame.spacing[axis] - middle[axis]);
+    return simplex;
+}
+
+void LatticeLines::add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position) {
+    nodes_.push_back({vertex, 0, {}, to_interfaces, {position, position}});
+}
+
+std::uint32_t LatticeLines::node_of(std::uint32_t vertex) const {
+    std::uint32_t low = nodes_.first(), high = nodes_.end();
+    while (low < high) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        if (nodes_[middle].vertex < vertex)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// Two vertices in triangles or tetrahedra of the lattice are joined along lines only.
+void LatticeLines::link(std::uint32_t chunk) {
+    const NumberRange own = window_.vertices_of(chunk);
+    NumberRange faces = window_.faces_of(chunk);
+    if (chunk + 1 < window_.chunk_end()) faces.end = window_.faces_of(chunk + 1).end;
     const auto join = [&](std::uint32_t from, std::uint32_t to) {
-        Node& node = nodes_[from];
+        if (from < own.first || from >= own.end) return;
+        Node& node = nodes_[node_of(from)];
+        const std::uint32_t next = node_of(to);
         const auto end = node.next.begin() + node.count;
-        if (std::find(node.next.begin(), end, to) == end && node.count < 4) node.next[node.count++] = to;
+        if (std::find(node.next.begin(), end, next) == end && node.count < node.next.size())
+            node.next[node.count++] = next;
     };
-    // Two vertices in triangles or tetrahedra of the lattice are joined along lines only.
-    for (const LatticeFace& face : faces)
+    for (std::uint32_t f = faces.first; f < faces.end; ++f)
         for (int n = 0; n < 3; ++n) {
-            const std::uint32_t a = face.vertices[n], b = face.vertices[(n + 1) % 3];
-            if (simplices[a].kind < kFirstTriangle) continue;
-            const std::uint32_t from = node_of(a);
-            if (simplices[b].kind < kFirstTriangle) continue;
-            const std::uint32_t to = node_of(b);
-            join(from, to);
-            join(to, from);
+            const auto& corners = window_.faces[f].vertices;
+            const std::uint32_t a = corners[n], b = corners[(n + 1) % 3];
+            if (sites_.kind(a) < kFirstTriangle || sites_.kind(b) < kFirstTriangle) continue;
+            join(a, b);
+            join(b, a);
         }
 }
 
-void LatticeLines::fair(std::span<Vec3> positions, std::span<const LatticeSimplex> simplices, const LatticeFrame& frame,
-                        double margin) const {
-    std::vector<Vec3> moved(nodes_.size());
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-            const Node& node = nodes_[n];
+void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads) {
+    constexpr std::uint32_t kTask = 256;  // nodes
+    const LatticeFrame& frame = sites_.frame();
+    const double finest = frame.finest();
+    const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1];
+    const std::uint32_t from = number % 2, to = 1 - from;
+    parallel_for((end - first + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
+        const std::uint32_t task_end = std::min(end, first + (task + 1) * kTask);
+        for (std::uint32_t n = first + task * kTask; n < task_end; ++n) {
+            Node& node = nodes_[n];
             Vec3 sum;
-            for (int k = 0; k < node.count; ++k) sum += positions[nodes_[node.next[k]].vertex];
+            for (std::uint32_t k = 0; k < node.count; ++k) sum += nodes_[node.next[k]].at[from];
             NearestPoint nearest = node.nearest;
-            const LatticeSimplex& simplex = simplices[node.vertex];
+            const LatticeSimplex simplex = simplex_in(window_, sites_, node.vertex);
             if (node.count > 0)
-                nearest.add(sum / node.count - node.centroid, kPull, edges_of(simplex.kind, frame.spacing));
-            moved[n] = position_in(simplex, clamp_inside(weights_of(nearest), nearest.count + 1, margin), frame);
+                nearest.add((sum / node.count - window_.origin[node.vertex]) / finest, kPull,
+                            edges_of(simplex.kind, frame.spacing / finest));
+            node.at[to] = position_in(simplex, clamp_inside(weights_of(nearest), nearest.count + 1, margin_), frame);
         }
-        for (std::uint32_t n = 0; n < nodes_.size(); ++n) positions[nodes_[n].vertex] = moved[n];
-    }
+    });
+}
+
+void LatticeLines::drop_before(std::uint32_t chunk) {
+    nodes_.drop_before(first_node_[chunk]);
+    first_node_.drop_before(chunk);
 }
 
 }  // namespace regionmesh

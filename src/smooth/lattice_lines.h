@@ -3,18 +3,17 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
-#include <vector>
 
+#include "base/sliding_array.h"
 #include "smooth/lattice_level.h"
 #include "smooth/lattice_sites.h"
 
 namespace regionmesh {
 
 /// Least squares for a vertex: heights over its interfaces and distance to a given point, over steps in the affine hull
-/// of its simplex.
+/// of its simplex. Lengths are in finest spacings.
 struct NearestPoint {
-    int count;  // of edges from the first node
+    int count = 0;  // of edges from the first node
     std::array<std::array<double, 3>, 3> a{};
     std::array<double, 3> b{};
 
@@ -29,29 +28,53 @@ struct NearestPoint {
 /// Weights of the nodes at the solution; they may lie outside the simplex.
 Barycentric weights_of(const NearestPoint& nearest);
 
-/// Vertices of triple lines, and quadruple points, with their neighbours along the lines.
+/// Vertices of triple lines, and quadruple points, with their neighbours along the lines. Sweeps draw each of them to
+/// the mean of its neighbours.
 class LatticeLines {
 public:
-    LatticeLines(std::span<const LatticeSimplex> simplices, std::span<const LatticeFace> faces);
+    LatticeLines(const SurfaceWindow& window, const LatticeSites& sites, double margin)
+        : window_(window), sites_(sites), margin_(margin) {
+        first_node_.push_back(0);
+    }
 
-    struct Node {
-        std::uint32_t vertex;
-        int count = 0;
-        std::array<std::uint32_t, 4> next{};  // numbers of nodes
-        NearestPoint nearest{0};              // to the interfaces
-        Vec3 centroid;
-    };
-    std::vector<Node>& nodes() { return nodes_; }
+    static constexpr std::uint32_t kSweeps = 12;  // even: positions end where they began
+    static constexpr double kPull = 1;            // weight of the mean of the neighbours, beside the interfaces
 
-    /// Sweeps that draw each vertex to the mean of its neighbours as well, with weight kPull; positions by vertex.
-    void fair(std::span<Vec3> positions, std::span<const LatticeSimplex> simplices, const LatticeFrame& frame,
-              double margin) const;
+    /// Adds a vertex of the chunk that comes next, in order of number, and ends the chunk.
+    void add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position);
+    void end_chunk() { first_node_.push_back(nodes_.end()); }
+    /// Finds the neighbours of the vertices of a chunk. Requires that the next chunk was added, if there is one.
+    void link(std::uint32_t chunk);
+    /// Requires that the sweep before, or link(), has done the next chunk, if there is one.
+    void sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads);
+    /// After the last sweep.
+    template <class Visit>
+    void for_positions(std::uint32_t chunk, Visit&& visit) const {
+        for (std::uint32_t n = first_node_[chunk]; n < first_node_[chunk + 1]; ++n)
+            visit(nodes_[n].vertex, nodes_[n].at[0]);
+    }
 
-    static constexpr int kSweeps = 12;
-    static constexpr double kPull = 1;
+    void drop_before(std::uint32_t chunk);
+    std::size_t bytes() const { return nodes_.bytes(); }
 
 private:
-    std::vector<Node> nodes_;
+    struct Node {
+        std::uint32_t vertex, count;
+        std::array<std::uint32_t, 4> next;  // numbers of nodes
+        NearestPoint nearest;               // to the interfaces
+        std::array<Vec3, 2> at;
+    };
+
+    std::uint32_t node_of(std::uint32_t vertex) const;
+
+    const SurfaceWindow& window_;
+    const LatticeSites& sites_;
+    double margin_;
+    SlidingArray<Node> nodes_;                 // by vertex
+    SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
 };
+
+/// The simplex of a vertex in the window.
+LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites, std::uint32_t vertex);
 
 }  // namespace regionmesh

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "mesh/region_volumes.h"
 #include "regionmesh/process.h"
 
 namespace regionmesh {
@@ -147,21 +146,9 @@ void Smoother::note_ready() {
     report_.crossing_pairs = resolver_.crossings();
     report_.islands = resolver_.islands();
     for (; noted_ < ready_; ++noted_) {
-        double sum = report_.rms_displacement * report_.rms_displacement * static_cast<double>(report_.vertices);
-        const NumberRange vertices = window_.vertices_of(noted_), faces = window_.faces_of(noted_);
-        for (std::uint32_t v = vertices.first; v < vertices.end; ++v) {
-            const double moved = length2(position(v) - window_.origin[v]);
-            sum += moved;
-            report_.largest_displacement = std::max(report_.largest_displacement, std::sqrt(moved));
-            report_.backtracked += steps_.backtrack[v] > 0;
-        }
-        report_.vertices += vertices.size();
-        if (report_.vertices > 0) report_.rms_displacement = std::sqrt(sum / static_cast<double>(report_.vertices));
-        for (std::uint32_t f = faces.first; f < faces.end; ++f) {
-            const auto& [v, labels] = window_.faces[f];
-            add_cone(report_.volume_before, labels, window_.origin[v[0]], window_.origin[v[1]], window_.origin[v[2]]);
-            add_cone(report_.volume_after, labels, position(v[0]), position(v[1]), position(v[2]));
-        }
+        note_chunk(window_, noted_, *steps_.now, report_);
+        const NumberRange vertices = window_.vertices_of(noted_);
+        for (std::uint32_t v = vertices.first; v < vertices.end; ++v) report_.backtracked += steps_.backtrack[v] > 0;
     }
 }
 

@@ -1,4 +1,5 @@
-// Smooths a surface that comes in chunk by chunk, in a window that moves with it (docs/smoothing.md, "The stream").
+// Smoothing by filters in passes, with a guard, in a window that moves with the chunks (docs/smoothing.md, "The
+// stream").
 #pragma once
 
 #include <memory>
@@ -7,40 +8,33 @@
 
 #include "regionmesh/smooth.h"
 #include "smooth/backtrack.h"
+#include "smooth/chunk_smoother.h"
 #include "smooth/filter.h"
 #include "smooth/intersection_resolver.h"
 #include "smooth/neighbours.h"
 
 namespace regionmesh {
 
-/// The same chunks come out as went in, later; only positions differ. Pass k works one chunk behind pass k - 1, the
-/// rounds of backtracking follow like passes, then intersections are resolved; and chunks are held until no later one
-/// can reach them. The result depends on the chunks, not on when they are taken out. Whether the surface comes in
-/// chunks or as one, filter and rounds give the same positions, bit for bit.
-class Smoother {
+/// Pass k works one chunk behind pass k - 1, the rounds of backtracking follow like passes, then intersections are
+/// resolved; and chunks are held until no later one can reach them. Whether the surface comes in chunks or as one,
+/// filter and rounds give the same positions, bit for bit.
+class Smoother final : public ChunkSmoother {
 public:
     /// Requires options.passes > 0.
     Smoother(const SmoothOptions& options, const ChunkOrder& order);
     Smoother(const Smoother&) = delete;
     Smoother& operator=(const Smoother&) = delete;
 
-    /// Adds the next chunk; vertices to come lie at `next_low` or beyond along the sweep. Returns false where the
-    /// window turns out to hold too few chunks to resolve all intersections (ChunkOrder::extra); then this object is of
-    /// no more use, and stuck_chunk() says where.
-    [[nodiscard]] bool add(const Chunk& chunk, bool is_last, double next_low);
-    /// Takes out the next chunk whose positions are final; false when there is none yet.
-    bool next(Chunk& chunk);
+    /// False where the window holds too few chunks to resolve all intersections.
+    [[nodiscard]] bool add(const Chunk& chunk, bool is_last, double next_low) override;
+    bool next(Chunk& chunk) override;
     /// Smooths a mesh in place, as the only chunk.
     void smooth_all(Mesh& mesh);
 
-    /// Most chunks held at a time.
-    std::uint32_t most_chunks() const;
-    std::optional<std::uint32_t> stuck_chunk() const { return stuck_chunk_; }
-    /// The high end of the safe interval: all surface that was not taken out lies here or beyond along the sweep,
-    /// however it is smoothed.
-    double safe_high() const;
-
-    const SmoothReport& report() const { return report_; }
+    std::uint32_t most_chunks() const override;
+    std::optional<std::uint32_t> stuck_chunk() const override { return stuck_chunk_; }
+    double safe_high() const override;
+    const SmoothReport& report() const override { return report_; }
 
 private:
     struct Stage {

@@ -24,6 +24,16 @@ inline constexpr double kLeastQuality = 1e-4;
 /// One unit, and one more per this number of passes.
 inline constexpr double kTaubinPassesPerUnit = 20, kLaplacianPassesPerUnit = 10;
 
+// The lattice filter (smooth/lattice_smoother.h; docs/explanation/lattice-smoothing.md, "Measured").
+
+/// Least weight of a node of a vertex's simplex: below 1/4.
+inline constexpr double kLatticeMargin = 0.01;
+/// Sizes of blocks in finest spacings. Terraces are as many samples wide as sections are far apart, for the same slope,
+/// so anisotropic lattices start one scale coarser.
+inline constexpr double kSmallestBlock = 2, kLargestBlock = 8, kLargestBlockAnisotropic = 16;
+/// From this ratio of coarsest to finest spacing.
+inline constexpr double kAnisotropic = 2;
+
 // Volumes (smooth/preserve_volume.cpp; docs/smoothing.md, "Volumes": IN100 needs 8 rounds, decimated to a tenth 5).
 
 inline constexpr std::uint32_t kMostVolumeRounds = 30;

@@ -119,15 +119,20 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
     }
 }
 
-Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options, const OnProgress& on_progress) {
+Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
+    const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
+    const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
-    SectionFaces source(ahead ? *ahead : reader, {.cap = options.cap, .background = options.background});
+    SectionFaces source(ahead ? *ahead : reader, {.cap = options.cap, .background = options.background},
+                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality);
     return reconstruct(source, options, on_progress);
 }
 
-Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& options,
+Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& given,
                            const OnProgress& on_progress) {
+    const ReconstructOptions options = with_filter(given, SmoothFilter::kTaubin);
+    require_no_lattice(options.smooth);
     TetrahedronFaces source(reader, {.cap = options.cap,
                                      .background = options.background,
                                      .sweep = options.sweep,

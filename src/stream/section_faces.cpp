@@ -21,9 +21,10 @@ SourceShape shape_of(const VolumeInfo& info) {
 
 }  // namespace
 
-SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options)
+SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts)
     : reader_(reader),
       options_(options),
+      cuts_(cuts),
       shape_(shape_of(reader.info())),
       labels_(table_for(reader.info())),
       background_(dense_background(options.background, labels_)) {}
@@ -31,7 +32,7 @@ SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options)
 std::optional<FaceCount> SectionFaces::count() {
     if (!reader_.info().can_rewind) {
         begin();
-        census_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
+        census_.emplace(shape_.lattice, shape_.sweep, strip_options());
         return {};
     }
     Census census = count_labels(reader_, options_);
@@ -46,7 +47,7 @@ double SectionFaces::low_of(std::uint32_t strip) const {
 /// Called after sections were counted, since counting takes as much memory again. Refuses volumes without a cell.
 void SectionFaces::begin() {
     window_.emplace(reader_, labels_);
-    mesher_.emplace(shape_.lattice, shape_.sweep, StripOptions{.cap = options_.cap, .background = background_});
+    mesher_.emplace(shape_.lattice, shape_.sweep, strip_options());
 }
 
 bool SectionFaces::advance() {

@@ -14,7 +14,7 @@ namespace regionmesh {
 /// Meshes the strips between sections as they are read. Sections that can be read twice are counted first.
 class SectionFaces final : public FaceSource {
 public:
-    SectionFaces(SectionReader& reader, const CensusOptions& options);
+    SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts);
 
     std::optional<FaceCount> count() override;
     const SourceShape& shape() const override { return shape_; }
@@ -30,9 +30,11 @@ public:
 
 private:
     void begin();
+    StripOptions strip_options() const { return {.cap = options_.cap, .background = background_, .cuts = cuts_}; }
 
     SectionReader& reader_;
     CensusOptions options_;
+    QuadCuts cuts_;
     SourceShape shape_;
     LabelTable labels_;
     std::vector<Label> background_;

@@ -4,6 +4,12 @@
 
 namespace regionmesh {
 
+ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter automatic) {
+    ReconstructOptions own = options;
+    if (own.smooth.filter == SmoothFilter::kAuto) own.smooth.filter = automatic;
+    return own;
+}
+
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
     SmoothOptions own = options.smooth;
     own.scale = scale;

@@ -6,6 +6,9 @@
 
 namespace regionmesh {
 
+/// The options with the filter that kAuto stands for.
+ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter automatic);
+
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 
 /// Without a target.

@@ -3,16 +3,17 @@
 namespace regionmesh {
 
 ChunkOrder strip_order(const SourceShape& shape, std::uint32_t extra) {
-    return {.axis = shape.axis(), .thickness = shape.strip_thickness, .overlap = shape.strip_overlap, .extra = extra};
+    return {.axis = shape.axis(), .thickness = shape.strip_thickness, .overlap = shape.strip_overlap, .extra = extra,
+            .frame = {shape.lattice.origin, shape.lattice.spacing}};
 }
 
 std::uint32_t window_strips(const SmoothOptions& options, const ChunkOrder& order) {
-    return options.passes > 0 ? Smoother(options, order).most_chunks() : 0;
+    return options.passes > 0 ? make_chunk_smoother(options, order)->most_chunks() : 0;
 }
 
 Strips::Strips(FaceSource& source, const SmoothOptions& options, const ChunkOrder& order, RunLog& log)
     : source_(source), log_(log) {
-    if (options.passes > 0) smoother_.emplace(options, order);
+    if (options.passes > 0) smoother_ = make_chunk_smoother(options, order);
 }
 
 std::optional<std::uint32_t> Strips::stuck_strip() const { return smoother_ ? smoother_->stuck_chunk() : std::nullopt; }

@@ -1,10 +1,11 @@
 // The first stages: read -> cells -> smooth.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "mesh/chunk.h"
-#include "smooth/smoother.h"
+#include "smooth/chunk_smoother.h"
 #include "stream/face_source.h"
 #include "stream/run_log.h"
 
@@ -32,7 +33,7 @@ public:
     bool is_at_end() const { return count_ == source_.shape().strip_count; }
     /// The high end of the safe interval: surface that was not handed out lies here or beyond along the sweep.
     double safe_high() const { return smoother_ ? smoother_->safe_high() : source_.low_of(count_); }
-    bool is_smoothing() const { return smoother_.has_value(); }
+    bool is_smoothing() const { return smoother_ != nullptr; }
     /// Requires is_smoothing().
     const SmoothReport& smooth_report() const { return smoother_->report(); }
 
@@ -42,7 +43,7 @@ private:
 
     FaceSource& source_;
     RunLog& log_;
-    std::optional<Smoother> smoother_;
+    std::unique_ptr<ChunkSmoother> smoother_;
     std::uint32_t count_ = 0;
 };
 

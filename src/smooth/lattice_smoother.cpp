@@ -1,0 +1,177 @@
+#include "smooth/lattice_smoother.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/parallel_for.h"
+#include "regionmesh/process.h"
+#include "smooth/tuning.h"
+
+namespace regionmesh {
+namespace {
+
+using smoothing::kLatticeMargin;
+
+double largest_block(const LatticeFrame& frame, double reach) {
+    if (reach > 0) return reach;
+    const double coarsest = std::max({frame.spacing.x, frame.spacing.y, frame.spacing.z});
+    return coarsest < smoothing::kAnisotropic * frame.finest() ? smoothing::kLargestBlock
+                                                               : smoothing::kLargestBlockAnisotropic;
+}
+
+}  // namespace
+
+LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder& order)
+    : options_(options), order_(order), sites_(window_, order.frame), lines_(window_, sites_, kLatticeMargin) {
+    for (double size = largest_block(order.frame, options.reach); size >= smoothing::kSmallestBlock; size /= 2)
+        levels_.emplace_back(sites_, estimates_,
+                             LatticeLevel::Options{.size = size,
+                                                   .takes_all = size / 2 < smoothing::kSmallestBlock,
+                                                   .before = levels_.empty() ? nullptr : &levels_.back(),
+                                                   .sweep_axis = order.axis,
+                                                   .threads = options.threads});
+}
+
+/// Measured on a surface without faces: the lag depends on the blocks and on the thickness of a chunk only.
+std::uint32_t LatticeSmoother::most_chunks() const {
+    LatticeSmoother empty(options_, order_);
+    const double block = largest_block(order_.frame, options_.reach) * order_.frame.finest();
+    const auto chunks = static_cast<std::uint32_t>(16 * std::max(1.0, block / order_.thickness)) + 64;
+    std::uint32_t most = 0;
+    Chunk chunk;
+    for (std::uint32_t n = 0; n < chunks; ++n) {
+        const double low = order_.frame.origin[order_.axis] + (n + 1) * order_.thickness;
+        [[maybe_unused]] const bool is_added = empty.add({}, false, low);
+        most = std::max(most, n + 1 - empty.released_);
+        while (empty.next(chunk)) {}
+    }
+    return most;
+}
+
+std::uint32_t LatticeSmoother::one_behind(std::uint32_t done_before) const {
+    return is_last_ && done_before == window_.chunk_end() ? done_before : done_before - std::min(done_before, 1u);
+}
+
+bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
+    const Timer timer(report_.filter_seconds);
+    is_last_ = is_last;
+    const std::uint32_t number = window_.chunk_end();
+    window_.add(chunk);
+    next_low_.push_back(next_low);
+    sites_.add_chunk(number);
+    const NumberRange vertices = window_.vertices_of(number);
+    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) positions_.push_back(window_.origin[v]);
+
+    for (; made_ < one_behind(window_.chunk_end()); ++made_) sites_.make(made_);
+    std::uint32_t done = made_;
+    for (int pass = 0; pass < LatticeSites::kNormalPasses; ++pass) {
+        for (; averaged_[pass] < one_behind(done); ++averaged_[pass])
+            sites_.average_normals(pass, averaged_[pass], options_.threads);
+        done = averaged_[pass];
+    }
+    for (; added_ < done; ++added_) add_to_levels(added_);
+    refine();
+    const bool is_all = is_last_ && added_ == window_.chunk_end();
+    while (placed_ < added_ && (is_all || last_layer_[placed_] < levels_.back().refined())) place(placed_++);
+    for (; linked_ < one_behind(placed_); ++linked_) lines_.link(linked_);
+    done = linked_;
+    for (std::uint32_t sweep = 0; sweep < LatticeLines::kSweeps; ++sweep) {
+        for (; swept_[sweep] < one_behind(done); ++swept_[sweep])
+            lines_.sweep(sweep, swept_[sweep], options_.threads);
+        done = swept_[sweep];
+    }
+    for (; finished_ < done; ++finished_) finish(finished_);
+    note_bytes();
+    return true;
+}
+
+void LatticeSmoother::add_to_levels(std::uint32_t chunk) {
+    const NumberRange vertices = window_.vertices_of(chunk);
+    const double finest = order_.frame.finest(), origin = order_.frame.origin[order_.axis];
+    estimates_.grow(sites_.of_chunk(chunk).end);
+    const double next_low = (next_low_[chunk] - origin) / finest;
+    const LatticeLevel& finest_level = levels_.back();
+    // Nearly the end of the chunk, even without sites there: so most_chunks() can be measured.
+    std::int64_t last = std::isfinite(next_low) ? finest_level.layer_of(std::max(next_low - 0.01, 0.0)) : -1;
+    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) {
+        const double along = (window_.origin[v][order_.axis] - origin) / finest;
+        const NumberRange sites = sites_.of_vertex(v);
+        if (sites.size() > 0) last = std::max(last, finest_level.layer_of(along));
+        for (std::uint32_t s = sites.first; s < sites.end; ++s)
+            for (LatticeLevel& level : levels_) level.add(s, along);
+    }
+    last_layer_.push_back(last);
+    const bool is_end = is_last_ && chunk + 1 == window_.chunk_end();
+    for (LatticeLevel& level : levels_) level.seal_before(is_end ? level.layer_end() : level.layer_of(next_low));
+}
+
+void LatticeSmoother::refine() {
+    const bool is_all = is_last_ && added_ == window_.chunk_end();
+    for (LatticeLevel& level : levels_) level.refine(is_all);
+}
+
+/// Puts the vertices of a chunk nearest to their interfaces.
+void LatticeSmoother::place(std::uint32_t chunk) {
+    constexpr std::uint32_t kTask = 4096;  // vertices
+    const LatticeFrame& frame = order_.frame;
+    const Vec3 spacing = frame.spacing / frame.finest();
+    const NumberRange vertices = window_.vertices_of(chunk);
+    const auto nearest_to_interfaces = [&](std::uint32_t v, const SimplexEdges& edges) {
+        NearestPoint nearest{edges.count};
+        const NumberRange sites = sites_.of_vertex(v);
+        for (std::uint32_t s = sites.first; s < sites.end; ++s)
+            if (estimates_[s].rest < 1 && dot(estimates_[s].slope, estimates_[s].slope) > 0)
+                nearest.add(estimates_[s], edges);
+        return nearest;
+    };
+    parallel_for((vertices.size() + kTask - 1) / kTask, options_.threads, [&](std::uint32_t task) {
+        const std::uint32_t first = vertices.first + task * kTask, end = std::min(vertices.end, first + kTask);
+        for (std::uint32_t v = first; v < end; ++v) {
+            if (sites_.of_vertex(v).size() == 0 || sites_.kind(v) == 0) continue;
+            const SimplexEdges edges = edges_of(sites_.kind(v), spacing);
+            const Barycentric weights = weights_of(nearest_to_interfaces(v, edges));
+            positions_[v] = position_in(simplex_in(window_, sites_, v),
+                                        clamp_inside(weights, edges.count + 1, kLatticeMargin), frame);
+        }
+    });
+    for (std::uint32_t v = vertices.first; v < vertices.end; ++v)
+        if (sites_.kind(v) >= kFirstTriangle)
+            lines_.add(v, nearest_to_interfaces(v, edges_of(sites_.kind(v), spacing)), positions_[v]);
+    lines_.end_chunk();
+}
+
+void LatticeSmoother::finish(std::uint32_t chunk) {
+    lines_.for_positions(chunk, [&](std::uint32_t v, Vec3 at) { positions_[v] = at; });
+    note_chunk(window_, chunk, positions_, report_);
+}
+
+bool LatticeSmoother::next(Chunk& chunk) {
+    if (released_ == finished_) return false;
+    window_.copy_out(released_, positions_, chunk);
+    ++released_;
+    // Each stage reads one chunk back.
+    const std::uint32_t last = released_ - 1, first = window_.vertices_of(last).first;
+    window_.drop_before(released_);
+    positions_.drop_before(first);
+    estimates_.drop_before(sites_.of_vertex(first).first);
+    sites_.drop_before(first);
+    lines_.drop_before(last);
+    last_layer_.drop_before(last);
+    next_low_.drop_before(last);
+    return true;
+}
+
+double LatticeSmoother::safe_high() const {
+    if (is_last_ && released_ == window_.chunk_end()) return HUGE_VAL;
+    return released_ == 0 ? order_.frame.origin[order_.axis] : next_low_[released_ - 1];
+}
+
+void LatticeSmoother::note_bytes() {
+    report_.window_chunks = std::max(report_.window_chunks, window_.chunk_end() - released_);
+    std::uint64_t bytes = window_.bytes() + sites_.bytes() + estimates_.bytes() + lines_.bytes() + positions_.bytes();
+    for (const LatticeLevel& level : levels_) bytes += level.bytes();
+    report_.window_bytes = std::max(report_.window_bytes, bytes);
+}
+
+}  // namespace regionmesh

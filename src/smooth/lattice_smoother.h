@@ -1,0 +1,57 @@
+// Smooths the surface of a lattice inside its simplices: keeps every sample in its region by construction.
+#pragma once
+
+#include <deque>
+
+#include "smooth/chunk_smoother.h"
+#include "smooth/lattice_level.h"
+#include "smooth/lattice_lines.h"
+#include "smooth/lattice_sites.h"
+
+namespace regionmesh {
+
+/// New positions of the vertices of a reconstruction, each strictly inside its lattice simplex: see
+/// docs/explanation/lattice-smoothing.md. Requires a surface made by StripMesher with QuadCuts::kCones: other cuts can
+/// cross. The sites of a chunk are made, their normals averaged, the levels refined, the vertices placed and the lines
+/// swept, each as soon as the chunks that follow have come as far as it reads. Whether the surface comes in chunks or
+/// as one gives the same positions, bit for bit.
+class LatticeSmoother final : public ChunkSmoother {
+public:
+    LatticeSmoother(const SmoothOptions& options, const ChunkOrder& order);
+    LatticeSmoother(const LatticeSmoother&) = delete;
+    LatticeSmoother& operator=(const LatticeSmoother&) = delete;
+
+    /// Always true. Throws Error(kInput) for a vertex that is not the centroid of a lattice simplex.
+    [[nodiscard]] bool add(const Chunk& chunk, bool is_last, double next_low) override;
+    bool next(Chunk& chunk) override;
+
+    std::uint32_t most_chunks() const override;
+    double safe_high() const override;
+    const SmoothReport& report() const override { return report_; }
+
+private:
+    void add_to_levels(std::uint32_t chunk);
+    void refine();
+    void place(std::uint32_t chunk);
+    void finish(std::uint32_t chunk);
+    /// Chunks that a stage may have done when the one before has done `done_before` and must be one chunk ahead.
+    std::uint32_t one_behind(std::uint32_t done_before) const;
+    void note_bytes();
+
+    SmoothOptions options_;
+    ChunkOrder order_;
+    SurfaceWindow window_;
+    LatticeSites sites_;
+    SlidingArray<SiteEstimate> estimates_;  // by site
+    std::deque<LatticeLevel> levels_;       // coarse to fine
+    LatticeLines lines_;
+    SlidingArray<Vec3> positions_;
+    SlidingArray<double> next_low_;         // by chunk
+    SlidingArray<std::int64_t> last_layer_;  // by chunk: of the finest level
+    bool is_last_ = false;
+    std::uint32_t made_ = 0, averaged_[LatticeSites::kNormalPasses] = {}, added_ = 0, placed_ = 0, linked_ = 0,
+                  swept_[LatticeLines::kSweeps] = {}, finished_ = 0, released_ = 0;
+    SmoothReport report_;
+};
+
+}  // namespace regionmesh
