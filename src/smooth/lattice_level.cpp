@@ -23,8 +23,9 @@ constexpr float kTolerance = 0.3f;
 /// Weight of a quadric in the corners of its own block, which may lie beyond kBlend.
 constexpr float kOwnWeight = 1e-6f;
 
-/// Extents of simplices depend on the slope of the quadric: fitted again with the slopes found first.
-constexpr int kRounds = 2;
+/// Extents of simplices depend on the slope of the quadric: fitted again with the slopes found first, for wide
+/// terraces. On the finest scale once more gains nothing.
+constexpr int kRounds = 2, kFinestRounds = 1;
 
 /// The axis along which a normal is longest, and its sign: sites of a block are parted by it.
 std::uint8_t direction_of(Float3 normal) {
@@ -42,11 +43,12 @@ LatticeLevel::LatticeLevel(const LatticeSites& sites, SlidingArray<SiteEstimate>
     spacing_ = Float3(frame.spacing / frame.finest());
     const auto size = static_cast<float>(options.size);
     size_ = {std::max(size, spacing_.x), std::max(size, spacing_.y), std::max(size, spacing_.z)};
+    per_size_ = {1 / size_.x, 1 / size_.y, 1 / size_.z};
 }
 
 /// Square of a length measured in blocks.
 float LatticeLevel::distance2(Float3 d) const {
-    const Float3 in_blocks{d.x / size_.x, d.y / size_.y, d.z / size_.z};
+    const Float3 in_blocks{d.x * per_size_.x, d.y * per_size_.y, d.z * per_size_.z};
     return dot(in_blocks, in_blocks);
 }
 
@@ -74,16 +76,15 @@ std::int64_t LatticeLevel::cell_of(std::uint32_t site, int axis) const {
 }
 
 void LatticeLevel::seal_before(std::int64_t end) {
-    for (; sealed_ < end; ++sealed_) {
-        if (sealed_ == layer_end()) layers_.emplace_back();
+    for (; whole_ < end; ++whole_) {
+        if (whole_ == layer_end()) layers_.emplace_back();
         // Nearly the end of the layer: on the way it takes as long with few sites as with many.
-        require_before(sealed_, (static_cast<double>(sealed_) + 0.99) * size_along(options_.sweep_axis));
-        seal(layers_[sealed_ - first_layer_]);
+        require_before(whole_, (static_cast<double>(whole_) + 0.99) * size_along(options_.sweep_axis));
     }
 }
 
 /// Sorts the sites of a layer into rows and blocks.
-void LatticeLevel::seal(Layer& layer) {
+void LatticeLevel::sort(Layer& layer) {
     const int axis = (options_.sweep_axis + 2) % 3;
     for (std::uint32_t s : layer.sites) {
         const std::size_t n = cell_of(s, axis) / kCells;
@@ -97,10 +98,10 @@ void LatticeLevel::seal(Layer& layer) {
 
 void LatticeLevel::fill_row(Row& row) const {
     struct Entry {
-        std::uint64_t key;  // block, cell in the block, kind, direction
-        std::uint32_t interface, site;
+        std::uint64_t block_interface, rest;  // rest: direction, cell in the block, kind
+        std::uint32_t site;
         bool operator<(const Entry& other) const {
-            return std::tie(key, interface, site) < std::tie(other.key, other.interface, other.site);
+            return std::tie(block_interface, rest, site) < std::tie(other.block_interface, other.rest, other.site);
         }
     };
     const int axes[3] = {options_.sweep_axis, (options_.sweep_axis + 2) % 3, (options_.sweep_axis + 1) % 3};
@@ -109,76 +110,75 @@ void LatticeLevel::fill_row(Row& row) const {
     for (std::uint32_t s : row.sites) {
         const LatticeSite& site = sites_[s];
         const std::int64_t along = cell_of(s, axes[2]);
-        std::uint64_t key = static_cast<std::uint64_t>(along / kCells);
-        key = key * kCells + static_cast<std::uint64_t>(cell_of(s, axes[0]) % kCells);
-        key = key * kCells + static_cast<std::uint64_t>(cell_of(s, axes[1]) % kCells);
-        key = key * kCells + static_cast<std::uint64_t>(along % kCells);
-        entries.push_back({(key * kKindCount + site.kind) * 6 + direction_of(site.normal), site.interface, s});
+        std::uint64_t rest = direction_of(site.normal);
+        rest = rest * kCells + static_cast<std::uint64_t>(cell_of(s, axes[0]) % kCells);
+        rest = rest * kCells + static_cast<std::uint64_t>(cell_of(s, axes[1]) % kCells);
+        rest = rest * kCells + static_cast<std::uint64_t>(along % kCells);
+        entries.push_back(
+            {static_cast<std::uint64_t>(along / kCells) << 32 | site.interface, rest * kKindCount + site.kind, s});
     }
     std::sort(entries.begin(), entries.end());
-    constexpr std::uint64_t kKeysPerCell = kKindCount * 6, kKeysPerBlock = kKeysPerCell * kCells * kCells * kCells;
     row.sites.clear();
     row.sites.reserve(entries.size());
-    for (std::size_t n = 0; n < entries.size(); ++n) {
-        const Entry& entry = entries[n];
-        const std::uint64_t block = entry.key / kKeysPerBlock;
-        if (n == 0 || block != entries[n - 1].key / kKeysPerBlock)
-            row.blocks.push_back({static_cast<std::int32_t>(block), static_cast<std::uint32_t>(n), 0, 0});
-        row.sites.push_back(entry.site);
-    }
-    row.blocks.push_back({std::numeric_limits<std::int32_t>::max(), static_cast<std::uint32_t>(entries.size()), 0, 0});
     std::vector<std::uint64_t> keys;
     keys.reserve(entries.size());
-    for (const Entry& entry : entries) keys.push_back(entry.key);
+    for (std::uint32_t n = 0; n < entries.size(); ++n) {
+        const std::uint64_t run = entries[n].block_interface;
+        if (n == 0 || run != entries[n - 1].block_interface)
+            row.runs.push_back({static_cast<std::uint32_t>(run), n, 0, 0, static_cast<std::int32_t>(run >> 32)});
+        row.sites.push_back(entries[n].site);
+        keys.push_back(entries[n].rest);
+    }
+    row.runs.push_back(
+        {0, static_cast<std::uint32_t>(entries.size()), 0, 0, std::numeric_limits<std::int32_t>::max()});
     make_samples(row, keys);
     make_fits(row);
+    row.runs.shrink_to_fit();
+    row.samples.shrink_to_fit();
+    row.fits.shrink_to_fit();
 }
 
-/// One sample for the sites of a block that have the same key and interface.
+/// One sample for the sites of a run that have the same key.
 void LatticeLevel::make_samples(Row& row, const std::vector<std::uint64_t>& keys) const {
-    for (std::size_t b = 0; b + 1 < row.blocks.size(); ++b) {
-        row.blocks[b].sample = static_cast<std::uint32_t>(row.samples.size());
-        const std::uint32_t end = row.blocks[b + 1].site;
-        for (std::uint32_t first = row.blocks[b].site, next; first < end; first = next) {
+    for (std::size_t r = 0; r + 1 < row.runs.size(); ++r) {
+        row.runs[r].sample = static_cast<std::uint32_t>(row.samples.size());
+        const std::uint32_t end = row.runs[r + 1].site;
+        for (std::uint32_t first = row.runs[r].site, next; first < end; first = next) {
             const LatticeSite& site = sites_[row.sites[first]];
             Float3 offset, normal;
-            for (next = first; next < end; ++next) {
+            for (next = first; next < end && keys[next] == keys[first]; ++next) {
                 const LatticeSite& other = sites_[row.sites[next]];
-                if (keys[next] != keys[first] || other.interface != site.interface) break;
                 offset += other.centroid - site.centroid;
                 normal += other.normal;
             }
             const auto count = static_cast<float>(next - first);
             row.samples.push_back({site.centroid + (1 / count) * offset, (1 / length(normal)) * normal, count,
-                                   site.interface, site.kind, direction_of(site.normal)});
+                                   static_cast<std::uint8_t>(site.kind), direction_of(site.normal)});
         }
     }
-    row.blocks.back().sample = static_cast<std::uint32_t>(row.samples.size());
+    row.runs.back().sample = static_cast<std::uint32_t>(row.samples.size());
 }
 
-/// Samples of a block by interface and direction; a group that faces about the same way as a larger one joins it.
-/// Positions are sums of offsets from the first sample of the block.
-std::vector<LatticeLevel::Group> LatticeLevel::groups_of(const Row& row, std::uint32_t block) const {
-    const std::uint32_t first = row.blocks[block].sample, end = row.blocks[block + 1].sample;
+/// Samples of a run by direction; a group that faces about the same way as a larger one joins it. Positions are sums of
+/// offsets from the first sample.
+std::vector<LatticeLevel::Group> LatticeLevel::groups_of(const Row& row, const Run& run) const {
+    const std::uint32_t end = (&run + 1)->sample;
     std::vector<Group> groups;
-    for (std::uint32_t n = first; n < end; ++n) {
+    for (std::uint32_t n = run.sample; n < end; ++n) {
         const Sample& sample = row.samples[n];
-        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& other) {
-            return other.interface == sample.interface && other.direction == sample.direction;
-        });
-        if (group == groups.end()) group = groups.insert(group, {{}, {}, 0, sample.interface, sample.direction});
-        group->position += sample.count * (sample.position - row.samples[first].position);
-        group->normal += sample.count * sample.normal;
-        group->count += sample.count;
+        if (groups.empty() || groups.back().direction != sample.direction)
+            groups.push_back({{}, {}, 0, sample.direction});
+        groups.back().position += sample.count * (sample.position - row.samples[run.sample].position);
+        groups.back().normal += sample.count * sample.normal;
+        groups.back().count += sample.count;
     }
     std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
-        return std::tuple(a.interface, -a.count, a.direction) < std::tuple(b.interface, -b.count, b.direction);
+        return std::tuple(-a.count, a.direction) < std::tuple(-b.count, b.direction);
     });
     std::vector<Group> joined;
     for (const Group& group : groups) {
         const auto larger = std::find_if(joined.begin(), joined.end(), [&](const Group& other) {
-            return other.interface == group.interface &&
-                   dot(other.normal, group.normal) > kJoins * length(other.normal) * length(group.normal);
+            return dot(other.normal, group.normal) > kJoins * length(other.normal) * length(group.normal);
         });
         if (larger == joined.end()) {
             joined.push_back(group);
@@ -192,44 +192,45 @@ std::vector<LatticeLevel::Group> LatticeLevel::groups_of(const Row& row, std::ui
 }
 
 void LatticeLevel::make_fits(Row& row) const {
-    for (std::uint32_t b = 0; b + 1 < row.blocks.size(); ++b) {
-        row.blocks[b].fit = static_cast<std::uint32_t>(row.fits.size());
-        for (const Group& group : groups_of(row, b)) {
-            const LatticePoint centre = row.samples[row.blocks[b].sample].position + (1 / group.count) * group.position;
-            row.fits.push_back({HeightQuadric(centre, (1 / length(group.normal)) * group.normal), group.interface});
+    for (std::size_t r = 0; r + 1 < row.runs.size(); ++r) {
+        row.runs[r].fit = static_cast<std::uint32_t>(row.fits.size());
+        for (const Group& group : groups_of(row, row.runs[r])) {
+            const LatticePoint centre = row.samples[row.runs[r].sample].position + (1 / group.count) * group.position;
+            row.fits.push_back({HeightQuadric(centre, (1 / length(group.normal)) * group.normal)});
         }
     }
-    row.blocks.back().fit = static_cast<std::uint32_t>(row.fits.size());
+    row.runs.back().fit = static_cast<std::uint32_t>(row.fits.size());
 }
 
-/// Calls visit(layer, row number, row, first block, end block) for the rows near a block, the block itself included.
+/// Calls visit(layer, row number, row, run) for the runs of the same interface within kRings blocks, the run itself
+/// included.
 template <class Visit>
-void LatticeLevel::for_rows_near(const BlockPlace& at, Visit&& visit) {
-    const std::int32_t place = row(at).blocks[at.block].place;
+void LatticeLevel::for_runs_near(const RunPlace& at, Visit&& visit) {
+    const std::int32_t place = row(at).runs[at.run].place;
+    const std::uint32_t interface = row(at).runs[at.run].interface;
     const std::int64_t end_layer = std::min(layer_end(), at.layer + kRings + 1);
     for (std::int64_t l = std::max(first_layer_, at.layer - kRings); l < end_layer; ++l) {
         std::vector<Row>& rows = layers_[l - first_layer_].rows;
         const auto row_end = std::min(static_cast<std::int32_t>(rows.size()), at.row + kRings + 1);
         for (std::int32_t r = std::max(0, at.row - kRings); r < row_end; ++r) {
-            const std::vector<Block>& blocks = rows[r].blocks;
-            const auto first = std::lower_bound(blocks.begin(), blocks.end(), place - kRings,
-                                                [](const Block& block, std::int32_t p) { return block.place < p; });
-            auto end = first;
-            while (end != blocks.end() && end->place <= place + kRings) ++end;
-            if (first != end)
-                visit(l, r, rows[r], static_cast<std::uint32_t>(first - blocks.begin()),
-                      static_cast<std::uint32_t>(end - blocks.begin()));
+            std::vector<Run>& runs = rows[r].runs;
+            auto run = std::lower_bound(runs.begin(), runs.end(), place - kRings,
+                                        [](const Run& other, std::int32_t p) { return other.place < p; });
+            for (; run != runs.end() && run->place <= place + kRings; ++run)
+                if (run->interface == interface) visit(l, r, rows[r], static_cast<std::uint32_t>(run - runs.begin()));
         }
     }
 }
 
 void LatticeLevel::refine(bool is_last) {
-    const std::int64_t end = is_last ? sealed_ : sealed_ - 2 * kRings;
+    const std::int64_t end = is_last ? whole_ : whole_ - 2 * kRings;
     const auto is_due = [&] {
         return refined_ < end &&
                (!options_.before || layers_[refined_ - first_layer_].before < options_.before->refined() || is_last);
     };
     for (; is_due(); ++refined_) {
+        // Sorted only now, since samples and fits take more room than sites.
+        for (; sorted_ < std::min(whole_, refined_ + 2 * kRings + 1); ++sorted_) sort(layers_[sorted_ - first_layer_]);
         refine_layer(refined_);
         // Layers that come read fits and samples of the last few.
         while (first_layer_ + 2 * kRings <= refined_) {
@@ -239,66 +240,73 @@ void LatticeLevel::refine(bool is_last) {
     }
 }
 
-bool LatticeLevel::is_open(const Row& row, std::uint32_t block) const {
-    for (std::uint32_t n = row.blocks[block].site; n < row.blocks[block + 1].site; ++n)
+bool LatticeLevel::is_open(const Row& row, std::uint32_t run) const {
+    for (std::uint32_t n = row.runs[run].site; n < row.runs[run + 1].site; ++n)
         if (estimates_[row.sites[n]].rest > 0) return true;
     return false;
 }
 
-/// Fits are made when a block that needs them is refined: where a coarser level has decided there are none.
+/// Fits are made when a run that needs them is refined: where a coarser level has decided there are none.
 void LatticeLevel::refine_layer(std::int64_t layer) {
-    std::vector<BlockPlace> open, wanted;
+    std::vector<RunPlace> open, wanted;
     std::vector<Row>& rows = layers_[layer - first_layer_].rows;
+    for (const Row& row : rows)
+        for (std::uint32_t s : row.sites)
+            if (s >= estimates_.end()) estimates_.grow(s + 1);
     for (std::int32_t r = 0; r < static_cast<std::int32_t>(rows.size()); ++r)
-        for (std::uint32_t b = 0; b + 1 < rows[r].blocks.size(); ++b)
-            if (is_open(rows[r], b)) open.push_back({layer, r, b});
-    for (const BlockPlace& at : open)
-        for_rows_near(at, [&](std::int64_t l, std::int32_t r, Row& near, std::uint32_t first, std::uint32_t end) {
-            for (std::uint32_t b = first; b < end; ++b)
-                if (!std::exchange(near.blocks[b].is_fitted, true)) wanted.push_back({l, r, b});
+        for (std::uint32_t n = 0; n + 1 < rows[r].runs.size(); ++n)
+            if (is_open(rows[r], n)) open.push_back({layer, r, n});
+    for (const RunPlace& at : open)
+        for_runs_near(at, [&](std::int64_t l, std::int32_t r, Row& near, std::uint32_t run) {
+            if (!std::exchange(near.runs[run].is_fitted, true)) wanted.push_back({l, r, run});
         });
     parallel_for(static_cast<std::uint32_t>(wanted.size()), options_.threads,
-                 [&](std::uint32_t n) { fit_block(wanted[n]); });
+                 [&](std::uint32_t n) { fit_run(wanted[n]); });
     parallel_for(static_cast<std::uint32_t>(open.size()), options_.threads,
-                 [&](std::uint32_t n) { blend_block(open[n]); });
+                 [&](std::uint32_t n) { blend_run(open[n]); });
 }
 
-void LatticeLevel::fit_block(const BlockPlace& at) {
+void LatticeLevel::fit_run(const RunPlace& at) {
     thread_local HeightSamples chosen;
     Row& own = row(at);
-    const float size = static_cast<float>(options_.size);
-    for (std::uint32_t f = own.blocks[at.block].fit; f < own.blocks[at.block + 1].fit; ++f) {
+    for (std::uint32_t f = own.runs[at.run].fit; f < own.runs[at.run + 1].fit; ++f) {
         Fit& fit = own.fits[f];
-        HeightQuadric& quadric = fit.quadric;
-        chosen.clear();
-        for_rows_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t first, std::uint32_t end) {
-            for (std::uint32_t s = near.blocks[first].sample; s < near.blocks[end].sample; ++s) {
-                const Sample& sample = near.samples[s];
-                if (sample.interface != fit.interface) continue;
-                const Float3 d = sample.position - quadric.centre;
-                const float share = 1 - distance2(d) / (kReach * kReach);
-                const float along = dot(sample.normal, quadric.normal);
-                if (share <= 0 || along <= kSameSheet) continue;
-                chosen.push_back(quadric.along(d), share * share * along * sample.count, sample.kind);
-            }
-        });
-        if (!quadric.fit(chosen, spacing_, kReach * size, kRounds))
+        choose(at, fit.quadric, chosen);
+        if (!fit.quadric.fit(chosen, spacing_, kReach * static_cast<float>(options_.size),
+                             options_.takes_all ? kFinestRounds : kRounds))
             fit.accepted = -1;
         else
-            fit.accepted = options_.takes_all ? 1 : acceptance(at, fit);
+            fit.accepted = options_.takes_all ? 1 : acceptance(at, fit.quadric);
     }
 }
 
+/// The samples of the sheet within kReach, with a weight that falls with distance.
+void LatticeLevel::choose(const RunPlace& at, const HeightQuadric& quadric, HeightSamples& chosen) {
+    std::uint32_t count = 0;
+    for_runs_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t run) {
+        const std::uint32_t first = near.runs[run].sample, end = near.runs[run + 1].sample;
+        chosen.make_room(count + end - first);
+        for (std::uint32_t s = first; s < end; ++s) {
+            const Sample& sample = near.samples[s];
+            const Float3 d = sample.position - quadric.centre;
+            const float share = 1 - distance2(d) * (1 / (kReach * kReach));
+            const float along = dot(sample.normal, quadric.normal);
+            chosen.set(count, quadric.along(d), share * share * along * sample.count, sample.kind);
+            count += share > 0 && along > kSameSheet;
+        }
+    });
+    chosen.count = count;
+}
+
 /// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
-float LatticeLevel::acceptance(const BlockPlace& at, const Fit& fit) {
-    const HeightQuadric& quadric = fit.quadric;
+float LatticeLevel::acceptance(const RunPlace& at, const HeightQuadric& quadric) {
     const Float3& normal = quadric.normal;
-    const float tolerance = kTolerance * length(Float3{normal.x * spacing_.x, normal.y * spacing_.y, normal.z * spacing_.z});
+    const float tolerance =
+        kTolerance * length(Float3{normal.x * spacing_.x, normal.y * spacing_.y, normal.z * spacing_.z});
     float worst = 0;
-    for_rows_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t first, std::uint32_t end) {
-        for (std::uint32_t n = near.blocks[first].site; worst < tolerance && n < near.blocks[end].site; ++n) {
+    for_runs_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t run) {
+        for (std::uint32_t n = near.runs[run].site; worst < tolerance && n < near.runs[run + 1].site; ++n) {
             const LatticeSite& site = sites_[near.sites[n]];
-            if (site.interface != fit.interface) continue;
             const Float3 d = site.centroid - quadric.centre;
             if (distance2(d) >= kBlend * kBlend || dot(site.normal, normal) <= kSameSheet) continue;
             const Float3 place = quadric.along(d), slope = quadric.gradient(place);
@@ -310,27 +318,46 @@ float LatticeLevel::acceptance(const BlockPlace& at, const Fit& fit) {
     return worst >= tolerance ? 0 : std::min(1.0f, 2 - 2 * worst / tolerance);
 }
 
-void LatticeLevel::blend_block(const BlockPlace& at) {
-    thread_local std::vector<const Fit*> near_fits;
-    near_fits.clear();
-    for_rows_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t first, std::uint32_t end) {
-        for (std::uint32_t f = near.blocks[first].fit; f < near.blocks[end].fit; ++f)
-            if (near.fits[f].accepted >= 0) near_fits.push_back(&near.fits[f]);
-    });
+/// Fits whose centre lies within kBlend of some site of the run.
+std::vector<const LatticeLevel::Fit*>& LatticeLevel::fits_near(const RunPlace& at) {
+    thread_local std::vector<const Fit*> fits;
+    fits.clear();
     const Row& own = row(at);
-    const Fit* const own_first = own.fits.data() + own.blocks[at.block].fit;
-    const Fit* const own_end = own.fits.data() + own.blocks[at.block + 1].fit;
-    for (std::uint32_t n = own.blocks[at.block].site; n < own.blocks[at.block + 1].site; ++n) {
+    const LatticePoint first = sites_[own.sites[own.runs[at.run].site]].centroid;
+    Float3 low, high;
+    for (std::uint32_t n = own.runs[at.run].site; n < own.runs[at.run + 1].site; ++n) {
+        const Float3 d = sites_[own.sites[n]].centroid - first;
+        low = {std::min(low.x, d.x), std::min(low.y, d.y), std::min(low.z, d.z)};
+        high = {std::max(high.x, d.x), std::max(high.y, d.y), std::max(high.z, d.z)};
+    }
+    const auto beyond = [](float at_, float low_, float high_) { return std::max({low_ - at_, at_ - high_, 0.0f}); };
+    for_runs_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t run) {
+        for (std::uint32_t f = near.runs[run].fit; f < near.runs[run + 1].fit; ++f) {
+            const Fit& fit = near.fits[f];
+            const Float3 d = fit.quadric.centre - first;
+            const Float3 gap{beyond(d.x, low.x, high.x), beyond(d.y, low.y, high.y), beyond(d.z, low.z, high.z)};
+            const bool is_own = &near == &own && run == at.run;
+            if (fit.accepted >= 0 && (is_own || distance2(gap) < kBlend * kBlend)) fits.push_back(&fit);
+        }
+    });
+    return fits;
+}
+
+void LatticeLevel::blend_run(const RunPlace& at) {
+    const std::vector<const Fit*>& near_fits = fits_near(at);
+    const Row& own = row(at);
+    const Fit* const own_first = own.fits.data() + own.runs[at.run].fit;
+    const Fit* const own_end = own.fits.data() + own.runs[at.run + 1].fit;
+    for (std::uint32_t n = own.runs[at.run].site; n < own.runs[at.run + 1].site; ++n) {
         const LatticeSite& site = sites_[own.sites[n]];
         SiteEstimate& estimate = estimates_[own.sites[n]];
         if (estimate.rest == 0) continue;
         float all = 0, accepted = 0, height = 0;
         Float3 slope;
         for (const Fit* fit : near_fits) {
-            if (fit->interface != site.interface) continue;
             const HeightQuadric& quadric = fit->quadric;
             const Float3 d = site.centroid - quadric.centre;
-            const float share = 1 - distance2(d) / (kBlend * kBlend);
+            const float share = 1 - distance2(d) * (1 / (kBlend * kBlend));
             const float along = dot(site.normal, quadric.normal) - kSameSheet;
             float weight = share > 0 && along > 0 ? share * share * along : 0;
             if (fit >= own_first && fit < own_end && along > -kSameSheet) weight += kOwnWeight;
@@ -369,7 +396,7 @@ std::size_t LatticeLevel::bytes() const {
     for (const Layer& layer : layers_) {
         sum += layer.sites.capacity() * sizeof(std::uint32_t);
         for (const Row& row : layer.rows)
-            sum += row.sites.capacity() * sizeof(std::uint32_t) + row.blocks.capacity() * sizeof(Block) +
+            sum += row.sites.capacity() * sizeof(std::uint32_t) + row.runs.capacity() * sizeof(Run) +
                    row.samples.capacity() * sizeof(Sample) + row.fits.capacity() * sizeof(Fit);
     }
     return sum;

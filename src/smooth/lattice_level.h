@@ -43,7 +43,7 @@ public:
     /// Layers before `end` get no more sites.
     void seal_before(std::int64_t end);
     std::int64_t layer_end() const { return first_layer_ + static_cast<std::int64_t>(layers_.size()); }
-    /// Gives accepted quadrics the rest of the estimates of each site, blended; as far as sealed layers and the level
+    /// Gives accepted quadrics the rest of the estimates of each site, blended; as far as whole layers and the level
     /// before allow. `is_last`: all sites were added.
     void refine(bool is_last);
     /// Layers before this one are refined.
@@ -58,42 +58,39 @@ private:
         LatticePoint position;
         Float3 normal;
         float count;
-        std::uint32_t interface : 27;
-        std::uint32_t kind : 5;
-        std::uint8_t direction;
+        std::uint8_t kind, direction;
     };
     struct Fit {
         HeightQuadric quadric;
-        std::uint32_t interface;
         float accepted = 0;  // 0 to 1; below 0: could not be fitted
     };
-    /// Ranges end where those of the next block of the row begin.
-    struct Block {
-        std::int32_t place;  // along the row
+    /// Sites of one interface in one block. Ranges end where those of the next run begin.
+    struct Run {
+        std::uint32_t interface;
         std::uint32_t site, sample, fit;
+        std::int32_t place;  // of the block along the row
         bool is_fitted = false;
     };
     struct Row {
-        std::vector<std::uint32_t> sites;  // by block
-        std::vector<Block> blocks;         // and one more at the end
+        std::vector<std::uint32_t> sites;  // by run
+        std::vector<Run> runs;             // by block, then interface; and one more at the end
         std::vector<Sample> samples;
         std::vector<Fit> fits;
     };
     struct Layer {
-        std::vector<std::uint32_t> sites;  // until the layer is sealed
+        std::vector<std::uint32_t> sites;  // until the layer is sorted
         std::vector<Row> rows;
         std::int64_t before = -1;  // layer of the level before that has to be refined first
     };
     struct Group {
         Float3 position, normal;  // sums
         float count;
-        std::uint32_t interface;
         std::uint8_t direction;
     };
-    struct BlockPlace {
+    struct RunPlace {
         std::int64_t layer;
         std::int32_t row;
-        std::uint32_t block;  // in the row
+        std::uint32_t run;  // in the row
     };
     struct LinearHeight {
         float height;
@@ -103,20 +100,22 @@ private:
     double size_along(int axis) const { return axis == 0 ? size_.x : axis == 1 ? size_.y : size_.z; }
     std::int64_t place_of(double coordinate, int axis) const;
     std::int64_t cell_of(std::uint32_t site, int axis) const;
-    Row& row(const BlockPlace& at) { return layers_[at.layer - first_layer_].rows[at.row]; }
+    Row& row(const RunPlace& at) { return layers_[at.layer - first_layer_].rows[at.row]; }
     void require_before(std::int64_t layer, double coordinate);
-    void seal(Layer& layer);
+    void sort(Layer& layer);
     void fill_row(Row& row) const;
     void make_samples(Row& row, const std::vector<std::uint64_t>& keys) const;
     void make_fits(Row& row) const;
-    std::vector<Group> groups_of(const Row& row, std::uint32_t block) const;
+    std::vector<Group> groups_of(const Row& row, const Run& run) const;
     template <class Visit>
-    void for_rows_near(const BlockPlace& at, Visit&& visit);
+    void for_runs_near(const RunPlace& at, Visit&& visit);
     void refine_layer(std::int64_t layer);
-    bool is_open(const Row& row, std::uint32_t block) const;
-    void fit_block(const BlockPlace& at);
-    float acceptance(const BlockPlace& at, const Fit& fit);
-    void blend_block(const BlockPlace& at);
+    bool is_open(const Row& row, std::uint32_t run) const;
+    void fit_run(const RunPlace& at);
+    void choose(const RunPlace& at, const HeightQuadric& quadric, HeightSamples& chosen);
+    float acceptance(const RunPlace& at, const HeightQuadric& quadric);
+    std::vector<const Fit*>& fits_near(const RunPlace& at);
+    void blend_run(const RunPlace& at);
     LinearHeight linear_height(const HeightQuadric& quadric, Float3 d, int kind) const;
     float distance2(Float3 d) const;
 
@@ -124,7 +123,9 @@ private:
     SlidingArray<SiteEstimate>& estimates_;
     Options options_;
     Float3 spacing_, size_;  // of samples, of blocks; in finest spacings
-    std::int64_t first_layer_ = 0, sealed_ = 0, refined_ = 0;
+    Float3 per_size_;        // inverses of size_
+    std::int64_t first_layer_ = 0;
+    std::int64_t whole_ = 0, sorted_ = 0, refined_ = 0;  // ends of the layers that have all sites, are sorted, are refined
     std::deque<Layer> layers_;
 };
 

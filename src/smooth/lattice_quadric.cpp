@@ -70,11 +70,11 @@ void weigh(const HeightQuadric& quadric, HeightSamples& samples, Float3 spacing,
         const StepHeights heights = step_heights(quadric.normal, spacing);
         std::array<float, kKindCount> extents{};
         for (int kind = 1; kind < kKindCount; ++kind) extents[kind] = extent_of(kind, heights);
-        for (std::uint32_t n = 0; n < samples.size(); ++n)
+        for (std::uint32_t n = 0; n < samples.count; ++n)
             weights[n] = weight(samples.weight[n], extents[samples.kind[n]], 1);
         return;
     }
-    for (std::uint32_t n = 0; n < samples.size(); ++n) {
+    for (std::uint32_t n = 0; n < samples.count; ++n) {
         const Float3 slope = quadric.gradient({samples.u[n], samples.v[n], 0});
         weights[n] = weight(samples.weight[n], extent_of(samples.kind[n], step_heights(slope, spacing)),
                             dot(slope, slope));
@@ -95,7 +95,7 @@ double total(Lanes lanes) { return (double{lanes[0]} + lanes[1]) + (double{lanes
 void add_up(const HeightSamples& samples, float scale, Matrix& a, std::array<double, 6>& b) {
     Lanes m00{}, m10{}, m01{}, m20{}, m11{}, m02{}, m30{}, m21{}, m12{}, m03{}, m40{}, m31{}, m22{}, m13{}, m04{};
     Lanes b0{}, b1{}, b2{}, b3{}, b4{}, b5{};
-    for (std::uint32_t n = 0; n < samples.size(); n += kLanes) {
+    for (std::uint32_t n = 0; n < samples.count; n += kLanes) {
         const Lanes w = load(&samples.scaled_weight[n]), s = scale * load(&samples.u[n]), t = scale * load(&samples.v[n]);
         const Lanes h = load(&samples.height[n]);
         const Lanes ss = s * s, st = s * t, tt = t * t, ws = w * s, wt = w * t, wss = w * ss, wtt = w * tt, wh = w * h;
@@ -117,17 +117,12 @@ void add_up(const HeightSamples& samples, float scale, Matrix& a, std::array<dou
 
 }  // namespace
 
-void HeightSamples::clear() {
-    for (auto* values : {&u, &v, &height, &weight}) values->clear();
-    kind.clear();
-}
-
-void HeightSamples::push_back(Float3 along_uvn, float weight_, std::uint8_t kind_) {
-    u.push_back(along_uvn.x);
-    v.push_back(along_uvn.y);
-    height.push_back(along_uvn.z);
-    weight.push_back(weight_);
-    kind.push_back(kind_);
+/// With room for lanes behind the last sample.
+void HeightSamples::make_room(std::uint32_t size) {
+    size += kLanes;
+    if (kind.size() >= size) return;
+    for (auto* values : {&u, &v, &height, &weight, &scaled_weight}) values->resize(size + size / 2);
+    kind.resize(size + size / 2);
 }
 
 ExtentAlong extent_along(int kind, Float3 slope, Float3 spacing) {
@@ -152,10 +147,12 @@ HeightQuadric::HeightQuadric(LatticePoint at, Float3 unit_normal) : centre(at), 
 }
 
 bool HeightQuadric::fit(HeightSamples& samples, Float3 spacing, float reach, int rounds) {
-    const double few = kFewSamples / static_cast<double>(samples.size());
+    const double few = kFewSamples / static_cast<double>(samples.count);
     const double curved_ridge = kCurvedRidge + few * few * few * few;
-    while (samples.size() % kLanes != 0) samples.push_back({}, 0, 1);
-    samples.scaled_weight.resize(samples.size());
+    for (std::uint32_t n = samples.count; n % kLanes != 0; ++n) {
+        samples.set(n, {}, 0, 1);
+        samples.scaled_weight[n] = 0;
+    }
     for (int round = 0; round < rounds; ++round) {
         weigh(*this, samples, spacing, round == 0);
         Matrix a{};

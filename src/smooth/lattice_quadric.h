@@ -20,13 +20,18 @@ ExtentAlong extent_along(int kind, Float3 slope, Float3 spacing);
 /// Points of an interface round the centre of a fit, one array for each coordinate.
 struct HeightSamples {
     std::vector<float> u, v, height;  // in finest spacings
-    std::vector<float> weight;
-    std::vector<std::uint8_t> kind;    // of the simplex
-    std::vector<float> scaled_weight;  // of the last fit
+    std::vector<float> weight, scaled_weight;
+    std::vector<std::uint8_t> kind;  // of the simplex
+    std::uint32_t count = 0;         // of the samples in use
 
-    std::uint32_t size() const { return static_cast<std::uint32_t>(kind.size()); }
-    void clear();
-    void push_back(Float3 along_uvn, float weight_, std::uint8_t kind_);
+    void make_room(std::uint32_t size);
+    void set(std::uint32_t n, Float3 along_uvn, float weight_, std::uint8_t kind_) {
+        u[n] = along_uvn.x;
+        v[n] = along_uvn.y;
+        height[n] = along_uvn.z;
+        weight[n] = weight_;
+        kind[n] = kind_;
+    }
 };
 
 /// Height over the plane through `centre` square to `normal`: along u and v, q0 + q1 u + q2 v + q3 u^2 + q4 u v + q5
@@ -50,7 +55,7 @@ struct HeightQuadric {
     /// Weighted least squares. The true surface may cross a sample's simplex anywhere, so a sample counts by the
     /// inverse square of the extent of its simplex along the normal, at least `finest_extent`: the steps of a terrace
     /// say where the surface is, its plain does not. Repeated `rounds` times with the slopes found before. `reach`
-    /// scales u and v. Adds samples of weight 0. False if the sums are degenerate.
+    /// scales u and v. Overwrites samples behind the last. False if the sums are degenerate.
     bool fit(HeightSamples& samples, Float3 spacing, float reach, int rounds);
 };
 

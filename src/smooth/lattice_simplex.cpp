@@ -13,6 +13,20 @@ namespace {
 /// Positions are rounded: far from the origin of the lattice by more than a unit in the last place.
 constexpr double kFarFromTwelfth = 0.01;
 
+/// The kind by the twelfths of the spacings from the base node to the centroid, the first axis fastest.
+constexpr std::uint8_t kNoKind = 255;
+constexpr std::array<std::uint8_t, 12 * 12 * 12> kKindOfTwelfths = [] {
+    std::array<std::uint8_t, 12 * 12 * 12> kinds{};
+    for (std::uint8_t& kind : kinds) kind = kNoKind;
+    for (int kind = 0; kind < kKindCount; ++kind) {
+        const Vec3 middle = centroid(kind);
+        const auto twelfths = [](double offset) { return static_cast<int>(12 * offset + 0.5); };
+        kinds[(twelfths(middle.z) * 12 + twelfths(middle.y)) * 12 + twelfths(middle.x)] =
+            static_cast<std::uint8_t>(kind);
+    }
+    return kinds;
+}();
+
 [[noreturn]] void refuse(Vec3 p) {
     throw Error(ErrorCode::kInput, "smoothing in the lattice: the vertex at " + std::to_string(p.x) + ", " +
                                        std::to_string(p.y) + ", " + std::to_string(p.z) +
@@ -34,15 +48,10 @@ LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame) {
         simplex.base[axis] = std::floor(scaled / 12);
         twelfths[axis] = static_cast<int>(scaled - 12 * simplex.base[axis]);
     }
-    for (int kind = 0; kind < kKindCount; ++kind) {
-        const Vec3 middle = centroid(kind);
-        bool is_same = true;
-        for (int axis = 0; axis < 3; ++axis) is_same &= std::lround(12 * middle[axis]) == twelfths[axis];
-        if (!is_same) continue;
-        simplex.kind = static_cast<std::uint8_t>(kind);
-        return simplex;
-    }
-    refuse(position);
+    const std::uint8_t kind = kKindOfTwelfths[(twelfths[2] * 12 + twelfths[1]) * 12 + twelfths[0]];
+    if (kind == kNoKind) refuse(position);
+    simplex.kind = kind;
+    return simplex;
 }
 
 Barycentric clamp_inside(const Barycentric& weights, int node_count, double margin) {

@@ -60,8 +60,6 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     window_.add(chunk);
     next_low_.push_back(next_low);
     sites_.add_chunk(number);
-    const NumberRange vertices = window_.vertices_of(number);
-    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) positions_.push_back(window_.origin[v]);
 
     for (; made_ < one_behind(window_.chunk_end()); ++made_) sites_.make(made_);
     std::uint32_t done = made_;
@@ -89,7 +87,6 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
 void LatticeSmoother::add_to_levels(std::uint32_t chunk) {
     const NumberRange vertices = window_.vertices_of(chunk);
     const double finest = order_.frame.finest(), origin = order_.frame.origin[order_.axis];
-    estimates_.grow(sites_.of_chunk(chunk).end);
     const double next_low = (next_low_[chunk] - origin) / finest;
     const LatticeLevel& finest_level = levels_.back();
     // Nearly the end of the chunk, even without sites there: so most_chunks() can be measured.
@@ -117,6 +114,7 @@ void LatticeSmoother::place(std::uint32_t chunk) {
     const LatticeFrame& frame = order_.frame;
     const Vec3 spacing = frame.spacing / frame.finest();
     const NumberRange vertices = window_.vertices_of(chunk);
+    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) positions_.push_back(window_.origin[v]);
     const auto nearest_to_interfaces = [&](std::uint32_t v, const SimplexEdges& edges) {
         NearestPoint nearest{edges.count};
         const NumberRange sites = sites_.of_vertex(v);
@@ -154,7 +152,7 @@ bool LatticeSmoother::next(Chunk& chunk) {
     const std::uint32_t last = released_ - 1, first = window_.vertices_of(last).first;
     window_.drop_before(released_);
     positions_.drop_before(first);
-    estimates_.drop_before(sites_.of_vertex(first).first);
+    estimates_.drop_before(std::min(sites_.of_vertex(first).first, estimates_.end()));
     sites_.drop_before(first);
     lines_.drop_before(last);
     last_layer_.drop_before(last);
