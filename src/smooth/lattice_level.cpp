@@ -58,17 +58,10 @@ std::int64_t LatticeLevel::place_of(double coordinate, int axis) const {
     return static_cast<std::int64_t>(std::floor(coordinate / size_along(axis) * kCells + 1e-4));
 }
 
-/// The level before has to refine up to this coordinate before a layer can be refined.
-void LatticeLevel::require_before(std::int64_t layer, double coordinate) {
-    std::int64_t& before = layers_[layer - first_layer_].before;
-    if (options_.before) before = std::max(before, options_.before->layer_of(coordinate));
-}
-
 void LatticeLevel::add(std::uint32_t site, double coordinate) {
     const std::int64_t layer = layer_of(coordinate);
     while (layer_end() <= layer) layers_.emplace_back();
     layers_[layer - first_layer_].sites.push_back(site);
-    require_before(layer, coordinate);
 }
 
 std::int64_t LatticeLevel::cell_of(std::uint32_t site, int axis) const {
@@ -76,11 +69,8 @@ std::int64_t LatticeLevel::cell_of(std::uint32_t site, int axis) const {
 }
 
 void LatticeLevel::seal_before(std::int64_t end) {
-    for (; whole_ < end; ++whole_) {
-        if (whole_ == layer_end()) layers_.emplace_back();
-        // Nearly the end of the layer: on the way it takes as long with few sites as with many.
-        require_before(whole_, (static_cast<double>(whole_) + 0.99) * size_along(options_.sweep_axis));
-    }
+    whole_ = std::max(whole_, end);
+    while (layer_end() < whole_) layers_.emplace_back();
 }
 
 /// Sorts the sites of a layer into rows and blocks.
@@ -224,11 +214,11 @@ void LatticeLevel::for_runs_near(const RunPlace& at, Visit&& visit) {
 
 void LatticeLevel::refine(bool is_last) {
     const std::int64_t end = is_last ? whole_ : whole_ - 2 * kRings;
-    const auto is_due = [&] {
-        return refined_ < end &&
-               (!options_.before || layers_[refined_ - first_layer_].before < options_.before->refined() || is_last);
+    const auto is_decided = [&](std::int64_t layer) {
+        const double last = (static_cast<double>(layer) + 0.99999) * size_along(options_.sweep_axis);
+        return is_last || !options_.before || options_.before->layer_of(last) < options_.before->refined();
     };
-    for (; is_due(); ++refined_) {
+    for (; refined_ < end && is_decided(refined_); ++refined_) {
         // Sorted only now, since samples and fits take more room than sites.
         for (; sorted_ < std::min(whole_, refined_ + 2 * kRings + 1); ++sorted_) sort(layers_[sorted_ - first_layer_]);
         refine_layer(refined_);

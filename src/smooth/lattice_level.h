@@ -80,7 +80,6 @@ private:
     struct Layer {
         std::vector<std::uint32_t> sites;  // until the layer is sorted
         std::vector<Row> rows;
-        std::int64_t before = -1;  // layer of the level before that has to be refined first
     };
     struct Group {
         Float3 position, normal;  // sums
@@ -101,7 +100,6 @@ private:
     std::int64_t place_of(double coordinate, int axis) const;
     std::int64_t cell_of(std::uint32_t site, int axis) const;
     Row& row(const RunPlace& at) { return layers_[at.layer - first_layer_].rows[at.row]; }
-    void require_before(std::int64_t layer, double coordinate);
     void sort(Layer& layer);
     void fill_row(Row& row) const;
     void make_samples(Row& row, const std::vector<std::uint64_t>& keys) const;

@@ -40,6 +40,8 @@ public:
     void average_normals(int pass, std::uint32_t chunk, std::uint32_t threads);
     static constexpr int kNormalPasses = 2;
 
+    /// Of this vertex and the later ones.
+    std::uint32_t first_of(std::uint32_t v) const { return first_site_[v]; }
     NumberRange of_vertex(std::uint32_t v) const { return {first_site_[v], first_site_[v + 1]}; }
     /// Requires that sites of this chunk are made.
     NumberRange of_chunk(std::uint32_t chunk) const {

@@ -88,17 +88,14 @@ void LatticeSmoother::add_to_levels(std::uint32_t chunk) {
     const NumberRange vertices = window_.vertices_of(chunk);
     const double finest = order_.frame.finest(), origin = order_.frame.origin[order_.axis];
     const double next_low = (next_low_[chunk] - origin) / finest;
-    const LatticeLevel& finest_level = levels_.back();
-    // Nearly the end of the chunk, even without sites there: so most_chunks() can be measured.
-    std::int64_t last = std::isfinite(next_low) ? finest_level.layer_of(std::max(next_low - 0.01, 0.0)) : -1;
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v) {
         const double along = (window_.origin[v][order_.axis] - origin) / finest;
         const NumberRange sites = sites_.of_vertex(v);
-        if (sites.size() > 0) last = std::max(last, finest_level.layer_of(along));
         for (std::uint32_t s = sites.first; s < sites.end; ++s)
             for (LatticeLevel& level : levels_) level.add(s, along);
     }
-    last_layer_.push_back(last);
+    // No site of the chunk lies beyond.
+    last_layer_.push_back(std::isfinite(next_low) ? levels_.back().layer_of(next_low) : 0);
     const bool is_end = is_last_ && chunk + 1 == window_.chunk_end();
     for (LatticeLevel& level : levels_) level.seal_before(is_end ? level.layer_end() : level.layer_of(next_low));
 }
@@ -152,7 +149,7 @@ bool LatticeSmoother::next(Chunk& chunk) {
     const std::uint32_t last = released_ - 1, first = window_.vertices_of(last).first;
     window_.drop_before(released_);
     positions_.drop_before(first);
-    estimates_.drop_before(std::min(sites_.of_vertex(first).first, estimates_.end()));
+    estimates_.drop_before(std::min(sites_.first_of(first), estimates_.end()));
     sites_.drop_before(first);
     lines_.drop_before(last);
     last_layer_.drop_before(last);

@@ -14,7 +14,7 @@ namespace regionmesh {
 /// Meshes the strips between sections as they are read. Sections that can be read twice are counted first.
 class SectionFaces final : public FaceSource {
 public:
-    SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts);
+    SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts = QuadCuts::kBestQuality);
 
     std::optional<FaceCount> count() override;
     const SourceShape& shape() const override { return shape_; }

@@ -13,7 +13,7 @@
 #include "mesh/face_meeting.h"
 #include "regionmesh/check.h"
 #include "regionmesh/error.h"
-#include "support/cone_mesh.h"
+#include "support/cone_chunks.h"
 #include "support/crossings.h"
 #include "support/runs.h"
 
@@ -220,7 +220,7 @@ TEST(LatticeSimplex, any_positions_inside_keep_every_sample) {
             test::ArrayVolume volume = test::noise_volume({6, 6, 6}, labels, labels);
             volume.lattice().spacing = frame.spacing;
             volume.lattice().origin = frame.origin;
-            Mesh mesh = test::cone_mesh(volume);
+            Mesh mesh = test::mesh_of(test::cone_chunks(volume));
             shake(mesh, frame, random);
             EXPECT_TRUE(test::crossings_in(mesh).empty());
             test::expect_sound(check(mesh));

@@ -23,7 +23,7 @@ using test::run;
 constexpr SmoothFilter kFilters[] = {SmoothFilter::kTaubin, SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
 
 std::string name_of(const SmoothOptions& options) {
-    const char* names[] = {"taubin", "laplacian", "nifpms"};
+    const char* names[] = {"auto", "lattice", "taubin", "laplacian", "nifpms"};
     return std::string(names[static_cast<int>(options.filter)]) + ", " + std::to_string(options.passes) + " passes";
 }
 

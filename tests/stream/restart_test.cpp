@@ -59,7 +59,7 @@ private:
     int rewinds_ = 0;
 };
 
-const SmoothOptions kSmooth{.passes = 2, .threads = 1};
+const SmoothOptions kSmooth{.filter = SmoothFilter::kTaubin, .passes = 2, .threads = 1};
 const CensusOptions kAllRegions{.background = {}};
 
 /// Is smoothing of the strips stuck when it holds this number of strips more than it seems to need?

@@ -64,24 +64,24 @@ Verdict test_quality(Collapse& collapse) {
 
 double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, const ShapeBounds& bounds) {
     const Lanes3<Double2> merged = both(at_target);
-    const Double2 bound3 = both(cube_of_bound(bounds));
-    double worst3 = 1;
+    const double bound3 = cube_of_bound(bounds);
+    LowQuality after{1, 0};
     for (int first = 0; first < around.face_count(); first += 2) {
         const StarPair& pair = around.pairs[first / 2];
         const Lanes3<Double2> to_a = pair.a - merged, to_b = pair.b - merged, normal = cross(to_a, to_b);
         const Double2 normal2 = dot(normal, normal);
         const Double2 own3 = quality3(pair, to_a, to_b, normal2);
-        const unsigned good =
-            bits_of(keep_direction(pair.old_normal, pair.old_length2, normal, normal2, bounds.min_turn_cosine) &
-                    (own3 >= bound3));
+        const unsigned kept =
+            bits_of(keep_direction(pair.old_normal, pair.old_length2, normal, normal2, bounds.min_turn_cosine));
         for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
             const StarFace& face = around.faces[first + lane];
             if (face.a == target || face.b == target) continue;  // vanishes
-            if ((good >> lane & 1) == 0) return 0;
-            worst3 = std::min<double>(worst3, own3[lane]);
+            if ((kept >> lane & 1) == 0) return 0;
+            after.worst3 = std::min<double>(after.worst3, own3[lane]);
+            after.below += own3[lane] < bound3;
         }
     }
-    return worst3;
+    return after.below > 0 && !was_worse(around, after, bound3) ? 0 : after.worst3;
 }
 
 }  // namespace regionmesh

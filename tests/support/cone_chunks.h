@@ -1,25 +1,31 @@
 // The unsmoothed reconstruction whose quads are cut into cones, as the lattice filter needs it.
 #pragma once
 
+#include <vector>
+
 #include "cells/strip_mesher.h"
 #include "regionmesh/mesh.h"
 #include "support/volumes.h"
 
 namespace regionmesh::test {
 
-/// Labels of the volume are dense labels already.
-inline Mesh cone_mesh(const ArrayVolume& volume) {
+/// A chunk for each strip. Labels of the volume are dense labels already.
+inline std::vector<Chunk> cone_chunks(const ArrayVolume& volume) {
     const Size size = volume.size();
     const std::size_t area = std::size_t{size[0]} * size[1];
     const std::vector<Label> labels(volume.labels().begin(), volume.labels().end());
     StripMesher mesher(volume.info().lattice, kSweepZ, {.cuts = QuadCuts::kCones});
-    Mesh mesh;
-    Chunk chunk;
-    std::vector<VertexId> number, active;
-    for (std::uint32_t strip = 0; strip + 1 < size[2]; ++strip) {
-        chunk.clear();
+    std::vector<Chunk> chunks(size[2] - 1);
+    for (std::uint32_t strip = 0; strip + 1 < size[2]; ++strip)
         mesher.mesh(std::span(labels).subspan(strip * area, area), std::span(labels).subspan((strip + 1) * area, area),
-                    chunk);
+                    chunks[strip]);
+    return chunks;
+}
+
+inline Mesh mesh_of(const std::vector<Chunk>& chunks) {
+    Mesh mesh;
+    std::vector<VertexId> number, active;
+    for (const Chunk& chunk : chunks) {
         number = active;
         for (const ChunkVertex& vertex : chunk.vertices)
             number.push_back(mesh.add_vertex(vertex.position, vertex.sides));

@@ -1,4 +1,4 @@
-#include "smooth/lattice_filter.h"
+#include "smooth/lattice_smoother.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "regionmesh/error.h"
-#include "support/cone_mesh.h"
+#include "support/cone_chunks.h"
 #include "support/crossings.h"
 #include "support/digest.h"
 #include "support/runs.h"
@@ -14,28 +14,36 @@
 namespace regionmesh {
 namespace {
 
-/// The mesh as the filter takes it.
-struct Surface {
-    std::vector<Vec3> positions;
-    std::vector<LatticeFace> faces;
+LatticeFrame frame_of(const test::ArrayVolume& volume) {
+    return {volume.info().lattice.origin, volume.info().lattice.spacing};
+}
 
-    explicit Surface(const Mesh& mesh) {
-        for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) positions.push_back(mesh.position(VertexId{v}));
-        for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
-            const auto& [v, next, labels] = mesh[FaceId{f}];
-            faces.push_back({{index(v[0]), index(v[1]), index(v[2])}, labels});
-        }
+ChunkOrder order_of(const test::ArrayVolume& volume) {
+    return {.axis = 2, .thickness = volume.info().lattice.spacing.z, .frame = frame_of(volume)};
+}
+
+/// The chunks, smoothed one after the other.
+std::vector<Chunk> streamed(const std::vector<Chunk>& chunks, const ChunkOrder& order, std::uint32_t threads = 1) {
+    LatticeSmoother smoother({.filter = SmoothFilter::kLattice, .threads = threads}, order);
+    std::vector<Chunk> result;
+    Chunk done;
+    for (std::uint32_t n = 0; n < chunks.size(); ++n) {
+        const double next_low = order.frame.origin.z + (n + 1) * order.thickness;
+        EXPECT_TRUE(smoother.add(chunks[n], n + 1 == chunks.size(), next_low));
+        EXPECT_LE(n + 1 - result.size(), smoother.most_chunks());
+        while (smoother.next(done)) result.push_back(done);
     }
-};
+    return result;
+}
 
-Mesh smoothed(test::ArrayVolume& volume, std::uint32_t threads = 1) {
-    const Lattice& lattice = volume.info().lattice;
-    Mesh mesh = test::cone_mesh(volume);
-    const Surface surface(mesh);
-    const std::vector<Vec3> moved =
-        lattice_positions(surface.positions, surface.faces, {lattice.origin, lattice.spacing}, {.threads = threads});
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].position = moved[v];
-    return mesh;
+Mesh smoothed(const test::ArrayVolume& volume, std::uint32_t threads = 1) {
+    return test::mesh_of(streamed(test::cone_chunks(volume), order_of(volume), threads));
+}
+
+std::vector<Vec3> positions_of(const Mesh& mesh) {
+    std::vector<Vec3> positions;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) positions.push_back(mesh.position(VertexId{v}));
+    return positions;
 }
 
 using Distance = std::function<double(Vec3)>;
@@ -133,11 +141,11 @@ TEST(LatticeFilter, keeps_vertices_in_their_simplices_and_the_model_sound) {
     for (test::ArrayVolume& volume : volumes) {
         volume.lattice().spacing = frame.spacing;
         volume.lattice().origin = frame.origin;
-        const Surface before(test::cone_mesh(volume));
+        const std::vector<Vec3> before = positions_of(test::mesh_of(test::cone_chunks(volume)));
         const Mesh mesh = smoothed(volume);
         test::expect_sound(check(mesh));
         EXPECT_TRUE(test::crossings_in(mesh).empty());
-        expect_inside(before.positions, Surface(mesh).positions, frame, 0.01);
+        expect_inside(before, positions_of(mesh), frame, 0.01);
     }
 }
 
@@ -161,10 +169,25 @@ TEST(LatticeFilter, does_not_depend_on_threads) {
     EXPECT_EQ(test::digest(smoothed(volume, 5)), once);
 }
 
+TEST(LatticeFilter, is_in_a_stream_what_it_is_in_core) {
+    for (const Vec3 spacing : {Vec3{1, 1, 1}, Vec3{1, 1, 4.7}, Vec3{3.1, 2, 1}}) {
+        auto volume = test::grain_volume({12, 11, 90}, 40, 5);
+        volume.lattice().spacing = spacing;
+        const std::vector<Chunk> chunks = test::cone_chunks(volume);
+        Chunk all = chunks[0];
+        for (std::size_t n = 1; n < chunks.size(); ++n) all.append(chunks[n]);
+        const ChunkOrder order = order_of(volume);
+        EXPECT_LT(LatticeSmoother({.filter = SmoothFilter::kLattice}, order).most_chunks(), 90u);
+        EXPECT_EQ(test::digest(test::mesh_of(streamed(chunks, order))),
+                  test::digest(test::mesh_of(streamed({all}, order))));
+    }
+}
+
 TEST(LatticeFilter, refuses_a_surface_that_is_not_of_the_lattice) {
     auto volume = test::grain_volume({8, 8, 8}, 4, 3);
-    const Surface surface(smoothed(volume));
-    EXPECT_THROW(lattice_positions(surface.positions, surface.faces, {}), Error);
+    const ChunkOrder order = order_of(volume);
+    const std::vector<Chunk> once = streamed(test::cone_chunks(volume), order);
+    EXPECT_THROW(streamed(once, order), Error);
 }
 
 }  // namespace
