@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/triangle.h"
 #include "mesh/strata.h"
 #include "simplify/tuning.h"
 #include "simplify/verdict/quality.h"
@@ -32,14 +34,37 @@ std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
     std::uint32_t removed = 0;
     for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
         if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress();
-        const Vertex& vertex = mesh_[VertexId{v}];
-        if (!vertex.is_alive || vertex.is_fixed || vertex.label_count > 3) continue;
-        if (seen_[v] == kSettled || seen_[v] == sweep_) continue;
+        if (!may_go(VertexId{v})) continue;
         if (try_to_remove(VertexId{v}, verdicts))
             ++removed;
         else
             seen_[v] = kSettled;
     }
+    return removed;
+}
+
+bool Prepass::may_go(VertexId v) const {
+    const Vertex& vertex = mesh_[v];
+    if (!vertex.is_alive || vertex.is_fixed || vertex.label_count > 3) return false;
+    return seen_[index(v)] != kSettled && seen_[index(v)] != sweep_;
+}
+
+std::uint32_t Prepass::remove_slivers(VerdictCounts& verdicts) {
+    ++sweep_;
+    const double max_cost = std::exchange(max_cost_, std::min(options_.max_cost, kSliverShare * max_cost_));
+    const double bound = collapse_.bounds.min_quality, bound3 = bound * bound * bound;
+    std::uint32_t removed = 0;
+    for (std::uint32_t f = 0; f < mesh_.face_end() && mesh_.face_count() > options_.target_faces; ++f) {
+        if (!mesh_.is_alive(FaceId{f})) continue;
+        const auto p = mesh_.corners(FaceId{f});
+        if (quality_terms(p[0], p[1], p[2]).cube() >= bound3) continue;
+        for (VertexId v : mesh_[FaceId{f}].vertices) {
+            if (!may_go(v) || !try_to_remove(v, verdicts)) continue;
+            ++removed;
+            break;
+        }
+    }
+    max_cost_ = max_cost;
     return removed;
 }
 

@@ -22,6 +22,9 @@ public:
 
     /// Returns the number of collapses, and adds the verdicts of all that were tried.
     std::uint32_t sweep(VerdictCounts& verdicts);
+    /// Removes vertices of faces below the quality bound, up to a larger cost, as long as there are more faces than the
+    /// target. Returns the number of collapses.
+    std::uint32_t remove_slivers(VerdictCounts& verdicts);
 
 private:
     struct Target {
@@ -29,6 +32,7 @@ private:
         double worst_quality3;
     };
 
+    bool may_go(VertexId v) const;
     bool try_to_remove(VertexId v, VerdictCounts& verdicts);
     void find_targets(VertexId v);
     void gather_ends(VertexId v);

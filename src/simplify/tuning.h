@@ -60,6 +60,10 @@ inline constexpr double kPrepassVolumeCost = 1e-3;
 inline constexpr double kLeastSweepLeft = 0.65, kLeastSweepGain = 0.02;
 inline constexpr int kMostSweeps = 16;
 
+/// Faces below the quality bound, as smoothing leaves them, go first: up to this multiple of the cost of the prepass.
+inline constexpr double kSliverShare = 30;
+inline constexpr int kMostSliverSweeps = 3;
+
 /// Vertices with more faces are left to ranking. Of the neighbours that a vertex may go to, the best ones are tried.
 inline constexpr int kMostPrepassFaces = 16;
 inline constexpr std::size_t kPrepassAttempts = 2;
