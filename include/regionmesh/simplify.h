@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 
+#include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/verdict.h"
 
@@ -27,6 +29,7 @@ struct SimplifyOptions {
     double scale = 1;            // length of a typical edge: the sample spacing, or typical_edge(mesh)
     bool intersect_check = true;
     PlacementKind placement = PlacementKind::kQuadric;
+    std::optional<Lattice> samples = {};     // no sample of it changes its region; its direction is not looked at
     std::uint32_t threads = 0;               // at work at a time; 0: one per core. The result is the same
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };

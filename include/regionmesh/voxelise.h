@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "regionmesh/section_reader.h"
 
 namespace regionmesh {
+
+class SampleLines;
 
 /// The label of a sample that lies in no region.
 inline constexpr Label kNoRegion = exterior(0);
@@ -27,7 +30,7 @@ struct VoxeliseOptions {
 /// to another; the region of a sample is the one that was entered once more than it was left. Which faces a line
 /// crosses, and on which side of a face a sample lies, are signs of determinants of the coordinates as given, and
 /// exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990): every sample is moved by (e^3, e,
-/// e^2) for an infinitely small e, toward the inside of the box of the lattice along each axis. A sample on a capped
+/// e^2) along x, y, z of the lattice for an infinitely small e, toward the inside of the box of the lattice along each axis. A sample on a capped
 /// side of the box therefore has the region inside.
 ///
 /// An oblique lattice has its vertices turned into the axes of the lattice first; there the coordinates are rounded,
@@ -52,17 +55,15 @@ private:
     };
 
     Vec3 place(VertexId v) const;
-    double sample_at(int axis, std::uint32_t n) const;
-    double inward(int axis, std::uint32_t n) const;
     void sort_faces();
     void cross(FaceId f, std::uint32_t section);
     void cross_row(const std::array<Vec3, 3>& corners, const Face& face, std::uint32_t row, std::uint32_t section);
-    std::uint32_t first_beyond(const std::array<Vec3, 3>& corners, bool ahead, Vec3 line, Vec3 nudge) const;
     void label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels);
     bool is_outside(Label label) const;
 
     const Mesh& mesh_;
     VoxeliseOptions options_;
+    std::shared_ptr<const SampleLines> lines_;
     std::array<std::uint32_t, 3> size_;  // along the axes of the sweep
     std::vector<std::uint32_t> order_;   // faces by the first section that they reach
     std::vector<std::uint32_t> start_;   // of the faces of each section in order_

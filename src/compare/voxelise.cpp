@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/exact_predicates.h"
+#include "mesh/sample_lines.h"
 
 namespace regionmesh {
 namespace {
@@ -13,45 +13,24 @@ namespace {
 /// Share of the spacing within which a vertex of an oblique model lies on a side of the box.
 constexpr double kOnSide = 1e-9;
 
-int sign(double x) { return (x > 0) - (x < 0); }
-
-struct Point2 {
-    double x, y;
-};
-
-/// Sign of the area of a, b, c: +1 counter-clockwise. Exact.
-int orientation(Point2 a, Point2 b, Point2 c) {
-    const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x), area = left - right;
-    const double bound = 3.3306690738754716e-16 * (std::abs(left) + std::abs(right));  // Shewchuk (1997), orient2d A
-    if (area > bound || -area > bound) return sign(area);
-    return exact_orientation({a.x, a.y, 0}, {b.x, b.y, 0}, {c.x, c.y, 0}, {c.x, c.y, 1});
-}
-
-/// The same with c moved by (nudge.x e, nudge.y e^2); 0 only where a is b.
-int orientation(Point2 a, Point2 b, Point2 c, Point2 nudge) {
-    if (const int plain = orientation(a, b, c)) return plain;
-    if (const int first = sign(a.y - b.y) * sign(nudge.x)) return first;
-    return sign(b.x - a.x) * sign(nudge.y);
-}
-
-/// Signs of the normal of a triangle, exact.
-std::array<int, 3> normal_signs(const std::array<Vec3, 3>& p) {
-    const auto side = [&](int u, int v) {
-        return orientation(Point2{p[0][u], p[0][v]}, Point2{p[1][u], p[1][v]}, Point2{p[2][u], p[2][v]});
-    };
-    return {side(1, 2), side(2, 0), side(0, 1)};
-}
-
 /// The inverse of the rotation of a lattice: its transpose.
 Vec3 into_axes(const std::array<double, 9>& d, Vec3 p) {
     return {d[0] * p.x + d[3] * p.y + d[6] * p.z, d[1] * p.x + d[4] * p.y + d[7] * p.z,
             d[2] * p.x + d[5] * p.y + d[8] * p.z};
 }
 
+/// An oblique lattice has its vertices turned into its axes, with the origin at 0.
+SampleLines lines_of(const VoxeliseOptions& options) {
+    Lattice lattice = options.lattice;
+    if (!lattice.is_axis_aligned()) lattice.origin = {};
+    return {lattice, options.sweep.axes};
+}
+
 }  // namespace
 
-Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options) : mesh_(mesh), options_(options) {
-    for (int n = 0; n < 3; ++n) size_[n] = options.lattice.size[options.sweep.axes[n]];
+Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options)
+    : mesh_(mesh), options_(options), lines_(std::make_shared<SampleLines>(lines_of(options))) {
+    for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
     const auto& d = options.lattice.direction;
     is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
     sort_faces();
@@ -73,15 +52,6 @@ Vec3 Voxeliser::place(VertexId v) const {
     return {p[axes[0]], p[axes[1]], p[axes[2]]};
 }
 
-/// Where the mesher puts node n (strip_mesher.cpp): the same rounding.
-double Voxeliser::sample_at(int axis, std::uint32_t n) const {
-    const Lattice& lattice = options_.lattice;
-    const int own = options_.sweep.axes[axis];
-    return (lattice.is_axis_aligned() ? lattice.origin[own] : 0) + n * lattice.spacing[own];
-}
-
-double Voxeliser::inward(int axis, std::uint32_t n) const { return n + 1 == size_[axis] ? -1 : 1; }
-
 bool Voxeliser::is_outside(Label label) const {
     return is_exterior(label) || std::ranges::find(options_.background, label) != options_.background.end();
 }
@@ -91,7 +61,7 @@ void Voxeliser::sort_faces() {
     const auto first_section = [&](FaceId f) {
         double low = HUGE_VAL;
         for (const VertexId v : mesh_[f].vertices) low = std::min(low, place(v).z);
-        const double guess = std::floor((low - sample_at(2, 0)) / options_.lattice.spacing[options_.sweep.axes[2]]);
+        const double guess = std::floor(lines_->index_of(2, low));
         // One section early, for rounding: a face below its plane adds no crossing there.
         return static_cast<std::uint32_t>(std::clamp(guess, 0.0, static_cast<double>(size_[2])));
     };
@@ -109,7 +79,7 @@ bool Voxeliser::next(std::span<Label> section) {
     if (section_ == size_[2]) return false;
     crossings_.clear();
     active_.insert(active_.end(), order_.begin() + start_[section_], order_.begin() + start_[section_ + 1]);
-    const double z = sample_at(2, section_);
+    const double z = lines_->at(2, section_);
     std::erase_if(active_, [&](std::uint32_t f) {
         const auto& v = mesh_[FaceId{f}].vertices;
         return place(v[0]).z < z && place(v[1]).z < z && place(v[2]).z < z;
@@ -133,7 +103,7 @@ bool Voxeliser::next(std::span<Label> section) {
 void Voxeliser::cross(FaceId f, std::uint32_t section) {
     const Face& face = mesh_[f];
     const std::array<Vec3, 3> p{place(face.vertices[0]), place(face.vertices[1]), place(face.vertices[2])};
-    const double z = sample_at(2, section);
+    const double z = lines_->at(2, section);
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (int n = 0; n < 3; ++n) {
         const Vec3 a = p[n], b = p[(n + 1) % 3];
@@ -144,8 +114,7 @@ void Voxeliser::cross(FaceId f, std::uint32_t section) {
         high = std::max(high, a.z == b.z ? std::max(a.y, b.y) : y);
     }
     if (low > high) return;
-    const double spacing = options_.lattice.spacing[options_.sweep.axes[1]], origin = sample_at(1, 0);
-    const auto row_near = [&](double y) { return std::clamp((y - origin) / spacing, 0.0, size_[1] - 1.0); };
+    const auto row_near = [&](double y) { return std::clamp(lines_->index_of(1, y), 0.0, size_[1] - 1.0); };
     // One row more on either side, for rounding; the exact test decides.
     const auto first = static_cast<std::uint32_t>(std::max(std::floor(row_near(low)) - 1, 0.0));
     const auto last = static_cast<std::uint32_t>(std::min(std::ceil(row_near(high)) + 1, size_[1] - 1.0));
@@ -153,38 +122,12 @@ void Voxeliser::cross(FaceId f, std::uint32_t section) {
 }
 
 void Voxeliser::cross_row(const std::array<Vec3, 3>& p, const Face& face, std::uint32_t row, std::uint32_t section) {
-    const Point2 q{sample_at(1, row), sample_at(2, section)}, nudge{inward(1, row), inward(2, section)};
-    const auto side = [&](int n) {
-        const Vec3 a = p[n], b = p[(n + 1) % 3];
-        return orientation({a.y, a.z}, {b.y, b.z}, q, nudge);
-    };
-    const int turn = side(0);
-    if (turn == 0 || side(1) != turn || side(2) != turn) return;
-    const std::uint32_t beyond = first_beyond(p, turn > 0, {0, q.x, q.y}, {0, nudge.x, nudge.y});
-    if (beyond == size_[0]) return;
+    const auto crossing = lines_->crossing(p, row, section);
+    if (!crossing || crossing->first_beyond == size_[0]) return;
     // The normal points from the first label to the second; along it the line leaves the first.
-    const int left = (turn > 0) == is_mirrored_;
+    const int left = crossing->is_ahead == is_mirrored_;
     const Label from = face.labels[left], to = face.labels[1 - left];
-    crossings_.push_back({std::uint64_t{row} * size_[0] + beyond, from, to});
-}
-
-/// The first sample of the line beyond the face. `ahead`: the face's normal points along the line.
-std::uint32_t Voxeliser::first_beyond(const std::array<Vec3, 3>& p, bool ahead, Vec3 line, Vec3 nudge) const {
-    const auto is_beyond = [&](std::uint32_t n) {
-        const int side = regionmesh::orientation(p[0], p[1], p[2], {sample_at(0, n), line.y, line.z});
-        if (side != 0) return (side > 0) == ahead;
-        const std::array<int, 3> normal = normal_signs(p);
-        for (const int moved : {normal[1] * sign(nudge.y), normal[2] * sign(nudge.z), normal[0] * sign(inward(0, n))})
-            if (moved != 0) return (moved > 0) == ahead;
-        return false;
-    };
-    const Vec3 normal = regionmesh::cross(p[1] - p[0], p[2] - p[0]);
-    const double x = p[0].x - (normal.y * (line.y - p[0].y) + normal.z * (line.z - p[0].z)) / normal.x;
-    const double guess = std::ceil((x - sample_at(0, 0)) / options_.lattice.spacing[options_.sweep.axes[0]]);
-    auto n = static_cast<std::uint32_t>(std::isnan(guess) ? 0 : std::clamp(guess, 0.0, static_cast<double>(size_[0])));
-    while (n > 0 && is_beyond(n - 1)) --n;
-    while (n < size_[0] && !is_beyond(n)) ++n;
-    return n;
+    crossings_.push_back({std::uint64_t{row} * size_[0] + crossing->first_beyond, from, to});
 }
 
 void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels) {

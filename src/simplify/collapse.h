@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/face_tree.h"
+#include "regionmesh/lattice.h"
 #include "simplify/edge_star.h"
 #include "simplify/verdict/intersect_test.h"
 #include "simplify/verdict/shape_bounds.h"
@@ -26,6 +27,7 @@ struct Collapse {
     ShapeBounds bounds;
     Box limits = kUnbounded;  // a merged vertex that moves stays strictly inside, unless on a side of the box
     bool intersect_check = true;
+    const Lattice* samples = nullptr;  // whose samples stay in their regions; none: any may change
     EdgeStar star = {};
     Vec3 position = {};         // of the merged vertex
     double worst_quality3 = 0;  // third power of the least quality of a changed face

@@ -58,7 +58,8 @@ public:
                     .tree = tree_,
                     .bounds = {.min_quality = options.min_quality},
                     .limits = bounds.limits,
-                    .intersect_check = options.intersect_check} {}
+                    .intersect_check = options.intersect_check,
+                    .samples = options.samples ? &*options.samples : nullptr} {}
 
     CollapseResult run() {
         sweep();

@@ -39,7 +39,7 @@ std::optional<FaceCount> count_faces(FaceSource& source, RunLog& log) {
 std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, const Plan& plan,
                                    const ReconstructOptions& options, RunLog& log) {
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
-    TileStage tiles(plan, options, strips.source().shape().scale, log);
+    TileStage tiles(plan, options, strips.source().shape(), log);
     std::vector<double>& volumes = log.report().unsmoothed_volumes;
     Chunk chunk;
     while (gatherer.next(chunk)) {

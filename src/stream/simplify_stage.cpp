@@ -68,7 +68,7 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
                                    .keep_share = 0,
                                    .threads = options_.threads,
                                    .in_flight = budget_.in_flight,
-                                   .simplify = simplify_options(options_, shape_.scale)};
+                                   .simplify = simplify_options(options_, shape_)};
     const std::size_t held = mesh_.face_count(), mesh_bytes = mesh_.bytes();
     Chunk whole = merger_.take_apart();
     log_.note_bytes(held, mesh_bytes + whole.vertices.size() * sizeof(ChunkVertex) + held * sizeof(ChunkFace));
@@ -82,7 +82,7 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
 /// Brings the mesh to the goal exactly, with one heap over all edges.
 void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     const Timer timer = log_.time("decimate");
-    SimplifyOptions own = simplify_options(options_, shape_.scale);
+    SimplifyOptions own = simplify_options(options_, shape_);
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
     const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()), .refresh = is_last};
     own.on_progress = [&] { log_.report_progress(is_last ? "decimate" : "reconstruct"); };

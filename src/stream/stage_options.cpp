@@ -19,13 +19,14 @@ SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
     return own;
 }
 
-SimplifyOptions simplify_options(const ReconstructOptions& options, double scale) {
+SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape) {
     SimplifyOptions own;
     if (options.max_error) own.max_error = *options.max_error;
     own.min_quality = options.min_quality * (options.preserve_volume ? stream::kQualityMargin : 1);
     own.perturbation = options.perturbation;
-    own.scale = scale;
+    own.scale = shape.scale;
     own.intersect_check = options.intersect_check;
+    if (options.keep_samples && shape.has_samples) own.samples = shape.lattice;
     own.placement = options.placement;
     return own;
 }

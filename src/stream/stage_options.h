@@ -3,6 +3,7 @@
 
 #include "regionmesh/reconstruct.h"
 #include "regionmesh/simplify.h"
+#include "stream/face_source.h"
 
 namespace regionmesh {
 
@@ -12,6 +13,6 @@ ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter a
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 
 /// Without a target.
-SimplifyOptions simplify_options(const ReconstructOptions& options, double scale);
+SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape);
 
 }  // namespace regionmesh

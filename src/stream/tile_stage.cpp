@@ -6,7 +6,7 @@
 
 namespace regionmesh {
 
-TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, double scale, RunLog& log)
+TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log)
     : plan_(plan), log_(log) {
     const double share = plan.target.share();
     is_on_ = plan.is_decimating && share * kFreeMargin < 1;
@@ -15,7 +15,7 @@ TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, double
                      .free_share = share > kFreeFrom ? share * kFreeMargin : 1,
                      .threads = options.threads,
                      .in_flight = plan.budget.in_flight,
-                     .simplify = simplify_options(options, scale)};
+                     .simplify = simplify_options(options, shape)};
 }
 
 void TileStage::run(Chunk& chunk, const Gatherer& gatherer) {

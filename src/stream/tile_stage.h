@@ -8,7 +8,7 @@ namespace regionmesh {
 
 class TileStage {
 public:
-    TileStage(const Plan& plan, const ReconstructOptions& options, double scale, RunLog& log);
+    TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
     /// Decimates the chunk that was gathered last, up to a fixed cost, and never below what the target leaves.
     void run(Chunk& chunk, const Gatherer& gatherer);
