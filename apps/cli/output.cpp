@@ -43,6 +43,13 @@ void write_report_file(const Settings& settings, Report& report, const LabelTabl
 
 int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }
 
+/// 7109137 as 7,109,137.
+std::string grouped(std::uint64_t count) {
+    std::string digits = std::to_string(count);
+    for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
+    return digits;
+}
+
 void print_violations(const CheckReport& report, int listed) {
     for (int kind = 0; kind < kViolationKindCount; ++kind) {
         if (!report.counts[kind]) continue;
@@ -52,6 +59,15 @@ void print_violations(const CheckReport& report, int listed) {
             if (violation.kind == static_cast<ViolationKind>(kind) && count++ < listed)
                 fmt::print("  {}\n", violation.text);
     }
+}
+
+void print_certificate(const CheckReport& report, const SampleAgreement* samples) {
+    std::string text = report.violation_count() == 0 ? "no violations" : counts_text(report);
+    if (samples)
+        text += samples->wrong == 0 ? fmt::format("; every one of {} samples keeps its label", grouped(samples->samples))
+                                    : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}",
+                                                  grouped(samples->wrong), grouped(samples->samples), samples->dice());
+    fmt::print("checked: {}\n", text);
 }
 
 void print_orient_hint(const CheckReport& report) {

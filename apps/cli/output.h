@@ -25,6 +25,8 @@ int exit_code(const CheckReport& report);
 
 /// Prints "violation KIND: COUNT" for each kind found, and at most `listed` findings of each.
 void print_violations(const CheckReport& report, int listed);
+/// One line on what was proved: violations, and samples that lie in another region.
+void print_certificate(const CheckReport& report, const SampleAgreement* samples);
 
 /// Prints how to repair faces with opposite orientations, where there are such faces.
 void print_orient_hint(const CheckReport& report);

@@ -48,6 +48,7 @@ void print_summary(const Settings& settings, const Report& report) {
                static_cast<double>(report.initial_faces) / 1e3 / seconds, report.peak_bytes / 1000000);
     print_memory(settings.reconstruct, report.peak_bytes);
     print_violations(check, 0);
+    print_certificate(check, report.samples ? &*report.samples : nullptr);
 }
 
 /// Reconstructs the input, whichever kind it is of, and sets `names` to those of its labels.

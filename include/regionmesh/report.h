@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "regionmesh/check.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/verdict.h"
+#include "regionmesh/voxelise.h"
 
 namespace regionmesh {
 
@@ -29,6 +31,7 @@ struct Report {
     std::uint64_t refreshes = 0;
     std::string stopped;  // why decimation ended: "target", "max_error", "topology", "none asked"
     CheckReport check;
+    std::optional<SampleAgreement> samples;  // of sections; none where they cannot be read again, or the box is open
 };
 
 }  // namespace regionmesh

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "regionmesh/error.h"
+#include "regionmesh/process.h"
+#include "regionmesh/voxelise.h"
 #include "stream/chunk_volumes.h"
 #include "stream/finish.h"
 #include "stream/gatherer.h"
@@ -97,6 +99,18 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     return run;
 }
 
+/// Reads the sections once more and counts the samples that lie in another region of the finished mesh.
+void count_samples(Reconstruction& result, SectionFaces& source, const ReconstructOptions& options) {
+    if (!options.cap || !source.rewind()) return;
+    double& seconds = result.report.seconds["samples"];
+    {
+        const Timer timer(seconds);
+        result.report.samples = compare_samples(result.mesh, result.labels, result.background, source.reader());
+    }
+    result.report.seconds["total"] += seconds;
+    result.report.peak_bytes = peak_resident_bytes();
+}
+
 }  // namespace
 
 /// Runs until smoothing holds enough strips. In the end it holds all, and cannot be stuck.
@@ -126,7 +140,9 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
     if (options.threads != 1) ahead.emplace(reader);
     SectionFaces source(ahead ? *ahead : reader, {.cap = options.cap, .background = options.background},
                         is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality);
-    return reconstruct(source, options, on_progress);
+    Reconstruction result = reconstruct(source, options, on_progress);
+    count_samples(result, source, options);
+    return result;
 }
 
 Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& given,

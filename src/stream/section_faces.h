@@ -27,6 +27,7 @@ public:
     const std::vector<Label>& background() const override { return background_; }
     LabelOracle oracle() const override { return census_->oracle(); }
     void place(Mesh& mesh) const override;
+    SectionReader& reader() { return reader_; }
 
 private:
     void begin();

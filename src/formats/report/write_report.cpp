@@ -130,6 +130,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
     put_check(json, report.check, labels, names, &report);
+    if (report.samples) put_samples(json, *report.samples, labels);
     return text_of(json);
 }
 
