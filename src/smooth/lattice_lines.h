@@ -37,8 +37,8 @@ public:
         first_node_.push_back(0);
     }
 
-    static constexpr std::uint32_t kSweeps = 12;  // even: positions end where they began
-    static constexpr double kPull = 1;            // weight of the mean of the neighbours, beside the interfaces
+    static constexpr std::uint32_t kSweeps = 16;  // even: positions end where they began
+    static constexpr double kPull = 12;            // weight of the mean of the neighbours, beside the interfaces
 
     /// Adds a vertex of the chunk that comes next, in order of number, and ends the chunk.
     void add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position);

@@ -99,11 +99,14 @@ TEST_F(Cli, written_models_pass_check_against_their_volume) {
 TEST_F(Cli, reconstruct_smooths_unless_told_not_to) {
     const std::string to = "reconstruct " + volume() + "--quiet -o ";
     EXPECT_EQ(run(to + out("default.vtp")).code, 0);
+    EXPECT_EQ(run(to + out("lattice.vtp") + " --smooth-filter lattice").code, 0);
+    EXPECT_EQ(run(to + out("taubin.vtp") + " --smooth-filter taubin").code, 0);
     EXPECT_EQ(run(to + out("twenty.vtp") + " --smooth 20 --smooth-filter taubin --smooth-lambda 0.6").code, 0);
     EXPECT_EQ(run(to + out("zero.vtp") + " --smooth 0").code, 0);
     EXPECT_EQ(run(to + out("none.vtp") + " --smooth-filter none").code, 0);
     const std::string smoothed = text_of(out("default.vtp")), plain = text_of(out("zero.vtp"));
-    EXPECT_TRUE(text_of(out("twenty.vtp")) == smoothed);
+    EXPECT_TRUE(text_of(out("lattice.vtp")) == smoothed);
+    EXPECT_TRUE(text_of(out("twenty.vtp")) == text_of(out("taubin.vtp")));
     EXPECT_TRUE(text_of(out("none.vtp")) == plain);
     EXPECT_TRUE(smoothed != plain);
 }
@@ -111,7 +114,8 @@ TEST_F(Cli, reconstruct_smooths_unless_told_not_to) {
 TEST_F(Cli, every_smoothing_option_leads_to_a_sound_model_of_its_own) {
     std::set<std::string> meshes;
     for (const std::string options :
-         {"", "--smooth 3", "--smooth-filter laplacian", "--smooth-filter nifpms", "--smooth-lambda 0.3"}) {
+         {"", "--smooth-filter taubin", "--smooth-filter taubin --smooth 3", "--smooth-filter laplacian",
+          "--smooth-filter nifpms", "--smooth-filter taubin --smooth-lambda 0.3"}) {
         SCOPED_TRACE(options);
         EXPECT_EQ(run("reconstruct " + volume() + options + " -o " + out("m.vtp")).code, 0);
         EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 0);
@@ -149,7 +153,7 @@ TEST_F(Cli, smooth_takes_a_model_and_writes_the_same_without_steps) {
     EXPECT_THAT(ran.out, HasSubstr("backtracked"));
     EXPECT_THAT(text_of(out("r.json")), HasSubstr("\"smoothing\""));
     EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 0);
-    EXPECT_EQ(run("reconstruct " + volume() + "-o " + out("direct.vtp")).code, 0);
+    EXPECT_EQ(run("reconstruct " + volume() + "--smooth-filter taubin -o " + out("direct.vtp")).code, 0);
     EXPECT_EQ(test::surface_digest(read_mesh(out("m.vtp")).mesh),
               test::surface_digest(read_mesh(out("direct.vtp")).mesh));
 }

@@ -62,6 +62,7 @@ TEST(PreserveVolume, takes_back_what_decimation_changed) {
     test::ArrayVolume volume = test::grain_volume({40, 30, 30}, 12, 6);
     for (std::uint32_t passes : {0u, 20u}) {
         ReconstructOptions options = preserving(test::reduced(0.8));
+        options.smooth.filter = SmoothFilter::kTaubin;
         options.smooth.passes = passes;
         const Reconstruction made = test::run(volume, options);
         EXPECT_GT(made.report.preserved.drift_before, 1e-6);

@@ -27,8 +27,9 @@ std::string name_of(const SmoothOptions& options) {
     return std::string(names[static_cast<int>(options.filter)]) + ", " + std::to_string(options.passes) + " passes";
 }
 
-/// All labels are regions; smoothed so, and not decimated.
-ReconstructOptions smoothed(const SmoothOptions& smooth = {}) {
+/// All labels are regions; smoothed so, by taubin where nothing else is given, and not decimated.
+ReconstructOptions smoothed(SmoothOptions smooth = {}) {
+    if (smooth.filter == SmoothFilter::kAuto) smooth.filter = SmoothFilter::kTaubin;
     return {.smooth = smooth, .decimate = false, .background = {}};
 }
 
@@ -189,7 +190,7 @@ TEST(Smoother, chunks_come_out_as_they_went_in_except_for_positions) {
 
 TEST(Smoother, strips_come_out_while_others_go_in) {
     test::ArrayVolume volume = test::noise_volume({5, 5, 60}, 3, 4);
-    Smoother smoother({.passes = 4}, {.thickness = 1});
+    Smoother smoother({.filter = SmoothFilter::kTaubin, .passes = 4}, {.thickness = 1});
     int strips = 0;
     for_chunks(volume, smoother, [&](const Chunk&, const Chunk&) { ++strips; });
     EXPECT_EQ(strips, 59);

@@ -114,8 +114,8 @@ TEST(Memory, peak_is_near_the_budget) {
 }
 
 TEST(Memory, peak_does_not_grow_with_the_number_of_sections) {
-    const Reconstruction half = run(test::grain_blocks(16, 8), with_budget(4000, 12000));
-    const Reconstruction whole = run(test::grain_blocks(16, 16), with_budget(8000, 12000));
+    const Reconstruction half = run(test::grain_blocks(16, 16), with_budget(4000, 12000));
+    const Reconstruction whole = run(test::grain_blocks(16, 32), with_budget(8000, 12000));
     EXPECT_GT(whole.report.initial_faces, half.report.initial_faces * 19 / 10);
     EXPECT_LE(whole.report.peak_faces, half.report.peak_faces * 11 / 10);
 }

@@ -52,7 +52,7 @@ TEST(ReportJson, has_all_keys_and_no_others) {
                 testing::ElementsAre("min", "mean", "histogram", "min_angle", "max_angle", "angles"));
     EXPECT_THAT(keys_of(json["regions"][0]), testing::ElementsAre("label", "euler", "components", "volume", "area"));
     EXPECT_THAT(keys_of(json["verdicts"]),
-                testing::ElementsAre("accepted", "strata", "link", "fold", "quality", "pinch", "intersect"));
+                testing::ElementsAre("accepted", "strata", "link", "fold", "quality", "pinch", "samples", "intersect"));
     EXPECT_EQ(json["violation_counts"].size(), std::size_t{kViolationKindCount});
 }
 
