@@ -64,9 +64,10 @@ void print_violations(const CheckReport& report, int listed) {
 void print_certificate(const CheckReport& report, const SampleAgreement* samples) {
     std::string text = report.violation_count() == 0 ? "no violations" : counts_text(report);
     if (samples)
-        text += samples->wrong == 0 ? fmt::format("; every one of {} samples keeps its label", grouped(samples->samples))
-                                    : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}",
-                                                  grouped(samples->wrong), grouped(samples->samples), samples->dice());
+        text += samples->wrong == 0
+                    ? fmt::format("; every one of {} samples keeps its label", grouped(samples->samples))
+                    : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}", grouped(samples->wrong),
+                                  grouped(samples->samples), samples->dice());
     fmt::print("checked: {}\n", text);
 }
 

@@ -26,7 +26,7 @@ struct ReconstructOptions {
     double min_quality = 0.1;                           // of every face that smoothing or decimation changes
     double perturbation = 1e-7;                         // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
-    bool keep_samples = true;      // of sections: decimation carries no sample into another region
+    bool keep_samples = true;                           // of sections: decimation carries no sample into another region
     bool preserve_volume = false;  // finally give each region its volume before smoothing and decimation
     bool decimate = true;          // false: no decimation, even with a target
     bool intersect_check = true;

@@ -12,7 +12,8 @@ namespace regionmesh {
 
 enum class SmoothFilter {
     kAuto,       // kLattice for sections, kTaubin for all else
-    kLattice,    // of sections: inside the simplices of the lattice, keeps every sample (docs/explanation/lattice-smoothing.md)
+    kLattice,    // of sections: inside the simplices of the lattice, keeps every sample
+                 // (docs/explanation/lattice-smoothing.md)
     kTaubin,     // passes with lambda and mu in turn (Taubin 1995; P 2.3): roughly preserves volumes
     kLaplacian,  // passes with lambda (P eq. 2): shrinks
     kNifpms,     // one pass onto the tangent planes nearby (Jones, Durand, Desbrun 2003): keeps features
@@ -22,7 +23,7 @@ enum class SmoothFilter {
 struct SmoothOptions {
     SmoothFilter filter = SmoothFilter::kAuto;
     std::uint32_t passes = 20;    // sweeps over all vertices; Taubin: every second one uses mu; NIFPMS: one is
-                                  // enough; 0: no smoothing
+                                  // enough; kLattice: any number but 0 is the same; 0: no smoothing
     double reach = 0;             // kLattice: largest blocks, in finest spacings: 2, 4, 8, 16; 0: from the spacing
     double lambda = 0.6;          // share of the way to the mean of the neighbours
     double mu_per_lambda = 1.02;  // mu = - mu_per_lambda * lambda (Bade et al. 2006)
@@ -53,8 +54,9 @@ struct SmoothReport {
     std::vector<double> volume_before, volume_after;  // by dense label, length^3
 };
 
-/// Moves the vertices in place, except fixed ones; ids stay the same. Runs the same passes and the same guard as the
-/// stream. Adds no violation; violations that came in may stay. Deterministic.
+/// With kTaubin, kLaplacian or kNifpms. Moves the vertices in place, except fixed ones; ids stay the same. Runs the
+/// same passes and the same guard as the stream. Adds no violation; violations that came in may stay. Throws
+/// Error(kInput) for kLattice: a mesh has no lattice. Deterministic.
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options);
 
 /// What preserve_volumes() did.

@@ -11,10 +11,10 @@
 namespace regionmesh {
 
 /// The samples of a lattice as lines along x, in rows along y and sections along z: the axes of the lattice may be
-/// permuted. Which triangles a line crosses, and on which side of a triangle a sample lies, are signs of determinants of
-/// the coordinates as given, and exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990): every
-/// sample is moved by (e^3, e, e^2) along the axes of the lattice, whatever the lines, for an infinitely small e, toward
-/// the inside of the box of the lattice along each axis.
+/// permuted. Which triangles a line crosses, and on which side of a triangle a sample lies, are signs of determinants
+/// of the coordinates as given, and exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990):
+/// every sample is moved by (e^3, e, e^2) along the axes of the lattice, whatever the lines, for an infinitely small e,
+/// toward the inside of the box of the lattice along each axis.
 class SampleLines {
 public:
     using Triangle = std::array<Vec3, 3>;
@@ -29,7 +29,7 @@ public:
     double index_of(int axis, double coordinate) const { return (coordinate - origin_[axis]) / spacing_[axis]; }
 
     struct Crossing {
-        bool is_ahead;              // the normal of the triangle points along the line
+        bool is_ahead;               // the normal of the triangle points along the line
         std::uint32_t first_beyond;  // first sample of the line beyond the triangle; size(0) for none
     };
     /// None where the line does not cross the triangle.

@@ -10,6 +10,25 @@ namespace {
 constexpr Range kPasses{0, 100'000}, kSampleCounts{1, 1e9}, kShareRange{0, 1},
     kPositive{.low = 0, .is_low_included = false};
 
+/// Passes of taubin, laplacian and nifpms, and largest blocks of lattice.
+struct Strength {
+    std::string_view word;
+    std::uint32_t passes;
+    double reach;
+};
+constexpr Strength kStrengths[] = {{"off", 0, 0}, {"light", 5, 4}, {"normal", 20, 0}, {"strong", 100, 16}};
+
+void choose_strength(Settings& settings, const std::string& flag, const std::string& text) {
+    SmoothOptions& smooth = settings.reconstruct.smooth;
+    const auto known = std::ranges::find(kStrengths, text, &Strength::word);
+    if (known == std::end(kStrengths)) {
+        smooth.passes = static_cast<std::uint32_t>(parse_count(flag, text, kPasses));
+        return;
+    }
+    smooth.passes = known->passes;
+    smooth.reach = known->reach;
+}
+
 void choose_filter(Settings& settings, std::size_t word) {
     constexpr SmoothFilter kFilters[] = {SmoothFilter::kAuto, SmoothFilter::kLattice, SmoothFilter::kTaubin,
                                          SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
@@ -68,18 +87,20 @@ Rows decimation_rows() {
 Rows smoothing_rows() {
     constexpr std::string_view kGroup = "Smoothing";
     return {
-        option(
-            {.name = "smooth",
-             .help = "passes of smoothing; 0: none",
+        special_option({.name = "smooth",
+                        .help = "how much: off, light, normal, strong, or a number of passes; 0: none",
+                        .group = kGroup,
+                        .commands = kSmoothers,
+                        .default_text = "normal"},
+                       OptionKind::kText, choose_strength),
+        word_option(
+            {.name = "smooth-filter",
+             .help = "lattice (sections only) makes surfaces smooth and keeps every sample; taubin keeps volumes "
+                     "roughly, laplacian shrinks, nifpms keeps sharp edges (one pass); auto: lattice for "
+                     "sections, else taubin",
              .group = kGroup,
-             .commands = kSmoothers,
-             .unit = "passes"},
-            [](Settings& s) { return &s.reconstruct.smooth.passes; }, kPasses),
-        word_option({.name = "smooth-filter",
-                     .help = "taubin keeps volumes roughly, laplacian shrinks, nifpms keeps sharp edges (one pass)",
-                     .group = kGroup,
-                     .commands = kSmoothers},
-                    {"auto", "lattice", "taubin", "laplacian", "nifpms", "none"}, choose_filter),
+             .commands = kSmoothers},
+            {"auto", "lattice", "taubin", "laplacian", "nifpms", "none"}, choose_filter),
         option(
             {.name = "smooth-lambda",
              .help = "share of the way to the mean of the neighbours, for taubin and laplacian",

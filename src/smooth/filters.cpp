@@ -6,6 +6,7 @@
 #include "smooth/filter.h"
 #include "smooth/nifpms.h"
 #include "smooth/relax.h"
+#include "smooth/tuning.h"
 
 namespace regionmesh {
 namespace {
@@ -38,7 +39,7 @@ const FilterRow& row_of(SmoothFilter filter) {
 std::unique_ptr<Filter> make_filter(const FilterInput& input) { return row_of(input.options.filter).make(input); }
 
 std::uint64_t filter_bytes_per_face(SmoothFilter filter) {
-    return filter == SmoothFilter::kLattice ? 0 : row_of(filter).bytes_per_face;
+    return filter == SmoothFilter::kLattice ? smoothing::kLatticeBytesPerFace : row_of(filter).bytes_per_face;
 }
 
 }  // namespace regionmesh

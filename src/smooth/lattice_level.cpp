@@ -119,8 +119,7 @@ void LatticeLevel::fill_row(Row& row) const {
         row.sites.push_back(entries[n].site);
         keys.push_back(entries[n].rest);
     }
-    row.runs.push_back(
-        {0, static_cast<std::uint32_t>(entries.size()), 0, 0, std::numeric_limits<std::int32_t>::max()});
+    row.runs.push_back({0, static_cast<std::uint32_t>(entries.size()), 0, 0, std::numeric_limits<std::int32_t>::max()});
     make_samples(row, keys);
     make_fits(row);
     row.runs.shrink_to_fit();

@@ -52,7 +52,8 @@ public:
     std::size_t bytes() const;
 
 private:
-    static constexpr int kCells = 3;  // per block along each axis: sites of one kind of simplex in a cell are one sample
+    static constexpr int kCells =
+        3;  // per block along each axis: sites of one kind of simplex in a cell are one sample
 
     struct Sample {
         LatticePoint position;
@@ -123,7 +124,8 @@ private:
     Float3 spacing_, size_;  // of samples, of blocks; in finest spacings
     Float3 per_size_;        // inverses of size_
     std::int64_t first_layer_ = 0;
-    std::int64_t whole_ = 0, sorted_ = 0, refined_ = 0;  // ends of the layers that have all sites, are sorted, are refined
+    std::int64_t whole_ = 0, sorted_ = 0,
+                 refined_ = 0;  // ends of the layers that have all sites, are sorted, are refined
     std::deque<Layer> layers_;
 };
 

@@ -72,8 +72,8 @@ LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites
     const Vec3 middle = centroid(kind);
     LatticeSimplex simplex{{}, static_cast<std::uint8_t>(kind)};
     for (int axis = 0; axis < 3; ++axis)
-        simplex.base[axis] = std::round(
-            (window.origin[vertex][axis] - frame.origin[axis]) / frame.spacing[axis] - middle[axis]);
+        simplex.base[axis] =
+            std::round((window.origin[vertex][axis] - frame.origin[axis]) / frame.spacing[axis] - middle[axis]);
     return simplex;
 }
 

@@ -38,7 +38,7 @@ public:
     }
 
     static constexpr std::uint32_t kSweeps = 16;  // even: positions end where they began
-    static constexpr double kPull = 12;            // weight of the mean of the neighbours, beside the interfaces
+    static constexpr double kPull = 12;           // weight of the mean of the neighbours, beside the interfaces
 
     /// Adds a vertex of the chunk that comes next, in order of number, and ends the chunk.
     void add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position);
@@ -70,7 +70,7 @@ private:
     const SurfaceWindow& window_;
     const LatticeSites& sites_;
     double margin_;
-    SlidingArray<Node> nodes_;                 // by vertex
+    SlidingArray<Node> nodes_;                // by vertex
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
 };
 

@@ -76,8 +76,8 @@ void weigh(const HeightQuadric& quadric, HeightSamples& samples, Float3 spacing,
     }
     for (std::uint32_t n = 0; n < samples.count; ++n) {
         const Float3 slope = quadric.gradient({samples.u[n], samples.v[n], 0});
-        weights[n] = weight(samples.weight[n], extent_of(samples.kind[n], step_heights(slope, spacing)),
-                            dot(slope, slope));
+        weights[n] =
+            weight(samples.weight[n], extent_of(samples.kind[n], step_heights(slope, spacing)), dot(slope, slope));
     }
 }
 
@@ -96,7 +96,8 @@ void add_up(const HeightSamples& samples, float scale, Matrix& a, std::array<dou
     Lanes m00{}, m10{}, m01{}, m20{}, m11{}, m02{}, m30{}, m21{}, m12{}, m03{}, m40{}, m31{}, m22{}, m13{}, m04{};
     Lanes b0{}, b1{}, b2{}, b3{}, b4{}, b5{};
     for (std::uint32_t n = 0; n < samples.count; n += kLanes) {
-        const Lanes w = load(&samples.scaled_weight[n]), s = scale * load(&samples.u[n]), t = scale * load(&samples.v[n]);
+        const Lanes w = load(&samples.scaled_weight[n]), s = scale * load(&samples.u[n]),
+                    t = scale * load(&samples.v[n]);
         const Lanes h = load(&samples.height[n]);
         const Lanes ss = s * s, st = s * t, tt = t * t, ws = w * s, wt = w * t, wss = w * ss, wtt = w * tt, wh = w * h;
         m00 += w, m10 += ws, m01 += wt, m20 += wss, m11 += w * st, m02 += wtt;

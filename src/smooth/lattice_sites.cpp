@@ -52,15 +52,15 @@ void LatticeSites::make(std::uint32_t chunk) {
         const Vec3 at = window_.origin[v] - frame_.origin;
         LatticeSite site{{}, {}, 0, kinds_[v]};
         for (int axis = 0; axis < 3; ++axis)
-            site.centroid.at[axis] =
-                static_cast<std::uint32_t>(std::llround(at[axis] / finest / LatticePoint::kStep));
+            site.centroid.at[axis] = static_cast<std::uint32_t>(std::llround(at[axis] / finest / LatticePoint::kStep));
         const std::uint32_t first = sites_.end();
         for (std::uint32_t corner : stars.of(v)) {
             const std::uint32_t f = corner >> 2;
             if (interfaces_[f] == kNoInterface) continue;
             const auto& [corners, labels] = window_.faces[f];
             const Vec3 a = window_.origin[corners[0]], b = window_.origin[corners[1]], c = window_.origin[corners[2]];
-            const Vec3 normal = (labels[0] < labels[1] ? 1 / (finest * finest) : -1 / (finest * finest)) * cross(b - a, c - a);
+            const Vec3 normal =
+                (labels[0] < labels[1] ? 1 / (finest * finest) : -1 / (finest * finest)) * cross(b - a, c - a);
             std::uint32_t s = first;
             while (s < sites_.end() && sites_[s].interface != interfaces_[f]) ++s;
             site.interface = interfaces_[f];

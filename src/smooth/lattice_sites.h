@@ -16,8 +16,8 @@ namespace regionmesh {
 /// A vertex in one interface between two regions. A vertex of an interface has one, of a triple line three, of a
 /// quadruple point six.
 struct LatticeSite {
-    LatticePoint centroid;         // of its simplex, in finest spacings from the origin of the lattice
-    Float3 normal;                 // of the unsmoothed interface near by, unit length; from the first label to the second
+    LatticePoint centroid;  // of its simplex, in finest spacings from the origin of the lattice
+    Float3 normal;          // of the unsmoothed interface near by, unit length; from the first label to the second
     std::uint32_t interface : 27;  // number of its pair of labels
     std::uint32_t kind : 5;        // of its simplex
 };
@@ -69,11 +69,11 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // of interfaces, in order of first use
     std::uint64_t last_pair_ = 0;
     std::uint32_t last_number_ = kNoInterface;
-    SlidingArray<std::uint8_t> kinds_;         // by vertex
-    SlidingArray<std::uint32_t> interfaces_;   // by face
-    SlidingArray<std::uint32_t> first_site_;   // by vertex, and one more
+    SlidingArray<std::uint8_t> kinds_;        // by vertex
+    SlidingArray<std::uint32_t> interfaces_;  // by face
+    SlidingArray<std::uint32_t> first_site_;  // by vertex, and one more
     SlidingArray<LatticeSite> sites_;
-    SlidingArray<Float3> averaged_;            // by site: normals after pass 0
+    SlidingArray<Float3> averaged_;  // by site: normals after pass 0
 };
 
 }  // namespace regionmesh

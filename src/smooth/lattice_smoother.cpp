@@ -44,7 +44,8 @@ std::uint32_t LatticeSmoother::most_chunks() const {
         const double low = order_.frame.origin[order_.axis] + (n + 1) * order_.thickness;
         [[maybe_unused]] const bool is_added = empty.add({}, false, low);
         most = std::max(most, n + 1 - empty.released_);
-        while (empty.next(chunk)) {}
+        while (empty.next(chunk)) {
+        }
     }
     return most;
 }
@@ -75,8 +76,7 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     for (; linked_ < one_behind(placed_); ++linked_) lines_.link(linked_);
     done = linked_;
     for (std::uint32_t sweep = 0; sweep < LatticeLines::kSweeps; ++sweep) {
-        for (; swept_[sweep] < one_behind(done); ++swept_[sweep])
-            lines_.sweep(sweep, swept_[sweep], options_.threads);
+        for (; swept_[sweep] < one_behind(done); ++swept_[sweep]) lines_.sweep(sweep, swept_[sweep], options_.threads);
         done = swept_[sweep];
     }
     for (; finished_ < done; ++finished_) finish(finished_);

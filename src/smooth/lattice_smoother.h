@@ -46,7 +46,7 @@ private:
     std::deque<LatticeLevel> levels_;       // coarse to fine
     LatticeLines lines_;
     SlidingArray<Vec3> positions_;
-    SlidingArray<double> next_low_;         // by chunk
+    SlidingArray<double> next_low_;          // by chunk
     SlidingArray<std::int64_t> last_layer_;  // by chunk: of the finest level
     bool is_last_ = false;
     std::uint32_t made_ = 0, averaged_[LatticeSites::kNormalPasses] = {}, added_ = 0, placed_ = 0, linked_ = 0,

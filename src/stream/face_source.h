@@ -23,9 +23,9 @@ struct FaceCount {
 
 /// How the faces lie in space, and the bytes that making them takes.
 struct SourceShape {
-    std::string name;  // for messages
+    std::string name;          // for messages
     bool has_samples = false;  // at the nodes of the lattice
-    Lattice lattice;   // round all positions, axis-aligned: tiles are blocks of its cells
+    Lattice lattice;           // round all positions, axis-aligned: tiles are blocks of its cells
     Sweep sweep;
     std::uint32_t strip_count = 0;
     double strip_thickness = 1;       // of the thinnest strip

@@ -145,8 +145,7 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
     return result;
 }
 
-Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& given,
-                           const OnProgress& on_progress) {
+Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
     const ReconstructOptions options = with_filter(given, SmoothFilter::kTaubin);
     require_no_lattice(options.smooth);
     TetrahedronFaces source(reader, {.cap = options.cap,

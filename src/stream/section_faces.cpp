@@ -11,7 +11,8 @@ namespace {
 
 SourceShape shape_of(const VolumeInfo& info) {
     const Vec3 spacing = info.lattice.spacing;
-    SourceShape shape{.name = info.source, .has_samples = true, .lattice = meshing_lattice(info.lattice), .sweep = info.sweep};
+    SourceShape shape{
+        .name = info.source, .has_samples = true, .lattice = meshing_lattice(info.lattice), .sweep = info.sweep};
     shape.strip_count = std::max(info.lattice.size[shape.axis()], 1u) - 1;
     shape.strip_thickness = spacing[shape.axis()];
     shape.scale = std::cbrt(spacing.x * spacing.y * spacing.z);

@@ -3,7 +3,10 @@
 namespace regionmesh {
 
 ChunkOrder strip_order(const SourceShape& shape, std::uint32_t extra) {
-    return {.axis = shape.axis(), .thickness = shape.strip_thickness, .overlap = shape.strip_overlap, .extra = extra,
+    return {.axis = shape.axis(),
+            .thickness = shape.strip_thickness,
+            .overlap = shape.strip_overlap,
+            .extra = extra,
             .frame = {shape.lattice.origin, shape.lattice.spacing}};
 }
 

@@ -212,8 +212,11 @@ TEST(Determinism, memory_that_does_not_bind_and_threads_change_nothing) {
 
 TEST(Determinism, memory_that_binds_gives_the_same_bytes_on_any_number_of_threads) {
     test::ArrayVolume volume = test::grain_blocks(16, 16);
-    ReconstructOptions options{
-        .target_faces = 4000, .smooth = {.filter = SmoothFilter::kTaubin, .passes = 1}, .background = {}, .memory = 24'500'000, .threads = 1};
+    ReconstructOptions options{.target_faces = 4000,
+                               .smooth = {.filter = SmoothFilter::kTaubin, .passes = 1},
+                               .background = {},
+                               .memory = 24'500'000,
+                               .threads = 1};
     const Reconstruction one = run(volume, options);
     options.memory = std::uint64_t{2} << 30;
     EXPECT_LT(one.report.peak_faces, run(volume, options).report.peak_faces) << "24.5 MB do not bind";

@@ -105,8 +105,8 @@ Verdict test_samples(Collapse& collapse) {
     const Lattice& lattice = *collapse.samples;
     const std::array<Lines, 3> all{Lines(lattice, box, 0), Lines(lattice, box, 1), Lines(lattice, box, 2)};
     if (!all[0].has_samples()) return Verdict::kAccepted;
-    const Lines& lines = *std::min_element(
-        all.begin(), all.end(), [](const Lines& a, const Lines& b) { return a.count() < b.count(); });
+    const Lines& lines =
+        *std::min_element(all.begin(), all.end(), [](const Lines& a, const Lines& b) { return a.count() < b.count(); });
     thread_local std::vector<Change> changes;
     changes.clear();
     for (int n = 0; n < star.face_count(); ++n) {
@@ -117,11 +117,9 @@ Verdict test_samples(Collapse& collapse) {
         note_crossings(lines, {star.at_apex(n), star.at_a(n), star.at_b(n)}, labels, -1, changes);
         note_crossings(lines, merged, labels, 1, changes);
     }
-    for (FaceId f : star.dead)
-        note_crossings(lines, collapse.mesh.corners(f), collapse.mesh[f].labels, -1, changes);
+    for (FaceId f : star.dead) note_crossings(lines, collapse.mesh.corners(f), collapse.mesh[f].labels, -1, changes);
     // Crossings between the same two samples cancel: no sample lies between them.
-    std::sort(changes.begin(), changes.end(),
-              [](const Change& a, const Change& b) { return a.place() < b.place(); });
+    std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.place() < b.place(); });
     for (std::size_t n = 0; n < changes.size();) {
         const std::size_t first = n;
         int times = 0;

@@ -14,9 +14,12 @@ struct Row {
 
 /// Cheap tests first.
 constexpr std::array kRows{
-    Row{Verdict::kStrata, Step::kTopology, test_strata}, Row{Verdict::kLink, Step::kTopology, test_link},
-    Row{Verdict::kFold, Step::kShape, test_fold},        Row{Verdict::kQuality, Step::kShape, test_quality},
-    Row{Verdict::kPinch, Step::kShape, test_pinch},      Row{Verdict::kSamples, Step::kSurroundings, test_samples},
+    Row{Verdict::kStrata, Step::kTopology, test_strata},
+    Row{Verdict::kLink, Step::kTopology, test_link},
+    Row{Verdict::kFold, Step::kShape, test_fold},
+    Row{Verdict::kQuality, Step::kShape, test_quality},
+    Row{Verdict::kPinch, Step::kShape, test_pinch},
+    Row{Verdict::kSamples, Step::kSurroundings, test_samples},
     Row{Verdict::kIntersect, Step::kSurroundings, test_intersect},
 };
 
