@@ -48,6 +48,8 @@ void print_summary(const Settings& settings, const Report& report) {
                static_cast<double>(report.initial_faces) / 1e3 / seconds, report.peak_bytes / 1000000);
     print_memory(settings.reconstruct, report.peak_bytes);
     print_violations(check, 0);
+    if (report.samples_in_room > 0)
+        fmt::print("{} samples changed their label within --room\n", report.samples_in_room);
     print_certificate(check, report.samples ? &*report.samples : nullptr);
 }
 

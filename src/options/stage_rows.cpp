@@ -8,7 +8,7 @@ namespace regionmesh {
 namespace {
 
 constexpr Range kPasses{0, 100'000}, kSampleCounts{1, 1e9}, kShareRange{0, 1},
-    kPositive{.low = 0, .is_low_included = false};
+    kPositive{.low = 0, .is_low_included = false}, kRoom{0, 8};
 
 /// Passes of taubin, laplacian and nifpms, and largest blocks of lattice.
 struct Strength {
@@ -107,6 +107,14 @@ Rows smoothing_rows() {
              .group = kGroup,
              .commands = kSmoothers},
             [](Settings& s) { return &s.reconstruct.smooth.lambda; }, kShareRange),
+        option(
+            {.name = "room",
+             .help = "samples nearer than this to the boundary of their region may change their label first, for noisy "
+                     "or enlarged labels; 0: none",
+             .group = kGroup,
+             .commands = kReconstruct,
+             .unit = "finest spacings"},
+            [](Settings& s) { return &s.reconstruct.room; }, kRoom),
         option({.name = "smooth-points",
                 .help = "quadruple points move along their lines, instead of not at all",
                 .group = kGroup,

@@ -21,6 +21,7 @@
 #include "stream/tetrahedron_faces.h"
 #include "stream/tile_stage.h"
 #include "stream/tuning.h"
+#include "volume/room_reader.h"
 
 namespace regionmesh {
 namespace {
@@ -133,8 +134,10 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
     }
 }
 
-Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
-    const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
+namespace {
+
+Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOptions& options,
+                                    const OnProgress& on_progress) {
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
@@ -142,6 +145,17 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
                         is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality);
     Reconstruction result = reconstruct(source, options, on_progress);
     count_samples(result, source, options);
+    return result;
+}
+
+}  // namespace
+
+Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
+    const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
+    if (options.room == 0) return reconstruct_sections(reader, options, on_progress);
+    RoomReader cleaned(reader, options.room, options.threads);
+    Reconstruction result = reconstruct_sections(cleaned, options, on_progress);
+    result.report.samples_in_room = cleaned.changed();
     return result;
 }
 

@@ -121,6 +121,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     Json& verdicts = json["verdicts"] = Json::object();
     for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
     json["refreshes"] = report.refreshes;
+    json["samples_in_room"] = report.samples_in_room;
     json["stopped"] = report.stopped;
     json["smoothing"] = smoothing_json(report);
     json["pinned_vertices"] = report.pinned_vertices;
