@@ -43,6 +43,11 @@ void write_report_file(const Settings& settings, Report& report, const LabelTabl
 
 int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }
 
+int exit_code(const Report& report) {
+    const int code = exit_code(report.check);
+    return code == kGood && report.preserved.regions_off > 0 ? kNotMet : code;
+}
+
 /// 7109137 as 7,109,137.
 std::string grouped(std::uint64_t count) {
     std::string digits = std::to_string(count);

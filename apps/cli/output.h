@@ -22,6 +22,8 @@ void write_report_file(const Settings& settings, Report& report, const LabelTabl
 
 /// kViolations where the report has some, else kGood.
 int exit_code(const CheckReport& report);
+/// The same, or kNotMet where the model is sound but regions are off the volumes asked for.
+int exit_code(const Report& report);
 
 /// Prints "violation KIND: COUNT" for each kind found, and at most `listed` findings of each.
 void print_violations(const CheckReport& report, int listed);

@@ -81,7 +81,7 @@ int run_reconstruct(const Settings& settings) {
     report.seconds["total"] += writing;
     write_report_file(settings, report, made.labels, names);
     if (!settings.quiet) print_summary(settings, report);
-    return exit_code(report.check);
+    return exit_code(report);
 }
 
 }  // namespace regionmesh::cli

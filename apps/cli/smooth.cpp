@@ -68,7 +68,7 @@ int run_smooth(const Settings& settings) {
         print_summary(settings.output, report, before);
         print_fixed_part(fixed, before, report.check);
     }
-    return exit_code(report.check);
+    return exit_code(report);
 }
 
 }  // namespace regionmesh::cli
