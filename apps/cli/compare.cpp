@@ -152,13 +152,26 @@ void write_distances(const Settings& settings, const MeshFile& a, const CompareR
         {.background = background_of(settings, a.labels), .point_arrays = {{"Distance", report.vertex_distances}}});
 }
 
-/// Both models side by side; A with its distances to B.
+/// The distance of each vertex of B to A.
+std::vector<double> distances_back(const Settings& settings, const MeshFile& a, const MeshFile& b) {
+    constexpr std::uint64_t kFew = 1000;  // samples: their distances are not looked at
+    return compare({b.mesh, b.labels}, {a.mesh, a.labels},
+                   {.samples = kFew,
+                    .background = settings.reconstruct.background,
+                    .vertex_distances = true,
+                    .threads = settings.reconstruct.threads})
+        .vertex_distances;
+}
+
+/// Both models side by side, each with its distances to the other.
 void write_comparison(const Settings& settings, const MeshFile& a, const MeshFile& b, const CompareReport& report) {
+    const std::vector<double> back = distances_back(settings, a, b);
     std::vector<PageModel> models;
     for (const auto& [path, file] : {std::pair(&settings.models[0], &a), std::pair(&settings.models[1], &b)})
         models.push_back(
             page_model(*path, file->mesh, file->labels, background_of(settings, file->labels), file->names));
-    models.front().distances = report.vertex_distances;
+    models[0].distances = report.vertex_distances;
+    models[1].distances = back;
     write_page(settings.html, models, page_options(kCompare, settings, compare_json(report), false));
 }
 

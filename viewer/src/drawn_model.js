@@ -2,9 +2,10 @@
 // the same for ten regions and for ten thousand.
 import * as three from "three";
 import { overlayFragment, overlayVertex, surfaceFragment, surfaceVertex } from "./shaders.js";
+import { coarsened, Level, separated } from "./levels.js";
 import { linesOf } from "./measures.js";
 import { rampTexture } from "./ramps.js";
-import { curvatures, faceValues } from "./values.js";
+import { curvatures, faceValues, quantile } from "./values.js";
 
 const kWidth = 256;  // of the textures of regions
 const kStates = { hidden: 0, ghost: 128, solid: 255 };
@@ -22,6 +23,9 @@ function overlay(object, shared, tint, size) {
         glslVersion: three.GLSL3, vertexShader: overlayVertex, fragmentShader: overlayFragment,
         uniforms: { ...shared, tint: { value: new three.Color(tint) }, size: { value: size }, isRound: { value: object.isPoints === true } },
     });
+    object.material.stencilWrite = true;  // only tests it
+    object.material.stencilFunc = three.EqualStencilFunc;
+    object.renderOrder = 2;
     object.frustumCulled = false;
     return object;
 }
@@ -37,62 +41,66 @@ export class DrawnModel {
             ...shared, states: { value: this.states }, offsets: { value: this.offsets }, selected: { value: -1 },
             mode: { value: 0 }, range: { value: new three.Vector2(0, 1) }, ramp: { value: rampTexture("viridis") },
         };
-        this.indexed = this.indexedGeometry();
+        this.levels = { fine: new Level(this.fineArrays()) };
+        this.level = "fine";
+        this.isSolid = [];
         this.passes = [this.addPass(three.FrontSide, false), this.addPass(three.BackSide, false), this.addPass(three.FrontSide, true)];
         this.values = new Map();
     }
 
-    indexedGeometry() {
+    fineArrays() {
         const { surface, positions } = this.model;
         const places = new Float32Array(3 * surface.vertices);
         for (let v = 0; v < surface.vertices; ++v)
-            places.set(positions.subarray(3 * surface.source[v], 3 * surface.source[v] + 3), 3 * v);
+            for (let k = 0; k < 3; ++k) places[3 * v + k] = positions[3 * surface.source[v] + k];
         this.places = places;
-        return this.geometryOf(places, surface.normals, surface.labels, surface.vertices, surface.corners);
+        return { places, normals: surface.normals, labels: surface.labels, corners: surface.corners };
     }
 
-    geometryOf(places, normals, labels, vertices, corners) {
-        const geometry = new three.BufferGeometry();
-        geometry.setAttribute("position", new three.BufferAttribute(places, 3));
-        const packed = new three.InterleavedBuffer(normals, 4);
-        geometry.setAttribute("normal", new three.InterleavedBufferAttribute(packed, 3, 0, true));
-        geometry.setAttribute("labels", new three.BufferAttribute(labels, 2));
-        geometry.setAttribute("value", new three.BufferAttribute(new Float32Array(vertices), 1));
-        if (corners) geometry.setIndex(new three.BufferAttribute(corners, 1));
-        return geometry;
+    /** Made when it is first needed: "fine", "separate" (three vertices a face) or "coarse" (at most `faces` faces). */
+    levelOf(name, faces) {
+        if (this.levels[name]) return this.levels[name];
+        const { fine } = this.levels, arrays = { ...fine, normals: this.model.surface.normals };
+        const size = Math.max(...this.model.high.map((x, axis) => x - this.model.low[axis]));
+        const made = new Level(name === "separate" ? separated(arrays) : coarsened(arrays, size, faces));
+        made.setOuter(this.isSolid);
+        return (this.levels[name] = made);
     }
 
-    /** Three vertices a face, for what differs from face to face. Made when it is first needed. */
-    get separate() {
-        if (this.separateGeometry) return this.separateGeometry;
-        const { corners, normals, labels } = this.model.surface, count = corners.length;
-        const places = new Float32Array(3 * count), turned = new Int8Array(4 * count), pairs = new Float32Array(2 * count);
-        for (let n = 0; n < count; ++n) {
-            const v = corners[n];
-            for (let k = 0; k < 3; ++k) {
-                places[3 * n + k] = this.places[3 * v + k];
-                turned[4 * n + k] = normals[4 * v + k];
-            }
-            pairs[2 * n] = labels[2 * v];
-            pairs[2 * n + 1] = labels[2 * v + 1];
-        }
-        return (this.separateGeometry = this.geometryOf(places, turned, pairs, count, null));
+    /** Draws this level. In an exploded view all faces can be seen; else the inner ones only by their back, in a section. */
+    useLevel(name, faces) {
+        this.level = name;
+        const { full, outer } = this.levelOf(name, faces);
+        const front = this.shared.explode.value > 0 ? full : outer;
+        this.passes.forEach((pass, n) => (pass.geometry = n === 1 ? full : front));
     }
 
     addPass(side, isGhost) {
         const isInside = side === three.BackSide;
         const material = new three.ShaderMaterial({
             glslVersion: three.GLSL3, vertexShader: surfaceVertex, fragmentShader: surfaceFragment, side,
-            transparent: isGhost, depthWrite: !isGhost,
-            uniforms: {
-                ...this.uniforms, isGhost: { value: isGhost }, isInside: { value: isInside },
-                wantedState: { value: isGhost ? 0.5 : 1 },
-            },
+            transparent: isGhost, depthWrite: !isGhost, polygonOffset: isInside, defines: isInside ? { INSIDE: 1 } : {},
+            uniforms: { ...this.uniforms, isGhost: { value: isGhost }, wantedState: { value: isGhost ? 0.5 : 1 } },
         });
-        const mesh = new three.Mesh(this.indexed, material);
+        // A section is marked in the stencil: lines behind it are not drawn over it.
+        material.stencilWrite = isInside;
+        material.stencilRef = 1;
+        material.stencilZPass = three.ReplaceStencilOp;
+        const mesh = new three.Mesh(this.levels.fine.full, material);
         mesh.frustumCulled = false;
+        mesh.renderOrder = isGhost ? 3 : isInside ? 1 : 0;
         this.scene.add(mesh);
         return mesh;
+    }
+
+    /** With a section, faces seen from inside win over those of neighbours at the same place; else they lose. */
+    setCut(isCut) {
+        for (const { material } of this.passes) {
+            if (isCut) material.defines.CUT = 1;
+            else delete material.defines.CUT;
+            material.polygonOffsetUnits = isCut ? -8 : 8;
+            material.needsUpdate = true;
+        }
     }
 
     /** `regions`: for each label of the model its colour and state. */
@@ -106,6 +114,9 @@ export class DrawnModel {
         });
         this.states.needsUpdate = true;
         this.passes[2].visible = ghosts > 0;
+        this.isSolid = [...regions.map(({ state }) => state === "solid"), false];
+        for (const level of Object.values(this.levels)) level.setOuter(this.isSolid);
+        this.useLevel(this.level);
     }
 
     /** Displacements of labels for the exploded view at 1. */
@@ -114,11 +125,10 @@ export class DrawnModel {
         this.offsets.needsUpdate = true;
     }
 
-    /** `isSeparate`: three vertices a face. Returns the range of the values, or null. */
+    /** Returns the values with their range, or null where regions or interfaces have colours. */
     colourBy(what, showsEdges) {
         const isFaceValue = what === "quality";
-        const geometry = isFaceValue || showsEdges ? this.separate : this.indexed;
-        for (const pass of this.passes) pass.geometry = geometry;
+        this.useLevel(isFaceValue || showsEdges ? "separate" : "fine");
         const { mode, range, ramp } = this.uniforms;
         mode.value = what === "region" ? 0 : what === "interface" ? 1 : 2;
         if (mode.value < 2) return null;
@@ -127,7 +137,7 @@ export class DrawnModel {
             mode.value = 0;
             return null;
         }
-        this.fillValues(geometry, found.values, isFaceValue);
+        this.fillValues(found.values, isFaceValue);
         range.value.set(found.low, found.high);
         ramp.value = rampTexture(found.ramp);
         return found;
@@ -142,10 +152,10 @@ export class DrawnModel {
         return this.values.get(what);
     }
 
-    fillValues(geometry, values, isFaceValue) {
-        const attribute = geometry.getAttribute("value"), to = attribute.array, { corners } = this.model.surface;
+    fillValues(values, isFaceValue) {
+        const attribute = this.levels[this.level].full.getAttribute("value"), to = attribute.array, { corners } = this.model.surface;
         if (isFaceValue) for (let n = 0; n < to.length; ++n) to[n] = values[(n / 3) | 0];
-        else if (geometry === this.indexed) to.set(values);
+        else if (this.level === "fine") to.set(values);
         else for (let n = 0; n < to.length; ++n) to[n] = values[corners[n]];
         attribute.needsUpdate = true;
     }
@@ -181,7 +191,7 @@ export class DrawnModel {
         const flat = new Float32Array(places.flatMap((p) => p.map((x, axis) => x - this.model.centre[axis])));
         const geometry = new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(flat, 3));
         this.markers = overlay(new three.Points(geometry), this.shared, "#ff2020", 14);
-        this.markers.material.depthTest = false;
+        this.markers.material.depthTest = this.markers.material.stencilWrite = false;
         this.markers.renderOrder = 9;
         this.scene.add(this.markers);
     }
@@ -190,5 +200,5 @@ export class DrawnModel {
 function distances(model) {
     if (!model.distances) return null;
     const values = Float32Array.from(model.surface.source, (v) => model.distances[v]);
-    return { values, low: 0, high: model.largest_distance || 1, ramp: "viridis", title: "distance to the other model" };
+    return { values, low: 0, high: quantile(values, 0.99) || model.largest_distance || 1, ramp: "viridis", title: "distance to the other model; the largest 1 % have one colour" };
 }

@@ -72,6 +72,7 @@ function addPicking(stage, regions, tools, list) {
 
 function showModels(data, models, regions) {
     const stage = new Stage(byId("canvas"), models);
+    stage.isOpen = (data.report?.violations ?? []).length > 0 || models.some((model) => model.is_open);
     const lookAt = (region) => {
         const which = region.places.findIndex((place) => place !== undefined);
         stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === which && place === region.places[which])));

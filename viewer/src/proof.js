@@ -35,10 +35,16 @@ function topology({ has_labels: has }, { violation_counts: counts }) {
 }
 
 function qualityFloor({ min_quality: bound }, { quality }) {
-    const meaning = "The lowest quality of a face: 0.26 for an equilateral face, 0 for a degenerate one. Decimation makes no face below its bound.";
+    const meaning = "Quality is 0.26 for an equilateral face, 0 for a degenerate one. Decimation makes no face below its bound; faces that were below it may stay.";
     if (bound === null) return { name: "Quality floor", verdict: "none", said: `lowest ${short(quality.min, 3)}; no bound was asked`, meaning };
-    const holds = quality.min >= bound * (1 - 1e-9);
-    return { name: "Quality floor", verdict: holds ? "good" : "bad", said: `lowest ${short(quality.min, 3)}, ${holds ? "at least" : "below"} the bound ${short(bound)}`, meaning };
+    if (quality.min >= bound * (1 - 1e-9))
+        return { name: "Quality floor", verdict: "good", said: `lowest ${short(quality.min, 3)}, at least the bound ${short(bound)}`, meaning };
+    const { bin_width: width, counts } = quality.histogram, all = sum(counts) || 1;
+    const below = counts.filter((_, n) => (n + 1) * width <= bound * (1 + 1e-9)).reduce((a, b) => a + b, 0);
+    return {
+        name: "Quality floor", verdict: "none", meaning,
+        said: `lowest ${short(quality.min, 3)}; ${short((100 * below) / all, 2)} % of the faces are below ${short(bound)}, as they were before decimation`,
+    };
 }
 
 function errorBound({ max_error: bound }, { stopped }) {
@@ -89,7 +95,7 @@ function secondsCard({ seconds, peak_bytes: bytes }) {
     const { total, ...stages } = seconds, largest = Math.max(...Object.values(stages), 1e-9);
     const rows = Object.entries(stages).sort((a, b) => b[1] - a[1]);
     return card("Seconds by stage",
-        element("table", { class: "bars" }, ...rows.map(([stage, time]) => barRow(stage, time, largest, short(time, 3)))),
+        element("table", { class: "bars" }, ...rows.map(([stage, time]) => barRow(stage, time, largest, time < 0.001 ? "< 0.001" : short(time, 3)))),
         element("p", { class: "hint" }, `${total === undefined ? "" : `${short(total, 3)} s in all. `}${bytes ? `At most ${grouped(bytes / 1e6)} MB of memory.` : ""}`));
 }
 

@@ -1,6 +1,6 @@
 // Shaders of the surfaces of regions, of their cut faces, and of lines and points.
 
-/** Common to all: the state of a region is a texel with its colour and, in alpha, how it is drawn. */
+/** Defines: CUT where there is a section, INSIDE in the pass of faces seen from inside. The state of a region is a texel with its colour and, in alpha, how it is drawn. */
 const regionLookup = /* glsl */ `
 uniform sampler2D states;   // RGBA: colour and state
 uniform sampler2D offsets;  // RGBA: displacement of the exploded view
@@ -17,7 +17,6 @@ export const surfaceVertex = /* glsl */ `
 in vec2 labels;  // of the region, and of the other side
 in float value;
 uniform float wantedState;
-uniform bool isInside;
 out vec3 place;
 out vec3 shade;
 out vec3 corner;
@@ -35,7 +34,6 @@ void main() {
     corner = vec3(turn == 0, turn == 1, turn == 2);
     place = position + offsetOf(labels.x);
     gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
-    if (isInside) gl_Position.z += 0.0004 * gl_Position.w;  // behind faces at the same place
     if (abs(state.a - wantedState) > 0.1) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the picture
 }
 `;
@@ -49,17 +47,15 @@ in float amount;
 flat in vec2 sides;
 flat in vec3 colour;
 uniform vec4 plane;       // keeps the points with dot(plane.xyz, p) <= plane.w
-uniform bool isCut;
 uniform bool isFlat;
 uniform bool isGhost;
-uniform bool isInside;    // the pass of faces seen from inside
 uniform float edges;      // width of the edges of faces in pixels, 0: none
 uniform int mode;         // 0 region, 1 interface, 2 value
 uniform vec2 range;
 uniform sampler2D ramp;
 uniform float selected;
 uniform vec3 eye;
-uniform mat4 toClip;
+uniform bool isOutside;  // the camera is outside, and regions are closed
 out vec4 result;
 
 vec3 interfaceColour(vec2 pair) {
@@ -79,29 +75,33 @@ vec3 baseColour() {
     return colour;
 }
 
-/** Back faces of a cut region fill its section: the picture there is that of the plane. */
-void drawCap() {
+#ifdef INSIDE
+/**
+ * Back faces of a cut region fill its section: where a ray enters a region through the plane, the next surface that it
+ * meets is the boundary of this region, from inside.
+ */
+void drawInside() {
+    bool isCap = false;
+#ifdef CUT
     vec3 ray = place - eye;
-    float along = dot(plane.xyz, ray);
-    float t = (plane.w - dot(plane.xyz, eye)) / along;
-    if (!isCut || t <= 0.0 || t > 1.0) {
-        if (isCut && dot(plane.xyz, place) > plane.w) discard;
-        gl_FragDepth = gl_FragCoord.z;
-        result = vec4(0.45 * baseColour(), 1.0);
-        return;
-    }
-    if (dot(plane.xyz, place) > plane.w) discard;
-    vec4 clip = toClip * vec4(eye + t * ray, 1.0);
-    gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
-    vec3 cap = mix(baseColour(), vec3(1.0), 0.12);
-    if (sides.x == selected) cap = mix(cap, vec3(1.0), 0.35);
-    result = vec4(cap, 1.0);
+    float t = (plane.w - dot(plane.xyz, eye)) / dot(plane.xyz, ray);
+    isCap = t > 0.0 && t <= 1.0;
+    if (!isCap && isOutside) discard;
+#endif
+    vec3 base = mode == 2 ? colour : baseColour();  // values are those of the surface
+    if (sides.x == selected) base = mix(base, vec3(1.0), 0.35);
+    result = vec4(isCap ? mix(base, vec3(1.0), 0.12) : 0.45 * base, 1.0);
 }
+#endif
 
 void main() {
-    if (isInside) { drawCap(); return; }
-    gl_FragDepth = gl_FragCoord.z;
-    if (isCut && dot(plane.xyz, place) > plane.w) discard;
+#ifdef CUT
+    if (dot(plane.xyz, place) > plane.w) discard;
+#endif
+#ifdef INSIDE
+    drawInside();
+    return;
+#endif
     vec3 n = normalize(shade);
     vec3 view = normalize((viewMatrix * vec4(place - eye, 0.0)).xyz);
     if (isFlat) {
@@ -133,8 +133,8 @@ uniform float size;
 out vec3 place;
 void main() {
     place = position;
-    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-    gl_Position.z -= 0.0004 * gl_Position.w;
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * vec4(0.9985 * seen.xyz, 1.0);  // nearer, at the same place of the picture
     gl_PointSize = size;
 }
 `;

@@ -6,12 +6,14 @@ import { pick } from "./pick.js";
 
 const kAxes = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const kFieldOfView = 30;
+const kSlow = 60;  // milliseconds a frame
+const kRest = 250;  // milliseconds after the last move
 
 export class Stage extends EventTarget {
     constructor(canvas, models) {
         super();
         this.canvas = canvas;
-        this.renderer = new three.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
+        this.renderer = new three.WebGLRenderer({ canvas, antialias: true, stencil: true });
         this.renderer.outputColorSpace = three.LinearSRGBColorSpace;  // colours are written as they are read
         three.ColorManagement.enabled = false;
         this.renderer.autoClear = false;
@@ -19,13 +21,15 @@ export class Stage extends EventTarget {
         this.camera.up.set(0, 0, 1);
         this.shared = {
             plane: { value: new three.Vector4(0, 0, 1, 0) }, isCut: { value: false }, isFlat: { value: false },
-            edges: { value: 0 }, explode: { value: 0 }, eye: { value: new three.Vector3() }, toClip: { value: new three.Matrix4() },
+            edges: { value: 0 }, explode: { value: 0 }, eye: { value: new three.Vector3() }, isOutside: { value: true },
         };
         this.drawn = models.map((model) => new DrawnModel(model, this.shared));
         this.colouring = "region";
         this.frames = 0;
+        this.frameTime = 0;
+        this.isCoarse = false;
         this.controls = new OrbitControls(this.camera, canvas);
-        this.controls.addEventListener("change", () => this.render());
+        this.controls.addEventListener("change", () => this.moved());
         this.controls.zoomToCursor = true;
         this.setDirection([-0.65, -0.9, 0.5]);
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
@@ -40,15 +44,38 @@ export class Stage extends EventTarget {
     resize() {
         const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
         if (!width || !height) return;
-        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+        this.renderer.setPixelRatio(this.pixelRatio);
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / this.drawn.length / height;
         this.camera.updateProjectionMatrix();
         this.render();
     }
 
+    /** While the camera moves on a slow machine, a coarse stand-in is drawn; the whole follows when it rests. */
+    moved() {
+        const canBeCoarse = this.drawn.every(({ level, uniforms }) => level === "fine" && uniforms.mode.value < 2);
+        if (this.frameTime > kSlow && canBeCoarse) this.setCoarse(true);
+        if (this.isCoarse) {
+            clearTimeout(this.resting);
+            this.resting = setTimeout(() => this.setCoarse(false), kRest);
+        }
+        this.render();
+    }
+
+    setCoarse(isCoarse) {
+        this.isCoarse = isCoarse;
+        const most = Math.max(5000, (this.faceCount * kSlow) / this.frameTime / 2);
+        for (const drawn of this.drawn) drawn.useLevel(isCoarse ? "coarse" : "fine", most);
+        this.renderer.setPixelRatio(this.pixelRatio * (isCoarse ? 0.5 : 1));
+        this.render();
+    }
+
+    get pixelRatio() { return Math.min(window.devicePixelRatio || 1, 2); }
+
+    get faceCount() { return this.drawn.reduce((sum, { model }) => sum + model.surface.faces, 0); }
+
     render() {
-        if (this.isWaiting) return;
+        if (this.isWaiting) return;  // one picture a frame
         this.isWaiting = true;
         requestAnimationFrame(() => {
             this.isWaiting = false;
@@ -57,15 +84,20 @@ export class Stage extends EventTarget {
     }
 
     renderNow() {
-        const { camera, renderer } = this, distance = camera.position.distanceTo(this.controls.target), radius = this.radius;
-        camera.near = Math.max(distance - 4 * radius, distance / 200, radius / 2000);
-        camera.far = distance + 4 * radius + this.shared.explode.value * 4 * radius;
+        const { camera, renderer } = this, radius = this.radius * (1 + 1.3 * this.shared.explode.value);
+        const distance = camera.position.length();  // from the centre of the model
+        camera.near = Math.max(distance - radius, radius / 1000);
+        camera.far = distance + radius;
         camera.updateProjectionMatrix();
         camera.updateMatrixWorld();
         this.shared.eye.value.copy(camera.position);
-        this.shared.toClip.value.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+        // From outside a closed region only its front is seen.
+        this.shared.isOutside.value = !this.isOpen && distance >= radius;
+        const showsInside = this.shared.isCut.value || !this.shared.isOutside.value;
+        for (const drawn of this.drawn) drawn.passes[1].visible = showsInside;
         const size = renderer.getSize(new three.Vector2()), width = size.x / this.drawn.length;
         renderer.setScissorTest(true);
+        const begin = performance.now();
         this.drawn.forEach((drawn, n) => {
             renderer.setViewport(n * width, 0, width, size.y);
             renderer.setScissor(n * width, 0, width, size.y);
@@ -74,7 +106,21 @@ export class Stage extends EventTarget {
             renderer.render(drawn.scene, camera);
         });
         ++this.frames;
+        this.measure(begin);
         this.dispatchEvent(new Event("drawn"));
+    }
+
+    /** Keeps the time until a whole frame is complete; the first frame also compiles, and does not count. */
+    measure(begin) {
+        const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        const isWhole = this.frames > 1 && !this.isCoarse;
+        const poll = () => {
+            if (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) return void setTimeout(poll, 4);
+            gl.deleteSync(fence);
+            if (isWhole) this.frameTime = performance.now() - begin;
+        };
+        setTimeout(poll, 0);
     }
 
     setBackground(colour) {
@@ -87,7 +133,7 @@ export class Stage extends EventTarget {
         const distance = this.camera.position.distanceTo(this.controls.target) || 1;
         this.camera.position.copy(this.controls.target).addScaledVector(new three.Vector3(...direction).normalize(), distance);
         this.controls.update();
-        this.render();
+        this.moved();
     }
 
     /** Turns by angles around the vertical axis and towards it. */
@@ -99,14 +145,14 @@ export class Stage extends EventTarget {
         const made = new three.Vector3().setFromSpherical(place);
         this.camera.position.copy(this.controls.target).add(new three.Vector3(made.x, -made.z, made.y));
         this.controls.update();
-        this.render();
+        this.moved();
     }
 
     zoom(factor) {
         const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
         this.camera.position.copy(this.controls.target).add(offset);
         this.controls.update();
-        this.render();
+        this.moved();
     }
 
     /** Moves the picture by shares of its height. */
@@ -118,7 +164,7 @@ export class Stage extends EventTarget {
         this.camera.position.add(step);
         this.controls.target.add(step);
         this.controls.update();
-        this.render();
+        this.moved();
     }
 
     /** The whole of what is shown, from the present direction. */
@@ -138,9 +184,9 @@ export class Stage extends EventTarget {
         const angle = (kFieldOfView * Math.PI) / 360, narrow = Math.min(1, this.camera.aspect);
         const direction = this.camera.position.clone().sub(this.controls.target).normalize();
         box.getCenter(this.controls.target);
-        this.camera.position.copy(this.controls.target).addScaledVector(direction, (0.95 * radius) / Math.sin(Math.atan(Math.tan(angle) * narrow)));
+        this.camera.position.copy(this.controls.target).addScaledVector(direction, (1.02 * radius) / Math.sin(Math.atan(Math.tan(angle) * narrow)));
         this.controls.update();
-        this.render();
+        this.moved();
     }
 
     lookAt(place, radius) {
@@ -148,11 +194,12 @@ export class Stage extends EventTarget {
         this.controls.target.set(...place);
         this.camera.position.copy(this.controls.target).addScaledVector(direction, radius / Math.tan((kFieldOfView * Math.PI) / 360));
         this.controls.update();
-        this.render();
+        this.moved();
     }
 
     /** Keeps the part below `share` of the extent along `axis`, or above it if `isTurned`; no axis: everything. */
     setSection(axis, share = 0.5, isTurned = false) {
+        if (this.shared.isCut.value !== (axis in kAxes)) for (const drawn of this.drawn) drawn.setCut(axis in kAxes);
         this.shared.isCut.value = axis in kAxes;
         if (axis in kAxes) {
             const { model } = this.drawn[0], n = Object.keys(kAxes).indexOf(axis);
@@ -163,6 +210,9 @@ export class Stage extends EventTarget {
         this.render();
     }
 
+    /** Is the camera on the low side of the centre? Then the upper part of a section shows its cut. */
+    looksFromBelow(axis) { return this.camera.position[axis] < this.controls.target[axis]; }
+
     /** Displacements of all labels of each model at 1. */
     setOffsets(offsets) {
         this.offsets = offsets;
@@ -171,14 +221,19 @@ export class Stage extends EventTarget {
 
     setExplode(share) {
         this.shared.explode.value = share;
+        for (const drawn of this.drawn) drawn.useLevel(drawn.level);
         this.render();
     }
 
     colourBy(what) {
         this.colouring = what;
-        const found = this.drawn.map((drawn) => drawn.colourBy(what, this.shared.edges.value > 0));
+        if (this.isCoarse) this.setCoarse(false);
+        const found = this.drawn.map((drawn) => drawn.colourBy(what, this.shared.edges.value > 0)).filter(Boolean);
         this.render();
-        return found[0] ?? found[1] ?? null;
+        if (found.length === 0) return null;
+        const low = Math.min(...found.map((one) => one.low)), high = Math.max(...found.map((one) => one.high));
+        for (const drawn of this.drawn) drawn.uniforms.range.value.set(low, high);
+        return { ...found[0], low, high };
     }
 
     showEdges(isShown) {
@@ -206,6 +261,7 @@ export class Stage extends EventTarget {
 
     /** Calls `done` with a PNG. */
     screenshot(done) {
+        if (this.isCoarse) this.setCoarse(false);
         this.renderNow();
         this.canvas.toBlob(done, "image/png");
     }

@@ -107,7 +107,7 @@ function tableRow(row, columns, regions) {
     const cells = columns.map(([name, , value, text]) => {
         const found = value(row);
         const shown = found === undefined || found === null ? "–" : text(found);
-        if (name !== "label" || !region) return element("td", {}, shown);
+        if (name !== "label" || !region) return element("td", { "data-column": name }, shown);
         const swatch = element("span", { class: "swatch" });
         swatch.style.background = region.colour;
         return element("td", {}, swatch, shown);

@@ -37,8 +37,8 @@ export class Tools {
     }
 
     colourGroup() {
-        const options = [["region", "Region"], ["interface", "Interface"], ["quality", "Quality of faces"], ["curvature", "Curvature"]];
-        if (this.models.some((model) => model.has_distances)) options.push(["distance", "Distance to the other model"]);
+        const options = [["region", "Region"], ["interface", "Interface"], ["quality", "Quality"], ["curvature", "Curvature"]];
+        if (this.models.some((model) => model.has_distances)) options.push(["distance", "Distance"]);
         return group("Colour", choice("colour-by", "By ", options, (what) => this.colourBy(what)));
     }
 
@@ -60,12 +60,16 @@ export class Tools {
             this.stage.setSection(axis, Number(byId("section-share").value), byId("section-turn").checked);
             place.textContent = axis === "none" ? "" : `${axis} = ${short(this.stage.sectionPlace)}`;
         };
-        this.updateSection = update;
+        const chooseAxis = (axis) => {
+            if (axis !== "none") byId("section-turn").checked = this.stage.looksFromBelow(axis);
+            update();
+        };
+        this.updateSection = () => chooseAxis(byId("section-axis").value);
         return group("Section",
-            choice("section-axis", "Across ", [["none", "no axis"], ["x", "x"], ["y", "y"], ["z", "z"]], update),
+            choice("section-axis", "Across ", [["none", "no axis"], ["x", "x"], ["y", "y"], ["z", "z"]], chooseAxis),
             slider("section-share", "Place ", 0.5, () => {
-                if (byId("section-axis").value === "none") byId("section-axis").value = "x";
-                update();
+                if (byId("section-axis").value === "none") this.setSection("x");
+                else update();
             }),
             toggle("section-turn", "Keep the other side", update), place);
     }

@@ -36,7 +36,7 @@ export function curvatures(model, places) {
         values[v] = turns[v] !== 0 || areas[v] === 0 ? kNone : -along / (4 * areas[v]);
     }
     const bound = quantile(values, 0.95) || 1;
-    return { values, low: -bound, high: bound, ramp: "vik", title: "mean curvature (1 / length)" };
+    return { values, low: -bound, high: bound, ramp: "vik", title: "mean curvature, 1 / length; convex is positive" };
 }
 
 /** Adds cot(angle at `apex`) times the edge from b to c, in both directions. */
@@ -52,7 +52,7 @@ function addCotangent(sums, p, b, c, apex, doubleArea) {
 }
 
 /** Of the absolute values, without those that are none. */
-function quantile(values, share) {
+export function quantile(values, share) {
     const sizes = Float32Array.from(values.filter((value) => value < kNone / 2), Math.abs).sort();
     return sizes.length ? sizes[Math.floor(share * (sizes.length - 1))] : 0;
 }
