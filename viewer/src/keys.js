@@ -25,6 +25,7 @@ function tableOf({ stage, regions, tools, act }) {
         ["P", ["p"], "save a picture", act.screenshot],
         ["/", ["/"], "find a region", () => byId("region-search").focus()],
         ["?", ["?"], "this list", act.keys],
+        ["● ◌ ◉", null, "in the list: hide or show, see through, isolate"],
         ["mouse", null, "left turns, right moves, wheel zooms, click selects, double click looks at the place"],
     ];
 }

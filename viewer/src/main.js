@@ -78,7 +78,8 @@ function showModels(data, models, regions) {
         stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === which && place === region.places[which])));
     };
     const list = new RegionList(regions, lookAt);
-    const tools = new Tools({ stage, regions, models, list, violations: data.report?.violations ?? [] });
+    const act = actions(stage, regions, models[0].title);
+    const tools = new Tools({ stage, regions, models, fit: act.fit, violations: data.report?.violations ?? [] });
     const update = () => {
         stage.drawn.forEach((drawn, which) => {
             drawn.show(regions.drawnStates(which));
@@ -89,7 +90,6 @@ function showModels(data, models, regions) {
     regions.addEventListener("change", update);
     update();
     addPicking(stage, regions, tools, list);
-    const act = actions(stage, regions, models[0].title);
     for (const button of document.querySelectorAll("[data-act]")) button.addEventListener("click", act[button.dataset.act]);
     addKeys({ stage, regions, tools, act });
     addTheme((background) => stage.setBackground(background));

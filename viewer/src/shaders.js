@@ -17,7 +17,9 @@ export const surfaceVertex = /* glsl */ `
 in vec2 labels;  // of the region, and of the other side
 in float value;
 uniform float wantedState;
-out vec3 place;
+uniform float stretch;  // of z
+centroid out vec3 place;  // outside thin faces it would be on the wrong side of a section
+out vec3 spot;
 out vec3 shade;
 out vec3 corner;
 out float amount;
@@ -29,10 +31,11 @@ void main() {
     sides = labels;
     colour = state.rgb;
     amount = value;
-    shade = normalMatrix * normal;
+    shade = normalMatrix * vec3(normal.xy, normal.z / stretch);
     int turn = gl_VertexID % 3;
     corner = vec3(turn == 0, turn == 1, turn == 2);
-    place = position + offsetOf(labels.x);
+    place = (position + offsetOf(labels.x)) * vec3(1.0, 1.0, stretch);
+    spot = place;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(place, 1.0);
     if (abs(state.a - wantedState) > 0.1) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the picture
 }
@@ -40,7 +43,8 @@ void main() {
 
 export const surfaceFragment = /* glsl */ `
 precision highp float;
-in vec3 place;
+centroid in vec3 place;
+in vec3 spot;
 in vec3 shade;
 in vec3 corner;
 in float amount;
@@ -105,7 +109,7 @@ void main() {
     vec3 n = normalize(shade);
     vec3 view = normalize((viewMatrix * vec4(place - eye, 0.0)).xyz);
     if (isFlat) {
-        vec3 p = (viewMatrix * vec4(place, 1.0)).xyz;
+        vec3 p = (viewMatrix * vec4(spot, 1.0)).xyz;
         n = normalize(cross(dFdx(p), dFdy(p)));
     }
     float facing = abs(dot(n, view));
@@ -130,10 +134,11 @@ void main() {
 /** Lines and points on top of the surfaces, cut like them. */
 export const overlayVertex = /* glsl */ `
 uniform float size;
+uniform float stretch;
 out vec3 place;
 void main() {
-    place = position;
-    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    place = position * vec3(1.0, 1.0, stretch);
+    vec4 seen = modelViewMatrix * vec4(place, 1.0);
     gl_Position = projectionMatrix * vec4(0.9985 * seen.xyz, 1.0);  // nearer, at the same place of the picture
     gl_PointSize = size;
 }

@@ -9,6 +9,14 @@ const kFieldOfView = 30;
 const kSlow = 60;  // milliseconds a frame
 const kRest = 250;  // milliseconds after the last move
 
+/** 1, or what brings the height of a flat model, such as strata, to a quarter of its width: 1, 2 or 5 times 10^n. */
+function flatnessOf(models) {
+    const [x, y, z] = [0, 1, 2].map((axis) => Math.max(...models.map(({ low, high }) => high[axis] - low[axis])));
+    if (!(z > 0) || 5 * z > Math.max(x, y)) return 1;
+    const wanted = Math.max(x, y) / z / 4, power = 10 ** Math.floor(Math.log10(wanted));
+    return [5, 2, 1].find((digit) => digit * power <= wanted) * power;
+}
+
 export class Stage extends EventTarget {
     constructor(canvas, models) {
         super();
@@ -21,8 +29,9 @@ export class Stage extends EventTarget {
         this.camera.up.set(0, 0, 1);
         this.shared = {
             plane: { value: new three.Vector4(0, 0, 1, 0) }, isCut: { value: false }, isFlat: { value: false },
-            edges: { value: 0 }, explode: { value: 0 }, eye: { value: new three.Vector3() }, isOutside: { value: true },
+            edges: { value: 0 }, explode: { value: 0 }, eye: { value: new three.Vector3() }, isOutside: { value: true }, stretch: { value: 1 },
         };
+        this.shared.stretch.value = flatnessOf(models);
         this.drawn = models.map((model) => new DrawnModel(model, this.shared));
         this.colouring = "region";
         this.frames = 0;
@@ -38,7 +47,17 @@ export class Stage extends EventTarget {
 
     /** Half the diagonal of the largest model. */
     get radius() {
-        return Math.max(...this.drawn.map(({ model }) => Math.hypot(...model.high.map((x, axis) => x - model.low[axis])) / 2), 1e-9);
+        const half = ({ model }) => Math.hypot(...this.stretched(model.high.map((x, axis) => x - model.low[axis]))) / 2;
+        return Math.max(...this.drawn.map(half), 1e-9);
+    }
+
+    /** A place relative to the centre of the model, as it is in the picture; and back. */
+    stretched([x, y, z]) { return [x, y, z * this.shared.stretch.value]; }
+    unstretched([x, y, z]) { return [x, y, z / this.shared.stretch.value]; }
+
+    setStretch(factor) {
+        this.shared.stretch.value = factor;
+        this.render();
     }
 
     resize() {
@@ -167,31 +186,44 @@ export class Stage extends EventTarget {
         this.moved();
     }
 
+    /** The places of all vertices that are shown, in the picture. */
+    forShown(isShown, visit) {
+        const explode = this.shared.explode.value, stretch = this.shared.stretch.value;
+        this.drawn.forEach(({ model }, which) => {
+            const { source, labels } = model.surface, { positions } = model, offsets = explode ? this.offsets[which] : null;
+            for (let v = 0; v < source.length; ++v) {
+                const label = labels[2 * v], at = 3 * source[v], offset = offsets?.[label];
+                if (isShown && !isShown[which][label]) continue;
+                const [x, y, z] = offset ?? [0, 0, 0];
+                visit(positions[at] + explode * x, positions[at + 1] + explode * y, stretch * (positions[at + 2] + explode * z));
+            }
+        });
+    }
+
     /** The whole of what is shown, from the present direction. */
     fit(isShown) {
         const box = new three.Box3(), p = new three.Vector3();
-        this.drawn.forEach((drawn, which) => {
-            const { source, labels } = drawn.model.surface, { positions } = drawn.model, offsets = this.offsets?.[which];
-            for (let v = 0; v < source.length; ++v) {
-                if (isShown && !isShown[which][labels[2 * v]]) continue;
-                p.fromArray(positions, 3 * source[v]);
-                if (offsets) p.addScaledVector(new three.Vector3(...offsets[labels[2 * v]]), this.shared.explode.value);
-                box.expandByPoint(p);
-            }
-        });
+        this.forShown(isShown, (x, y, z) => box.expandByPoint(p.set(x, y, z)));
         if (box.isEmpty()) return;
-        const radius = Math.max(box.getSize(p).length() / 2, this.radius / 1e4);
-        const angle = (kFieldOfView * Math.PI) / 360, narrow = Math.min(1, this.camera.aspect);
-        const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-        box.getCenter(this.controls.target);
-        this.camera.position.copy(this.controls.target).addScaledVector(direction, (1.02 * radius) / Math.sin(Math.atan(Math.tan(angle) * narrow)));
+        const { target } = this.controls, back = this.camera.position.clone().sub(target).normalize();
+        box.getCenter(target);
+        const right = new three.Vector3().crossVectors(this.camera.up, back).normalize();
+        const up = new three.Vector3().crossVectors(back, right);
+        const tall = Math.tan((kFieldOfView * Math.PI) / 360) * 0.92, wide = tall * this.camera.aspect;
+        let distance = this.radius / 1e4;
+        this.forShown(isShown, (x, y, z) => {
+            p.set(x, y, z).sub(target);
+            distance = Math.max(distance, p.dot(back) + Math.max(Math.abs(p.dot(right)) / wide, Math.abs(p.dot(up)) / tall));
+        });
+        this.camera.position.copy(target).addScaledVector(back, distance);
         this.controls.update();
         this.moved();
     }
 
+    /** `place`: relative to the centre of the model. */
     lookAt(place, radius) {
         const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-        this.controls.target.set(...place);
+        this.controls.target.set(...this.stretched(place));
         this.camera.position.copy(this.controls.target).addScaledVector(direction, radius / Math.tan((kFieldOfView * Math.PI) / 360));
         this.controls.update();
         this.moved();
@@ -204,7 +236,8 @@ export class Stage extends EventTarget {
         if (axis in kAxes) {
             const { model } = this.drawn[0], n = Object.keys(kAxes).indexOf(axis);
             const height = (share - 0.5) * (model.high[n] - model.low[n]) * 1.0002, sign = isTurned ? -1 : 1;
-            this.shared.plane.value.set(...kAxes[axis].map((x) => sign * x), sign * height);
+            const shown = axis === "z" ? height * this.shared.stretch.value : height;
+            this.shared.plane.value.set(...kAxes[axis].map((x) => sign * x), sign * shown);
             this.sectionPlace = model.centre[n] + height;
         }
         this.render();
@@ -252,10 +285,10 @@ export class Stage extends EventTarget {
         const which = Math.min(Math.floor((clientX - box.left) / width), this.drawn.length - 1);
         const x = ((clientX - box.left - which * width) / width) * 2 - 1, y = 1 - ((clientY - box.top) / box.height) * 2;
         const from = this.camera.position, to = new three.Vector3(x, y, 0.5).unproject(this.camera).sub(from).normalize();
-        const { plane, isCut, explode } = this.shared;
+        const { plane, isCut, explode, stretch } = this.shared, [a, b, c, d] = plane.value.toArray();
         const offsets = explode.value && this.offsets ? this.offsets[which].map((o) => o.map((x) => x * explode.value)) : null;
-        const hit = pick(this.drawn[which], from.toArray(), to.toArray(),
-            { offsets, isShown: isShown[which], plane: isCut.value ? plane.value.toArray() : null });
+        const hit = pick(this.drawn[which], this.unstretched(from.toArray()), this.unstretched(to.toArray()),
+            { offsets, isShown: isShown[which], plane: isCut.value ? [a, b, c * stretch.value, d] : null });
         return hit && { ...hit, which };
     }
 

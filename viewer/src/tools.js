@@ -80,7 +80,12 @@ export class Tools {
     }
 
     shapeGroup() {
-        return group("Exploded view", slider("explode", "Distance ", 0, (share) => this.explode(share)));
+        const height = element("input", {
+            id: "stretch", type: "number", min: "0.1", max: "1000", step: "any", value: this.stage.shared.stretch.value,
+            onchange: () => this.stretch(Number(height.value) || 1),
+        });
+        return group("Shape", slider("explode", "Explode ", 0, (share) => this.explode(share)),
+            element("label", { class: "field", title: "For flat models, such as strata" }, "Height × ", height));
     }
 
     explode(share) {
@@ -88,6 +93,13 @@ export class Tools {
         if (!this.stage.offsets) this.stage.setOffsets(this.models.map((_, which) => this.regions.offsets(which)));
         this.stage.setExplode(share);
         this.showLines();
+    }
+
+    stretch(factor) {
+        byId("stretch").value = factor;
+        this.stage.setStretch(factor);
+        this.updateSection();
+        this.fit();
     }
 
     lineGroup() {
