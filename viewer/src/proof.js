@@ -43,7 +43,7 @@ function qualityFloor({ min_quality: bound }, { quality }) {
     const below = counts.filter((_, n) => (n + 1) * width <= bound * (1 + 1e-9)).reduce((a, b) => a + b, 0);
     return {
         name: "Quality floor", verdict: "none", meaning,
-        said: `lowest ${short(quality.min, 3)}; ${short((100 * below) / all, 2)} % of the faces are below ${short(bound)}, as they were before decimation`,
+        said: `lowest ${short(quality.min, 3)}; ${short((100 * below) / all, 2)} % of the faces are below ${short(bound)}, left from before decimation`,
     };
 }
 
@@ -67,7 +67,7 @@ function certificateBox(data) {
     const all = certificates(data), good = all.filter(({ verdict }) => verdict === "good").length;
     const bad = all.filter(({ verdict }) => verdict === "bad").length;
     return element("div", { class: "certificates" },
-        element("p", { class: "verdict" }, bad ? `${bad} of ${good + bad} claims failed` : `all ${good} claims proved`),
+        element("p", { class: "verdict" }, bad ? `${bad} of ${good + bad} claims failed` : `All ${good} claims proved`),
         element("ul", {}, ...all.map(({ name, verdict, said, meaning }) =>
             element("li", { class: verdict },
                 element("span", { class: "mark", role: "img", "aria-label": kWords[verdict] }, kMarks[verdict]),
