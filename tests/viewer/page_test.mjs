@@ -1,7 +1,7 @@
 // The page in a browser.  page_test.mjs PROGRAM REPOSITORY FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { launch, open, picture } from "./browser.mjs";
 
 const [program, repository, folder] = process.argv.slice(2);
@@ -56,8 +56,12 @@ async function cuts_colours_and_explodes(browser) {
         await page.click(`#${id}`);
         await isNew(id);
     }
-    const report = await page.evaluate("window.regionmesh.data.report.triple_lines.edges");
-    assert.ok(report > 0);
+    const [found, report] = await page.evaluate("(({ edgeCount, pointCount }) => [{ edgeCount, pointCount }, regionmesh.data.report.quadruple_points_inside])(regionmesh.stage.drawn[0].lineParts)");
+    assert.ok(found.edgeCount > 0 && found.pointCount >= report, `${found.pointCount} points, ${report} of them inside`);
+    await page.click("#region-rows .row .row-only");
+    const [some, all] = await page.evaluate("[regionmesh.stage.drawn[0].lines.geometry.index.count, 2 * regionmesh.stage.drawn[0].lineParts.edgeCount]");
+    assert.ok(some > 0 && some < all, "lines of hidden regions are not drawn");
+    await page.click("#show-all");
     await page.$eval("#explode", (e) => {
         e.value = 0.5;
         e.dispatchEvent(new Event("input"));
@@ -65,6 +69,41 @@ async function cuts_colours_and_explodes(browser) {
     await isNew("exploded view");
     await page.click("#theme");
     await isNew("other theme");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function keys_and_focus_reach_everything(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const before = await picture(page);
+    await page.focus("#canvas");
+    await page.keyboard.press("ArrowLeft");
+    assert.notEqual((await picture(page)).sum, before.sum, "an arrow key turns the picture");
+    await page.focus("#region-rows .row-name");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    assert.equal(await page.evaluate("regionmesh.regions.selected === regionmesh.list.found[1]"), true);
+    await page.keyboard.press("i");
+    assert.equal(await page.$eval("#region-count", (e) => e.textContent), "10 of 10 regions, 9 hidden");
+    await page.keyboard.press("?");
+    assert.ok(await page.$eval("#keys", (e) => e.open));
+    await page.keyboard.press("Escape");
+    const unnamed = await page.$$eval("button, input, select, canvas", (found) => found.filter((e) =>
+        !(e.getAttribute("aria-label") || e.textContent.trim() || e.closest("label")?.textContent.trim())).map((e) => e.outerHTML));
+    assert.deepEqual(unnamed, [], "every control has a name");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function large_models_are_shown_as_a_preview(browser) {
+    run("view", `${folder}/poly.vtp`, "-o", `${folder}/preview.html`, "--preview-faces", "9000");
+    const errors = [], page = await open(browser, `${folder}/preview.html`, errors);
+    assert.ok((await page.$eval("#summary", (e) => e.textContent)).includes("preview"));
+    assert.ok((await picture(page)).drawn > 0.2);
+    const faces = await page.evaluate("[regionmesh.models[0].faces, regionmesh.models[0].shown_faces, regionmesh.models[0].geometry.faces]");
+    assert.ok(faces[1] <= 9000 && faces[2] === faces[1] && faces[0] > 20000, `${faces}`);
+    const bytes = statSync(`${folder}/poly.html`).size - statSync(`${repository}/viewer/dist/page.html`).size;
+    assert.ok(bytes < 12 * faces[0], `${bytes / faces[0]} bytes a face`);
     assert.deepEqual(errors, []);
     await page.close();
 }
@@ -222,7 +261,8 @@ async function hostile_names_are_text(browser) {
 
 const browser = await launch(repository);
 try {
-    for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, a_click_names_the_region, tables_equal_the_report,
+    for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
+        large_models_are_shown_as_a_preview, a_click_names_the_region, tables_equal_the_report,
         a_planted_violation_is_found, two_models_share_a_camera, hostile_names_are_text]) {
         await test(browser);
         console.log(`ok ${test.name}`);

@@ -44,6 +44,7 @@ export class DrawnModel {
         this.levels = { fine: new Level(this.fineArrays()) };
         this.level = "fine";
         this.isSolid = [];
+        this.isShown = [];
         this.passes = [this.addPass(three.FrontSide, false), this.addPass(three.BackSide, false), this.addPass(three.FrontSide, true)];
         this.values = new Map();
     }
@@ -114,9 +115,11 @@ export class DrawnModel {
         });
         this.states.needsUpdate = true;
         this.passes[2].visible = ghosts > 0;
+        this.isShown = [...regions.map(({ state }) => state !== "hidden"), false];
         this.isSolid = [...regions.map(({ state }) => state === "solid"), false];
         for (const level of Object.values(this.levels)) level.setOuter(this.isSolid);
         this.useLevel(this.level);
+        this.hideLines();
     }
 
     /** Displacements of labels for the exploded view at 1. */
@@ -165,18 +168,29 @@ export class DrawnModel {
 
     lineObjects() {
         if (this.lineParts) return this.lineParts;
-        const found = linesOf(this.model), { positions } = this.model;
-        const at = (vertices) => {
-            const places = new Float32Array(3 * vertices.length);
-            vertices.forEach((v, n) => places.set(positions.subarray(3 * v, 3 * v + 3), 3 * n));
+        const { edges, points } = linesOf(this.model), { positions } = this.model;
+        const at = (found) => {
+            const places = new Float32Array(found.flatMap((one) => one.at.flatMap((v) => [...positions.subarray(3 * v, 3 * v + 3)])));
             return new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(places, 3));
         };
         this.lineParts = {
-            edgeCount: found.edges.length / 2, pointCount: found.points.length,
-            lines: overlay(new three.LineSegments(at(found.edges)), this.shared, "#111111", 1),
-            points: overlay(new three.Points(at(found.points)), this.shared, "#d00000", 9),
+            edges,
+            lines: overlay(new three.LineSegments(at(edges)), this.shared, "#111111", 1),
+            points: overlay(new three.Points(at(points)), this.shared, "#d00000", 9),
+            edgeCount: edges.length, pointCount: points.length, labelsOfPoints: points.map(({ labels }) => labels),
         };
+        this.hideLines();
         return this.lineParts;
+    }
+
+    /** Leaves out lines and points of hidden regions only. */
+    hideLines() {
+        if (!this.lineParts) return;
+        const { edges, labelsOfPoints, lines, points } = this.lineParts;
+        const isShown = (labels) => labels.some((label) => this.isShown[label]);
+        const index = (object, numbers) => object.geometry.setIndex(new three.BufferAttribute(Uint32Array.from(numbers), 1));
+        index(lines, edges.flatMap(({ labels }, n) => (isShown(labels) ? [2 * n, 2 * n + 1] : [])));
+        index(points, labelsOfPoints.flatMap((labels, n) => (isShown(labels) ? [n] : [])));
     }
 
     showOverlay(name, isShown, make) {

@@ -39,7 +39,7 @@ export function addKeys(page) {
     const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
     document.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
-        if (event.target.closest?.("input:not([type=checkbox]), select, dialog, #region-rows")) return;
+        if (event.target.closest?.("input:not([type=checkbox]), select, dialog")) return;
         if (event.key in turns) {
             if (event.target !== stage.canvas) return;  // elsewhere they scroll the page
             const [x, y] = turns[event.key];

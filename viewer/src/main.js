@@ -90,6 +90,7 @@ function showModels(data, models, regions) {
     regions.addEventListener("change", update);
     update();
     addPicking(stage, regions, tools, list);
+    stage.canvas.addEventListener("webglcontextlost", () => say("The graphics card gave up the picture: reload the page."));
     for (const button of document.querySelectorAll("[data-act]")) button.addEventListener("click", act[button.dataset.act]);
     addKeys({ stage, regions, tools, act });
     addTheme((background) => stage.setBackground(background));

@@ -57,23 +57,27 @@ export function interfaceMeasures(model, pair) {
 }
 
 /** One number for an edge. */
-const pairKey = (a, b, count) => (a < b ? a * count + b : b * count + a);
+const edgeKey = (a, b, count) => (a < b ? a * count + b : b * count + a);
 
-/** Edges with three faces or more, as pairs of vertices, and vertices where four labels or more meet. */
+/**
+ * Edges with three faces or more and vertices where four labels or more meet, each as { at: vertices, labels }: of the
+ * edges two vertices each.
+ */
 export function linesOf(model) {
     const { corners, pairOfFace, vertices } = model.geometry;
-    // An edge of a line is on the border of an interface: it occurs once or twice among the edges of one pair.
-    const counts = new Map();
-    const onBorder = borderVertices(model);
+    const onBorder = borderVertices(model), found = new Map();
     for (let f = 0; f < pairOfFace.length; ++f)
         for (let k = 0; k < 3; ++k) {
             const a = corners[3 * f + k], b = corners[3 * f + ((k + 1) % 3)];
             if (!onBorder[a] || !onBorder[b]) continue;
-            const key = pairKey(a, b, vertices);
-            counts.set(key, (counts.get(key) ?? 0) + 1);
+            const key = edgeKey(a, b, vertices), pairs = found.get(key);
+            if (pairs) pairs.push(pairOfFace[f]);
+            else found.set(key, [pairOfFace[f]]);
         }
+    const labelsOf = (pairs) => [...new Set(pairs.flatMap((pair) => model.pairs[pair].slice(0, 2)))];
     const edges = [];
-    for (const [key, count] of counts) if (count > 2) edges.push(Math.floor(key / vertices), key % vertices);
+    for (const [key, pairs] of found)
+        if (pairs.length > 2) edges.push({ at: [Math.floor(key / vertices), key % vertices], labels: labelsOf(pairs) });
     return { edges, points: quadruplePoints(model, edges) };
 }
 
@@ -90,14 +94,11 @@ function borderVertices(model) {
 }
 
 function quadruplePoints(model, edges) {
-    const ends = new Map();
-    for (const v of edges) ends.set(v, null);
-    const { corners, pairOfFace } = model.geometry;
-    for (let n = 0; n < corners.length; ++n) {
-        if (!ends.has(corners[n])) continue;
-        const labels = ends.get(corners[n]) ?? new Set();
-        const [first, second] = model.pairs[pairOfFace[(n / 3) | 0]];
-        ends.set(corners[n], labels.add(first).add(second));
-    }
-    return [...ends].filter(([, labels]) => labels.size >= 4).map(([v]) => v);
+    const met = new Map();
+    for (const { at, labels } of edges)
+        for (const v of at) {
+            if (!met.has(v)) met.set(v, new Set());
+            for (const label of labels) met.get(v).add(label);
+        }
+    return [...met].filter(([, labels]) => labels.size >= 4).map(([v, labels]) => ({ at: [v], labels: [...labels] }));
 }
