@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "page_output.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -52,6 +53,7 @@ void print_samples(const SampleAgreement& samples) {
 }  // namespace
 
 int run_check(const Settings& settings) {
+    require_page(settings.html);
     const std::string& path = settings.models.front();
     MeshFile file = read_mesh(path, settings.surface);
     CheckOptions options = check_options(settings, file.labels);
@@ -63,8 +65,11 @@ int run_check(const Settings& settings) {
     }
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
-    if (!settings.json.empty())
-        write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr));
+    const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);
+    if (!settings.json.empty()) write_text(settings.json, json);
+    if (!settings.html.empty())
+        write_page(settings.html, {page_model(path, file.mesh, file.labels, options.background, file.names)},
+                   page_options(kCheck, settings, json, options.oracle.has_value()));
     if (!settings.quiet) {
         print_findings(path, report);
         if (samples) print_samples(*samples);

@@ -18,5 +18,6 @@ int run_convert(const Settings& settings);
 int run_compare(const Settings& settings);
 int run_info(const Settings& settings);
 int run_voxelise(const Settings& settings);
+int run_view(const Settings& settings);
 
 }  // namespace regionmesh::cli

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "page_output.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -69,6 +70,9 @@ int run_decimate(const Settings& settings) {
     const LabelNames names = names_or(settings, file.names);
     write_model(settings, file.mesh, file.labels, options.background, names);
     write_report_file(settings, report, file.labels, names);
+    if (!settings.html.empty())
+        write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
+                   page_options(kDecimate, settings, report_json(report, file.labels, names), false));
     if (!settings.quiet) {
         print_summary(settings.output, report);
         print_fixed_part(fixed, before, report.check);

@@ -26,8 +26,8 @@ int run(const Action& action) {
 
 void add_commands(CLI::App& app, Action& action) {
     // In the order of command_table().
-    constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth, run_check,
-                                                 run_convert,     run_compare,  run_info,   run_voxelise};
+    constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth,   run_check, run_convert,
+                                                 run_compare,     run_info,     run_voxelise, run_view};
     for (std::size_t n = 0; n < command_table().size(); ++n) add_command(app, command_table()[n], kRuns[n], action);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
+#include "page_output.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -24,6 +25,7 @@ void require_outputs(const Settings& settings) {
                           {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap});
     if (!settings.names.empty()) read_label_names(settings.names);
     if (!settings.report.empty()) require_writable(settings.report);
+    require_page(settings.html);
 }
 
 LabelNames names_or(const Settings& settings, const LabelNames& found) {

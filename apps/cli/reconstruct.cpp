@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "page_output.h"
 #include "progress_line.h"
 
 namespace regionmesh::cli {
@@ -80,6 +81,9 @@ int run_reconstruct(const Settings& settings) {
     report.seconds["write"] = writing;
     report.seconds["total"] += writing;
     write_report_file(settings, report, made.labels, names);
+    if (!settings.html.empty())
+        write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, names)},
+                   page_options(kReconstruct, settings, report_json(report, made.labels, names), true));
     if (!settings.quiet) print_summary(settings, report);
     return exit_code(report);
 }

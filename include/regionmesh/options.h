@@ -11,6 +11,7 @@
 
 #include "regionmesh/compare.h"
 #include "regionmesh/mesh_file.h"
+#include "regionmesh/page.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/reconstruct.h"
@@ -36,7 +37,8 @@ struct Settings {
 
     InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
-    std::string output, names, report, json, distance;  // files
+    std::string output, names, report, json, distance, html;  // files
+    std::uint32_t preview_faces = PageOptions{}.preview_faces;
     bool per_region = false, quiet = false;
 
     OptionValues given;  // set by apply_options()
@@ -67,6 +69,7 @@ enum Command : std::uint32_t {
     kCompare = 32,
     kInfo = 64,
     kVoxelise = 128,
+    kView = 256,
 };
 
 /// Kinds of input as bits.

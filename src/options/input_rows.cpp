@@ -53,7 +53,7 @@ Rows argument_rows() {
         file_option({.name = "model",
                      .help = surface,
                      .group = "Arguments",
-                     .commands = kSurfaceCommands | kVoxelise,
+                     .commands = kSurfaceCommands | kVoxelise | kView,
                      .is_argument = true},
                     models),
         file_option({.name = "from", .help = surface, .group = "Arguments", .commands = kConvert, .is_argument = true},
@@ -174,14 +174,14 @@ Rows label_rows() {
         special_option({.name = "background",
                         .help = "label of empty space, whose faces with the exterior are not made",
                         .group = kGroup,
-                        .commands = kBoxed | kConvert | kCompare | kVoxelise,
+                        .commands = kBoxed | kConvert | kCompare | kVoxelise | kView,
                         .repeats = true,
                         .default_text = labels_text(Settings{}.reconstruct.background)},
                        OptionKind::kLabel, add_background),
         special_option({.name = "no-background",
                         .help = "every label is a region",
                         .group = kGroup,
-                        .commands = kBoxed | kConvert | kCompare | kVoxelise},
+                        .commands = kBoxed | kConvert | kCompare | kVoxelise | kView},
                        OptionKind::kFlag,
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            if (parse_flag(flag, text)) s.reconstruct.background.clear();
@@ -204,7 +204,7 @@ Rows label_rows() {
 
 Rows surface_rows() {
     constexpr std::string_view kGroup = "Surfaces to read";
-    constexpr std::uint32_t kReaders = kSurfaceCommands | kConvert | kVoxelise;
+    constexpr std::uint32_t kReaders = kSurfaceCommands | kConvert | kVoxelise | kView;
     return {
         option({.name = "weld",
                 .help = "join points no farther apart than this; 0: points at the same place",

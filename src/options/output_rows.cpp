@@ -7,11 +7,12 @@
 namespace regionmesh {
 namespace {
 
-constexpr Range kAnyThreads{0, 0xFFFFFFFFu};
+constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu};
 
 std::string_view output_help() {
     static const std::string text =
-        std::string(written_help()) + "; voxelise: labels to write: .npy .nii .nii.gz .nrrd .raw";
+        std::string(written_help()) +
+        "; voxelise: labels to write: .npy .nii .nii.gz .nrrd .raw; view: page to write (.html)";
     return text;
 }
 
@@ -28,14 +29,14 @@ Rows output_rows() {
         file_option({.name = "output",
                      .help = output_help(),
                      .group = kGroup,
-                     .commands = kWriters | kVoxelise,
+                     .commands = kWriters | kVoxelise | kView,
                      .is_required = true,
                      .letter = 'o'},
                     [](Settings& s) { return &s.output; }),
         file_option({.name = "names",
                      .help = "table of labels and names (.csv .tsv .txt .xml), instead of the names in the input",
                      .group = kGroup,
-                     .commands = kWriters | kConvert},
+                     .commands = kWriters | kConvert | kView},
                     [](Settings& s) { return &s.names; }),
         option({.name = "per-region",
                 .help = "one file for each region, MODEL-LABEL: .stl, .obj and .ply",
@@ -49,6 +50,18 @@ Rows output_rows() {
                      .group = kGroup,
                      .commands = kCheck | kCompare},
                     [](Settings& s) { return &s.json; }),
+        file_option({.name = "html",
+                     .help = "page to write that shows the model and the report in a browser",
+                     .group = kGroup,
+                     .commands = kReconstruct | kDecimate | kCheck | kCompare},
+                    [](Settings& s) { return &s.html; }),
+        option(
+            {.name = "preview-faces",
+             .help = "largest number of faces in the page; a larger model is simplified for it",
+             .group = kGroup,
+             .commands = kReconstruct | kDecimate | kCheck | kCompare | kView,
+             .unit = "faces"},
+            [](Settings& s) { return &s.preview_faces; }, kAnyFaces),
     };
 }
 
@@ -77,12 +90,12 @@ Rows run_rows() {
             {.name = "threads",
              .help = "number of threads; 0: one per core. The result is the same for any number",
              .group = kGroup,
-             .commands = kDecimators | kSmooth | kCheck | kCompare},
+             .commands = kDecimators | kSmooth | kCheck | kCompare | kView},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
         option({.name = "quiet",
                 .help = "print nothing but errors",
                 .group = kGroup,
-                .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise},
+                .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),
     };
 }

@@ -1,0 +1,28 @@
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "input.h"
+#include "output.h"
+#include "page_output.h"
+
+namespace regionmesh::cli {
+
+int run_view(const Settings& settings) {
+    require_page(settings.output);
+    const std::string& path = settings.models.front();
+    MeshFile file = read_mesh(path, settings.surface);
+    CheckOptions options = check_options(settings, file.labels);
+    options.threads = settings.reconstruct.threads;
+    const CheckReport report = check(file.mesh, options);
+    const LabelNames names = names_or(settings, file.names);
+    write_page(settings.output, {page_model(path, file.mesh, file.labels, options.background, names)},
+               page_options(kView, settings, check_json(report, file.labels, names), false));
+    if (!settings.quiet) {
+        fmt::print("{}: {} faces, {} regions, {} violations\n", settings.output, file.mesh.face_count(),
+                   report.regions.size(), report.violation_count());
+        print_violations(report, 0);
+    }
+    return kGood;
+}
+
+}  // namespace regionmesh::cli
