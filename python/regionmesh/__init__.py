@@ -1,0 +1,21 @@
+"""Certified multi-region surface models from labelled sections.
+
+>>> import numpy as np
+>>> import regionmesh
+>>> labels = np.zeros((12, 12, 12), np.uint8)
+>>> labels[3:9, 3:9, 3:6] = 1
+>>> labels[3:9, 3:9, 6:9] = 2
+>>> mesh = regionmesh.reconstruct(labels, spacing=(1, 1, 2.5), reduce=0.5)
+>>> mesh.certified
+True
+>>> list(mesh.regions["label"])
+[1, 2]
+
+Arrays of labels are [z, y, x]; points, spacing, origin and boxes are x, y, z, in the unit of the spacing.
+"""
+
+from ._core import version as __version__
+from ._mesh import Mesh, Surface, from_arrays, load
+from ._reconstruct import reconstruct
+
+__all__ = ["Mesh", "Surface", "from_arrays", "load", "reconstruct", "__version__"]
