@@ -15,7 +15,9 @@ Arrays of labels are [z, y, x]; points, spacing, origin and boxes are x, y, z, i
 """
 
 from ._core import version as __version__
-from ._mesh import Mesh, Surface, from_arrays, load
+from ._make import from_arrays, load
+from ._mesh import Mesh
 from ._reconstruct import reconstruct
+from ._surface import Surface
 
 __all__ = ["Mesh", "Surface", "from_arrays", "load", "reconstruct", "__version__"]

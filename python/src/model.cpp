@@ -227,47 +227,55 @@ Model simplified(const Model& model, const OptionValues& options, Watch& watch) 
     return made;
 }
 
-Model smoothed(const Model& model, const OptionValues& options) {
+Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
     const Settings settings = settings_from(options);
-    const py::gil_scoped_release release;
-    Model made = copy_of(model);
-    const CheckOptions checks = check_options(made, settings.reconstruct.threads);
-    const CheckReport before = check(made.mesh, checks);
-    Report report = begin_change(made.mesh, before, checks);
-    const SmoothOptions smooth_with = smooth_options(settings, made.mesh);
-    {
-        const Timer timer(report.seconds["smooth"]);
-        report.smoothing = smooth(made.mesh, smooth_with);
-    }
-    report.unsmoothed_volumes = report.smoothing.volume_before;
-    if (settings.reconstruct.preserve_volume)
-        report.preserved = preserve_volumes(made.mesh, volumes_of(before), smooth_with);
-    report.stopped = "none asked";
-    end_change(made, report, checks);
+    Model made;
+    watch.run([&] {
+        made = copy_of(model);
+        const CheckOptions checks = check_options(made, settings.reconstruct.threads);
+        const CheckReport before = check(made.mesh, checks);
+        Report report = begin_change(made.mesh, before, checks);
+        const SmoothOptions smooth_with = smooth_options(settings, made.mesh);
+        {
+            const Timer timer(report.seconds["smooth"]);
+            report.smoothing = smooth(made.mesh, smooth_with);
+        }
+        report.unsmoothed_volumes = report.smoothing.volume_before;
+        if (settings.reconstruct.preserve_volume)
+            report.preserved = preserve_volumes(made.mesh, volumes_of(before), smooth_with);
+        report.stopped = "none asked";
+        end_change(made, report, checks);
+    });
     return made;
 }
 
-std::string check_text(const Model& model, std::uint32_t threads, Source* source) {
-    const py::gil_scoped_release release;
-    LabelTable labels = model.labels;
-    CheckOptions options = check_options(model, threads);
-    options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
-    std::optional<SampleAgreement> samples;
-    if (source != nullptr) {
-        const CensusOptions census{.cap = !model.is_open, .background = background_of(model)};
-        options.oracle = translate(count_labels(*source->reader, census), labels);
-        source->reader->rewind();
-        if (!model.is_open) samples = compare_samples(model.mesh, labels, model.background, *source->reader);
-    }
-    return check_json(check(model.mesh, options), labels, model.names, samples ? &*samples : nullptr);
+std::string check_text(const Model& model, std::uint32_t threads, Source* source, Watch& watch) {
+    std::string text;
+    watch.run([&] {
+        LabelTable labels = model.labels;
+        CheckOptions options = check_options(model, threads);
+        options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
+        std::optional<SampleAgreement> samples;
+        if (source != nullptr) {
+            WatchedSections sections(*source->reader, watch);
+            const CensusOptions census{.cap = !model.is_open, .background = background_of(model)};
+            options.oracle = translate(count_labels(sections, census), labels);
+            sections.rewind();
+            if (!model.is_open) samples = compare_samples(model.mesh, labels, model.background, sections);
+        }
+        const CheckReport report = check(model.mesh, options);
+        text = check_json(report, labels, model.names, samples ? &*samples : nullptr);
+    });
+    return text;
 }
 
-std::string compare_text(const Model& a, const Model& b, const OptionValues& options) {
+std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch) {
     const Settings settings = settings_from(options);
-    const py::gil_scoped_release release;
     const CompareOptions asked{
         .samples = settings.samples, .background = background_of(a), .threads = settings.reconstruct.threads};
-    return compare_json(compare({a.mesh, a.labels}, {b.mesh, b.labels}, asked));
+    std::string text;
+    watch.run([&] { text = compare_json(compare({a.mesh, a.labels}, {b.mesh, b.labels}, asked)); });
+    return text;
 }
 
 void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels) {

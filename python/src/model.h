@@ -53,11 +53,11 @@ struct GivenArrays {
 Model model_of(const GivenArrays& given, const std::vector<InputLabel>& background, bool is_open, LabelNames names);
 
 Model simplified(const Model& model, const OptionValues& options, Watch& watch);
-Model smoothed(const Model& model, const OptionValues& options);
+Model smoothed(const Model& model, const OptionValues& options, Watch& watch);
 
 /// The check as JSON. With a source also against its labels.
-std::string check_text(const Model& model, std::uint32_t threads, Source* source);
-std::string compare_text(const Model& a, const Model& b, const OptionValues& options);
+std::string check_text(const Model& model, std::uint32_t threads, Source* source, Watch& watch);
+std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch);
 
 /// Fills `labels` [z, y, x], of integers in memory order. Throws Error(kInput) for a surface that is not closed.
 void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels);

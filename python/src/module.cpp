@@ -20,8 +20,6 @@ void raise_in_python(std::exception_ptr failure) {
         if (failure) std::rethrow_exception(failure);
     } catch (const Error& error) {
         PyErr_SetString(error.code() == ErrorCode::kOutput ? PyExc_OSError : PyExc_ValueError, error.what());
-    } catch (const Cancelled&) {
-        PyErr_SetNone(PyExc_KeyboardInterrupt);
     }
 }
 
@@ -84,9 +82,21 @@ void bind_runs(py::module_& module) {
         Watch watch(progress);
         return simplified(model, options, watch);
     });
-    module.def("smooth", smoothed);
-    module.def("check", check_text, py::arg("model"), py::arg("threads"), py::arg("source").none(true));
-    module.def("compare", compare_text);
+    module.def("smooth", [](const Model& model, const OptionValues& options) {
+        Watch watch(py::none{});
+        return smoothed(model, options, watch);
+    });
+    module.def(
+        "check",
+        [](const Model& model, std::uint32_t threads, Source* source) {
+            Watch watch(py::none{});
+            return check_text(model, threads, source, watch);
+        },
+        py::arg("model"), py::arg("threads"), py::arg("source").none(true));
+    module.def("compare", [](const Model& a, const Model& b, const OptionValues& options) {
+        Watch watch(py::none{});
+        return compare_text(a, b, options, watch);
+    });
     module.def("voxelise", voxelise);
 }
 

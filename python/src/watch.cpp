@@ -16,6 +16,7 @@ constexpr std::chrono::milliseconds kBetweenNotes{50};
 void Watch::run(const std::function<void()>& work) {
     std::exception_ptr failure, own;
     std::thread worker([&] {
+        const StopScope scope(is_cancelled_);
         try {
             work();
         } catch (...) {

@@ -16,17 +16,14 @@
 
 #include "regionmesh/reconstruct.h"
 #include "regionmesh/section_reader.h"
+#include "regionmesh/stop.h"
 
 namespace regionmesh::python {
 
 namespace py = pybind11;
 
-/// Ends the work after an interrupt or an exception of the progress callable. Never seen by Python, which gets the
-/// exception that was the cause.
-struct Cancelled {};
-
 /// Runs work that may last. Python's signal handlers and the progress callable run on the calling thread, so that
-/// Ctrl-C raises there; the work sees that at its next note() or stop_if_cancelled().
+/// Ctrl-C raises there; the work then ends within parts of a second.
 class Watch {
 public:
     /// `on_progress`: None, or called as on_progress(stage, done, total) with total None where it is not known.
@@ -39,7 +36,7 @@ public:
     // For the work, on any thread.
     void note(const char* stage, std::uint64_t done, std::optional<std::uint64_t> total);
     void stop_if_cancelled() const {
-        if (is_cancelled_.load(std::memory_order_relaxed)) throw Cancelled{};
+        if (is_cancelled_.load(std::memory_order_relaxed)) throw Stopped{};
     }
 
 private:
