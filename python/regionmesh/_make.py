@@ -5,13 +5,15 @@ import os
 import numpy as np
 
 from . import _core, _options
+from ._labels import bits as _bits, names_of
 from ._mesh import Mesh
 
 
 def unpickle(points, faces, labels, node_types, state):
     model = _core.from_arrays(
         (points, faces, labels.view(np.int64), node_types),
-        state["exterior"], state["is_unsigned"], state["background"], state["is_open"], state["names"],
+        (state["background"], state["order"], state["names"]),
+        state["exterior"], state["is_unsigned"], state["is_open"],
     )  # fmt: skip
     mesh = Mesh(model, state["lattice"])
     mesh._report = state["report"]
@@ -100,7 +102,8 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     exterior = np.array([exterior_label]).astype(np.uint64 if exterior_label >= 0 else np.int64).view(np.int64)[0]
     model = _core.from_arrays(
         (points, faces.astype(np.uint32), np.ascontiguousarray(bits), None),
-        int(exterior), bool(is_unsigned), [int(label) for label in outside], boundary == "open", names or {},
+        ([_bits(label) for label in outside], [], names_of(names) or {}),
+        int(exterior), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)
 

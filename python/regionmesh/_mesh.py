@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from . import _core, _measure, _options, _progress, _sources, _surface
+from ._labels import bits
 
 
 class Mesh:
@@ -54,18 +55,20 @@ class Mesh:
     @property
     def exterior_label(self):
         """The label that stands for the outside of the box in `labels`."""
-        label = self._model.exterior_label
-        return label + (1 << 64) if self._model.is_unsigned and label < 0 else label
+        return self._unsigned(self._model.exterior_label)
 
     @property
     def background(self):
         """Labels of empty space, a list of int."""
-        return list(self._model.background)
+        return [self._unsigned(label) for label in self._model.background]
+
+    def _unsigned(self, label):
+        return label + (1 << 64) if self._model.is_unsigned and label < 0 else label
 
     @property
     def names(self):
         """Names of regions, a dict by label."""
-        return dict(self._model.names)
+        return {self._unsigned(label): name for label, name in self._model.names.items()}
 
     @property
     def bounds(self):
@@ -295,7 +298,7 @@ class Mesh:
         where = _sources.frame(spacing or own.get("spacing"), origin or own.get("origin"),
                                direction if direction is not None else own.get("direction"))  # fmt: skip
         result = np.empty(tuple(shape), dtype.newbyteorder("="))
-        _core.voxelise(self._model, where, outside, result)
+        _core.voxelise(self._model, where, bits(outside), result)
         return result
 
     def save(self, path, *, per_region=False):
@@ -331,8 +334,9 @@ class Mesh:
         types = self.node_types
         state = {
             "background": self._model.background,
+            "order": self._model.label_order,
             "is_open": self._model.is_open,
-            "names": self.names,
+            "names": self._model.names,
             "exterior": self._model.exterior_label,
             "is_unsigned": self._model.is_unsigned,
             "lattice": self._lattice,

@@ -3,18 +3,10 @@
 import os
 
 from . import _core, _options, _progress, _sources
+from ._labels import bits, names_of
 from ._mesh import Mesh
 
 _OF_FILES = ("size", "type", "layer", "columns", "step", "scale_z", "array", "hull")
-
-
-def names_of(names):
-    """Names by label: a dict, or the path of a table; None stays None."""
-    if names is None:
-        return None
-    if isinstance(names, (str, os.PathLike)):
-        return _core.read_names(os.fspath(names))
-    return {int(label): str(name) for label, name in dict(names).items()}
 
 
 def _split(options, names):
@@ -108,7 +100,7 @@ def reconstruct(
            [7.5, 7.5, 7.5]])
     """
     from_files = _sources.is_path(labels)
-    kept = None if labels_to_keep is None else [_label(label) for label in labels_to_keep]
+    kept = None if labels_to_keep is None else [bits(label) for label in labels_to_keep]
     names = names_of(names)
     with _progress.bar(progress) as report:
         if from_files:
@@ -124,12 +116,6 @@ def reconstruct(
         given = _sources.source(labels, (spacing, origin, direction), _split(pairs, {"sweep"}), names or {}, sections)
         model = _core.reconstruct_source(given, pairs, kept, names, report)
     return Mesh(model, lattice=given.info)
-
-
-def _label(label):
-    """Bits of a label; unsigned ones of 64 bits keep theirs."""
-    value = int(label)
-    return value - (1 << 64) if value >= 1 << 63 else value
 
 
 def _describe(function, command):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "regionmesh/census.h"
@@ -30,23 +31,40 @@ InputLabel first_background(const ReconstructOptions& options) {
     return options.background.empty() ? 0 : options.background.front();
 }
 
-/// The same vertices and faces under the same ids. Requires ids without gaps.
-Mesh copy_of(const Mesh& mesh) {
+/// The same vertices and faces under the same ids, with other dense labels. Requires ids without gaps.
+Mesh relabelled(const Mesh& mesh, const std::vector<Label>& new_label) {
     Mesh copy;
     copy.reserve(mesh.vertex_end(), mesh.face_end());
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
         const Vertex& vertex = mesh[VertexId{v}];
         copy.add_vertex(vertex.position, vertex.sides, vertex.is_fixed);
     }
+    const auto translate = [&](Label label) { return is_exterior(label) ? label : new_label[label]; };
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
-        const Face& face = mesh[FaceId{f}];
-        copy.add_face(face.vertices[0], face.vertices[1], face.vertices[2], face.labels[0], face.labels[1]);
+        const auto& [vertices, next, labels] = mesh[FaceId{f}];
+        copy.add_face(vertices[0], vertices[1], vertices[2], translate(labels[0]), translate(labels[1]));
     }
     return copy;
 }
 
+Mesh copy_of(const Mesh& mesh, const LabelTable& labels) {
+    std::vector<Label> same(labels.size());
+    std::iota(same.begin(), same.end(), Label{0});
+    return relabelled(mesh, same);
+}
+
+/// Gives the labels of a mesh the numbers that they have in `order`.
+void renumber(LabelledMesh& made, const std::vector<InputLabel>& order) {
+    LabelTable table(made.labels.is_unsigned());
+    for (const InputLabel label : order) table.dense(label);
+    std::vector<Label> new_label(made.labels.size());
+    for (Label label = 0; label < made.labels.size(); ++label) new_label[label] = table.dense(made.labels.input(label));
+    made.mesh = relabelled(made.mesh, new_label);
+    made.labels = std::move(table);
+}
+
 Model copy_of(const Model& model) {
-    return {copy_of(model.mesh), model.labels, model.background, model.names, model.is_open};
+    return {copy_of(model.mesh, model.labels), model.labels, model.background, model.names, model.is_open};
 }
 
 CheckOptions check_options(const Model& model, std::uint32_t threads) {
@@ -181,7 +199,7 @@ void save_model(const Model& model, const std::string& path, bool per_region) {
                 .boundary_is_open = model.is_open});
 }
 
-Model model_of(const GivenArrays& given, const std::vector<InputLabel>& background, bool is_open, LabelNames names) {
+Model model_of(const GivenArrays& given, const GivenLabels& labels) {
     MeshArrays arrays{.exterior_label = given.exterior_label, .is_unsigned = given.is_unsigned};
     const auto copy = [](const auto& from, auto& to, std::size_t rows) {
         to.resize(rows);
@@ -194,9 +212,10 @@ Model model_of(const GivenArrays& given, const std::vector<InputLabel>& backgrou
         copy(*given.node_types, arrays.node_types, static_cast<std::size_t>(given.node_types->shape(0)));
     const py::gil_scoped_release release;
     LabelledMesh made = import_arrays(arrays);
-    std::vector<Label> dense;
-    for (const InputLabel label : background) dense.push_back(made.labels.dense(label));
-    return {std::move(made.mesh), std::move(made.labels), std::move(dense), std::move(names), is_open};
+    if (!labels.order.empty()) renumber(made, labels.order);
+    std::vector<Label> background;
+    for (const InputLabel label : labels.background) background.push_back(made.labels.dense(label));
+    return {std::move(made.mesh), std::move(made.labels), std::move(background), labels.names, labels.is_open};
 }
 
 Model simplified(const Model& model, const OptionValues& options, Watch& watch) {

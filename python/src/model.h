@@ -50,7 +50,13 @@ struct GivenArrays {
     InputLabel exterior_label;
     bool is_unsigned;
 };
-Model model_of(const GivenArrays& given, const std::vector<InputLabel>& background, bool is_open, LabelNames names);
+struct GivenLabels {
+    std::vector<InputLabel> background;
+    std::vector<InputLabel> order;  // by dense number, so that a copy of a model is treated alike; may be empty
+    LabelNames names;
+    bool is_open;
+};
+Model model_of(const GivenArrays& given, const GivenLabels& labels);
 
 Model simplified(const Model& model, const OptionValues& options, Watch& watch);
 Model smoothed(const Model& model, const OptionValues& options, Watch& watch);

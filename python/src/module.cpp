@@ -110,6 +110,13 @@ void bind_model(py::module_& module) {
         .def_property_readonly("exterior_label", [](const Model& model) { return model.labels.exterior_label(); })
         .def_property_readonly("vertex_count", [](const Model& model) { return model.mesh.vertex_count(); })
         .def_property_readonly("face_count", [](const Model& model) { return model.mesh.face_count(); })
+        .def_property_readonly("label_order",
+                               [](const Model& model) {
+                                   std::vector<InputLabel> labels(model.labels.size());
+                                   for (Label label = 0; label < labels.size(); ++label)
+                                       labels[label] = model.labels.input(label);
+                                   return labels;
+                               })
         .def_property_readonly("background", [](const Model& model) {
             std::vector<InputLabel> labels;
             for (const Label label : model.background) labels.push_back(model.labels.input(label));
@@ -117,15 +124,14 @@ void bind_model(py::module_& module) {
         });
     module.def("load", load_model);
     module.def("save", save_model);
-    using Points = decltype(GivenArrays::points);
-    using Faces = decltype(GivenArrays::faces);
-    using Labels = decltype(GivenArrays::labels);
-    using Types = decltype(GivenArrays::node_types);
-    module.def("from_arrays", [](const std::tuple<Points, Faces, Labels, Types>& arrays, InputLabel exterior,
-                                 bool is_unsigned, const std::vector<InputLabel>& background, bool is_open,
-                                 LabelNames names) {
+    using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
+                              decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
+    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames>;
+    module.def("from_arrays", [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned,
+                                 bool is_open) {
         const auto& [points, faces, labels, types] = arrays;
-        return model_of({points, faces, labels, types, exterior, is_unsigned}, background, is_open, std::move(names));
+        const auto& [background, order, names] = about;
+        return model_of({points, faces, labels, types, exterior, is_unsigned}, {background, order, names, is_open});
     });
 }
 
