@@ -14,6 +14,7 @@ True
 Arrays of labels are [z, y, x]; points, spacing, origin and boxes are x, y, z, in the unit of the spacing.
 """
 
+from . import _programs
 from ._core import version as __version__
 from ._make import from_arrays, load
 from ._mesh import Mesh
@@ -21,3 +22,5 @@ from ._reconstruct import reconstruct
 from ._surface import Surface
 
 __all__ = ["Mesh", "Surface", "from_arrays", "load", "reconstruct", "__version__"]
+
+_programs.announce()
