@@ -46,6 +46,15 @@ def load(path, *, background=0, weld=None, orient=False, boundary="cap"):
         Where there is no file.
     ValueError
         For a file that cannot be used.
+
+    Examples
+    --------
+    >>> import numpy as np, regionmesh
+    >>> labels = np.zeros((6, 6, 6), np.uint8)
+    >>> labels[2:4, 2:4, 2:4] = 3
+    >>> regionmesh.reconstruct(labels).save("cube.vtp")
+    >>> regionmesh.load("cube.vtp").certified
+    True
     """
     path = os.fspath(path)
     pairs = _options.pairs("reconstruct", {"background": background, "boundary": boundary}, "load")
@@ -90,6 +99,17 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
         For faces or labels that are no integers.
     ValueError
         For arrays of other shapes, a face that names no point, and points that are not finite.
+
+    Examples
+    --------
+    A tetrahedron of region 7 in empty space:
+
+    >>> import regionmesh
+    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    >>> mesh = regionmesh.from_arrays(points, faces, [(7, 0)] * 4)
+    >>> mesh.certified, round(float(mesh.regions["volume"][0]), 4)
+    (True, 0.1667)
     """
     points = _rows("points", np.asarray(points, dtype=np.float64), 3)
     faces = _rows("faces", _integers("faces", faces), 3)

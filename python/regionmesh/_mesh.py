@@ -14,6 +14,26 @@ class Mesh:
 
     Made by `reconstruct`, `load` and `from_arrays`. A mesh never changes: `simplify` and `smooth` return a new one. All
     arrays are read-only, have no copy, and stay valid after the mesh is gone.
+
+    Examples
+    --------
+    >>> import numpy as np, regionmesh
+    >>> labels = np.zeros((9, 9, 9), np.uint8)
+    >>> labels[2:7, 2:7, 2:4], labels[2:7, 2:7, 4:7] = 1, 2
+    >>> mesh = regionmesh.reconstruct(labels)
+    >>> mesh.certified
+    True
+    >>> [int(label) for label in mesh.regions["voxels"]]
+    [50, 75]
+    >>> mesh.regions["neighbours"][0]
+    [0, 2]
+    >>> surface = mesh.region(1)
+    >>> surface.points.shape[1], surface.faces.shape[1]
+    (3, 3)
+    >>> len(mesh.simplify(reduce=0.5)) <= len(mesh) / 2
+    True
+    >>> bool((mesh.voxelise() == labels).all())
+    True
     """
 
     def __init__(self, model, lattice=None):

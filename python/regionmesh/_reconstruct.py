@@ -122,7 +122,7 @@ def _describe(function, command):
     """Add the options to the signature and the docstring of a function."""
     import inspect
 
-    lines = ["", "Options", "-------"]
+    lines = ["", "Other Parameters", "----------------"]
     signature = inspect.signature(function)
     parameters = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
     taken = {p.name for p in parameters}
