@@ -116,7 +116,7 @@ def test_boreholes(tmp_path):
         middle = 20 + x / 10
         lines += [f"{hole},{x},{y},0,{middle},1", f"{hole},{x},{y},{middle},50,2"]
     (tmp_path / "holes.csv").write_text("\n".join(lines) + "\n")
-    columns = "hole=hole,x=x,y=y,from=top,to=bottom,label=rock"
+    columns = "hole=hole,x=x,y=y,top=top,bottom=bottom,label=rock"
     printed = run("boreholes.py", tmp_path / "holes.csv", tmp_path / "model.vtp", "--columns", columns)
     assert "cubic metres" in printed and (tmp_path / "model.vtp").exists()
 
