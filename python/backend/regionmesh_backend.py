@@ -90,17 +90,20 @@ class _Wheel:
         self.zip = zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED)
         self.record = []
 
-    def add(self, name, data, mode=0o644):
+    def _write(self, name, data, mode):
         info = zipfile.ZipInfo(name, (2000, 1, 1, 0, 0, 0))  # the same bytes whenever it is built
         info.external_attr = (0o100000 | mode) << 16
         info.compress_type = zipfile.ZIP_DEFLATED
         self.zip.writestr(info, data)
+
+    def add(self, name, data, mode=0o644):
+        self._write(name, data, mode)
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
         self.record.append(f"{name},sha256={digest},{len(data)}")
 
     def close(self, folder):
         self.record.append(f"{folder}/RECORD,,")
-        self.zip.writestr(f"{folder}/RECORD", "\n".join(self.record) + "\n")
+        self._write(f"{folder}/RECORD", "\n".join(self.record) + "\n", 0o644)
         self.zip.close()
 
 

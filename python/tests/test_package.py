@@ -86,6 +86,11 @@ def test_the_record_of_a_wheel_lists_every_file(wheel):
     assert {"regionmesh/__init__.py", "regionmesh/py.typed", "regionmesh/bin/regionmesh"} <= names
 
 
+def test_the_files_of_a_wheel_have_no_time_of_the_build(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        assert {info.date_time for info in archive.infolist()} == {(2000, 1, 1, 0, 0, 0)}
+
+
 def test_an_archive_of_sources_holds_what_a_build_needs(tmp_path):
     sys.path.insert(0, str(ROOT / "python/backend"))
     try:
