@@ -5,11 +5,8 @@ import os
 
 from . import _core
 
-# Options of the command line that are arguments or methods here.
-_NOT_HERE = {
-    "output", "names", "report", "json", "distance", "quiet", "per-region", "sections", "like", "weld", "orient",
-    "columns-of", "outside",
-}  # fmt: skip
+# Options of the command line that are arguments of functions here, or have no meaning; files and output are neither.
+_NOT_HERE = {"quiet", "weld", "orient", "outside"}
 # Options that describe a model when it is made; its methods know them.
 _OF_MODEL = {"background", "no-background", "boundary", "hull"}
 _FALSE_AND_TRUE = {"smooth": ("off", "normal")}
@@ -27,7 +24,9 @@ def rows(command):
     found = {}
     for row in _core.option_rows(command):
         name = row["name"]
-        if row["is_argument"] or name in _NOT_HERE or name == "no-background":
+        if row["is_argument"] or row["kind"] == "file" or row["group"] == "Output":
+            continue
+        if name in _NOT_HERE or name == "no-background":
             continue
         if command != "reconstruct" and name in _OF_MODEL:
             continue

@@ -36,7 +36,8 @@ def html(mesh):
     places = np.round((corners - (low + high) / 2) / half * 32767) if len(faces) else np.zeros((0, 3, 3))
     colours = np.unique(shown.labels[: len(faces)], return_inverse=True)[1].reshape(-1, 2)[:, 0]
     page = resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8")
-    page = page.replace("@PLACES@", _text_of(places.astype("<i2"))).replace("@COLOURS@", _text_of(colours.astype("<u2")))
+    page = page.replace("@PLACES@", _text_of(places.astype("<i2")))
+    page = page.replace("@COLOURS@", _text_of(colours.astype("<u2")))
     page = page.replace("@CAPTION@", _caption(mesh))
     return (
         f'<iframe srcdoc="{escaping.escape(page)}" style="border:0;width:100%;max-width:480px;height:420px" '

@@ -210,16 +210,27 @@ def _iterated(labels, sections):
     return calls.next, (calls.rewind if sequence is not None else None), size, _type_name(first.dtype)
 
 
+def _is_sliced(data):
+    """Whether it is a volume that is no array of numpy, but has its types."""
+    if isinstance(data, np.ndarray) or not hasattr(data, "dtype") or len(getattr(data, "shape", ())) != 3:
+        return False
+    try:
+        np.dtype(data.dtype)
+    except TypeError:
+        return False  # such as a tensor, which becomes an array at once
+    return True
+
+
 def source(labels, given, options, names, sections=None):
     """Open an input that is no path.
 
     `given` has spacing, origin and direction, None where the input's own are meant.
     """
     own = placed(labels)
-    pick = [mine if mine is not None else theirs for mine, theirs in zip(given, (own.spacing, own.origin, own.direction))]
-    where = frame(*pick)
+    theirs = own.spacing, own.origin, own.direction
+    where = frame(*(mine if mine is not None else other for mine, other in zip(given, theirs)))
     data = own.data
-    if not isinstance(data, np.ndarray) and hasattr(data, "shape") and hasattr(data, "dtype") and len(data.shape) == 3:
+    if _is_sliced(data):
         calls = _ArrayCalls(data)
         size = tuple(int(n) for n in data.shape[::-1])
         data = calls.next, calls.rewind, size, _type_name(data.dtype)

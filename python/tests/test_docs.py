@@ -38,10 +38,11 @@ def test_the_blocks_of_the_reference(tmp_path, monkeypatch):
     np.testing.assert_array_equal(names["again"], names["labels"])
 
 
-MODULES = [f"regionmesh.{module.name}" for module in pkgutil.iter_modules(regionmesh.__path__) if module.name[0] == "_"]
+MODULES = {f"regionmesh.{module.name}" for module in pkgutil.iter_modules(regionmesh.__path__)}
+MODULES -= {"regionmesh._core", "regionmesh.__main__"}
 
 
-@pytest.mark.parametrize("name", ["regionmesh", *[name for name in MODULES if not name.endswith(("_core", "__main__"))]])
+@pytest.mark.parametrize("name", ["regionmesh", *sorted(MODULES)])
 def test_examples_in_docstrings(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert doctest.testmod(importlib.import_module(name)).failed == 0

@@ -23,7 +23,8 @@ def test_the_module_is_the_program(two_boxes, tmp_path):
     np.save(tmp_path / "labels.npy", two_boxes)
     done = run(sys.executable, "-m", "regionmesh", "reconstruct", tmp_path / "labels.npy", "-o", tmp_path / "model.vtp")
     assert done.returncode == 0, done.stderr
-    np.testing.assert_array_equal(regionmesh.load(tmp_path / "model.vtp").points, regionmesh.reconstruct(two_boxes).points)
+    made = regionmesh.load(tmp_path / "model.vtp")
+    np.testing.assert_array_equal(made.points, regionmesh.reconstruct(two_boxes).points)
 
 
 @pytest.mark.parametrize("arguments, code", [(["--version"], 0), (["reconstruct"], 2), (["check", "no.vtp"], 1)])
@@ -51,9 +52,14 @@ def wheel(tmp_path_factory):
 def test_a_wheel_works_where_it_is_unpacked(wheel, tmp_path, two_boxes):
     assert run(sys.executable, "-m", "zipfile", "-e", wheel, tmp_path).returncode == 0
     (tmp_path / "regionmesh/bin/regionmesh").chmod(0o755)
-    program = "import numpy as np, regionmesh; a = np.zeros((5, 5, 5), int); a[2, 2, 2] = 1; m = regionmesh.reconstruct(a)"
+    program = """if True:
+        import numpy as np, regionmesh
+        labels = np.zeros((5, 5, 5), int)
+        labels[2, 2, 2] = 1
+        print(regionmesh.__file__, regionmesh.reconstruct(labels).certified)
+    """
     environment = {"PYTHONPATH": str(tmp_path), "PATH": os.environ["PATH"]}
-    done = run(sys.executable, "-c", program + "; print(regionmesh.__file__, m.certified)", env=environment, cwd=tmp_path)
+    done = run(sys.executable, "-c", program, env=environment, cwd=tmp_path)
     assert done.stdout.split() == [str(tmp_path / "regionmesh/__init__.py"), "True"], done.stderr
     assert run(sys.executable, "-m", "regionmesh", "--version", env=environment, cwd=tmp_path).returncode == 0
 

@@ -29,7 +29,9 @@ def test_every_integer_type(two_boxes, mesh, dtype):
 
 @pytest.mark.parametrize("dtype", [t for t in INTEGERS if np.dtype(t).itemsize > 1])
 def test_the_other_byte_order(two_boxes, mesh, dtype):
-    same(regionmesh.reconstruct(two_boxes.astype(np.dtype(dtype).newbyteorder())), regionmesh.reconstruct(two_boxes.astype(dtype)))
+    other = two_boxes.astype(np.dtype(dtype).newbyteorder())
+    assert not other.dtype.isnative
+    same(regionmesh.reconstruct(other), regionmesh.reconstruct(two_boxes.astype(dtype), sweep="z"))
 
 
 def test_bool(two_boxes):
@@ -135,7 +137,8 @@ def test_a_volume_of_background_has_no_faces():
 
 
 def test_nested_lists(two_boxes):
-    same(regionmesh.reconstruct([section.tolist() for section in two_boxes]), regionmesh.reconstruct(two_boxes.astype(int)))
+    lists = [section.tolist() for section in two_boxes]
+    same(regionmesh.reconstruct(lists), regionmesh.reconstruct(two_boxes.astype(int)))
 
 
 # Iterators of sections
@@ -276,6 +279,16 @@ def test_an_exception_of_an_array_on_disk_comes_through(two_boxes):
 
     with pytest.raises(OSError, match="disk"):
         regionmesh.reconstruct(Array())
+
+
+def test_an_object_with_types_of_its_own_becomes_an_array(two_boxes, mesh):
+    class Tensor:
+        shape, dtype = two_boxes.shape, "its uint8"
+
+        def __array__(self, dtype=None):
+            return two_boxes
+
+    same(regionmesh.reconstruct(Tensor()), mesh)
 
 
 # Images
