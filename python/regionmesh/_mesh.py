@@ -250,16 +250,16 @@ class Mesh:
         if _sources.is_path(labels):
             pairs = _options.pairs("reconstruct", {"spacing": spacing})
             return _core.file_source(_sources.paths_of(labels), pairs)
-        own = self._lattice or {}
-        source = _sources.source(
-            labels,
-            [given if given is not None else own.get(key)
-             for key, given in (("spacing", spacing), ("origin", origin), ("direction", direction))],
-            [], {},
-        )  # fmt: skip
+        source = _sources.source(labels, self._place(spacing, origin, direction), [], {})
         if not source.info["can_rewind"]:
             raise ValueError("labels: an iterator is read once and check reads twice; give a list or an array")
         return source
+
+    def _place(self, spacing, origin, direction):
+        """Where samples lie: as given, else as the mesh was made."""
+        given = {"spacing": spacing, "origin": origin, "direction": direction}
+        own = self._lattice or {}
+        return [value if value is not None else own.get(key) for key, value in given.items()]
 
     def compare(self, other, **options):
         """Measure the distances to another model: as a whole, by region, by interface and by line.
@@ -306,17 +306,16 @@ class Mesh:
         """
         own = self._lattice or {}
         if like is not None:
-            shape, dtype = like.shape, dtype or like.dtype
+            shape, dtype = like.shape, like.dtype if dtype is None else dtype
         if shape is None and "size" in own:
             shape = own["size"][::-1]
         if shape is None or len(shape) != 3:
             raise ValueError("voxelise: no lattice; give like or shape with three axes")
-        dtype = np.dtype(dtype or own.get("type", "int64"))
+        dtype = np.dtype(own.get("type", "int64") if dtype is None else dtype)
         regions = [row["label"] for row in self.report["regions"]] + self.background + [outside]
         if dtype.kind not in "iu" or min(regions) < np.iinfo(dtype).min or max(regions) > np.iinfo(dtype).max:
             raise ValueError(f"voxelise: {dtype} cannot hold the labels {min(regions)} to {max(regions)}; give dtype")
-        where = _sources.frame(spacing or own.get("spacing"), origin or own.get("origin"),
-                               direction if direction is not None else own.get("direction"))  # fmt: skip
+        where = _sources.frame(*self._place(spacing, origin, direction))
         result = np.empty(tuple(shape), dtype.newbyteorder("="))
         _core.voxelise(self._model, where, bits(outside), result)
         return result

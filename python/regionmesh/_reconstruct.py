@@ -19,8 +19,9 @@ def _from_files(labels, options, kept, names, progress):
         if _core.kind_of_input(paths) == "tetrahedra":
             if kept is not None:
                 raise ValueError("labels_to_keep: does not apply to tables and meshes; leave it out")
-            return _core.reconstruct_tetrahedra(paths[0], options, names, progress)
-        return _core.reconstruct_source(_core.file_source(paths, options), options, kept, names, progress)
+            return Mesh(_core.reconstruct_tetrahedra(paths[0], options, names, progress))
+        source = _core.file_source(paths, options)
+        return Mesh(_core.reconstruct_source(source, options, kept, names, progress), lattice=source.info)
     except ValueError as error:
         missing = next((path for path in paths if not os.path.exists(path.split(":/")[0])), None)
         if missing is not None:
@@ -108,7 +109,7 @@ def reconstruct(
                 raise TypeError("reconstruct(): origin and direction are those of the file; leave them out")
             if spacing is not None:
                 options = {"spacing": spacing, **options}
-            return Mesh(_from_files(labels, _options.pairs("reconstruct", options), kept, names, report))
+            return _from_files(labels, _options.pairs("reconstruct", options), kept, names, report)
         for name in _OF_FILES:
             if options.get(name) is not None:
                 raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")

@@ -217,6 +217,13 @@ def test_voxelise_into_any_type(mesh, two_boxes, dtype):
     np.testing.assert_array_equal(again, two_boxes)
 
 
+def test_voxelise_takes_arrays_for_the_place(two_boxes):
+    made = regionmesh.reconstruct(two_boxes, spacing=np.array([1.0, 2, 3]), origin=np.ones(3), direction=np.eye(3))
+    there = {"spacing": np.array([1.0, 2, 3]), "origin": np.ones(3), "direction": np.eye(3)}
+    np.testing.assert_array_equal(made.voxelise(two_boxes, **there), two_boxes)
+    assert made.check(two_boxes, **there)["samples_wrong"] == 0
+
+
 def test_voxelise_on_a_finer_lattice(mesh, two_boxes):
     fine = mesh.voxelise(shape=(27, 23, 19), spacing=(0.5, 0.5, 0.5))
     np.testing.assert_array_equal(fine[::2, ::2, ::2], two_boxes)

@@ -355,6 +355,15 @@ def test_a_path(two_boxes, mesh, tmp_path):
         same(regionmesh.reconstruct(path), mesh)
 
 
+def test_a_model_of_a_file_knows_its_lattice(two_boxes, tmp_path):
+    np.save(tmp_path / "labels.npy", two_boxes)
+    made = regionmesh.reconstruct(tmp_path / "labels.npy", spacing=(1, 2, 3))
+    again = made.voxelise()
+    assert again.dtype == np.uint8
+    np.testing.assert_array_equal(again, two_boxes)
+    assert made.check(two_boxes)["samples_wrong"] == 0
+
+
 def test_a_path_takes_the_options_of_its_format(two_boxes, tmp_path):
     (tmp_path / "labels.raw").write_bytes(two_boxes.tobytes())
     made = regionmesh.reconstruct(tmp_path / "labels.raw", size=(10, 12, 14), type="uint8", spacing=(1, 2, 3))
