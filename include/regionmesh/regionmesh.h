@@ -14,4 +14,5 @@
 #include "regionmesh/report.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
+#include "regionmesh/stop.h"
 #include "regionmesh/voxelise.h"
