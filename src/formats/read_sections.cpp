@@ -4,6 +4,7 @@
 #include "formats/input_file.h"
 #include "formats/registry.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
@@ -64,17 +65,27 @@ formats::DatasetPath formats::split_dataset(const fs::path& path) {
     return {path, {}};
 }
 
-std::string volume_extensions() { return formats::extensions_with(&Format::open_sections); }
+namespace {
 
-std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs, const ReadOptions& options) {
-    if (inputs.empty())
-        throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
+std::unique_ptr<SectionReader> open_inputs(const std::vector<fs::path>& inputs, const ReadOptions& options) {
     if (inputs.size() == 1) return open_one(inputs.front(), options);
     if (options.raw_size || options.raw_type) {
         formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
                                           " are given; give one");
     }
     return formats::open_image_list(inputs, options);
+}
+
+}  // namespace
+
+std::string volume_extensions() { return formats::extensions_with(&Format::open_sections); }
+
+std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs, const ReadOptions& options) {
+    if (inputs.empty())
+        throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
+    auto reader = open_inputs(inputs, options);
+    require_lattice(reader->info().source, reader->info().lattice);
+    return reader;
 }
 
 }  // namespace regionmesh

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/process.h"
 #include "regionmesh/voxelise.h"
 #include "stream/chunk_volumes.h"
@@ -134,6 +135,7 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
 }
 
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
+    require_lattice(reader.info().source, reader.info().lattice);
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
