@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -26,7 +27,7 @@ LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
 void print_findings(const std::string& name, const CheckReport& report) {
     fmt::print(
         "{}: {} regions, {} pairs with an interface, {} quadruple points inside, lowest quality {:.3f}, mean {:.3f}\n",
-        name, report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
+        printable(name), report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
         report.quality.mean);
     print_violations(report, kListed);
     if (report.violation_count() == 0) fmt::print("no violations\n");
@@ -53,6 +54,7 @@ void print_samples(const SampleAgreement& samples) {
 
 int run_check(const Settings& settings) {
     const std::string& path = settings.models.front();
+    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
     MeshFile file = read_mesh(path, settings.surface);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
@@ -64,7 +66,8 @@ int run_check(const Settings& settings) {
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
     if (!settings.json.empty())
-        write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr));
+        write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr),
+                   settings.writing);
     if (!settings.quiet) {
         print_findings(path, report);
         if (samples) print_samples(*samples);

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "input.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -122,8 +123,8 @@ void print_quality(const std::array<QualityReport, 2>& quality) {
 }
 
 void print_report(const Settings& settings, const CompareReport& report) {
-    fmt::print("A  {}: {} faces, {} vertices\n", settings.models[0], report.faces[0], report.vertices[0]);
-    fmt::print("B  {}: {} faces, {} vertices\n", settings.models[1], report.faces[1], report.vertices[1]);
+    fmt::print("A  {}: {} faces, {} vertices\n", printable(settings.models[0]), report.faces[0], report.vertices[0]);
+    fmt::print("B  {}: {} faces, {} vertices\n", printable(settings.models[1]), report.faces[1], report.vertices[1]);
     fmt::print("\n{:<{}}{}\n", "surface", kNameWidth, kDistanceHead);
     fmt::print("{:<{}}{}\n", "A to B", kNameWidth, text_of(*report.distance.a_to_b));
     fmt::print("{:<{}}{}\n", "B to A", kNameWidth, text_of(*report.distance.b_to_a));
@@ -136,20 +137,20 @@ void print_report(const Settings& settings, const CompareReport& report) {
 }
 
 /// A with the distance of each vertex to B.
-void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report) {
+void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report, OutputFiles& files) {
     const std::vector<InputLabel>& background = settings.reconstruct.background;
     WriteOptions options{.point_arrays = {{"Distance", report.vertex_distances}}};
     for (Label label = 0; label < a.labels.size(); ++label)
         if (std::ranges::find(background, a.labels.input(label)) != background.end())
             options.background.push_back(label);
-    write_mesh(a.mesh, a.labels, settings.distance, options);
+    write_mesh(a.mesh, a.labels, settings.distance, options, files);
 }
 
 }  // namespace
 
 int run_compare(const Settings& settings) {
-    if (!settings.json.empty()) require_writable(settings.json);
-    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {}, true);
+    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
+    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {.output = settings.writing}, true);
     const MeshFile a = read_faces(settings.models[0]), b = read_faces(settings.models[1]);
     const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
                                          {.samples = settings.samples,
@@ -161,8 +162,10 @@ int run_compare(const Settings& settings) {
                     fmt::format("{}, {}: one of them has no face of positive area, except faces between background and "
                                 "exterior: there is nothing to compare; see --no-background",
                                 settings.models[0], settings.models[1]));
-    if (!settings.json.empty()) write_text(settings.json, compare_json(report));
-    if (!settings.distance.empty()) write_distances(settings, a, report);
+    OutputFiles files(settings.writing);
+    if (!settings.json.empty()) files.add(settings.json).write(compare_json(report));
+    if (!settings.distance.empty()) write_distances(settings, a, report, files);
+    files.commit();
     if (!settings.quiet) print_report(settings, report);
     return kGood;
 }

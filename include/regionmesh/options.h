@@ -37,6 +37,7 @@ struct Settings {
     InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
     std::string output, names, report, json, distance;  // files
+    OutputOptions writing;
     bool per_region = false, quiet = false;
 
     OptionValues given;  // set by apply_options()
@@ -82,8 +83,9 @@ struct OptionSpec {
     std::uint32_t inputs = kAnyInput;  // refused with inputs of other kinds
     bool is_argument = false;          // has no flag; required, in the order of the table
     bool is_required = false;
-    bool repeats = false;  // set() adds a value
-    char letter = 0;       // short flag; 0: none
+    bool repeats = false;    // set() adds a value
+    bool is_output = false;  // a file that the command writes
+    char letter = 0;         // short flag; 0: none
 
     // These follow from the member of Settings that the option is bound to.
     OptionKind kind = OptionKind::kFlag;
@@ -117,6 +119,11 @@ void apply_options(Settings& settings, const OptionValues& values);
 
 /// Throws Error(kUsage) where two options contradict each other, whatever the input.
 void require_consistent(const Settings& settings);
+
+/// Throws Error(kUsage) where a file that the run writes is one that it reads, or is written twice: whatever their names
+/// and links, and with the files that belong to a model. A model may be smoothed or decimated in place. Looks at the
+/// files; changes nothing.
+void require_distinct_files(const Settings& settings);
 
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);

@@ -19,6 +19,7 @@ struct ReadOptions {
     std::optional<std::array<std::uint32_t, 3>> raw_size = {};  // raw files: samples along x, y, z
     std::optional<SampleType> raw_type = {};                    // raw files: type of the little-endian samples
     std::optional<std::uint32_t> layer = {};                    // of a file with several layers, counted from 0
+    bool external_files = false;  // a header may name files outside its own folder and those below it
 };
 
 /// ".npy .nii .nii.gz ...": the extensions that this build reads.

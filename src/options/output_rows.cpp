@@ -24,12 +24,14 @@ std::string_view written_help() {
 
 Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
+    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare;
     return {
         file_option({.name = "output",
                      .help = output_help(),
                      .group = kGroup,
                      .commands = kWriters | kVoxelise,
                      .is_required = true,
+                     .is_output = true,
                      .letter = 'o'},
                     [](Settings& s) { return &s.output; }),
         file_option({.name = "names",
@@ -42,12 +44,26 @@ Rows output_rows() {
                 .group = kGroup,
                 .commands = kWriters | kConvert},
                [](Settings& s) { return &s.per_region; }),
-        file_option({.name = "report", .help = "JSON report to write", .group = kGroup, .commands = kWriters},
+        file_option({.name = "report",
+                     .help = "JSON report to write",
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_output = true},
                     [](Settings& s) { return &s.report; }),
+        option({.name = "force", .help = "replace files that are read-only", .group = kGroup, .commands = kAllWriters},
+               [](Settings& s) { return &s.writing.force; }),
+        inverted_flag(
+            {.name = "no-sync",
+             .help = "do not force files to disk before they get their names: faster, but a loss of power may "
+                     "leave them empty",
+             .group = kGroup,
+             .commands = kAllWriters},
+            [](Settings& s) { return &s.writing.sync; }),
         file_option({.name = "json",
                      .help = "JSON file to write with all findings",
                      .group = kGroup,
-                     .commands = kCheck | kCompare},
+                     .commands = kCheck | kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.json; }),
     };
 }
@@ -80,7 +96,7 @@ Rows run_rows() {
              .commands = kDecimators | kSmooth | kCheck | kCompare},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
         option({.name = "quiet",
-                .help = "print nothing but errors",
+                .help = "print nothing but errors, and why a target was missed",
                 .group = kGroup,
                 .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise},
                [](Settings& s) { return &s.quiet; }),
