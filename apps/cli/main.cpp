@@ -4,11 +4,13 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <initializer_list>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "command_line.h"
 #include "commands.h"
@@ -19,12 +21,32 @@
 namespace regionmesh::cli {
 namespace {
 
+/// What helps when memory runs out: options that the command has.
+const char* advice = "end other programs, or take a part of the input";
+
 /// One line on standard error. Allocates nothing and cannot fail: the exit code says the same where nobody reads it.
 void say(std::initializer_list<const char*> words) {
     std::fputs("regionmesh: ", stderr);
     for (const char* word : words)
         for_printable(word, [](const char* bytes, std::size_t count) { std::fwrite(bytes, 1, count, stderr); });
     std::fputc('\n', stderr);
+}
+
+void say_out_of_memory() { say({"out of memory; ", advice}); }
+
+/// Libraries allocate in destructors, from which no exception can leave: memory that runs out there ends up here.
+[[noreturn]] void end_without_destructors() noexcept {
+    const bool is_exception = std::current_exception() != nullptr;
+    try {
+        if (is_exception) throw;
+    } catch (const std::bad_alloc&) {
+        say_out_of_memory();
+        remove_outputs();
+        ::_exit(kBadInput);
+    } catch (...) {
+    }
+    remove_outputs();
+    std::abort();
 }
 
 /// Runs `action` and returns its exit code, or that of what it throws.
@@ -36,7 +58,13 @@ int run(const Act& action) {
         say({error.what()});
         return error.code() == ErrorCode::kUsage ? kBadUsage : kBadInput;
     } catch (const std::bad_alloc&) {
-        say({"out of memory; give a smaller --memory or a lower target"});
+        say_out_of_memory();
+    } catch (const std::system_error& error) {
+        if (std::ferror(stdout)) return kBadInput;
+        const bool is_busy = error.code() == std::errc::resource_unavailable_try_again;
+        say({error.what(), is_busy ? ": a thread cannot start; end other programs, or raise the limit of processes "
+                                     "(ulimit -u)"
+                                   : ""});
     } catch (const std::exception& error) {
         if (std::ferror(stdout)) return kBadInput;  // a write failed: finish() says so
         say({error.what()});
@@ -94,6 +122,7 @@ int parse_and_run(int argc, char** argv) {
         say({error.what(), "; see regionmesh --help"});
         return kBadUsage;
     }
+    if (app.got_subcommand("reconstruct")) advice = "give a smaller --memory, fewer --threads or a lower target";
     return action();
 }
 
@@ -103,6 +132,7 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace regionmesh::cli;
     hold_standard_streams();
+    std::set_terminate(end_without_destructors);
     regionmesh::remove_outputs_on_signals();
     regionmesh::keep_large_arrays_apart();
     return finish(run([&] { return parse_and_run(argc, argv); }));

@@ -81,7 +81,7 @@ private:
 };
 
 /// Throws Error(kOutput) where no file can be written at `path`: for a check before long work. Removes temporary files
-/// that runs which were killed have left for this path, or for NAME-*.EXTENSION where `per_region`; changes nothing
+/// that runs which were killed have left for this path, and for NAME-*.EXTENSION where `per_region`; changes nothing
 /// else.
 void require_writable(const std::filesystem::path& path, const OutputOptions& options = {}, bool per_region = false);
 
@@ -89,5 +89,8 @@ void require_writable(const std::filesystem::path& path, const OutputOptions& op
 /// all outputs, then end the process as they do by default. Signals that the process ignores stay ignored. A commit is
 /// not interrupted.
 void remove_outputs_on_signals();
+
+/// Removes the temporary files of all outputs, for a process that is about to end without its destructors.
+void remove_outputs() noexcept;
 
 }  // namespace regionmesh

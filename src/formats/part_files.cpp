@@ -77,14 +77,15 @@ void forget_part(const OutputFile* output) noexcept {
 PartsHeld::PartsHeld() : lock_(parts().mutex) {}
 
 void remove_stale_parts(const fs::path& target, bool per_region) {
-    const std::string stem = (per_region ? target.stem() : target.filename()).string().substr(0, kLongestName);
-    const std::string start = "." + stem + (per_region ? "-" : std::string(kMark));
-    const std::string has = target.extension().string() + std::string(kMark);
+    const std::string whole = "." + target.filename().string().substr(0, kLongestName) + std::string(kMark);
+    const std::string region = "." + target.stem().string() + "-",
+                      has = target.extension().string() + std::string(kMark);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     std::error_code ignored;
     for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end; at.increment(ignored)) {
         const std::string name = at->path().filename().string();
-        const bool is_ours = name.starts_with(start) && (!per_region || name.find(has) != std::string::npos);
+        const bool is_ours =
+            name.starts_with(whole) || (per_region && name.starts_with(region) && name.find(has) != std::string::npos);
         std::error_code unknown;
         if (is_ours && at->is_regular_file(unknown) && !has_living_writer(name) && !is_locked(at->path()))
             fs::remove(at->path(), unknown);
@@ -92,6 +93,12 @@ void remove_stale_parts(const fs::path& target, bool per_region) {
 }
 
 }  // namespace formats
+
+void remove_outputs() noexcept {
+    const std::unique_lock lock(formats::parts().mutex, std::try_to_lock);  // a commit in this thread may hold it
+    if (!lock) return;
+    for (const auto& [output, part] : formats::parts().paths) ::unlink(part.c_str());
+}
 
 void remove_outputs_on_signals() {
     sigset_t waited;

@@ -27,7 +27,7 @@ private:
     std::unique_lock<std::mutex> lock_;
 };
 
-/// Removes temporary files for `target`, or for STEM-*.EXTENSION where `per_region`, whose process has ended and whose
+/// Removes temporary files for `target`, and for STEM-*.EXTENSION where `per_region`, whose process has ended and whose
 /// lock nobody holds.
 void remove_stale_parts(const std::filesystem::path& target, bool per_region);
 

@@ -1,5 +1,7 @@
 #include "regionmesh/read_sections.h"
 
+#include <fmt/format.h>
+
 #include "formats/array/volume_formats.h"
 #include "formats/input_file.h"
 #include "formats/registry.h"
@@ -67,6 +69,16 @@ formats::DatasetPath formats::split_dataset(const fs::path& path) {
 
 namespace {
 
+void require_work(const SectionReader& reader, std::uint64_t most) {
+    const double section = double(reader.section_width()) * reader.section_height();
+    const double work = reader.section_count() * (section + kSectionWork);
+    if (work <= static_cast<double>(most)) return;
+    formats::fail(reader.info().source,
+                  fmt::format("{} sections of {} x {} samples are work of {:.0f}, more than --max-work {}; crop the "
+                              "volume, read it along another axis, or raise --max-work",
+                              reader.section_count(), reader.section_width(), reader.section_height(), work, most));
+}
+
 std::unique_ptr<SectionReader> open_inputs(const std::vector<fs::path>& inputs, const ReadOptions& options) {
     if (inputs.size() == 1) return open_one(inputs.front(), options);
     if (options.raw_size || options.raw_type) {
@@ -85,6 +97,7 @@ std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs
         throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
     auto reader = open_inputs(inputs, options);
     require_lattice(reader->info().source, reader->info().lattice);
+    require_work(*reader, options.max_work);
     return reader;
 }
 

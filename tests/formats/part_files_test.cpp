@@ -116,7 +116,8 @@ TEST_F(PartFilesTest, files_of_killed_runs_for_each_region_are_removed) {
     const std::string dead = std::to_string(dead_process());
     put_text(path(".m-1.stl.part-" + dead), "half");
     put_text(path(".m-25.stl.part-" + dead), "half");
-    put_text(path(".m.stl.part-" + dead), "of the model as one file");
+    put_text(path(".m.stl.part-" + dead), "of the test whether it can be written");
+    put_text(path(".m-1.obj.part-" + dead), "of another output");
     require_writable(path("m.stl"), {}, true);
     EXPECT_EQ(file_count(), 1);
 }
