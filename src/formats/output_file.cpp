@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <exception>
 #include <system_error>
+#include <utility>
 
 #include "formats/part_files.h"
 #include "regionmesh/error.h"
@@ -82,10 +84,10 @@ void OutputFile::open() {
 void OutputFile::open_temporary(mode_t mode) {
     int file = -1;
     for (int attempt = 0; file < 0 && attempt < kMostTemporaries; ++attempt) {
-        const fs::path temporary = folder_of(target_) / formats::part_name(target_, attempt);
+        fs::path temporary = folder_of(target_) / formats::part_name(target_, attempt);
         formats::note_part(this, temporary);
         file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, mode);
-        if (file >= 0) temporary_ = temporary;
+        if (file >= 0) temporary_ = std::move(temporary);  // allocates nothing: the file would be left behind
         if (file < 0 && errno != EEXIST) break;
     }
     int problem = errno;
@@ -186,7 +188,7 @@ void OutputFile::finish() {
 }
 
 void OutputFile::remove_temporary() {
-    if (!temporary_.empty() && name_ == Name::kTemporary) ::unlink(temporary_.c_str());
+    if (!temporary_.empty() && (name_ == Name::kTemporary || name_ == Name::kExchanged)) ::unlink(temporary_.c_str());
     formats::forget_part(this);
 }
 
@@ -212,7 +214,16 @@ void OutputFiles::commit() {
         for (const auto& file : files_) file->give_back_name();
         throw;
     }
-    for (const auto& file : files_) file->finish();
+    // All have their names now: what fails with one must not keep the earlier bytes of the others.
+    std::exception_ptr problem;
+    for (const auto& file : files_) {
+        try {
+            file->finish();
+        } catch (...) {
+            if (!problem) problem = std::current_exception();
+        }
+    }
+    if (problem) std::rethrow_exception(problem);
 }
 
 void require_writable(const fs::path& path, const OutputOptions& options, bool per_region) {

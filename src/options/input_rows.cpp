@@ -188,13 +188,16 @@ Rows tetrahedra_rows() {
 Rows label_rows() {
     constexpr std::string_view kGroup = "Labels";
     constexpr std::uint32_t kBoxed = kReconstruct | kSurfaceCommands | kInfo;
+    // Made before the rows: g++ 12 destroys a temporary in a braced list twice where memory runs out.
+    const Settings defaults;
+    const std::string background = labels_text(defaults.reconstruct.background);
     return {
         special_option({.name = "background",
                         .help = "label of empty space, whose faces with the exterior are not made",
                         .group = kGroup,
                         .commands = kBoxed | kConvert | kCompare | kVoxelise,
                         .repeats = true,
-                        .default_text = labels_text(Settings{}.reconstruct.background)},
+                        .default_text = background},
                        OptionKind::kLabel, add_background),
         special_option({.name = "no-background",
                         .help = "every label is a region",
@@ -214,7 +217,7 @@ Rows label_rows() {
              .help = "label of samples in no region, where there is no background",
              .group = kGroup,
              .commands = kVoxelise,
-             .default_text = std::to_string(Settings{}.outside)},
+             .default_text = std::to_string(defaults.outside)},
             OptionKind::kLabel,
             [](Settings& s, const std::string& flag, const std::string& text) { s.outside = parse_label(flag, text); }),
     };

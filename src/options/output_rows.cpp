@@ -70,6 +70,7 @@ Rows output_rows() {
 
 Rows run_rows() {
     constexpr std::string_view kGroup = "Run";
+    const Settings defaults;  // not made in the braced list: input_rows.cpp says why
     return {
         special_option(
             {.name = "memory",
@@ -78,7 +79,7 @@ Rows run_rows() {
              .commands = kReconstruct,
              .unit = "bytes",
              .range = "above 0",
-             .default_text = bytes_text(Settings{}.reconstruct.memory)},
+             .default_text = bytes_text(defaults.reconstruct.memory)},
             OptionKind::kBytes,
             [](Settings& s, const std::string& flag, const std::string& text) {
                 s.reconstruct.memory = parse_bytes(flag, text);
