@@ -4,6 +4,7 @@
 #include "input.h"
 #include "output.h"
 #include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -27,7 +28,7 @@ LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
 void print_findings(const std::string& name, const CheckReport& report) {
     fmt::print(
         "{}: {} regions, {} pairs with an interface, {} quadruple points inside, lowest quality {:.3f}, mean {:.3f}\n",
-        name, report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
+        printable(name), report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
         report.quality.mean);
     print_violations(report, kListed);
     if (report.violation_count() == 0) fmt::print("no violations\n");
@@ -53,8 +54,9 @@ void print_samples(const SampleAgreement& samples) {
 }  // namespace
 
 int run_check(const Settings& settings) {
-    require_page(settings.html);
+    require_page(settings.html, settings.writing);
     const std::string& path = settings.models.front();
+    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
     MeshFile file = read_mesh(path, settings.surface);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
@@ -66,10 +68,12 @@ int run_check(const Settings& settings) {
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
     const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);
-    if (!settings.json.empty()) write_text(settings.json, json);
+    OutputFiles files(settings.writing);
+    if (!settings.json.empty()) files.add(settings.json).write(json);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(path, file.mesh, file.labels, options.background, file.names)},
-                   page_options(kCheck, settings, json, options.oracle.has_value()));
+                   page_options(kCheck, settings, json, options.oracle.has_value()), files);
+    files.commit();
     if (!settings.quiet) {
         print_findings(path, report);
         if (samples) print_samples(*samples);

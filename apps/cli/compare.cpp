@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "input.h"
 #include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -123,8 +124,8 @@ void print_quality(const std::array<QualityReport, 2>& quality) {
 }
 
 void print_report(const Settings& settings, const CompareReport& report) {
-    fmt::print("A  {}: {} faces, {} vertices\n", settings.models[0], report.faces[0], report.vertices[0]);
-    fmt::print("B  {}: {} faces, {} vertices\n", settings.models[1], report.faces[1], report.vertices[1]);
+    fmt::print("A  {}: {} faces, {} vertices\n", printable(settings.models[0]), report.faces[0], report.vertices[0]);
+    fmt::print("B  {}: {} faces, {} vertices\n", printable(settings.models[1]), report.faces[1], report.vertices[1]);
     fmt::print("\n{:<{}}{}\n", "surface", kNameWidth, kDistanceHead);
     fmt::print("{:<{}}{}\n", "A to B", kNameWidth, text_of(*report.distance.a_to_b));
     fmt::print("{:<{}}{}\n", "B to A", kNameWidth, text_of(*report.distance.b_to_a));
@@ -146,10 +147,11 @@ std::vector<Label> background_of(const Settings& settings, const LabelTable& lab
 }
 
 /// A with the distance of each vertex to B.
-void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report) {
+void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report, OutputFiles& files) {
     write_mesh(
         a.mesh, a.labels, settings.distance,
-        {.background = background_of(settings, a.labels), .point_arrays = {{"Distance", report.vertex_distances}}});
+        {.background = background_of(settings, a.labels), .point_arrays = {{"Distance", report.vertex_distances}}},
+        files);
 }
 
 /// The distance of each vertex of B to A.
@@ -164,7 +166,8 @@ std::vector<double> distances_back(const Settings& settings, const MeshFile& a, 
 }
 
 /// Both models side by side, each with its distances to the other.
-void write_comparison(const Settings& settings, const MeshFile& a, const MeshFile& b, const CompareReport& report) {
+void write_comparison(const Settings& settings, const MeshFile& a, const MeshFile& b, const CompareReport& report,
+                      OutputFiles& files) {
     const std::vector<double> back = distances_back(settings, a, b);
     std::vector<PageModel> models;
     for (const auto& [path, file] : {std::pair(&settings.models[0], &a), std::pair(&settings.models[1], &b)})
@@ -172,15 +175,15 @@ void write_comparison(const Settings& settings, const MeshFile& a, const MeshFil
             page_model(*path, file->mesh, file->labels, background_of(settings, file->labels), file->names));
     models[0].distances = report.vertex_distances;
     models[1].distances = back;
-    write_page(settings.html, models, page_options(kCompare, settings, compare_json(report), false));
+    write_page(settings.html, models, page_options(kCompare, settings, compare_json(report), false), files);
 }
 
 }  // namespace
 
 int run_compare(const Settings& settings) {
-    if (!settings.json.empty()) require_writable(settings.json);
-    require_page(settings.html);
-    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {}, true);
+    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
+    require_page(settings.html, settings.writing);
+    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {.output = settings.writing}, true);
     const MeshFile a = read_faces(settings.models[0]), b = read_faces(settings.models[1]);
     const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
                                          {.samples = settings.samples,
@@ -192,9 +195,11 @@ int run_compare(const Settings& settings) {
                     fmt::format("{}, {}: one of them has no face of positive area, except faces between background and "
                                 "exterior: there is nothing to compare; see --no-background",
                                 settings.models[0], settings.models[1]));
-    if (!settings.json.empty()) write_text(settings.json, compare_json(report));
-    if (!settings.distance.empty()) write_distances(settings, a, report);
-    if (!settings.html.empty()) write_comparison(settings, a, b, report);
+    OutputFiles files(settings.writing);
+    if (!settings.json.empty()) files.add(settings.json).write(compare_json(report));
+    if (!settings.distance.empty()) write_distances(settings, a, report, files);
+    if (!settings.html.empty()) write_comparison(settings, a, b, report, files);
+    files.commit();
     if (!settings.quiet) print_report(settings, report);
     return kGood;
 }

@@ -7,6 +7,7 @@
 #include "input.h"
 #include "output.h"
 #include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -48,9 +49,8 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options) {
 }
 
 void print_summary(const std::string& path, const Report& report) {
-    fmt::print("{}: {} faces (from {}), lowest quality {:.3f}, {} violations\n", path, report.final_faces,
+    fmt::print("{}: {} faces (from {}), lowest quality {:.3f}, {} violations\n", printable(path), report.final_faces,
                report.initial_faces, report.check.quality.min, report.check.violation_count());
-    if (report.stopped == "topology") fmt::print("stopped before the target: no further edge can be collapsed\n");
 }
 
 }  // namespace
@@ -68,15 +68,19 @@ int run_decimate(const Settings& settings) {
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    write_model(settings, file.mesh, file.labels, options.background, names);
-    write_report_file(settings, report, file.labels, names);
+    const Model model{file.mesh, file.labels, options.background, names};
+    OutputFiles files(settings.writing);
+    write_model(settings, model, files);
+    write_report_file(settings, report, model, files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
-                   page_options(kDecimate, settings, report_json(report, file.labels, names), false));
+                   page_options(kDecimate, settings, report_json(report, file.labels, names), false), files);
+    files.commit();
     if (!settings.quiet) {
         print_summary(settings.output, report);
         print_fixed_part(fixed, before, report.check);
     }
+    print_stop(settings, report);
     return exit_code(report.check);
 }
 

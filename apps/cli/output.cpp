@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cstdio>
+
 #include "commands.h"
 #include "page_output.h"
 
@@ -21,26 +23,26 @@ std::string counts_text(const CheckReport& report) {
 }  // namespace
 
 void require_outputs(const Settings& settings) {
-    require_writable_mesh(settings.output,
-                          {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap});
+    require_writable_mesh(
+        settings.output,
+        {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap, .output = settings.writing});
     if (!settings.names.empty()) read_label_names(settings.names);
-    if (!settings.report.empty()) require_writable(settings.report);
-    require_page(settings.html);
+    if (!settings.report.empty()) require_writable(settings.report, settings.writing);
+    require_page(settings.html, settings.writing);
 }
 
 LabelNames names_or(const Settings& settings, const LabelNames& found) {
     return settings.names.empty() ? found : read_label_names(settings.names);
 }
 
-void write_model(const Settings& settings, const Mesh& mesh, const LabelTable& labels,
-                 const std::vector<Label>& background, const LabelNames& names) {
-    write_mesh(mesh, labels, settings.output,
-               {.background = background, .names = names, .per_region = settings.per_region});
+void write_model(const Settings& settings, const Model& model, OutputFiles& files) {
+    write_mesh(model.mesh, model.labels, settings.output,
+               {.background = model.background, .names = model.names, .per_region = settings.per_region}, files);
 }
 
-void write_report_file(const Settings& settings, Report& report, const LabelTable& labels, const LabelNames& names) {
+void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files) {
     report.peak_bytes = peak_resident_bytes();
-    if (!settings.report.empty()) write_text(settings.report, report_json(report, labels, names));
+    if (!settings.report.empty()) files.add(settings.report).write(report_json(report, model.labels, model.names));
 }
 
 int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }
@@ -76,6 +78,19 @@ void print_certificate(const CheckReport& report, const SampleAgreement* samples
                     : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}", grouped(samples->wrong),
                                   grouped(samples->samples), samples->dice());
     fmt::print("checked: {}\n", text);
+}
+
+void print_stop(const Settings& settings, const Report& report) {
+    const char* reason = nullptr;
+    if (report.stopped == "topology")
+        reason = "every further collapse would change topology, fold, cross or degrade faces, or move samples";
+    if (report.stopped == "max_error") reason = "every further collapse would exceed --max-error";
+    const ReconstructOptions& asked = settings.reconstruct;
+    const bool is_missed = asked.target_faces || asked.reduce;
+    if (!reason || (settings.quiet && !is_missed)) return;
+    const std::string line = fmt::format("{}: {}\n", is_missed ? "stopped before the target" : "stopped", reason);
+    // A message that nobody can read is no reason to fail.
+    settings.quiet ? static_cast<void>(std::fputs(("regionmesh: " + line).c_str(), stderr)) : fmt::print("{}", line);
 }
 
 void print_orient_hint(const CheckReport& report) {

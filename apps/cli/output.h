@@ -13,12 +13,19 @@ void require_outputs(const Settings& settings);
 /// The names from --names, or else those found with the input.
 LabelNames names_or(const Settings& settings, const LabelNames& found);
 
-/// Writes the model to `settings.output`. `background` is dense.
-void write_model(const Settings& settings, const Mesh& mesh, const LabelTable& labels,
-                 const std::vector<Label>& background, const LabelNames& names);
+/// What is written of a model. `background` is dense.
+struct Model {
+    const Mesh& mesh;
+    const LabelTable& labels;
+    const std::vector<Label>& background;
+    const LabelNames& names;
+};
 
-/// Writes the report if --report asks for it, with the memory used until now.
-void write_report_file(const Settings& settings, Report& report, const LabelTable& labels, const LabelNames& names);
+/// Writes the model to `settings.output`, one of `files`.
+void write_model(const Settings& settings, const Model& model, OutputFiles& files);
+
+/// Writes the report of the model if --report asks for it, with the memory used until now.
+void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files);
 
 /// kViolations where the report has some, else kGood.
 int exit_code(const CheckReport& report);
@@ -29,6 +36,9 @@ int exit_code(const Report& report);
 void print_violations(const CheckReport& report, int listed);
 /// One line on what was proved: violations, and samples that lie in another region.
 void print_certificate(const CheckReport& report, const SampleAgreement* samples);
+
+/// Prints why decimation ended before its target, if it did: on standard output, or with --quiet on standard error.
+void print_stop(const Settings& settings, const Report& report);
 
 /// Prints how to repair faces with opposite orientations, where there are such faces.
 void print_orient_hint(const CheckReport& report);

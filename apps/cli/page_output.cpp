@@ -48,11 +48,11 @@ PageOptions page_options(Command command, const Settings& settings, std::string 
     return options;
 }
 
-void require_page(const std::string& path) {
+void require_page(const std::string& path, const OutputOptions& options) {
     if (path.empty()) return;
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension != ".html" && extension != ".htm") throw Error(ErrorCode::kOutput, path + ": a page ends in .html");
-    require_writable(path);
+    require_writable(path, options);
 }
 
 std::string title_of(const std::string& path) {

@@ -17,7 +17,7 @@ std::string command_line_of(Command command, const Settings& settings);
 PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels);
 
 /// Throws Error where the page could not be written: before the work.
-void require_page(const std::string& path);
+void require_page(const std::string& path, const OutputOptions& options);
 
 /// The name of a file without its folder.
 std::string title_of(const std::string& path);

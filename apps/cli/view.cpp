@@ -8,15 +8,17 @@
 namespace regionmesh::cli {
 
 int run_view(const Settings& settings) {
-    require_page(settings.output);
+    require_page(settings.output, settings.writing);
     const std::string& path = settings.models.front();
     MeshFile file = read_mesh(path, settings.surface);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
     const CheckReport report = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
+    OutputFiles files(settings.writing);
     write_page(settings.output, {page_model(path, file.mesh, file.labels, options.background, names)},
-               page_options(kView, settings, check_json(report, file.labels, names), false));
+               page_options(kView, settings, check_json(report, file.labels, names), false), files);
+    files.commit();
     if (!settings.quiet) {
         fmt::print("{}: {} faces, {} regions, {} violations\n", settings.output, file.mesh.face_count(),
                    report.regions.size(), report.violation_count());

@@ -11,6 +11,7 @@
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/output_file.h"
 
 namespace regionmesh {
 
@@ -26,6 +27,7 @@ struct WriteOptions {
     LabelNames names = {};                      // of regions, in formats that can hold them
     bool per_region = false;                    // .stl, .obj and .ply: a file for each region, NAME-LABEL.EXTENSION
     bool boundary_is_open = false;              // the box is not capped: refused where volumes are needed
+    OutputOptions output = {};
 };
 
 /// Writes the living vertices and faces, numbered densely in order of id. Writes under temporary names beside `path`
@@ -54,6 +56,11 @@ struct WriteOptions {
 /// support, before it writes anything, and where the file cannot be written.
 void write_mesh(const Mesh& mesh, const LabelTable& labels, const std::filesystem::path& path,
                 const WriteOptions& options = {});
+
+/// The same into files that are committed together with others: a report. Does not commit them; their OutputOptions
+/// hold, not those of `options`.
+void write_mesh(const Mesh& mesh, const LabelTable& labels, const std::filesystem::path& path,
+                const WriteOptions& options, OutputFiles& files);
 
 /// Throws the errors of write_mesh for the extension, the options and the folder of `path`: for a check before long
 /// work.

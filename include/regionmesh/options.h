@@ -39,6 +39,7 @@ struct Settings {
 
     std::string output, names, report, json, distance, html;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
+    OutputOptions writing;
     bool per_region = false, quiet = false;
 
     OptionValues given;  // set by apply_options()
@@ -85,8 +86,9 @@ struct OptionSpec {
     std::uint32_t inputs = kAnyInput;  // refused with inputs of other kinds
     bool is_argument = false;          // has no flag; required, in the order of the table
     bool is_required = false;
-    bool repeats = false;  // set() adds a value
-    char letter = 0;       // short flag; 0: none
+    bool repeats = false;    // set() adds a value
+    bool is_output = false;  // a file that the command writes
+    char letter = 0;         // short flag; 0: none
 
     // These follow from the member of Settings that the option is bound to.
     OptionKind kind = OptionKind::kFlag;
@@ -120,6 +122,11 @@ void apply_options(Settings& settings, const OptionValues& values);
 
 /// Throws Error(kUsage) where two options contradict each other, whatever the input.
 void require_consistent(const Settings& settings);
+
+/// Throws Error(kUsage) where a file that the run writes is one that it reads, or is written twice: whatever their names
+/// and links, and with the files that belong to a model. A model may be smoothed or decimated in place. Looks at the
+/// files; changes nothing.
+void require_distinct_files(const Settings& settings);
 
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);

@@ -11,6 +11,7 @@
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/output_file.h"
 
 namespace regionmesh {
 
@@ -38,7 +39,10 @@ struct PageOptions {
 /// Writes one model, or two side by side. Positions are rounded to 1/65535 of the extent along each axis: the page is
 /// for looking, not for measuring. The bytes depend on the arguments only, except `threads`. Names, titles and the
 /// report are data: no text in them can become markup or script. Memory: about 40 bytes per face; for a model that is
-/// simplified, 250 bytes per face more. Throws Error(kOutput).
+/// simplified, 250 bytes per face more. The page is one of `files`, which the caller commits. Throws Error(kOutput).
+void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options,
+                OutputFiles& files);
+/// The same, committed.
 void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options);
 
 }  // namespace regionmesh

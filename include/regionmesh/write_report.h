@@ -7,6 +7,7 @@
 #include "regionmesh/compare.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/output_file.h"
 #include "regionmesh/report.h"
 #include "regionmesh/voxelise.h"
 
@@ -27,8 +28,7 @@ std::string check_json(const CheckReport& report, const LabelTable& labels, cons
 /// has are null for the other, and so are the distances; `only_in_a` and `only_in_b` name them.
 std::string compare_json(const CompareReport& report);
 
-/// Writes `text` under a temporary name in the folder of `path`, then renames; writes a device or pipe in place. Throws
-/// Error(kOutput).
-void write_text(const std::filesystem::path& path, const std::string& text);
+/// Writes `text` as an OutputFile. Throws Error(kOutput).
+void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options = {});
 
 }  // namespace regionmesh

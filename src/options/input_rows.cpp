@@ -58,9 +58,13 @@ Rows argument_rows() {
                     models),
         file_option({.name = "from", .help = surface, .group = "Arguments", .commands = kConvert, .is_argument = true},
                     models),
-        file_option(
-            {.name = "to", .help = written_help(), .group = "Arguments", .commands = kConvert, .is_argument = true},
-            [](Settings& s) { return &s.output; }),
+        file_option({.name = "to",
+                     .help = written_help(),
+                     .group = "Arguments",
+                     .commands = kConvert,
+                     .is_argument = true,
+                     .is_output = true},
+                    [](Settings& s) { return &s.output; }),
         file_option({.name = "a", .help = surface, .group = "Arguments", .commands = kCompare, .is_argument = true},
                     models),
         file_option({.name = "b",
@@ -108,6 +112,20 @@ Rows volume_rows() {
              .commands = kFileCommands,
              .inputs = kVolumeInput},
             [](Settings& s) { return &s.volume.layer; }, kLayers),
+        option({.name = "max-work",
+                .help = "volumes: most samples to read, where each section counts as 4096 more; a small file may "
+                        "describe endless ones",
+                .group = kGroup,
+                .commands = kFileCommands,
+                .unit = "samples",
+                .inputs = kVolumeInput},
+               [](Settings& s) { return &s.volume.max_work; }),
+        option({.name = "external-files",
+                .help = "volumes: the header may name files outside its own folder; for headers that you trust",
+                .group = kGroup,
+                .commands = kFileCommands,
+                .inputs = kVolumeInput},
+               [](Settings& s) { return &s.volume.external_files; }),
         option({.name = "size",
                 .help = "raw files: samples along x, y and z",
                 .group = kGroup,
@@ -170,13 +188,16 @@ Rows tetrahedra_rows() {
 Rows label_rows() {
     constexpr std::string_view kGroup = "Labels";
     constexpr std::uint32_t kBoxed = kReconstruct | kSurfaceCommands | kInfo;
+    // Made before the rows: g++ 12 destroys a temporary in a braced list twice where memory runs out.
+    const Settings defaults;
+    const std::string background = labels_text(defaults.reconstruct.background);
     return {
         special_option({.name = "background",
                         .help = "label of empty space, whose faces with the exterior are not made",
                         .group = kGroup,
                         .commands = kBoxed | kConvert | kCompare | kVoxelise | kView,
                         .repeats = true,
-                        .default_text = labels_text(Settings{}.reconstruct.background)},
+                        .default_text = background},
                        OptionKind::kLabel, add_background),
         special_option({.name = "no-background",
                         .help = "every label is a region",
@@ -196,7 +217,7 @@ Rows label_rows() {
              .help = "label of samples in no region, where there is no background",
              .group = kGroup,
              .commands = kVoxelise,
-             .default_text = std::to_string(Settings{}.outside)},
+             .default_text = std::to_string(defaults.outside)},
             OptionKind::kLabel,
             [](Settings& s, const std::string& flag, const std::string& text) { s.outside = parse_label(flag, text); }),
     };

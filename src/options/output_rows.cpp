@@ -25,12 +25,14 @@ std::string_view written_help() {
 
 Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
+    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare;
     return {
         file_option({.name = "output",
                      .help = output_help(),
                      .group = kGroup,
                      .commands = kWriters | kVoxelise | kView,
                      .is_required = true,
+                     .is_output = true,
                      .letter = 'o'},
                     [](Settings& s) { return &s.output; }),
         file_option({.name = "names",
@@ -43,12 +45,26 @@ Rows output_rows() {
                 .group = kGroup,
                 .commands = kWriters | kConvert},
                [](Settings& s) { return &s.per_region; }),
-        file_option({.name = "report", .help = "JSON report to write", .group = kGroup, .commands = kWriters},
+        file_option({.name = "report",
+                     .help = "JSON report to write",
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_output = true},
                     [](Settings& s) { return &s.report; }),
+        option({.name = "force", .help = "replace files that are read-only", .group = kGroup, .commands = kAllWriters},
+               [](Settings& s) { return &s.writing.force; }),
+        inverted_flag(
+            {.name = "no-sync",
+             .help = "do not force files to disk before they get their names: faster, but a loss of power may "
+                     "leave them empty",
+             .group = kGroup,
+             .commands = kAllWriters},
+            [](Settings& s) { return &s.writing.sync; }),
         file_option({.name = "json",
                      .help = "JSON file to write with all findings",
                      .group = kGroup,
-                     .commands = kCheck | kCompare},
+                     .commands = kCheck | kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.json; }),
         file_option({.name = "html",
                      .help = "page to write that shows the model and the report in a browser",
@@ -67,6 +83,7 @@ Rows output_rows() {
 
 Rows run_rows() {
     constexpr std::string_view kGroup = "Run";
+    const Settings defaults;  // not made in the braced list: input_rows.cpp says why
     return {
         special_option(
             {.name = "memory",
@@ -75,7 +92,7 @@ Rows run_rows() {
              .commands = kReconstruct,
              .unit = "bytes",
              .range = "above 0",
-             .default_text = bytes_text(Settings{}.reconstruct.memory)},
+             .default_text = bytes_text(defaults.reconstruct.memory)},
             OptionKind::kBytes,
             [](Settings& s, const std::string& flag, const std::string& text) {
                 s.reconstruct.memory = parse_bytes(flag, text);
@@ -93,7 +110,7 @@ Rows run_rows() {
              .commands = kDecimators | kSmooth | kCheck | kCompare | kView},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
         option({.name = "quiet",
-                .help = "print nothing but errors",
+                .help = "print nothing but errors, and why a target was missed",
                 .group = kGroup,
                 .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),

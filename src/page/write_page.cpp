@@ -174,8 +174,9 @@ std::string title_of(const std::vector<PageModel>& models) {
 
 }  // namespace
 
-void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options) {
-    OutputFile file(path);
+void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options,
+                OutputFiles& files) {
+    OutputFile& file = files.add(path);
     const std::size_t title = kPageTemplate.find(kTitlePlace), data = kPageTemplate.find(kDataPlace);
     file.write(kPageTemplate.substr(0, title));
     file.write(escaped_html(title_of(models)));
@@ -188,7 +189,12 @@ void write_page(const std::filesystem::path& path, const std::vector<PageModel>&
     }
     file.write(fmt::format("<script type=\"application/json\" id=\"page-data\">{}</script>\n", script_json(json)));
     file.write(kPageTemplate.substr(data + kDataPlace.size()));
-    file.commit();
+}
+
+void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options) {
+    OutputFiles files;
+    write_page(path, models, options, files);
+    files.commit();
 }
 
 }  // namespace regionmesh

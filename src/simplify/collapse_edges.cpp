@@ -74,7 +74,7 @@ public:
             }
             if (is_at_target()) break;
             if (accepted() == before || !is_refreshing_) {
-                result_.stopped = std::isfinite(options_.max_error) ? StopReason::kMaxError : StopReason::kTopology;
+                result_.stopped = candidates_.has_edges_over_error() ? StopReason::kMaxError : StopReason::kTopology;
                 break;
             }
             ++result_.refreshes;

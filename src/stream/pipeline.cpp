@@ -7,6 +7,7 @@
 #include <string>
 
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/process.h"
 #include "regionmesh/voxelise.h"
 #include "stream/chunk_volumes.h"
@@ -151,6 +152,7 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
 }  // namespace
 
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
+    require_lattice(reader.info().source, reader.info().lattice);
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
     if (options.room == 0) return reconstruct_sections(reader, options, on_progress);
     RoomReader cleaned(reader, options.room, options.threads);

@@ -212,6 +212,11 @@ TEST(CollapseEdges, a_higher_cost_level_or_error_leaves_fewer_faces) {
     }
 }
 
+TEST(CollapseEdges, an_error_that_bounds_nothing_is_not_why_it_stopped) {
+    Mesh mesh = grains();
+    EXPECT_EQ(collapse_edges(mesh, {.max_error = 1e9}).stopped, StopReason::kTopology);
+}
+
 TEST(CollapseEdges, a_small_error_keeps_a_ball_round) {
     Mesh mesh = run(test::ball_volume({20, 20, 20}, 7)).mesh;
     const double before = volume_of(mesh, 1);

@@ -143,8 +143,8 @@ std::string check_json(const CheckReport& report, const LabelTable& labels, cons
     return text_of(json);
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    OutputFile file(path);
+void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options) {
+    OutputFile file(path, options);
     file.write(text);
     file.commit();
 }
