@@ -123,9 +123,9 @@ void apply_options(Settings& settings, const OptionValues& values);
 /// Throws Error(kUsage) where two options contradict each other, whatever the input.
 void require_consistent(const Settings& settings);
 
-/// Throws Error(kUsage) where a file that the run writes is one that it reads, or is written twice: whatever their names
-/// and links, and with the files that belong to a model. A model may be smoothed or decimated in place. Looks at the
-/// files; changes nothing.
+/// Throws Error(kUsage) where a file that the run writes is one that it reads, or is written twice: whatever their
+/// names and links, and with the files that belong to a model. A model may be smoothed or decimated in place. Looks at
+/// the files; changes nothing.
 void require_distinct_files(const Settings& settings);
 
 /// The kind of the input, by the name of its first file.

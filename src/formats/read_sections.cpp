@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "formats/array/read_pipe.h"
 #include "formats/array/volume_formats.h"
 #include "formats/input_file.h"
 #include "formats/registry.h"
@@ -80,6 +81,7 @@ void require_work(const SectionReader& reader, std::uint64_t most) {
 }
 
 std::unique_ptr<SectionReader> open_inputs(const std::vector<fs::path>& inputs, const ReadOptions& options) {
+    if (inputs.size() == 1 && inputs.front() == "-") return formats::open_pipe(options);
     if (inputs.size() == 1) return open_one(inputs.front(), options);
     if (options.raw_size || options.raw_type) {
         formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +

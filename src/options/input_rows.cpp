@@ -36,7 +36,8 @@ void add_background(Settings& settings, const std::string& flag, const std::stri
 
 Rows argument_rows() {
     static const std::string volumes = "volume (" + volume_extensions() +
-                                       "; file.h5:/dataset), folder or list of sections, or table of labelled points "
+                                       "; file.h5:/dataset; - for .npy or raw samples on standard input), folder or "
+                                       "list of sections, or table of labelled points "
                                        "or mesh of labelled tetrahedra (" +
                                        tetrahedron_extensions() + ")";
     static const std::string surface = "labelled surface (" + readable_extensions() + "), or a folder of them";
