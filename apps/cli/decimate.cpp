@@ -12,9 +12,11 @@
 namespace regionmesh::cli {
 namespace {
 
+bool has_target(const ReconstructOptions& asked) { return asked.target_faces || asked.reduce || asked.max_error; }
+
 SimplifyOptions to_options(const Settings& settings, const Mesh& mesh) {
     const ReconstructOptions& asked = settings.reconstruct;
-    SimplifyOptions options;
+    SimplifyOptions options{.target_faces = has_target(asked) ? 0 : mesh.face_count()};
     if (asked.target_faces)
         options.target_faces =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
@@ -30,8 +32,8 @@ SimplifyOptions to_options(const Settings& settings, const Mesh& mesh) {
     return options;
 }
 
-/// Simplifies, and reports it as reconstruct does.
-Report simplified(Mesh& mesh, const SimplifyOptions& options) {
+/// Simplifies and improves, and reports it as reconstruct does.
+Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving) {
     Report report;
     report.initial_faces = report.peak_faces = mesh.face_count();
     report.initial_vertices = mesh.vertex_count();
@@ -43,6 +45,10 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options) {
         report.stopped = to_string(done.stopped);
         report.bytes_per_face = static_cast<double>(done.bytes) / report.peak_faces;
     }
+    if (is_improving) {
+        const Timer timer(report.seconds["improve"]);
+        report.improved = improve(mesh, {.min_quality = options.min_quality, .scale = options.scale});
+    }
     report.final_faces = mesh.face_count();
     report.final_vertices = mesh.vertex_count();
     return report;
@@ -51,20 +57,22 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options) {
 void print_summary(const std::string& path, const Report& report) {
     fmt::print("{}: {} faces (from {}), lowest quality {:.3f}, {} violations\n", printable(path), report.final_faces,
                report.initial_faces, report.check.quality.min, report.check.violation_count());
+    print_improved(report);
 }
 
 }  // namespace
 
 int run_decimate(const Settings& settings) {
     const ReconstructOptions& asked = settings.reconstruct;
-    if (!asked.target_faces && !asked.reduce && !asked.max_error)
-        throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
+    if (!has_target(asked) && !asked.improve)
+        throw Error(ErrorCode::kUsage,
+                    "decimate: no target; give --target-faces, --reduce or --max-error, or --improve");
     require_outputs(settings);
     MeshFile file = read_mesh(settings.models.front(), settings.surface);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
-    Report report = simplified(file.mesh, to_options(settings, file.mesh));
+    Report report = simplified(file.mesh, to_options(settings, file.mesh), asked.improve);
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);

@@ -59,6 +59,16 @@ std::string grouped(std::uint64_t count) {
     return digits;
 }
 
+void print_improved(const Report& report) {
+    if (!report.improved) return;
+    const FaceShapes &before = report.improved->before, &after = report.improved->after;
+    fmt::print(
+        "improved: lowest quality {:.3f} -> {:.3f}, mean {:.3f} -> {:.3f}, angles {:.1f} to {:.1f} -> {:.1f} to {:.1f} "
+        "degrees, {} -> {} faces below --min-quality\n",
+        before.min_quality, after.min_quality, before.mean_quality, after.mean_quality, before.min_angle,
+        before.max_angle, after.min_angle, after.max_angle, before.faces_below, after.faces_below);
+}
+
 void print_violations(const CheckReport& report, int listed) {
     for (int kind = 0; kind < kViolationKindCount; ++kind) {
         if (!report.counts[kind]) continue;

@@ -32,6 +32,9 @@ int exit_code(const CheckReport& report);
 /// The same, or kNotMet where the model is sound but regions are off the volumes asked for.
 int exit_code(const Report& report);
 
+/// Prints the shape of the faces before and after they were improved, if they were.
+void print_improved(const Report& report);
+
 /// Prints "violation KIND: COUNT" for each kind found, and at most `listed` findings of each.
 void print_violations(const CheckReport& report, int listed);
 /// One line on what was proved: violations, and samples that lie in another region.

@@ -34,6 +34,7 @@ void print_summary(const Settings& settings, const Report& report) {
     fmt::print(
         "quality: lowest {:.3f}, mean {:.3f}; {} regions, {} pairs with an interface, {} quadruple points inside\n",
         check.quality.min, check.quality.mean, check.regions.size(), check.region_pairs, check.quadruple_points_inside);
+    print_improved(report);
     print_stop(settings, report);
     if (report.pinned_vertices > 0)
         fmt::print("{} vertices not moved: the mesh touches itself there, or more than four regions meet\n",

@@ -6,6 +6,7 @@
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/error.h"
+#include "regionmesh/improve.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/mesh_arrays.h"

@@ -1,6 +1,6 @@
 // The whole story: from sections, or tetrahedra, to a checked mesh. Each stage has a header of its own.
 //
-//   read -> cells -> smooth -> tiles -> merge -> simplify -> check
+//   read -> cells -> smooth -> tiles -> merge -> simplify -> (improve) -> check
 #include "stream/pipeline.h"
 
 #include <optional>
@@ -89,6 +89,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     if (!plan.oracle) plan.oracle = source.oracle();
 
     simplify.bring_to_target();
+    improve_faces(result, options, shape, log);
     restore_volumes(result, options, shape.scale, log);
     give_back_freed_memory();
     result.report.pinned_vertices = simplify.release_all();

@@ -57,6 +57,22 @@ Json smoothing_json(const Report& report) {
             {"window_bytes", done.window_bytes}};
 }
 
+Json shapes_json(const FaceShapes& shapes) {
+    return {{"min_quality", shapes.min_quality},
+            {"mean_quality", shapes.mean_quality},
+            {"min_angle", shapes.min_angle},
+            {"max_angle", shapes.max_angle},
+            {"faces_below", shapes.faces_below}};
+}
+
+Json improved_json(const ImproveResult& done) {
+    return {{"flips", done.flips},
+            {"moves", done.moves},
+            {"sweeps", done.sweeps},
+            {"before", shapes_json(done.before)},
+            {"after", shapes_json(done.after)}};
+}
+
 Json violations_json(const std::vector<Violation>& violations, const LabelTable& labels) {
     Json json = Json::array();
     for (const Violation& violation : violations) {
@@ -130,6 +146,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
                                  {"drift", report.preserved.drift},
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
+    if (report.improved) json["improved"] = improved_json(*report.improved);
     put_check(json, report.check, labels, names, &report);
     if (report.samples) put_samples(json, *report.samples, labels);
     return text_of(json);
