@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "regionmesh/section_reader.h"
+#include "regionmesh/select_sections.h"
 
 namespace regionmesh {
 
@@ -19,6 +20,8 @@ struct ReadOptions {
     std::optional<std::array<std::uint32_t, 3>> raw_size = {};  // raw files: samples along x, y, z
     std::optional<SampleType> raw_type = {};                    // raw files: type of the little-endian samples
     std::optional<std::uint32_t> layer = {};                    // of a file with several layers, counted from 0
+    Selection select = {};                                      // part of the volume, labels, coarser samples
+    std::filesystem::path merge_table = {};  // adds to select.merge and select.names: read_merge_table()
 };
 
 /// ".npy .nii .nii.gz ...": the extensions that this build reads.
@@ -31,6 +34,10 @@ std::string volume_extensions();
 /// complex samples, an empty volume, sections of different size, or a sweep that the format does not allow.
 std::unique_ptr<SectionReader> open_sections(const std::vector<std::filesystem::path>& inputs,
                                              const ReadOptions& options = {});
+
+/// Reads a table with rows old,new[,name] into `selection`: an old label, or several as 5-9, then the new one and its
+/// name. A first row without labels is a header. Throws Error(kInput) naming file and row.
+void read_merge_table(const std::filesystem::path& path, Selection& selection);
 
 /// "bool", "int8" to "int64", "uint8" to "uint64"; --type takes the same words.
 std::string to_string(SampleType type);
