@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "regionmesh/section_reader.h"
+#include "regionmesh/select_sections.h"
 
 namespace regionmesh {
 
@@ -25,6 +26,8 @@ struct ReadOptions {
     std::optional<std::uint32_t> layer = {};                    // of a file with several layers, counted from 0
     std::uint64_t max_work = kMostWork;  // refuses volumes of more work, which a tiny file may describe
     bool external_files = false;         // a header may name files outside its own folder and those below it
+    Selection select = {};                                      // part of the volume, labels, coarser samples
+    std::filesystem::path merge_table = {};  // adds to select.merge and select.names: read_merge_table()
 };
 
 /// ".npy .nii .nii.gz ...": the extensions that this build reads.
@@ -37,6 +40,10 @@ std::string volume_extensions();
 /// complex samples, an empty volume, sections of different size, or a sweep that the format does not allow.
 std::unique_ptr<SectionReader> open_sections(const std::vector<std::filesystem::path>& inputs,
                                              const ReadOptions& options = {});
+
+/// Reads a table with rows old,new[,name] into `selection`: an old label, or several as 5-9, then the new one and its
+/// name. A first row without labels is a header. Throws Error(kInput) naming file and row.
+void read_merge_table(const std::filesystem::path& path, Selection& selection);
 
 /// "bool", "int8" to "int64", "uint8" to "uint64"; --type takes the same words.
 std::string to_string(SampleType type);

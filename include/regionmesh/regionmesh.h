@@ -13,6 +13,7 @@
 #include "regionmesh/process.h"
 #include "regionmesh/reconstruct.h"
 #include "regionmesh/report.h"
+#include "regionmesh/select_sections.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/stop.h"

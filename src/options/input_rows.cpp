@@ -1,5 +1,6 @@
 // What to read: arguments, volumes, points, labels, surfaces.
 #include <algorithm>
+#include <iterator>
 
 #include "options/bind_option.h"
 #include "options/option_rows.h"
@@ -30,6 +31,70 @@ void add_background(Settings& settings, const std::string& flag, const std::stri
     const bool is_first = std::ranges::none_of(settings.given, [](const auto& v) { return v.first == "background"; });
     if (is_first) background.clear();  // the default
     background.push_back(parse_label(flag, text));
+    settings.volume.select.rest = background.front();
+}
+
+// What to model of a volume; in the order in which it is done.
+Rows selection_rows() {
+    constexpr std::string_view kGroup = "Input";
+    constexpr std::uint32_t kLatticeCommands = kVolumeCommands | kVoxelise;
+    return {
+        special_option(
+            {.name = "roi",
+             .help = "volumes: samples to keep along x, y and z, as 10:50,:,20: (from 10 to 49, all, from 20)",
+             .group = kGroup,
+             .commands = kLatticeCommands,
+             .unit = "samples",
+             .inputs = kVolumeInput},
+            OptionKind::kText,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.volume.select.roi = parse_sample_ranges(flag, text);
+            }),
+        special_option({.name = "box",
+                        .help = "volumes: keep the samples with these coordinates, as 0:120.5,:,-20:35",
+                        .group = kGroup,
+                        .commands = kLatticeCommands,
+                        .unit = "length",
+                        .inputs = kVolumeInput},
+                       OptionKind::kText,
+                       [](Settings& s, const std::string& flag, const std::string& text) {
+                           s.volume.select.box = parse_length_ranges(flag, text);
+                       }),
+        special_option({.name = "merge",
+                        .help = "volumes: table of labels to join, with rows old,new or old,new,name; old may be 5-9",
+                        .group = kGroup,
+                        .commands = kVolumeCommands,
+                        .inputs = kVolumeInput},
+                       OptionKind::kFile,
+                       [](Settings& s, const std::string&, const std::string& text) { s.volume.merge_table = text; }),
+        special_option({.name = "labels",
+                        .help = "volumes: labels to keep, as 1,5-9; samples with another label become background",
+                        .group = kGroup,
+                        .commands = kVolumeCommands,
+                        .inputs = kVolumeInput},
+                       OptionKind::kText,
+                       [](Settings& s, const std::string& flag, const std::string& text) {
+                           s.volume.select.labels = parse_label_ranges(flag, text);
+                       }),
+        special_option(
+            {.name = "downsample",
+             .help = "volumes: samples along each axis that become one, as 2 or 2,2,1; the most frequent label",
+             .group = kGroup,
+             .commands = kLatticeCommands,
+             .unit = "samples",
+             .inputs = kVolumeInput},
+            OptionKind::kText,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.volume.select.downsample = parse_factors(flag, text);
+            }),
+        option({.name = "min-region",
+                .help = "volumes: a connected region of fewer samples gets the label with which it has most interface",
+                .group = kGroup,
+                .commands = kVolumeCommands,
+                .unit = "samples",
+                .inputs = kVolumeInput},
+               [](Settings& s) { return &s.volume.select.min_region; }),
+    };
 }
 
 }  // namespace
@@ -80,7 +145,7 @@ Rows argument_rows() {
 Rows volume_rows() {
     constexpr std::string_view kGroup = "Input";
     constexpr std::uint32_t kFileCommands = kVolumeCommands | kVoxelise;
-    return {
+    Rows rows{
         file_option({.name = "sections",
                      .help = "input that the model was made from (volume, points or mesh): compare with its labels",
                      .group = kGroup,
@@ -145,6 +210,8 @@ Rows volume_rows() {
                            if (!s.volume.raw_type) refuse_value(flag, text, "a sample type, such as uint8 or int16");
                        }),
     };
+    std::ranges::move(selection_rows(), std::back_inserter(rows));
+    return rows;
 }
 
 Rows tetrahedra_rows() {

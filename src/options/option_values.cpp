@@ -115,6 +115,66 @@ std::array<std::uint32_t, 3> parse_counts(const std::string& flag, const std::st
     return values;
 }
 
+std::vector<LabelRange> parse_label_ranges(const std::string& flag, const std::string& text) {
+    std::vector<LabelRange> ranges;
+    for (const std::string& part : split(text)) {
+        const std::size_t dash = part.find('-', 1);  // a minus at the start is a sign
+        const bool is_range = dash != std::string::npos;
+        const auto is_label = [](const std::string& word) {
+            InputLabel label = 0;
+            std::uint64_t bits = 0;
+            return parse_whole(word, label) || parse_whole(word, bits);
+        };
+        const std::string first = part.substr(0, dash), last = is_range ? part.substr(dash + 1) : first;
+        if (!is_label(first) || !is_label(last)) refuse_value(flag, text, "labels, such as 1,5-9");
+        ranges.push_back({parse_label(flag, first), parse_label(flag, last)});
+    }
+    return ranges;
+}
+
+std::array<SampleRange, 3> parse_sample_ranges(const std::string& flag, const std::string& text) {
+    const auto refuse = [&] { refuse_value(flag, text, "samples along x, y and z, such as 10:50,:,20:"); };
+    const std::vector<std::string> parts = split(text);
+    if (parts.size() != 3) refuse();
+    std::array<SampleRange, 3> ranges;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string& part = parts[axis];
+        const std::size_t colon = part.find(':');
+        if (colon == std::string::npos) refuse();
+        const std::string first = part.substr(0, colon), end = part.substr(colon + 1);
+        if (!first.empty() && !parse_whole(first, ranges[axis].first)) refuse();
+        if (!end.empty() && (!parse_whole(end, ranges[axis].end) || ranges[axis].end <= ranges[axis].first)) refuse();
+    }
+    return ranges;
+}
+
+std::array<LengthRange, 3> parse_length_ranges(const std::string& flag, const std::string& text) {
+    const auto refuse = [&] { refuse_value(flag, text, "coordinates along x, y and z, such as 0:120.5,:,-20:35"); };
+    const std::vector<std::string> parts = split(text);
+    if (parts.size() != 3) refuse();
+    std::array<LengthRange, 3> ranges;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string& part = parts[axis];
+        const std::size_t colon = part.find(':');
+        if (colon == std::string::npos) refuse();
+        const std::string low = part.substr(0, colon), high = part.substr(colon + 1);
+        std::string unit;
+        if (!low.empty() && (!parse_leading(low, ranges[axis].low, unit) || !unit.empty())) refuse();
+        if (!high.empty() && (!parse_leading(high, ranges[axis].high, unit) || !unit.empty())) refuse();
+        if (!(ranges[axis].low <= ranges[axis].high)) refuse();
+    }
+    return ranges;
+}
+
+std::array<std::uint32_t, 3> parse_factors(const std::string& flag, const std::string& text) {
+    const std::string all = text.find(',') == std::string::npos ? text + ',' + text + ',' + text : text;
+    try {
+        return parse_counts(flag, all);
+    } catch (const Error&) {
+        refuse_value(flag, text, "a number of samples, such as 2 or 2,2,1");
+    }
+}
+
 bool parse_flag(const std::string& flag, const std::string& text) {
     if (text != "true" && text != "false") refuse_value(flag, text, "true or false");
     return text == "true";

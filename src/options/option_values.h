@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "regionmesh/label.h"
+#include "regionmesh/select_sections.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
@@ -32,6 +34,14 @@ InputLabel parse_label(const std::string& flag, const std::string& text);
 Vec3 parse_numbers(const std::string& flag, const std::string& text);
 /// Three whole numbers from 1 to 2^31 - 1.
 std::array<std::uint32_t, 3> parse_counts(const std::string& flag, const std::string& text);
+/// "1,5-9": labels and ranges of them.
+std::vector<LabelRange> parse_label_ranges(const std::string& flag, const std::string& text);
+/// "10:50,:,20:": samples along x, y, z; no number stands for the end of the volume.
+std::array<SampleRange, 3> parse_sample_ranges(const std::string& flag, const std::string& text);
+/// "-10.5:20,:,0:": coordinates along x, y, z.
+std::array<LengthRange, 3> parse_length_ranges(const std::string& flag, const std::string& text);
+/// "2", or "2,2,1" along x, y, z; each at least 1.
+std::array<std::uint32_t, 3> parse_factors(const std::string& flag, const std::string& text);
 bool parse_flag(const std::string& flag, const std::string& text);
 
 /// "0.1", "1e-07": the shortest text that reads as the number.

@@ -35,6 +35,9 @@ void require_fit(const Settings& settings, const std::vector<std::string>& input
 }
 
 void require_consistent(const Settings& settings) {
+    if (!settings.volume.select.labels.empty() && settings.reconstruct.background.empty())
+        throw Error(ErrorCode::kUsage,
+                    "--labels: the other labels become background, and --no-background has none; leave out one");
     if (settings.reconstruct.cap) return;
     if (settings.hull)
         throw Error(ErrorCode::kUsage, "--hull closes the regions that --boundary open leaves open: give one");

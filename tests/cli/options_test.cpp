@@ -16,6 +16,16 @@ namespace {
 
 using testing::HasSubstr;
 
+/// A value of an option of text.
+std::string text_value(const std::string& name) {
+    if (name == "type") return "uint8";
+    if (name == "roi") return "0:4,:,2:";
+    if (name == "box") return "0:4.5,:,2:";
+    if (name == "labels") return "1,5-9";
+    if (name == "downsample") return "2,2,1";
+    return "X,Y,Z,LABEL";
+}
+
 /// A value that the option takes; empty for flags.
 std::string good_value(const OptionSpec& option) {
     if (!option.default_text.empty()) return option.default_text;
@@ -34,7 +44,7 @@ std::string good_value(const OptionSpec& option) {
         case OptionKind::kFlag:
             return "";
         case OptionKind::kText:
-            return option.name == "type" ? "uint8" : "X,Y,Z,LABEL";
+            return text_value(option.name);
         case OptionKind::kFile:
         case OptionKind::kWord:
             break;

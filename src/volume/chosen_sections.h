@@ -1,0 +1,30 @@
+// Readers that change the sections of another reader. Each reads as many of its sections as it needs for the next one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "regionmesh/section_reader.h"
+
+namespace regionmesh {
+
+using ReaderPointer = std::unique_ptr<SectionReader>;
+
+/// The samples of a box of indices: from low[axis] to high[axis] - 1. Requires low < high <= size along each axis.
+struct SampleBox {
+    std::array<std::uint32_t, 3> low, high;
+};
+ReaderPointer crop_sections(ReaderPointer reader, const SampleBox& box);
+
+/// Labels replaced by `new_label(old)`, which is called once for each label.
+ReaderPointer relabel_sections(ReaderPointer reader, std::function<InputLabel(InputLabel)> new_label);
+
+/// Blocks of samples as one sample: see Selection::downsample. Requires factors of 1 or more.
+ReaderPointer downsample_sections(ReaderPointer reader, const std::array<std::uint32_t, 3>& factors, InputLabel rest);
+
+/// Small regions given to neighbours: see Selection::min_region. Reads the volume twice at once.
+ReaderPointer merge_small_regions(ReaderPointer reader, std::uint64_t min_samples);
+
+}  // namespace regionmesh

@@ -1,0 +1,138 @@
+// Three passes: number the regions and count their samples; measure the interfaces of small ones; give out new labels.
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+#include "regionmesh/error.h"
+#include "volume/chosen_sections.h"
+#include "volume/region_numbers.h"
+#include "volume/small_regions.h"
+
+namespace regionmesh {
+namespace {
+
+class MergedSections : public SectionReader {
+public:
+    MergedSections(ReaderPointer reader, std::uint64_t min_samples)
+        : reader_(std::move(reader)),
+          info_(reader_->info()),
+          numbers_(reader_->section_width(), reader_->section_height()),
+          section_(std::size_t{section_width()} * section_height()) {
+        if (!info_.can_rewind)
+            throw Error(ErrorCode::kInput, info_.source +
+                                               ": small regions are found by reading the input several times, "
+                                               "and it can be read once; leave out --min-region");
+        count_samples(min_samples);
+        measure_interfaces();
+        labels_ = small_.resolve(min_samples);
+        small_ = {};
+        restart();
+        constexpr std::uint64_t kLayers = 2 * (sizeof(InputLabel) + sizeof(std::uint32_t));
+        info_.held_bytes = (info_.held_bytes ? info_.held_bytes : section_.size() * sizeof(InputLabel)) +
+                           section_.size() * kLayers + small_of_.size() * sizeof(std::uint32_t) +
+                           labels_.size() * sizeof(InputLabel);
+    }
+
+    const VolumeInfo& info() const override { return info_; }
+
+    bool next(std::span<InputLabel> section) override {
+        if (!reader_->next(section)) return false;
+        numbers_.next(section, [](std::uint32_t, std::uint32_t) {});
+        auto to = section.begin();
+        for (std::uint32_t v = 0; v < section_height(); ++v)
+            for (std::uint32_t u = 0; u < section_width(); ++u, ++to)
+                if (const std::uint32_t small = small_of_[numbers_.number(u, v)]; small != RegionNumbers::kNone)
+                    *to = labels_[small];
+        return true;
+    }
+
+    void rewind() override { restart(); }
+
+private:
+    void restart() {
+        reader_->rewind();
+        numbers_.restart();
+    }
+
+    std::uint32_t root(std::uint32_t number) {
+        while (parents_[number] != number) number = parents_[number] = parents_[parents_[number]];
+        return number;
+    }
+
+    /// Pass 1: small_of_ and the sizes in small_.
+    void count_samples(std::uint64_t min_samples) {
+        std::vector<std::uint64_t> samples;
+        std::vector<InputLabel> labels;
+        while (reader_->next(section_)) {
+            const auto join = [&](std::uint32_t a, std::uint32_t b) {
+                for (std::uint32_t n = static_cast<std::uint32_t>(parents_.size()); n <= std::max(a, b); ++n)
+                    parents_.push_back(n);
+                a = root(a), b = root(b);
+                parents_[std::max(a, b)] = std::min(a, b);
+            };
+            if (!numbers_.next(section_, join))
+                throw Error(ErrorCode::kInput, info_.source +
+                                                   ": has more than 4294967294 parts of regions, too many for "
+                                                   "--min-region; leave it out");
+            for (auto n = static_cast<std::uint32_t>(parents_.size()); n < numbers_.count(); ++n) parents_.push_back(n);
+            samples.resize(numbers_.count());
+            labels.resize(numbers_.count());
+            auto sample = section_.begin();
+            for (std::uint32_t v = 0; v < section_height(); ++v)
+                for (std::uint32_t u = 0; u < section_width(); ++u) {
+                    const std::uint32_t number = numbers_.number(u, v);
+                    ++samples[number];
+                    labels[number] = *sample++;
+                }
+        }
+        for (std::uint32_t n = 0; n < parents_.size(); ++n)
+            if (const std::uint32_t top = root(n); top != n) samples[top] += samples[n];
+        small_of_.assign(parents_.size(), RegionNumbers::kNone);
+        for (std::uint32_t n = 0; n < parents_.size(); ++n) {  // a root is the smallest number of its region
+            const std::uint32_t top = root(n);
+            if (samples[top] < min_samples)
+                small_of_[n] = top == n ? small_.add(labels[n], samples[n]) : small_of_[top];
+        }
+        parents_ = {};
+    }
+
+    /// Pass 2: the contacts in small_.
+    void measure_interfaces() {
+        const auto& axes = info_.sweep.axes;
+        const Vec3& spacing = info_.lattice.spacing;
+        std::array<double, 3> areas;
+        for (int axis = 0; axis < 3; ++axis)
+            areas[axis] = spacing[axes[(axis + 1) % 3]] * spacing[axes[(axis + 2) % 3]];
+        restart();
+        while (small_.size() > 0 && reader_->next(section_)) {
+            numbers_.next(section_, [](std::uint32_t, std::uint32_t) {});
+            numbers_.for_contacts(
+                [&](std::uint32_t number, InputLabel label, std::uint32_t other, InputLabel other_label, int axis) {
+                    const std::uint32_t a = small_of_[number], b = small_of_[other];
+                    if (a != RegionNumbers::kNone && b != RegionNumbers::kNone)
+                        small_.add_contact_of_small(a, b, areas[axis]);
+                    else if (a != RegionNumbers::kNone)
+                        small_.add_contact(a, other_label, areas[axis]);
+                    else if (b != RegionNumbers::kNone)
+                        small_.add_contact(b, label, areas[axis]);
+                });
+        }
+    }
+
+    ReaderPointer reader_;
+    VolumeInfo info_;
+    RegionNumbers numbers_;
+    std::vector<InputLabel> section_;
+    std::vector<std::uint32_t> parents_;   // of the first pass: numbers of one region
+    std::vector<std::uint32_t> small_of_;  // by number: which small region, or kNone
+    SmallRegions small_;
+    std::vector<InputLabel> labels_;  // of small regions
+};
+
+}  // namespace
+
+ReaderPointer merge_small_regions(ReaderPointer reader, std::uint64_t min_samples) {
+    return std::make_unique<MergedSections>(std::move(reader), min_samples);
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,139 @@
+#include "regionmesh/select_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "regionmesh/error.h"
+#include "volume/chosen_sections.h"
+
+namespace regionmesh {
+namespace {
+
+[[noreturn]] void refuse(const VolumeInfo& volume, const std::string& text) {
+    throw Error(ErrorCode::kInput, volume.source + ": " + text);
+}
+
+/// The range along one axis; a range without samples or outside the volume is refused.
+std::pair<std::uint32_t, std::uint32_t> samples_along(const VolumeInfo& volume, const SampleRange& range, int axis) {
+    const std::uint32_t size = volume.lattice.size[axis], end = range.end == 0 ? size : range.end;
+    if (range.first < end && end <= size) return {range.first, end};
+    refuse(volume, "--roi " + std::to_string(range.first) + ":" + std::to_string(end) + " along " + "xyz"[axis] +
+                       " is not within the " + std::to_string(size) +
+                       " samples; give a part of 0:" + std::to_string(size));
+}
+
+/// Indices along the axes of the lattice, not whole, of a place.
+Vec3 index_of(const Lattice& lattice, Vec3 place) {
+    const Vec3 from = place - lattice.origin;
+    const auto& d = lattice.direction;
+    return {dot({d[0], d[3], d[6]}, from) / lattice.spacing.x, dot({d[1], d[4], d[7]}, from) / lattice.spacing.y,
+            dot({d[2], d[5], d[8]}, from) / lattice.spacing.z};
+}
+
+Vec3 corner_of(const Vec3& low, const Vec3& high, int corner) {
+    return {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
+}
+
+/// The box of the lattice's samples in space.
+Box extent_of(const Lattice& lattice) {
+    Box extent;
+    const auto& d = lattice.direction;
+    const Vec3 last{(lattice.size[0] - 1) * lattice.spacing.x, (lattice.size[1] - 1) * lattice.spacing.y,
+                    (lattice.size[2] - 1) * lattice.spacing.z};
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 along = corner_of({0, 0, 0}, last, corner);
+        extent.add(lattice.origin + Vec3{dot({d[0], d[1], d[2]}, along), dot({d[3], d[4], d[5]}, along),
+                                         dot({d[6], d[7], d[8]}, along)});
+    }
+    return extent;
+}
+
+/// Makes `samples` smaller: the samples in `box`. An index within 1e-6 of a whole number counts as that number.
+void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box, SampleBox& samples) {
+    constexpr double kRounding = 1e-6;
+    const Box extent = extent_of(volume.lattice);
+    Vec3 low = extent.low, high = extent.high;
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::max(low[axis], box[axis].low);
+        high[axis] = std::min(high[axis], box[axis].high);
+        if (!(low[axis] <= high[axis]))
+            refuse(volume, std::string("--box holds no sample: along ") + "xyz"[axis] + " the samples lie from " +
+                               std::to_string(extent.low[axis]) + " to " + std::to_string(extent.high[axis]));
+    }
+    Box indices;
+    for (int corner = 0; corner < 8; ++corner) indices.add(index_of(volume.lattice, corner_of(low, high, corner)));
+    for (int axis = 0; axis < 3; ++axis) {
+        const double first = std::ceil(indices.low[axis] - kRounding),
+                     last = std::floor(indices.high[axis] + kRounding);
+        const double begin = std::max<double>(first, samples.low[axis]),
+                     end = std::min<double>(last + 1, samples.high[axis]);
+        if (begin >= end) refuse(volume, "--box holds no sample; give a larger one, or leave out --roi");
+        samples.low[axis] = static_cast<std::uint32_t>(begin);
+        samples.high[axis] = static_cast<std::uint32_t>(end);
+    }
+}
+
+ReaderPointer cropped(ReaderPointer reader, const Selection& selection) {
+    const VolumeInfo& volume = reader->info();
+    SampleBox samples;
+    for (int axis = 0; axis < 3; ++axis)
+        std::tie(samples.low[axis], samples.high[axis]) = samples_along(volume, selection.roi[axis], axis);
+    const bool has_box = std::ranges::any_of(
+        selection.box, [](const LengthRange& range) { return std::isfinite(range.low) || std::isfinite(range.high); });
+    if (has_box) cut_to_box(volume, selection.box, samples);
+    if (samples.low == std::array<std::uint32_t, 3>{} && samples.high == volume.lattice.size) return reader;
+    return crop_sections(std::move(reader), samples);
+}
+
+bool is_in(InputLabel label, const LabelRange& range, bool is_unsigned) {
+    if (!is_unsigned) return range.first <= label && label <= range.last;
+    const auto bits = [](InputLabel value) { return static_cast<std::uint64_t>(value); };
+    return bits(range.first) <= bits(label) && bits(label) <= bits(range.last);
+}
+
+ReaderPointer relabelled(ReaderPointer reader, const Selection& selection) {
+    if (selection.merge.empty() && selection.labels.empty()) return reader;
+    const bool is_unsigned = reader->info().type == SampleType::kU64;
+    return relabel_sections(std::move(reader), [selection, is_unsigned](InputLabel label) {
+        const auto merged = selection.merge.find(label);
+        if (merged != selection.merge.end()) label = merged->second;
+        const bool is_kept =
+            selection.labels.empty() || std::ranges::any_of(selection.labels, [&](const LabelRange& range) {
+                return is_in(label, range, is_unsigned);
+            });
+        return is_kept ? label : selection.rest;
+    });
+}
+
+/// A reader with other names, and a type that has room for the new labels.
+class RenamedSections : public SectionReader {
+public:
+    RenamedSections(ReaderPointer reader, const Selection& selection)
+        : reader_(std::move(reader)), info_(reader_->info()) {
+        if (info_.type != SampleType::kU64 && !selection.merge.empty()) info_.type = SampleType::kI64;
+        for (const auto& [label, name] : selection.names) info_.names[label] = name;
+    }
+    const VolumeInfo& info() const override { return info_; }
+    bool next(std::span<InputLabel> section) override { return reader_->next(section); }
+    void rewind() override { reader_->rewind(); }
+
+private:
+    ReaderPointer reader_;
+    VolumeInfo info_;
+};
+
+}  // namespace
+
+std::unique_ptr<SectionReader> select_sections(std::unique_ptr<SectionReader> reader, const Selection& selection) {
+    reader = relabelled(cropped(std::move(reader), selection), selection);
+    if (selection.downsample != std::array<std::uint32_t, 3>{1, 1, 1})
+        reader = downsample_sections(std::move(reader), selection.downsample, selection.rest);
+    if (selection.min_region > 1) reader = merge_small_regions(std::move(reader), selection.min_region);
+    if (selection.names.empty() && selection.merge.empty()) return reader;
+    return std::make_unique<RenamedSections>(std::move(reader), selection);
+}
+
+}  // namespace regionmesh

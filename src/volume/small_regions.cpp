@@ -1,0 +1,82 @@
+#include "volume/small_regions.h"
+
+#include <algorithm>
+
+namespace regionmesh {
+
+std::uint32_t SmallRegions::add(InputLabel label, std::uint64_t samples) {
+    const auto number = static_cast<std::uint32_t>(regions_.size());
+    regions_.push_back({.label = label, .samples = samples, .joined = number});
+    return number;
+}
+
+void SmallRegions::add_contact_of_small(std::uint32_t a, std::uint32_t b, double area) {
+    regions_[a].small[b] += area;
+    regions_[b].small[a] += area;
+}
+
+/// The label with the largest interface, the smallest of several. Requires a neighbour.
+InputLabel SmallRegions::nearest_label(const Region& region) const {
+    std::map<InputLabel, double> areas = region.large;
+    for (const auto& [other, area] : region.small) areas[regions_[other].label] += area;
+    return std::max_element(areas.begin(), areas.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+/// Makes `other` part of `region`, which has its label.
+void SmallRegions::absorb(std::uint32_t region, std::uint32_t other) {
+    Region& to = regions_[region];
+    Region& from = regions_[other];
+    queue_.erase({from.samples, other});
+    to.samples += from.samples;
+    from.joined = region;
+    for (const auto& [label, area] : from.large) to.large[label] += area;
+    for (const auto& [neighbour, area] : from.small) {
+        regions_[neighbour].small.erase(other);
+        if (neighbour == region) continue;
+        to.small[neighbour] += area;
+        regions_[neighbour].small[region] += area;
+    }
+    from.small.clear();
+    from.large.clear();
+}
+
+/// Its neighbours see it as a large region from now on.
+void SmallRegions::make_large(std::uint32_t region) {
+    for (const auto& [neighbour, area] : regions_[region].small) {
+        regions_[neighbour].small.erase(region);
+        regions_[neighbour].large[regions_[region].label] += area;
+    }
+    regions_[region].small.clear();
+    regions_[region].large.clear();
+}
+
+std::vector<InputLabel> SmallRegions::resolve(std::uint64_t min_samples) {
+    for (std::uint32_t n = 0; n < regions_.size(); ++n) queue_.emplace(regions_[n].samples, n);
+    while (!queue_.empty()) {
+        const std::uint32_t number = queue_.begin()->second;
+        queue_.erase(queue_.begin());
+        Region& region = regions_[number];
+        if (region.small.empty() && region.large.empty()) continue;
+        region.label = nearest_label(region);
+        const bool joins_large = region.large.contains(region.label);
+        std::vector<std::uint32_t> same;
+        for (const auto& [other, area] : region.small)
+            if (regions_[other].label == region.label) same.push_back(other);
+        for (const std::uint32_t other : same) absorb(number, other);
+        if (joins_large || region.samples >= min_samples)
+            make_large(number);
+        else
+            queue_.emplace(region.samples, number);
+    }
+    std::vector<InputLabel> labels;
+    for (std::uint32_t n = 0; n < regions_.size(); ++n) {
+        std::uint32_t root = n;
+        while (regions_[root].joined != root) root = regions_[root].joined;
+        labels.push_back(regions_[root].label);
+    }
+    return labels;
+}
+
+}  // namespace regionmesh
