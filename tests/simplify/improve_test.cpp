@@ -97,7 +97,9 @@ TEST(Improve, takes_faces_at_anisotropic_spacing_out_of_the_lowest_quality) {
     ReconstructOptions options = improved(0.8);
     const ImproveResult done = run(volume, options).report.improved.value();
     expect_better(done);
-    EXPECT_LT(done.after.faces_below, done.before.faces_below / 4 + 1);
+    EXPECT_GT(done.before.faces_below, 20u) << "this test needs such faces";
+    EXPECT_LT(3 * done.after.faces_below, done.before.faces_below);
+    EXPECT_GT(done.collapses, 0u);
 }
 
 TEST(Improve, of_an_empty_mesh_does_nothing) {
