@@ -68,6 +68,7 @@ Json shapes_json(const FaceShapes& shapes) {
 Json improved_json(const ImproveResult& done) {
     return {{"flips", done.flips},
             {"moves", done.moves},
+            {"collapses", done.collapses},
             {"sweeps", done.sweeps},
             {"before", shapes_json(done.before)},
             {"after", shapes_json(done.after)}};
