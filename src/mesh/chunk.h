@@ -13,6 +13,7 @@ namespace regionmesh {
 struct ChunkVertex {
     Vec3 position;
     SideSet sides = 0;
+    float error_bound = 0;  // Vertex::error_bound
 };
 static_assert(sizeof(ChunkVertex) == 32);
 

@@ -6,6 +6,7 @@
 #include "mesh/face_tree.h"
 #include "regionmesh/lattice.h"
 #include "simplify/edge_star.h"
+#include "simplify/error_bound.h"
 #include "simplify/verdict/intersect_test.h"
 #include "simplify/verdict/shape_bounds.h"
 
@@ -28,20 +29,26 @@ struct Collapse {
     Box limits = kUnbounded;  // a merged vertex that moves stays strictly inside, unless on a side of the box
     bool intersect_check = true;
     const Lattice* samples = nullptr;  // whose samples stay in their regions; none: any may change
+    double max_error = HUGE_VAL;       // of ErrorBound
     EdgeStar star = {};
     Vec3 position = {};         // of the merged vertex
     double worst_quality3 = 0;  // third power of the least quality of a changed face
     IntersectTest intersect = {};
+    ErrorBound error = {};
 };
 
-/// Collapses the edge whose star is given, and moves `stays` to `position`.
-inline void collapse_edge(Mesh& mesh, FaceTree& tree, const EdgeStar& star, Vec3 position) {
+/// Makes the collapse that was accepted: `stays` moves to the position of the merged vertex.
+inline void collapse_edge(Mesh& mesh, FaceTree& tree, Collapse& collapse) {
+    const EdgeStar& star = collapse.star;
+    const Vec3 position = collapse.position;
+    const double error_bound = collapse.error.merged(mesh, star, position);
     for (FaceId f : star.dead) {
         mesh.remove_face(f);
         tree.remove(f);
     }
     mesh.move_star(star.goes, star.stays);
     mesh[star.stays].position = position;
+    mesh[star.stays].set_error_bound(error_bound);
     for (int n = 0; n < star.face_count(); ++n) {
         Box box;
         for (Vec3 p : {position, star.at_a(n), star.at_b(n)}) box.add(p);

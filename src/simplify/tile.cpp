@@ -66,6 +66,7 @@ void Tile::put_in(TiledFaces& faces, std::uint32_t f) {
         if (place == kNone) {
             const ChunkVertex& vertex = faces.vertex(local);
             place = index(mesh_.add_vertex(vertex.position, vertex.sides, is_locked));
+            mesh_[VertexId{place}].set_error_bound(vertex.error_bound);
             locals_.push_back(local);
             inside_count_ += !is_locked;
         }
@@ -102,7 +103,8 @@ void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
             std::uint32_t& number = number_[index(corners[c])];
             if (number == kNone) {
                 number = static_cast<std::uint32_t>(left_vertices_.size());
-                left_vertices_.push_back({mesh_[corners[c]].position, mesh_[corners[c]].sides});
+                const Vertex& vertex = mesh_[corners[c]];
+                left_vertices_.push_back({vertex.position, vertex.sides, vertex.error_bound()});
             }
             face.vertices[c] = number;
             all_locked &= number;
