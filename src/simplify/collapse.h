@@ -41,14 +41,14 @@ struct Collapse {
 inline void collapse_edge(Mesh& mesh, FaceTree& tree, Collapse& collapse) {
     const EdgeStar& star = collapse.star;
     const Vec3 position = collapse.position;
-    const double error_bound = collapse.error.merged(mesh, star, position);
+    if (collapse.max_error == HUGE_VAL) collapse.error.merged(mesh, star, position);  // else test_error did
+    collapse.error.apply(mesh, star.stays);
     for (FaceId f : star.dead) {
         mesh.remove_face(f);
         tree.remove(f);
     }
     mesh.move_star(star.goes, star.stays);
     mesh[star.stays].position = position;
-    mesh[star.stays].set_error_bound(error_bound);
     for (int n = 0; n < star.face_count(); ++n) {
         Box box;
         for (Vec3 p : {position, star.at_a(n), star.at_b(n)}) box.add(p);

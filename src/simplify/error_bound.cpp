@@ -46,8 +46,9 @@ Nearest nearest(const P& p, const P& from, const P& to) {
 double ErrorBound::merged(const Mesh& mesh, const EdgeStar& star, Vec3 position) {
     goes_bound_ = mesh[star.goes].error_bound();
     stays_bound_ = mesh[star.stays].error_bound();
-    if (stays_flat(mesh, star, position)) return 0;
-    double bound = star.keeps_stays ? stays_bound_ : 0;  // its other faces keep it
+    demands_.clear();
+    bound_ = star.keeps_stays ? stays_bound_ : 0;  // its other faces keep it
+    if (stays_flat(mesh, star, position)) return bound_;
     is_done_.assign(star.faces.size(), false);
     std::size_t dead_done = 0;
     for (int first = 0; first < star.face_count(); ++first) {
@@ -63,12 +64,25 @@ double ErrorBound::merged(const Mesh& mesh, const EdgeStar& star, Vec3 position)
         for (FaceId f : star.dead)
             if (star.is_interface || mesh[f].labels == labels) dead_ids_.push_back(f);
         dead_done += dead_ids_.size();
-        bound = std::max(bound, of_interface(mesh, star, position));
+        bound_ = std::max(bound_, of_interface(mesh, star, position));
     }
     if (dead_done < star.dead.size())
-        bound = std::max(
-            {bound, goes_bound_ + length(star.at_goes - position), stays_bound_ + length(star.at_stays - position)});
-    return bound;
+        bound_ = std::max(
+            {bound_, goes_bound_ + length(star.at_goes - position), stays_bound_ + length(star.at_stays - position)});
+    return bound_;
+}
+
+void ErrorBound::apply(Mesh& mesh, VertexId merged) const {
+    mesh[merged].set_error_bound(bound_);
+    for (const Demand& demand : demands_) {
+        const double of_others = demand.value - demand.share * bound_;
+        if (!(of_others > demand.rest)) continue;
+        for (VertexId v : demand.others) {
+            Vertex& vertex = mesh[v];
+            vertex.set_error_bound(
+                std::max<double>(vertex.error_bound(), std::min(demand.value, of_others / (1 - demand.share))));
+        }
+    }
 }
 
 /// Nothing moved yet, and nothing moves: common on unsmoothed lattices.
@@ -86,8 +100,10 @@ bool ErrorBound::stays_flat(const Mesh& mesh, const EdgeStar& star, Vec3 positio
 
 double ErrorBound::of_interface(const Mesh& mesh, const EdgeStar& star, Vec3 position) {
     const double far = far_bound(star, position);
-    if (!is_vertical(mesh, star, position)) return far;
-    return std::min(needed_, far);
+    const std::size_t demands = demands_.size();
+    if (is_vertical(mesh, star, position) && needed_ < far) return needed_;
+    demands_.resize(demands);
+    return far;
 }
 
 double ErrorBound::far_bound(const EdgeStar& star, Vec3 position) const {
@@ -105,15 +121,13 @@ double ErrorBound::far_bound(const EdgeStar& star, Vec3 position) const {
 bool ErrorBound::is_vertical(const Mesh& mesh, const EdgeStar& star, Vec3 position) {
     needed_ = 0;
     split_at_ = kNoVertex;
-    if (!project(mesh, star, position) || !bring_rim(star) || !find_old()) return false;
+    if (!project(mesh, star, position) || !bring_rim() || !find_old()) return false;
     if ((goes_is_inside_ && !put_on_new(goes_)) || (stays_is_inside_ && !put_on_new(stays_))) return false;
     if (merged_is_inside_ && !put_on_old()) return false;
     cross_edges();
-    if (needed_ > 0) {
-        const Vec3 size = star.link_box.high - star.link_box.low;
-        needed_ += kSlack * (length(size) + length(star.at_goes - position));
-    }
-    return std::isfinite(needed_);
+    if (needed_ > 0)
+        needed_ += kSlack * (length(star.link_box.high - star.link_box.low) + length(star.at_goes - position));
+    return true;
 }
 
 /// Fails where a new face looks down.
@@ -160,7 +174,7 @@ bool ErrorBound::project(const Mesh& mesh, const EdgeStar& star, Vec3 position) 
 
 /// Finds whether the new faces go round the merged vertex, or the merged vertex lies on their rim; in the second case
 /// brings the old rim to the new one. Fails where the interface is no disk.
-bool ErrorBound::bring_rim(const EdgeStar& star) {
+bool ErrorBound::bring_rim() {
     const FanFace *first = nullptr, *last = nullptr;
     for (const FanFace& face : fan_) {
         bool begins = true, ends = true;
@@ -184,49 +198,43 @@ bool ErrorBound::bring_rim(const EdgeStar& star) {
     };
     const bool first_is_goes = first->is_of_goes != is_apex(first->at_a);
     const bool last_is_goes = last->is_of_goes != is_apex(last->at_b);
-    if (first_is_goes != last_is_goes)
-        return dead_.size() == 1 && bring_edge(*first, *last, first_is_goes, star.keeps_stays);
+    if ((dead_.size() == 1) != (first_is_goes != last_is_goes)) return false;
     (first_is_goes ? stays_is_inside_ : goes_is_inside_) = dead_.size() == 2;
-    return dead_.size() != 1 && bring_vertex(*first, *last, first_is_goes ? goes_ : stays_);
+    rim_.clear();
+    rim_.push_back(first_is_goes ? &goes_ : &stays_);
+    if (dead_.size() == 1) rim_.push_back(last_is_goes ? &goes_ : &stays_);
+    return bring_vertices(*first, *last);
 }
 
-/// One vertex of the old rim is between the first of the fan and the last. It goes to the nearest point of the new rim,
-/// and the nearest point of the rim on its other side goes to the merged vertex.
-bool ErrorBound::bring_vertex(const FanFace& first, const FanFace& last, Point& end) {
-    const Point merged, before = end;
-    const Nearest to_first = nearest(end, merged, first.a), to_last = nearest(end, merged, last.b);
-    if (to_first.at == 0 && to_last.at == 0) {
-        end = {0, 0, 0, end.bound + to_first.away};
-        require(end.bound, 1, 0);
-        return true;
+/// The nearest point of the old rim goes to the merged vertex; the vertices on either side of it to the nearest points
+/// of the edges there.
+bool ErrorBound::bring_vertices(const FanFace& first, const FanFace& last) {
+    const Point merged;
+    std::size_t before = 0;  // vertices before that point
+    Nearest nearest_of_all{0, HUGE_VAL};
+    double bound = 0;
+    for (std::size_t n = 0; n <= rim_.size(); ++n) {
+        const Point &from = n == 0 ? first.a : *rim_[n - 1], &to = n == rim_.size() ? last.b : *rim_[n];
+        const Nearest at = nearest(merged, from, to);
+        if (!(at.away < nearest_of_all.away)) continue;
+        nearest_of_all = at;
+        before = n;
+        bound = between(from, to, at.at).bound + at.away;
     }
-    const bool is_to_first = to_last.at == 0 || (to_first.at > 0 && to_first.away <= to_last.away);
-    const Point& beyond = is_to_first ? last.b : first.a;
-    split_at_ = is_to_first ? last.at_b : first.at_a;
-    const Nearest at = nearest(merged, beyond, before);
-    require(between(beyond, before, at.at).bound + at.away, 1, 0);
-    return bring(end, is_to_first ? first.a : last.b);
+    demand(bound, 1, 0, {});
+    split_at_ = before == 0 ? first.at_a : before == rim_.size() ? last.at_b : kNoVertex;
+    split_next_ = before == 0 ? rim_.front() : rim_.back();
+    for (std::size_t n = 0; n < rim_.size(); ++n)
+        if (!bring(*rim_[n], n < before ? first.a : last.b, n < before ? first.at_a : last.at_b)) return false;
+    return true;
 }
 
-/// The edge lies on the rim, from the first vertex of the fan to the last.
-bool ErrorBound::bring_edge(const FanFace& first, const FanFace& last, bool goes_is_first, bool keeps_stays) {
-    if (!keeps_stays) {
-        const Point merged;
-        const Nearest at = nearest(merged, goes_, stays_);
-        require(between(goes_, stays_, at.at).bound + at.away, 1, 0);
-    }
-    if (!bring(goes_, goes_is_first ? first.a : last.b)) return false;
-    if (keeps_stays) return require(stays_bound_, 1, 0), stays_ = {0, 0, 0, stays_bound_}, true;
-    return bring(stays_, goes_is_first ? last.b : first.a);
-}
-
-/// Brings an end of the edge to the new rim, between the merged vertex and the next one.
-bool ErrorBound::bring(Point& end, const Point& rim) {
+/// Brings a vertex to the new rim, between the merged vertex and the next one.
+bool ErrorBound::bring(Point& end, const Point& rim, VertexId next) {
     const Nearest at = nearest(end, Point{}, rim);
     if (at.at >= 1) return false;
-    const double bound = end.bound + at.away;
-    require(bound, 1 - at.at, at.at * rim.bound);
-    end = {at.at * rim.x, at.at * rim.y, at.at * rim.z, bound};
+    end = {at.at * rim.x, at.at * rim.y, at.at * rim.z, end.bound + at.away};
+    demand(end.bound, 1 - at.at, at.at * rim.bound, {next, next});
     return true;
 }
 
@@ -251,16 +259,14 @@ bool ErrorBound::find_old() {
         const Point &from = face.is_forward ? goes_ : stays_, &to = face.is_forward ? stays_ : goes_;
         const bool is_split = face.at_apex == split_at_;
         if (is_split) is_fan_split = false;
-        if (dead_.size() == 1)
+        if (is_split)
+            look_up = look_up && (split_next_ == &to ? add_parts(to, face.apex, from) : add_parts(face.apex, from, to));
+        else if (dead_.size() == 1 && split_at_ == kNoVertex)
             look_up = look_up && add_parts(from, to, face.apex);
-        else if (!is_split)
-            look_up = look_up && add_old({from, to, face.apex});
-        else if (face.is_forward == goes_is_inside_)
-            look_up = look_up && add_parts(to, face.apex, from);
         else
-            look_up = look_up && add_parts(face.apex, from, to);
-        if (!is_split || goes_is_inside_) old_edges_.push_back({goes_, face.apex});
-        if (!is_split || stays_is_inside_) old_edges_.push_back({stays_, face.apex});
+            look_up = look_up && add_old({from, to, face.apex});
+        for (const Point* end : {&goes_, &stays_})
+            if (!is_split || end != split_next_) old_edges_.push_back({*end, face.apex});
     }
     if (dead_.size() == 2) old_edges_.push_back({goes_, stays_});
     for (const FanFace& face : fan_) {
@@ -292,8 +298,8 @@ bool ErrorBound::put_on_new(const Point& end) {
         if (of_a < 0 || of_b < 0) continue;
         const double a = of_a / all, b = of_b / all;
         if (!(a + b < 1)) continue;
-        require(end.bound + std::abs(end.z - a * face.a.z - b * face.b.z), 1 - a - b,
-                a * face.a.bound + b * face.b.bound);
+        demand(end.bound + std::abs(end.z - a * face.a.z - b * face.b.z), 1 - a - b,
+               a * face.a.bound + b * face.b.bound, {face.at_a, face.at_b});
         return true;
     }
     return false;
@@ -304,9 +310,9 @@ bool ErrorBound::put_on_old() {
     for (const auto& [a, b, c] : old_faces_) {
         const double of_a = cross2(b, c), of_b = cross2(c, a), of_c = cross2(a, b);
         if (of_a < 0 || of_b < 0 || of_c < 0) continue;
-        require((of_a * a.bound + of_b * b.bound + of_c * c.bound + std::abs(of_a * a.z + of_b * b.z + of_c * c.z)) /
-                    (of_a + of_b + of_c),
-                1, 0);
+        demand((of_a * a.bound + of_b * b.bound + of_c * c.bound + std::abs(of_a * a.z + of_b * b.z + of_c * c.z)) /
+                   (of_a + of_b + of_c),
+               1, 0, {});
         return true;
     }
     return false;
@@ -323,14 +329,16 @@ void ErrorBound::cross_edges() {
             const Point old = between(edge.from, edge.to, from / (from - to));
             const double at = (way.x * old.x + way.y * old.y) / whole;
             if (!(at > 0 && at < 1)) continue;
-            require(old.bound + std::abs(old.z - at * way.z), 1 - at, at * way.bound);
+            demand(old.bound + std::abs(old.z - at * way.z), 1 - at, at * way.bound, {face.at_a, face.at_a});
         }
     }
 }
 
-/// The merged vertex has `share` of a point whose bound must be `value`, and other corners add `rest`.
-void ErrorBound::require(double value, double share, double rest) {
-    needed_ = std::max(needed_, (value - rest) / share);
+/// At a point that is `share` of the merged vertex the bound must be `value`. The other corners are `others`, and give
+/// `rest` now.
+void ErrorBound::demand(double value, double share, double rest, std::array<VertexId, 2> others) {
+    needed_ = std::max(needed_, value);
+    if (share < 1 && value > rest) demands_.push_back({value, share, rest, others});
 }
 
 double largest_error_bound(const Mesh& mesh) {

@@ -27,6 +27,9 @@ class ErrorBound {
 public:
     /// The bound that the merged vertex gets at a position. Requires the normals of set_normals.
     double merged(const Mesh& mesh, const EdgeStar& star, Vec3 position);
+    /// Sets the bounds that this makes necessary: of the merged vertex, and of those of the link that have to rise, to
+    /// no more than that.
+    void apply(Mesh& mesh, VertexId merged) const;
 
 private:
     /// Seen along the mean normal from the merged vertex; z is the height.
@@ -45,6 +48,10 @@ private:
         Point apex;
         bool is_forward;  // its corners are goes, stays, apex in this order
     };
+    struct Demand {
+        double value, share, rest;
+        std::array<VertexId, 2> others;
+    };
     using OldFace = std::array<Point, 3>;
     struct Edge {
         Point from, to;
@@ -55,10 +62,9 @@ private:
     double far_bound(const EdgeStar& star, Vec3 position) const;
     bool is_vertical(const Mesh& mesh, const EdgeStar& star, Vec3 position);
     bool project(const Mesh& mesh, const EdgeStar& star, Vec3 position);
-    bool bring_rim(const EdgeStar& star);
-    bool bring_edge(const FanFace& first, const FanFace& last, bool goes_is_first, bool keeps_stays);
-    bool bring_vertex(const FanFace& first, const FanFace& last, Point& end);
-    bool bring(Point& end, const Point& rim);
+    bool bring_rim();
+    bool bring_vertices(const FanFace& first, const FanFace& last);
+    bool bring(Point& end, const Point& rim, VertexId next);
     bool covers_once(const FanFace* first) const;
     bool put_on_new(const Point& end);
     bool put_on_old();
@@ -66,7 +72,7 @@ private:
     bool add_old(const OldFace& face);
     static bool add_parts(const Point& a, const Point& b, const Point& c);
     void cross_edges();
-    void require(double value, double share, double rest);
+    void demand(double value, double share, double rest, std::array<VertexId, 2> others);
 
     std::vector<int> faces_;        // of the interface: numbers in the star
     std::vector<FaceId> dead_ids_;  // and the faces that vanish
@@ -75,11 +81,15 @@ private:
     std::vector<DeadFace> dead_;
     std::vector<OldFace> old_faces_;
     std::vector<Edge> old_edges_;    // inside
-    VertexId split_at_ = kNoVertex;  // a point of the rim next to this vertex is brought to the merged vertex
-    Point goes_, stays_;             // brought to the new rim
+    std::vector<Point*> rim_;        // ends of the edge on the old rim, from the first of the fan to the last
+    VertexId split_at_ = kNoVertex;  // between it and the end next to it, a point of the rim goes to the merged vertex
+    const Point* split_next_ = nullptr;
+    Point goes_, stays_;  // brought to the new rim
     bool goes_is_inside_ = false, stays_is_inside_ = false, merged_is_inside_ = false;
     double goes_bound_ = 0, stays_bound_ = 0;
-    double needed_ = 0;
+    std::vector<Demand> demands_;  // of all interfaces
+    double needed_ = 0;            // of the merged vertex, for the interface
+    double bound_ = 0;             // and for all
 };
 
 /// The largest bound of a vertex.

@@ -1,5 +1,6 @@
 #include "stream/merger.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace regionmesh {
@@ -7,6 +8,10 @@ namespace regionmesh {
 void Merger::add(const Chunk& chunk) {
     assert(chunk.carried == active_.size());
     ids_ = active_;
+    for (std::size_t n = 0; n < chunk.carried_bounds.size(); ++n) {
+        Vertex& vertex = mesh_[active_[n]];
+        vertex.set_error_bound(std::max(vertex.error_bound(), chunk.carried_bounds[n]));
+    }
     const auto is_pinned = [](SideSet sides) { return (sides & kPinned) != 0; };
     for (VertexId v : active_) mesh_[v].is_fixed = is_pinned(mesh_[v].sides);
     for (const ChunkVertex& vertex : chunk.vertices) {
