@@ -140,6 +140,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     json["refreshes"] = report.refreshes;
     json["samples_in_room"] = report.samples_in_room;
     json["stopped"] = report.stopped;
+    json["error_bound"] = report.error_bound;
     json["smoothing"] = smoothing_json(report);
     json["pinned_vertices"] = report.pinned_vertices;
     json["volumes_preserved"] = {{"rounds", report.preserved.rounds},
