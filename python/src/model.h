@@ -58,7 +58,8 @@ struct GivenLabels {
 };
 Model model_of(const GivenArrays& given, const GivenLabels& labels);
 
-Model simplified(const Model& model, const OptionValues& options, Watch& watch);
+/// As `regionmesh decimate`. No sample of the lattice changes its region, where one is given.
+Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch);
 Model smoothed(const Model& model, const OptionValues& options, Watch& watch);
 
 /// The check as JSON. With a source also against its labels.

@@ -51,15 +51,17 @@ void bind_sources(py::module_& module) {
     py::class_<Frame>(module, "Frame")
         .def(py::init<std::array<double, 3>, std::array<double, 3>, std::array<double, 9>>());
     py::class_<Source>(module, "Source").def_property_readonly("info", info_of);
-    module.def("array_source",
-               [](const py::array& array, const Frame& frame, const OptionValues& options, const LabelNames& names,
-                  const std::string& name) { return array_source(array, frame, array_options(options, names, name)); });
-    module.def("call_source",
-               [](const std::tuple<py::object, py::object, std::array<std::uint32_t, 3>, std::string>& calls,
-                  const Frame& frame, const LabelNames& names, const std::string& name) {
-                   const auto& [next, rewind, size, type] = calls;
-                   return call_source({next, rewind, size, type}, frame, {.names = names, .name = name});
-               });
+    module.def("array_source", [](const py::array& array, const Frame& frame, const OptionValues& options,
+                                  const LabelNames& names, const std::string& name) {
+        return select(array_source(array, frame, array_options(options, names, name)), options);
+    });
+    module.def(
+        "call_source",
+        [](const std::tuple<py::object, py::object, std::array<std::uint32_t, 3>, std::string>& calls,
+           const Frame& frame, const OptionValues& options, const LabelNames& names, const std::string& name) {
+            const auto& [next, rewind, size, type] = calls;
+            return select(call_source({next, rewind, size, type}, frame, {.names = names, .name = name}), options);
+        });
     module.def("file_source", file_source);
 }
 
@@ -78,9 +80,12 @@ void bind_runs(py::module_& module) {
         Watch watch(progress);
         return reconstruct_tetrahedra(path, {options, std::nullopt, names}, watch);
     });
-    module.def("simplify", [](const Model& model, const OptionValues& options, const py::object& progress) {
+    using Samples = std::optional<std::pair<Frame, ArraySize>>;
+    module.def("simplify", [](const Model& model, const OptionValues& options, const Samples& samples,
+                              const py::object& progress) {
         Watch watch(progress);
-        return simplified(model, options, watch);
+        const auto lattice = samples ? std::optional(lattice_of(samples->first, samples->second)) : std::nullopt;
+        return simplified(model, options, lattice, watch);
     });
     module.def("smooth", [](const Model& model, const OptionValues& options) {
         Watch watch(py::none{});

@@ -43,10 +43,11 @@ _OF_NAME = {
     "weld": "float | None", "orient": "bool", "boundary": 'Literal["cap", "open"]', "label": "int", "a": "int",
     "b": "int", "threads": "int", "other": "Mesh", "like": "Any", "shape": "Sequence[int] | None",
     "dtype": "npt.DTypeLike | None", "outside": "int", "per_region": "bool", "labels": "Any",
+    "keep_samples": "bool", "min_quality": "float",
 }  # fmt: skip
 _RETURNS = {
     "reconstruct": "Mesh", "load": "Mesh", "from_arrays": "Mesh", "region": "Surface", "interface": "Surface",
-    "simplify": "Mesh", "smooth": "Mesh", "check": "dict[str, Any]", "compare": "dict[str, Any]",
+    "simplify": "Mesh", "smooth": "Mesh", "improve": "Mesh", "check": "dict[str, Any]", "compare": "dict[str, Any]",
     "voxelise": "npt.NDArray[Any]", "save": "None",
     "points": "npt.NDArray[np.float64]", "faces": "npt.NDArray[np.uint32]", "labels": "npt.NDArray[Any]",
     "node_types": "npt.NDArray[np.uint8]", "exterior_label": "int", "background": "list[int]",

@@ -130,7 +130,7 @@ def test_simplify_makes_a_new_mesh(filled):
 
 def test_simplify_is_that_of_the_program(filled, tmp_path):
     filled.save(tmp_path / "a.vtp")
-    direct = filled.simplify(target_faces=600)
+    direct = filled.simplify(target_faces=600, keep_samples=False)
     loaded = regionmesh.load(tmp_path / "a.vtp", background=None).simplify(target_faces=600)
     np.testing.assert_array_equal(direct.points, loaded.points)
     np.testing.assert_array_equal(direct.faces, loaded.faces)
@@ -148,6 +148,35 @@ def test_simplify_needs_a_target(filled):
         filled.simplify()
     with pytest.raises(TypeError, match="simplify.*memory"):
         filled.simplify(memory=5)
+
+
+def test_simplify_and_improve_keep_samples(grains):
+    mesh = regionmesh.reconstruct(grains, background=None)
+    for changed in (mesh.simplify(reduce=0.95), mesh.improve()):
+        assert changed.certified
+        assert not np.array_equal(changed.points, mesh.points)
+        assert changed.check(grains)["samples_wrong"] == 0
+    without = mesh.simplify(reduce=0.95, keep_samples=False)
+    assert without.report["verdicts"]["samples"] == 0
+    assert mesh.simplify(reduce=0.95).report["verdicts"]["samples"] > 0
+
+
+def test_samples_of_turned_lattices_are_not_known(grains):
+    turn = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+    mesh = regionmesh.reconstruct(grains, background=None, direction=turn)
+    assert mesh.simplify(reduce=0.9).report["verdicts"]["samples"] == 0
+
+
+def test_improve_raises_quality(grains):
+    mesh = regionmesh.reconstruct(grains, background=None, reduce=0.8)
+    better = mesh.improve()
+    assert better.certified
+    assert better.report["quality"]["mean"] > mesh.report["quality"]["mean"]
+    assert better.report["improved"]["after"]["faces_below"] <= better.report["improved"]["before"]["faces_below"]
+    both = mesh.simplify(reduce=0.3, improve=True)
+    assert len(both) < len(mesh) and "improved" in both.report
+    with pytest.raises(ValueError, match="min-quality"):
+        mesh.improve(min_quality=5)
 
 
 def test_simplify_reports_progress(filled):

@@ -52,17 +52,6 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
                             " and directories of .png or .tif sections");
 }
 
-std::unique_ptr<SectionReader> open_all(const std::vector<fs::path>& inputs, const ReadOptions& options) {
-    if (inputs.empty())
-        throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
-    if (inputs.size() == 1) return open_one(inputs.front(), options);
-    if (options.raw_size || options.raw_type) {
-        formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
-                                          " are given; give one");
-    }
-    return formats::open_image_list(inputs, options);
-}
-
 }  // namespace
 
 formats::DatasetPath formats::split_dataset(const fs::path& path) {

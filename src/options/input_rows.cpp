@@ -231,13 +231,17 @@ Rows tetrahedra_rows() {
              .unit = "length",
              .inputs = kTableInput},
             [](Settings& s) { return &s.tetrahedra.step; }, kPositive),
-        option(
+        special_option(
             {.name = "scale-z",
              .help = "compute with z times this factor, rounded to a power of two; the model is not scaled",
              .group = kGroup,
              .commands = kVolumeCommands,
-             .inputs = kTableInput | kMeshInput},
-            [](Settings& s) { return &s.tetrahedra.scale_z; }, kPositive),
+             .range = kPositive.text(),
+             .default_text = "1"},
+            OptionKind::kNumber,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                s.reconstruct.scale_z = s.tetrahedra.scale_z = parse_number(flag, text, kPositive);
+            }),
         option({.name = "array",
                 .help = "meshes: name of the array of labels",
                 .group = kGroup,

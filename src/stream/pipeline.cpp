@@ -22,6 +22,7 @@
 #include "stream/tetrahedron_faces.h"
 #include "stream/tile_stage.h"
 #include "stream/tuning.h"
+#include "volume/exact_grid.h"
 #include "volume/room_reader.h"
 
 namespace regionmesh {
@@ -94,6 +95,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     give_back_freed_memory();
     result.report.pinned_vertices = simplify.release_all();
     source.place(result.mesh);
+    for (double& volume : result.report.unsmoothed_volumes) volume /= shape.scale_z;
     result.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     check_result(result, std::move(plan.oracle), options, log);
     result.report.final_faces = result.mesh.face_count();
@@ -138,13 +140,21 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
 
 namespace {
 
+/// A power of two: scaling is exact.
+double section_scale(const SectionReader& reader, const ReconstructOptions& options) {
+    if (options.scale_z >= kLeastLength && options.scale_z <= 1 / kLeastLength)
+        return nearest_power_of_two(options.scale_z);
+    throw Error(ErrorCode::kInput,
+                reader.info().source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
+}
+
 Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOptions& options,
                                     const OnProgress& on_progress) {
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
     SectionFaces source(ahead ? *ahead : reader, {.cap = options.cap, .background = options.background},
-                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality);
+                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader, options));
     Reconstruction result = reconstruct(source, options, on_progress);
     count_samples(result, source, options);
     return result;
