@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "restore_background.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -41,6 +42,16 @@ std::optional<SampleAgreement> compare_with_sections(const Settings& settings, M
     return compare_samples(file.mesh, file.labels, options.background, *reader);
 }
 
+/// Is the background of the volume the exterior of the model? So it is in STL files.
+bool lacks_background(const Settings& settings, const MeshFile& file) {
+    if (settings.sections.empty() || kind_of_input(settings.sections) != kVolumeInput) return false;
+    const auto& background = settings.reconstruct.background;
+    if (background.empty() || !file.background || !file.background->empty()) return false;
+    for (Label label = 0; label < file.labels.size(); ++label)
+        if (file.labels.input(label) == background.front()) return false;
+    return true;
+}
+
 void print_samples(const SampleAgreement& samples) {
     if (samples.wrong == 0)
         fmt::print("every one of {} samples keeps its label\n", samples.samples);
@@ -51,9 +62,15 @@ void print_samples(const SampleAgreement& samples) {
 
 }  // namespace
 
-int run_check(const Settings& settings) {
-    const std::string& path = settings.models.front();
-    MeshFile file = read_mesh(path, settings.surface);
+int run_check(const Settings& given) {
+    const std::string& path = given.models.front();
+    MeshFile file = read_mesh(path, given.surface);
+    if (lacks_background(given, file)) {
+        const auto reader =
+            open_sections({given.sections.begin(), given.sections.end()}, settings_for(given, file).volume);
+        restore_background(file, reader->info().lattice, given.reconstruct.background.front());
+    }
+    const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
     if (!settings.sections.empty()) {
@@ -65,6 +82,8 @@ int run_check(const Settings& settings) {
     const auto samples = compare_with_sections(settings, file, options);
     if (!settings.json.empty())
         write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr));
+    if (!settings.regions.empty())
+        write_text(settings.regions, regions_csv(file.mesh, file.labels, options.background, file.names));
     if (!settings.quiet) {
         print_findings(path, report);
         if (samples) print_samples(*samples);

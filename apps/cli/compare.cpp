@@ -147,10 +147,11 @@ void write_distances(const Settings& settings, const MeshFile& a, const CompareR
 
 }  // namespace
 
-int run_compare(const Settings& settings) {
-    if (!settings.json.empty()) require_writable(settings.json);
-    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {}, true);
-    const MeshFile a = read_faces(settings.models[0]), b = read_faces(settings.models[1]);
+int run_compare(const Settings& given) {
+    if (!given.json.empty()) require_writable(given.json);
+    if (!given.distance.empty()) require_writable_mesh(given.distance, {}, true);
+    const MeshFile a = read_faces(given.models[0]), b = read_faces(given.models[1]);
+    const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
     const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
                                          {.samples = settings.samples,
                                           .background = settings.reconstruct.background,

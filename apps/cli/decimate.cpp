@@ -54,12 +54,13 @@ void print_summary(const std::string& path, const Report& report) {
 
 }  // namespace
 
-int run_decimate(const Settings& settings) {
-    const ReconstructOptions& asked = settings.reconstruct;
+int run_decimate(const Settings& given) {
+    const ReconstructOptions& asked = given.reconstruct;
     if (!asked.target_faces && !asked.reduce && !asked.max_error)
         throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
-    require_outputs(settings);
-    MeshFile file = read_mesh(settings.models.front(), settings.surface);
+    require_outputs(given);
+    MeshFile file = read_mesh(given.models.front(), given.surface);
+    const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
@@ -67,7 +68,7 @@ int run_decimate(const Settings& settings) {
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    write_model(settings, file.mesh, file.labels, options.background, names);
+    write_model(settings, file.mesh, file.labels, options.background, {names, file.space});
     write_report_file(settings, report, file.labels, names);
     if (!settings.quiet) {
         print_summary(settings.output, report);

@@ -24,6 +24,7 @@ void require_outputs(const Settings& settings) {
                           {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap});
     if (!settings.names.empty()) read_label_names(settings.names);
     if (!settings.report.empty()) require_writable(settings.report);
+    if (!settings.regions.empty()) require_writable(settings.regions);
 }
 
 LabelNames names_or(const Settings& settings, const LabelNames& found) {
@@ -31,9 +32,16 @@ LabelNames names_or(const Settings& settings, const LabelNames& found) {
 }
 
 void write_model(const Settings& settings, const Mesh& mesh, const LabelTable& labels,
-                 const std::vector<Label>& background, const LabelNames& names) {
-    write_mesh(mesh, labels, settings.output,
-               {.background = background, .names = names, .per_region = settings.per_region});
+                 const std::vector<Label>& background, const ModelNotes& notes) {
+    const auto written = write_mesh(mesh, labels, settings.output,
+                                    {.background = background,
+                                     .names = notes.names,
+                                     .per_region = settings.per_region,
+                                     .space = notes.space,
+                                     .metres = settings.metres});
+    if (!settings.regions.empty()) write_text(settings.regions, regions_csv(mesh, labels, background, notes.names));
+    if (settings.quiet || !settings.per_region) return;
+    for (const auto& file : written) fmt::print("{}\n", file.string());
 }
 
 void write_report_file(const Settings& settings, Report& report, const LabelTable& labels, const LabelNames& names) {

@@ -13,9 +13,16 @@ void require_outputs(const Settings& settings);
 /// The names from --names, or else those found with the input.
 LabelNames names_or(const Settings& settings, const LabelNames& found);
 
-/// Writes the model to `settings.output`. `background` is dense.
+/// What a file says about a model besides its faces.
+struct ModelNotes {
+    LabelNames names;
+    Space space = Space::kUnknown;
+};
+
+/// Writes the model to `settings.output`, and the table of --regions. `background` is dense. With --per-region prints
+/// the files that were written.
 void write_model(const Settings& settings, const Mesh& mesh, const LabelTable& labels,
-                 const std::vector<Label>& background, const LabelNames& names);
+                 const std::vector<Label>& background, const ModelNotes& notes);
 
 /// Writes the report if --report asks for it, with the memory used until now.
 void write_report_file(const Settings& settings, Report& report, const LabelTable& labels, const LabelNames& names);

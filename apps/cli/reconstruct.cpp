@@ -51,11 +51,12 @@ void print_summary(const Settings& settings, const Report& report) {
     print_certificate(check, report.samples ? &*report.samples : nullptr);
 }
 
-/// Reconstructs the input, whichever kind it is of, and sets `names` to those of its labels.
-Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
+/// Reconstructs the input, whichever kind it is of, and sets `notes` to what it says about its labels and its space.
+Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
     ProgressLine line(settings.quiet);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
-        names = names_or(settings, reader.info().names);
+        notes.names = names_or(settings, reader.info().names);
+        if constexpr (requires { reader.info().space; }) notes.space = reader.info().space;
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& progress) { line.show(progress); });
         line.clear();
@@ -67,17 +68,17 @@ Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
 
 int run_reconstruct(const Settings& settings) {
     require_outputs(settings);
-    LabelNames names;
-    Reconstruction made = reconstruct_input(settings, names);
+    ModelNotes notes;
+    Reconstruction made = reconstruct_input(settings, notes);
     Report& report = made.report;
     double writing = 0;
     {
         const Timer timer(writing);
-        write_model(settings, made.mesh, made.labels, made.background, names);
+        write_model(settings, made.mesh, made.labels, made.background, notes);
     }
     report.seconds["write"] = writing;
     report.seconds["total"] += writing;
-    write_report_file(settings, report, made.labels, names);
+    write_report_file(settings, report, made.labels, notes.names);
     if (!settings.quiet) print_summary(settings, report);
     return exit_code(report.check);
 }

@@ -53,16 +53,17 @@ void print_summary(const std::string& path, const Report& report, const CheckRep
 
 }  // namespace
 
-int run_smooth(const Settings& settings) {
-    require_outputs(settings);
-    MeshFile file = read_mesh(settings.models.front(), settings.surface);
+int run_smooth(const Settings& given) {
+    require_outputs(given);
+    MeshFile file = read_mesh(given.models.front(), given.surface);
+    const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     Report report = smoothed(settings, file.mesh, before);
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    write_model(settings, file.mesh, file.labels, options.background, names);
+    write_model(settings, file.mesh, file.labels, options.background, {names, file.space});
     write_report_file(settings, report, file.labels, names);
     if (!settings.quiet) {
         print_summary(settings.output, report, before);

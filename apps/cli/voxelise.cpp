@@ -5,9 +5,10 @@
 
 namespace regionmesh::cli {
 
-int run_voxelise(const Settings& settings) {
-    const std::string& path = settings.models.front();
-    MeshFile file = read_mesh(path, settings.surface);
+int run_voxelise(const Settings& given) {
+    const std::string& path = given.models.front();
+    MeshFile file = read_mesh(path, given.surface);
+    const Settings settings = settings_for(given, file);
     const VolumeInfo info =
         open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume)->info();
     const Lattice& lattice = info.lattice;

@@ -4,6 +4,7 @@
 #include "formats/input_file.h"
 #include "formats/registry.h"
 #include "regionmesh/error.h"
+#include "volume/chosen_sections.h"
 
 namespace regionmesh {
 namespace {
@@ -80,7 +81,7 @@ std::string volume_extensions() { return formats::extensions_with(&Format::open_
 std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs, const ReadOptions& options) {
     Selection selection = options.select;
     if (!options.merge_table.empty()) read_merge_table(options.merge_table, selection);
-    return select_sections(open_all(inputs, options), selection);
+    return select_sections(turn_sections(open_all(inputs, options), options.space), selection);
 }
 
 }  // namespace regionmesh

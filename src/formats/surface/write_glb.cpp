@@ -42,8 +42,13 @@ std::array<double, 4> colour_of(InputLabel label) {
 
 class GlbWriter {
 public:
-    GlbWriter(const FileView& view, OutputFile& file)
-        : view_(view), file_(file), regions_(view), faces_(faces_by_region(view, regions_)), middle_(middle_of(view)) {}
+    GlbWriter(const FileView& view, double metres, OutputFile& file)
+        : view_(view),
+          file_(file),
+          metres_(metres),
+          regions_(view),
+          faces_(faces_by_region(view, regions_)),
+          middle_(middle_of(view)) {}
 
     void write() {
         std::string json = describe();
@@ -146,7 +151,8 @@ private:
         json["nodes"] = Json::array({{{"name", "model"}, {"rotation", {-half, 0, 0, half}}}});
         if (regions_.all().empty()) return json.dump();
         // glTF applies the rotation before the translation.
-        json["nodes"][0]["translation"] = {middle_.x, middle_.z, -middle_.y};
+        json["nodes"][0]["translation"] = {metres_ * middle_.x, metres_ * middle_.z, -metres_ * middle_.y};
+        if (metres_ != 1) json["nodes"][0]["scale"] = {metres_, metres_, metres_};
         for (std::size_t n = 0; n < regions_.all().size(); ++n) add_region(n, json);
         json["buffers"] = Json::array({{{"byteLength", bytes_}}});
         return json.dump();
@@ -154,6 +160,7 @@ private:
 
     const FileView& view_;
     OutputFile& file_;
+    double metres_;  // in a unit of the coordinates
     FileRegions regions_;
     GroupedFaces faces_;
     Vec3 middle_;
@@ -162,6 +169,6 @@ private:
 
 }  // namespace
 
-void write_glb(const FileView& view, OutputFile& file) { GlbWriter(view, file).write(); }
+void write_glb(const FileView& view, double metres, OutputFile& file) { GlbWriter(view, metres, file).write(); }
 
 }  // namespace regionmesh
