@@ -29,10 +29,19 @@ set(CPACK_DEBIAN_DOC_DESCRIPTION "Documentation: the pages of regionmesh as Mark
 
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc/docs COMPONENT doc)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc COMPONENT doc)
+# Debian's policy wants a changelog in its own form, compressed without a time stamp.
+file(WRITE ${PROJECT_BINARY_DIR}/changelog "regionmesh (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * CHANGELOG.md has the changes.
+
+ -- ${REGIONMESH_MAINTAINER}  Sat, 21 Nov 2026 00:00:00 +0000
+")
+execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/changelog COMMAND_ERROR_IS_FATAL ANY)
 foreach(package_component regionmesh:program libregionmesh-dev:dev regionmesh-doc:doc)
     string(REPLACE ":" ";" pair ${package_component})
     list(GET pair 0 package)
     list(GET pair 1 component)
     install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright COMPONENT ${component})
+    install(FILES ${PROJECT_BINARY_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
 endforeach()
 include(CPack)
