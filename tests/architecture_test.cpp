@@ -184,11 +184,12 @@ TEST(Architecture, the_program_that_reads_hdf5_shares_one_header_with_the_librar
 }
 
 TEST(Architecture, programs_include_public_headers_and_their_own) {
-    for_sources(kRoot / "apps/cli", [&](const fs::path& file) {
-        for (const std::string& include : includes_of(file))
-            EXPECT_TRUE(include.starts_with("regionmesh/") || include.find('/') == std::string::npos)
-                << file.string() << " includes " << include;
-    });
+    for (const char* folder : {"apps/cli", "python/src"})
+        for_sources(kRoot / folder, [&](const fs::path& file) {
+            for (const std::string& include : includes_of(file))
+                EXPECT_TRUE(include.starts_with("regionmesh/") || include.find('/') == std::string::npos)
+                    << file.string() << " includes " << include;
+        });
 }
 
 TEST(Architecture, a_source_includes_its_own_header_first) {

@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = test::source_folder();
-constexpr std::array kFolders{"src", "include", "apps", "tests", "docs", "bench", "script", "cmake", "examples"};
+constexpr std::array kFolders{"src",   "include", "apps",  "tests",    "docs",
+                              "bench", "script",  "cmake", "examples", "python"};
 const std::set<std::string> kForeign{"nifti1.h", "nifti2.h"};  // headers of the NIfTI standard
 
 /// Files of the repository: built, downloaded and shared ones left out.

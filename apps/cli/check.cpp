@@ -3,6 +3,8 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "page_output.h"
+#include "printable.h"
 #include "restore_background.h"
 
 namespace regionmesh::cli {
@@ -27,7 +29,7 @@ LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
 void print_findings(const std::string& name, const CheckReport& report) {
     fmt::print(
         "{}: {} regions, {} pairs with an interface, {} quadruple points inside, lowest quality {:.3f}, mean {:.3f}\n",
-        name, report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
+        printable(name), report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
         report.quality.mean);
     print_violations(report, kListed);
     if (report.violation_count() == 0) fmt::print("no violations\n");
@@ -63,7 +65,10 @@ void print_samples(const SampleAgreement& samples) {
 }  // namespace
 
 int run_check(const Settings& given) {
+    require_page(given.html, given.writing);
     const std::string& path = given.models.front();
+    for (const std::string& file : {given.json, given.regions})
+        if (!file.empty()) require_writable(file, given.writing);
     MeshFile file = read_mesh(path, given.surface);
     if (lacks_background(given, file)) {
         const auto reader =
@@ -80,10 +85,15 @@ int run_check(const Settings& given) {
     }
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
-    if (!settings.json.empty())
-        write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr));
+    const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);
+    OutputFiles files(settings.writing);
+    if (!settings.json.empty()) files.add(settings.json).write(json);
     if (!settings.regions.empty())
-        write_text(settings.regions, regions_csv(file.mesh, file.labels, options.background, file.names));
+        files.add(settings.regions).write(regions_csv(file.mesh, file.labels, options.background, file.names));
+    if (!settings.html.empty())
+        write_page(settings.html, {page_model(path, file.mesh, file.labels, options.background, file.names)},
+                   page_options(kCheck, settings, json, options.oracle.has_value()), files);
+    files.commit();
     if (!settings.quiet) {
         print_findings(path, report);
         if (samples) print_samples(*samples);

@@ -62,6 +62,7 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             for (const auto& texts : *all) texts->append_to(values);
             Settings settings;
             apply_options(settings, values);
+            require_distinct_files(settings);
             return run(settings);
         };
     });

@@ -5,6 +5,8 @@
 
 #include "commands.h"
 #include "input.h"
+#include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -122,8 +124,8 @@ void print_quality(const std::array<QualityReport, 2>& quality) {
 }
 
 void print_report(const Settings& settings, const CompareReport& report) {
-    fmt::print("A  {}: {} faces, {} vertices\n", settings.models[0], report.faces[0], report.vertices[0]);
-    fmt::print("B  {}: {} faces, {} vertices\n", settings.models[1], report.faces[1], report.vertices[1]);
+    fmt::print("A  {}: {} faces, {} vertices\n", printable(settings.models[0]), report.faces[0], report.vertices[0]);
+    fmt::print("B  {}: {} faces, {} vertices\n", printable(settings.models[1]), report.faces[1], report.vertices[1]);
     fmt::print("\n{:<{}}{}\n", "surface", kNameWidth, kDistanceHead);
     fmt::print("{:<{}}{}\n", "A to B", kNameWidth, text_of(*report.distance.a_to_b));
     fmt::print("{:<{}}{}\n", "B to A", kNameWidth, text_of(*report.distance.b_to_a));
@@ -135,35 +137,72 @@ void print_report(const Settings& settings, const CompareReport& report) {
     print_quality(report.quality);
 }
 
-/// A with the distance of each vertex to B.
-void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report) {
+/// The dense labels of the background that the model has.
+std::vector<Label> background_of(const Settings& settings, const LabelTable& labels) {
     const std::vector<InputLabel>& background = settings.reconstruct.background;
-    WriteOptions options{.point_arrays = {{"Distance", report.vertex_distances}}};
-    for (Label label = 0; label < a.labels.size(); ++label)
-        if (std::ranges::find(background, a.labels.input(label)) != background.end())
-            options.background.push_back(label);
-    write_mesh(a.mesh, a.labels, settings.distance, options);
+    std::vector<Label> dense;
+    for (Label label = 0; label < labels.size(); ++label)
+        if (std::ranges::find(background, labels.input(label)) != background.end()) dense.push_back(label);
+    return dense;
+}
+
+/// A with the distance of each vertex to B.
+void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report, OutputFiles& files) {
+    write_mesh(a.mesh, a.labels, settings.distance,
+               {.background = background_of(settings, a.labels),
+                .point_arrays = {{"Distance", report.vertex_distances}},
+                .names = a.names,
+                .space = a.space},
+               files);
+}
+
+/// The distance of each vertex of B to A.
+std::vector<double> distances_back(const Settings& settings, const MeshFile& a, const MeshFile& b) {
+    constexpr std::uint64_t kFew = 1000;  // samples: their distances are not looked at
+    return compare({b.mesh, b.labels}, {a.mesh, a.labels},
+                   {.samples = kFew,
+                    .background = settings.reconstruct.background,
+                    .vertex_distances = true,
+                    .threads = settings.reconstruct.threads})
+        .vertex_distances;
+}
+
+/// Both models side by side, each with its distances to the other.
+void write_comparison(const Settings& settings, const MeshFile& a, const MeshFile& b, const CompareReport& report,
+                      OutputFiles& files) {
+    const std::vector<double> back = distances_back(settings, a, b);
+    std::vector<PageModel> models;
+    for (const auto& [path, file] : {std::pair(&settings.models[0], &a), std::pair(&settings.models[1], &b)})
+        models.push_back(
+            page_model(*path, file->mesh, file->labels, background_of(settings, file->labels), file->names));
+    models[0].distances = report.vertex_distances;
+    models[1].distances = back;
+    write_page(settings.html, models, page_options(kCompare, settings, compare_json(report), false), files);
 }
 
 }  // namespace
 
 int run_compare(const Settings& given) {
-    if (!given.json.empty()) require_writable(given.json);
-    if (!given.distance.empty()) require_writable_mesh(given.distance, {}, true);
+    if (!given.json.empty()) require_writable(given.json, given.writing);
+    require_page(given.html, given.writing);
+    if (!given.distance.empty()) require_writable_mesh(given.distance, {.output = given.writing}, true);
     const MeshFile a = read_faces(given.models[0]), b = read_faces(given.models[1]);
     const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
     const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
                                          {.samples = settings.samples,
                                           .background = settings.reconstruct.background,
-                                          .vertex_distances = !settings.distance.empty(),
+                                          .vertex_distances = !settings.distance.empty() || !settings.html.empty(),
                                           .threads = settings.reconstruct.threads});
     if (!report.distance.both)
         throw Error(ErrorCode::kInput,
                     fmt::format("{}, {}: one of them has no face of positive area, except faces between background and "
                                 "exterior: there is nothing to compare; see --no-background",
                                 settings.models[0], settings.models[1]));
-    if (!settings.json.empty()) write_text(settings.json, compare_json(report));
-    if (!settings.distance.empty()) write_distances(settings, a, report);
+    OutputFiles files(settings.writing);
+    if (!settings.json.empty()) files.add(settings.json).write(compare_json(report));
+    if (!settings.distance.empty()) write_distances(settings, a, report, files);
+    if (!settings.html.empty()) write_comparison(settings, a, b, report, files);
+    files.commit();
     if (!settings.quiet) print_report(settings, report);
     return kGood;
 }

@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 
@@ -11,9 +12,14 @@ int run_convert(const Settings& given) {
     MeshFile file = read_mesh(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
-    write_model(settings, file.mesh, file.labels, options.background, {names_or(settings, file.names), file.space});
+    const LabelNames names = names_or(settings, file.names);
+    OutputFiles files(settings.writing);
+    const auto written = write_model(settings, {file.mesh, file.labels, options.background, names, file.space}, files);
+    files.commit();
+    print_region_files(settings, written);
     if (!settings.quiet)
-        fmt::print("{}: {} faces, {} vertices\n", settings.output, file.mesh.face_count(), file.mesh.vertex_count());
+        fmt::print("{}: {} faces, {} vertices\n", printable(settings.output), file.mesh.face_count(),
+                   file.mesh.vertex_count());
     return kGood;
 }
 

@@ -6,13 +6,17 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
 
+bool has_target(const ReconstructOptions& asked) { return asked.target_faces || asked.reduce || asked.max_error; }
+
 SimplifyOptions to_options(const Settings& settings, const Mesh& mesh) {
     const ReconstructOptions& asked = settings.reconstruct;
-    SimplifyOptions options;
+    SimplifyOptions options{.target_faces = has_target(asked) ? 0 : mesh.face_count()};
     if (asked.target_faces)
         options.target_faces =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
@@ -28,8 +32,8 @@ SimplifyOptions to_options(const Settings& settings, const Mesh& mesh) {
     return options;
 }
 
-/// Simplifies, and reports it as reconstruct does.
-Report simplified(Mesh& mesh, const SimplifyOptions& options) {
+/// Simplifies and improves, and reports it as reconstruct does.
+Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving) {
     Report report;
     report.initial_faces = report.peak_faces = mesh.face_count();
     report.initial_vertices = mesh.vertex_count();
@@ -39,7 +43,12 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options) {
         report.verdicts = done.verdicts;
         report.refreshes = done.refreshes;
         report.stopped = to_string(done.stopped);
+        report.error_bound = done.error_bound;
         report.bytes_per_face = static_cast<double>(done.bytes) / report.peak_faces;
+    }
+    if (is_improving) {
+        const Timer timer(report.seconds["improve"]);
+        report.improved = improve(mesh, {.min_quality = options.min_quality, .scale = options.scale});
     }
     report.final_faces = mesh.face_count();
     report.final_vertices = mesh.vertex_count();
@@ -47,33 +56,42 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options) {
 }
 
 void print_summary(const std::string& path, const Report& report) {
-    fmt::print("{}: {} faces (from {}), lowest quality {:.3f}, {} violations\n", path, report.final_faces,
+    fmt::print("{}: {} faces (from {}), lowest quality {:.3f}, {} violations\n", printable(path), report.final_faces,
                report.initial_faces, report.check.quality.min, report.check.violation_count());
-    if (report.stopped == "topology") fmt::print("stopped before the target: no further edge can be collapsed\n");
+    print_improved(report);
 }
 
 }  // namespace
 
 int run_decimate(const Settings& given) {
     const ReconstructOptions& asked = given.reconstruct;
-    if (!asked.target_faces && !asked.reduce && !asked.max_error)
-        throw Error(ErrorCode::kUsage, "decimate: no target; give --target-faces, --reduce or --max-error");
+    if (!has_target(asked) && !asked.improve)
+        throw Error(ErrorCode::kUsage,
+                    "decimate: no target; give --target-faces, --reduce or --max-error, or --improve");
     require_outputs(given);
     MeshFile file = read_mesh(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
-    Report report = simplified(file.mesh, to_options(settings, file.mesh));
+    Report report = simplified(file.mesh, to_options(settings, file.mesh), asked.improve);
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    write_model(settings, file.mesh, file.labels, options.background, {names, file.space});
-    write_report_file(settings, report, file.labels, names);
+    const Model model{file.mesh, file.labels, options.background, names, file.space};
+    OutputFiles files(settings.writing);
+    const auto written = write_model(settings, model, files);
+    write_report_file(settings, report, model, files);
+    if (!settings.html.empty())
+        write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
+                   page_options(kDecimate, settings, report_json(report, file.labels, names), false), files);
+    files.commit();
+    print_region_files(settings, written);
     if (!settings.quiet) {
         print_summary(settings.output, report);
         print_fixed_part(fixed, before, report.check);
     }
+    print_stop(settings, report);
     return exit_code(report.check);
 }
 

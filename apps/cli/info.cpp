@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "input.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -23,7 +24,7 @@ void print_labels(const AnyCensus& census, const LabelNames& names, const char* 
         const InputLabel label = census.labels.input(order[n]);
         const auto name = names.find(label);
         fmt::print("  {:>12}  {} {}{}{}\n", census.labels.text(label), census.samples[order[n]], unit,
-                   name == names.end() ? "" : "  ", name == names.end() ? "" : name->second);
+                   name == names.end() ? "" : "  ", name == names.end() ? "" : printable(name->second));
     }
     if (order.size() > kShown) fmt::print("  and {} more\n", order.size() - kShown);
 }
@@ -31,7 +32,7 @@ void print_labels(const AnyCensus& census, const LabelNames& names, const char* 
 int print_info(TetrahedronReader& reader, const CensusOptions& options) {
     const TetrahedraInfo& info = reader.info();
     const TetrahedronCensus census = count_labels(reader, options);
-    fmt::print("file       {} ({})\n", info.source, info.format);
+    fmt::print("file       {} ({})\n", printable(info.source), info.format);
     fmt::print("size       {} points, {} tetrahedra\n", census.point_count, census.tetrahedron_count);
     fmt::print("spacing    {:.6g} (mean){}\n", census.spacing, info.scale_z == 1 ? "" : ", z scaled");
     fmt::print("sweep      along {}\n", "xyz"[census.sweep.axes[2]]);
@@ -45,7 +46,7 @@ int print_info(SectionReader& reader, const CensusOptions& options) {
     const VolumeInfo info = reader.info();
     const Lattice& lattice = info.lattice;
     const Census census = count_labels(reader, options);
-    fmt::print("file       {} ({})\n", info.source, info.format);
+    fmt::print("file       {} ({})\n", printable(info.source), info.format);
     fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2],
                to_string(info.type));
     fmt::print("spacing    {} x {} x {}\n", lattice.spacing.x, lattice.spacing.y, lattice.spacing.z);

@@ -1,33 +1,99 @@
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <initializer_list>
+#include <iostream>
 #include <new>
+#include <system_error>
 
 #include "command_line.h"
 #include "commands.h"
+#include "printable.h"
 #include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
 
 namespace regionmesh::cli {
 namespace {
 
-int run(const Action& action) {
+/// What helps when memory runs out: options that the command has.
+const char* advice = "end other programs, or take a part of the input";
+
+/// One line on standard error. Allocates nothing and cannot fail: the exit code says the same where nobody reads it.
+void say(std::initializer_list<const char*> words) {
+    std::fputs("regionmesh: ", stderr);
+    for (const char* word : words)
+        for_printable(word, [](const char* bytes, std::size_t count) { std::fwrite(bytes, 1, count, stderr); });
+    std::fputc('\n', stderr);
+}
+
+void say_out_of_memory() { say({"out of memory; ", advice}); }
+
+/// Libraries allocate in destructors, from which no exception can leave: memory that runs out there ends up here.
+[[noreturn]] void end_without_destructors() noexcept {
+    const bool is_exception = std::current_exception() != nullptr;
+    try {
+        if (is_exception) throw;
+    } catch (const std::bad_alloc&) {
+        say_out_of_memory();
+        remove_outputs();
+        ::_exit(kBadInput);
+    } catch (...) {
+    }
+    remove_outputs();
+    std::abort();
+}
+
+/// Runs `action` and returns its exit code, or that of what it throws.
+template <class Act>
+int run(const Act& action) {
     try {
         return action();
     } catch (const Error& error) {
-        fmt::print(stderr, "regionmesh: {}\n", error.what());
+        say({error.what()});
         return error.code() == ErrorCode::kUsage ? kBadUsage : kBadInput;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "regionmesh: out of memory; give a smaller --memory or a lower target\n");
+        say_out_of_memory();
+    } catch (const std::system_error& error) {
+        if (std::ferror(stdout)) return kBadInput;
+        const bool is_busy = error.code() == std::errc::resource_unavailable_try_again;
+        say({error.what(), is_busy ? ": a thread cannot start; end other programs, or raise the limit of processes "
+                                     "(ulimit -u)"
+                                   : ""});
     } catch (const std::exception& error) {
-        fmt::print(stderr, "regionmesh: {}\n", error.what());
+        if (std::ferror(stdout)) return kBadInput;  // a write failed: finish() says so
+        say({error.what()});
     }
     return kBadInput;
 }
 
+/// Results that could not be written are an error, whatever else was found.
+int finish(int code) {
+    errno = 0;
+    std::cout.flush();
+    const bool is_written = std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
+    if (is_written) return code;
+    say({"standard output cannot be written", errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno)});
+    return kBadInput;
+}
+
+/// Opens /dev/null on the standard streams that the caller has closed, in the direction in which they fail: otherwise
+/// the next file opened would get their numbers, and messages would be written into it.
+void hold_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+            (void)!::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 void add_commands(CLI::App& app, Action& action) {
     // In the order of command_table().
-    constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth, run_check,
-                                                 run_convert,     run_compare,  run_info,   run_voxelise};
+    constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth,   run_check, run_convert,
+                                                 run_compare,     run_info,     run_voxelise, run_view};
     for (std::size_t n = 0; n < command_table().size(); ++n) add_command(app, command_table()[n], kRuns[n], action);
 }
 
@@ -66,16 +132,21 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::Success& asked) {
         return app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "regionmesh: {}; see regionmesh --help\n", error.what());
+        say({error.what(), "; see regionmesh --help"});
         return kBadUsage;
     }
-    return run(action);
+    if (app.got_subcommand("reconstruct")) advice = "give a smaller --memory, fewer --threads or a lower target";
+    return action();
 }
 
 }  // namespace
 }  // namespace regionmesh::cli
 
 int main(int argc, char** argv) {
+    using namespace regionmesh::cli;
+    hold_standard_streams();
+    std::set_terminate(end_without_destructors);
+    regionmesh::remove_outputs_on_signals();
     regionmesh::keep_large_arrays_apart();
-    return regionmesh::cli::parse_and_run(argc, argv);
+    return finish(run([&] { return parse_and_run(argc, argv); }));
 }

@@ -2,7 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <cstdio>
+
 #include "commands.h"
+#include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -20,42 +24,63 @@ std::string counts_text(const CheckReport& report) {
 }  // namespace
 
 void require_outputs(const Settings& settings) {
-    require_writable_mesh(settings.output,
-                          {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap});
+    require_writable_mesh(
+        settings.output,
+        {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap, .output = settings.writing});
     if (!settings.names.empty()) read_label_names(settings.names);
-    if (!settings.report.empty()) require_writable(settings.report);
-    if (!settings.regions.empty()) require_writable(settings.regions);
+    for (const std::string& file : {settings.report, settings.regions})
+        if (!file.empty()) require_writable(file, settings.writing);
+    require_page(settings.html, settings.writing);
 }
 
 LabelNames names_or(const Settings& settings, const LabelNames& found) {
     return settings.names.empty() ? found : read_label_names(settings.names);
 }
 
-void write_model(const Settings& settings, const Mesh& mesh, const LabelTable& labels,
-                 const std::vector<Label>& background, const ModelNotes& notes) {
-    const auto written = write_mesh(mesh, labels, settings.output,
-                                    {.background = background,
-                                     .names = notes.names,
-                                     .per_region = settings.per_region,
-                                     .space = notes.space,
-                                     .metres = settings.metres});
-    if (!settings.regions.empty()) write_text(settings.regions, regions_csv(mesh, labels, background, notes.names));
-    if (settings.quiet || !settings.per_region) return;
-    for (const auto& file : written) fmt::print("{}\n", file.string());
+std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
+    if (!settings.regions.empty())
+        files.add(settings.regions).write(regions_csv(model.mesh, model.labels, model.background, model.names));
+    return write_mesh(model.mesh, model.labels, settings.output,
+                      {.background = model.background,
+                       .names = model.names,
+                       .per_region = settings.per_region,
+                       .space = model.space,
+                       .metres = settings.metres},
+                      files);
 }
 
-void write_report_file(const Settings& settings, Report& report, const LabelTable& labels, const LabelNames& names) {
+void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written) {
+    if (settings.quiet || !settings.per_region) return;
+    for (const auto& file : written) fmt::print("{}\n", printable(file.string()));
+}
+
+void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files) {
     report.peak_bytes = peak_resident_bytes();
-    if (!settings.report.empty()) write_text(settings.report, report_json(report, labels, names));
+    if (!settings.report.empty()) files.add(settings.report).write(report_json(report, model.labels, model.names));
 }
 
 int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }
+
+int exit_code(const Report& report) {
+    const int code = exit_code(report.check);
+    return code == kGood && report.preserved.regions_off > 0 ? kNotMet : code;
+}
 
 /// 7109137 as 7,109,137.
 std::string grouped(std::uint64_t count) {
     std::string digits = std::to_string(count);
     for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
     return digits;
+}
+
+void print_improved(const Report& report) {
+    if (!report.improved) return;
+    const FaceShapes &before = report.improved->before, &after = report.improved->after;
+    fmt::print(
+        "improved: lowest quality {:.3f} -> {:.3f}, mean {:.3f} -> {:.3f}, angles {:.1f} to {:.1f} -> {:.1f} to {:.1f} "
+        "degrees, {} -> {} faces below --min-quality\n",
+        before.min_quality, after.min_quality, before.mean_quality, after.mean_quality, before.min_angle,
+        before.max_angle, after.min_angle, after.max_angle, before.faces_below, after.faces_below);
 }
 
 void print_violations(const CheckReport& report, int listed) {
@@ -77,6 +102,19 @@ void print_certificate(const CheckReport& report, const SampleAgreement* samples
                     : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}", grouped(samples->wrong),
                                   grouped(samples->samples), samples->dice());
     fmt::print("checked: {}\n", text);
+}
+
+void print_stop(const Settings& settings, const Report& report) {
+    const char* reason = nullptr;
+    if (report.stopped == "topology")
+        reason = "every further collapse would change topology, fold, cross or degrade faces, or move samples";
+    if (report.stopped == "max_error") reason = "every further collapse would exceed --max-error";
+    const ReconstructOptions& asked = settings.reconstruct;
+    const bool is_missed = asked.target_faces || asked.reduce;
+    if (!reason || (settings.quiet && !is_missed)) return;
+    const std::string line = fmt::format("{}: {}\n", is_missed ? "stopped before the target" : "stopped", reason);
+    // A message that nobody can read is no reason to fail.
+    settings.quiet ? static_cast<void>(std::fputs(("regionmesh: " + line).c_str(), stderr)) : fmt::print("{}", line);
 }
 
 void print_orient_hint(const CheckReport& report) {

@@ -1,6 +1,9 @@
 // What the commands write: models, reports, and the lines that several commands print.
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "regionmesh/formats.h"
 #include "regionmesh/options.h"
 #include "regionmesh/regionmesh.h"
@@ -13,27 +16,40 @@ void require_outputs(const Settings& settings);
 /// The names from --names, or else those found with the input.
 LabelNames names_or(const Settings& settings, const LabelNames& found);
 
-/// What a file says about a model besides its faces.
-struct ModelNotes {
-    LabelNames names;
+/// What is written of a model. `background` is dense.
+struct Model {
+    const Mesh& mesh;
+    const LabelTable& labels;
+    const std::vector<Label>& background;
+    const LabelNames& names;
     Space space = Space::kUnknown;
 };
 
-/// Writes the model to `settings.output`, and the table of --regions. `background` is dense. With --per-region prints
-/// the files that were written.
-void write_model(const Settings& settings, const Mesh& mesh, const LabelTable& labels,
-                 const std::vector<Label>& background, const ModelNotes& notes);
+/// Writes the model to `settings.output` and the table of --regions, as some of `files`. Returns the files of the
+/// model.
+std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files);
 
-/// Writes the report if --report asks for it, with the memory used until now.
-void write_report_file(const Settings& settings, Report& report, const LabelTable& labels, const LabelNames& names);
+/// Prints the files of --per-region, after their commit.
+void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written);
+
+/// Writes the report of the model if --report asks for it, with the memory used until now.
+void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files);
 
 /// kViolations where the report has some, else kGood.
 int exit_code(const CheckReport& report);
+/// The same, or kNotMet where the model is sound but regions are off the volumes asked for.
+int exit_code(const Report& report);
+
+/// Prints the shape of the faces before and after they were improved, if they were.
+void print_improved(const Report& report);
 
 /// Prints "violation KIND: COUNT" for each kind found, and at most `listed` findings of each.
 void print_violations(const CheckReport& report, int listed);
 /// One line on what was proved: violations, and samples that lie in another region.
 void print_certificate(const CheckReport& report, const SampleAgreement* samples);
+
+/// Prints why decimation ended before its target, if it did: on standard output, or with --quiet on standard error.
+void print_stop(const Settings& settings, const Report& report);
 
 /// Prints how to repair faces with opposite orientations, where there are such faces.
 void print_orient_hint(const CheckReport& report);

@@ -5,6 +5,8 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "page_output.h"
+#include "printable.h"
 #include "progress_line.h"
 
 namespace regionmesh::cli {
@@ -18,13 +20,6 @@ void print_volumes(const PreserveReport& preserved) {
         fmt::print("{} regions have a volume error above {:.0e}\n", preserved.regions_off, kVolumeTolerance);
 }
 
-void print_stop(const std::string& stopped) {
-    if (stopped == "topology")
-        fmt::print(
-            "stopped before the target: every further collapse would change topology, fold, cross or degrade faces\n");
-    if (stopped == "max_error") fmt::print("stopped at --max-error\n");
-}
-
 /// The faces that topology or --max-error leave are not known before the work.
 void print_memory(const ReconstructOptions& options, std::uint64_t peak_bytes) {
     if (options.face_budget || peak_bytes <= options.memory + options.memory / 10) return;
@@ -34,12 +29,13 @@ void print_memory(const ReconstructOptions& options, std::uint64_t peak_bytes) {
 void print_summary(const Settings& settings, const Report& report) {
     const CheckReport& check = report.check;
     const double seconds = std::max(report.seconds.at("total"), 1e-9);
-    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", settings.output, report.final_faces,
+    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", printable(settings.output), report.final_faces,
                report.final_vertices, report.initial_faces);
     fmt::print(
         "quality: lowest {:.3f}, mean {:.3f}; {} regions, {} pairs with an interface, {} quadruple points inside\n",
         check.quality.min, check.quality.mean, check.regions.size(), check.region_pairs, check.quadruple_points_inside);
-    print_stop(report.stopped);
+    print_improved(report);
+    print_stop(settings, report);
     if (report.pinned_vertices > 0)
         fmt::print("{} vertices not moved: the mesh touches itself there, or more than four regions meet\n",
                    report.pinned_vertices);
@@ -48,8 +44,16 @@ void print_summary(const Settings& settings, const Report& report) {
                static_cast<double>(report.initial_faces) / 1e3 / seconds, report.peak_bytes / 1000000);
     print_memory(settings.reconstruct, report.peak_bytes);
     print_violations(check, 0);
+    if (report.samples_in_room > 0)
+        fmt::print("{} samples changed their label within --room\n", report.samples_in_room);
     print_certificate(check, report.samples ? &*report.samples : nullptr);
 }
+
+/// What the input says besides its samples.
+struct ModelNotes {
+    LabelNames names;
+    Space space = Space::kUnknown;
+};
 
 /// Reconstructs the input, whichever kind it is of, and sets `notes` to what it says about its labels and its space.
 Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
@@ -71,16 +75,24 @@ int run_reconstruct(const Settings& settings) {
     ModelNotes notes;
     Reconstruction made = reconstruct_input(settings, notes);
     Report& report = made.report;
+    const Model model{made.mesh, made.labels, made.background, notes.names, notes.space};
+    OutputFiles files(settings.writing);
+    std::vector<std::filesystem::path> written;
     double writing = 0;
     {
         const Timer timer(writing);
-        write_model(settings, made.mesh, made.labels, made.background, notes);
+        written = write_model(settings, model, files);
     }
     report.seconds["write"] = writing;
     report.seconds["total"] += writing;
-    write_report_file(settings, report, made.labels, notes.names);
-    if (!settings.quiet) print_summary(settings, report);
-    return exit_code(report.check);
+    write_report_file(settings, report, model, files);
+    if (!settings.html.empty())
+        write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, notes.names)},
+                   page_options(kReconstruct, settings, report_json(report, made.labels, notes.names), true), files);
+    files.commit();
+    print_region_files(settings, written);
+    settings.quiet ? print_stop(settings, report) : print_summary(settings, report);
+    return exit_code(report);
 }
 
 }  // namespace regionmesh::cli

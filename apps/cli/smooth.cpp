@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "input.h"
 #include "output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -47,7 +48,7 @@ void print_summary(const std::string& path, const Report& report, const CheckRep
     fmt::print(
         "{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
         "(before {})\n",
-        path, report.smoothing.vertices, report.smoothing.backtracked, report.smoothing.largest_displacement,
+        printable(path), report.smoothing.vertices, report.smoothing.backtracked, report.smoothing.largest_displacement,
         report.check.quality.min, report.check.violation_count(), before.violation_count());
 }
 
@@ -63,13 +64,17 @@ int run_smooth(const Settings& given) {
     Report report = smoothed(settings, file.mesh, before);
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    write_model(settings, file.mesh, file.labels, options.background, {names, file.space});
-    write_report_file(settings, report, file.labels, names);
+    const Model model{file.mesh, file.labels, options.background, names, file.space};
+    OutputFiles files(settings.writing);
+    const auto written = write_model(settings, model, files);
+    write_report_file(settings, report, model, files);
+    files.commit();
+    print_region_files(settings, written);
     if (!settings.quiet) {
         print_summary(settings.output, report, before);
         print_fixed_part(fixed, before, report.check);
     }
-    return exit_code(report.check);
+    return exit_code(report);
 }
 
 }  // namespace regionmesh::cli

@@ -2,11 +2,13 @@
 
 #include "commands.h"
 #include "input.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 
 int run_voxelise(const Settings& given) {
     const std::string& path = given.models.front();
+    require_writable(given.output, given.writing);
     MeshFile file = read_mesh(path, given.surface);
     const Settings settings = settings_for(given, file);
     const VolumeInfo info =
@@ -16,7 +18,7 @@ int run_voxelise(const Settings& given) {
     for (const InputLabel label : settings.reconstruct.background)
         options.background.push_back(file.labels.dense(label));
     Voxeliser voxeliser(file.mesh, options);
-    const auto writer = create_volume(settings.output, lattice, info.type);
+    const auto writer = create_volume(settings.output, lattice, info.type, settings.writing);
     std::vector<Label> section(std::size_t{lattice.size[0]} * lattice.size[1]);
     std::vector<InputLabel> written(section.size());
     while (voxeliser.next(section)) {
@@ -31,7 +33,8 @@ int run_voxelise(const Settings& given) {
                                 path, voxeliser.contradictions()));
     writer->commit();
     if (!settings.quiet)
-        fmt::print("{}: {} x {} x {} samples\n", settings.output, lattice.size[0], lattice.size[1], lattice.size[2]);
+        fmt::print("{}: {} x {} x {} samples\n", printable(settings.output), lattice.size[0], lattice.size[1],
+                   lattice.size[2]);
     return kGood;
 }
 

@@ -4,6 +4,7 @@
 #include "regionmesh/label_names_file.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
+#include "regionmesh/page.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/write_report.h"

@@ -3,6 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+
+#include "regionmesh/lattice.h"
+#include "regionmesh/vec3.h"
 
 namespace regionmesh {
 
@@ -18,6 +22,26 @@ inline constexpr std::uint64_t kMostPoints = (std::uint64_t{1} << 32) - 2;
 
 /// Samples of one section: the tables of a strip have six places for each, numbered in 32 bits.
 inline constexpr std::uint64_t kMostSectionSamples = 700'000'000;
+
+/// Smallest and largest spacing of samples, in the unit of the file. Costs of collapses are of the fourth power of a
+/// length, in single precision: within these bounds they neither overflow, which would end decimation early, nor
+/// vanish.
+inline constexpr double kLeastLength = 1e-12, kMostLength = 1e8;
+
+/// Largest coordinate of a model: it may have been made of the largest volume of the largest spacing. The smallest size
+/// of one is kLeastLength.
+inline constexpr double kMostExtent = 1e20;
+
+/// Largest ratio of a coordinate, and of a spacing, to the smallest spacing. Numbers of 53 binary digits then resolve
+/// 1/4096 of the smallest spacing everywhere in the volume.
+inline constexpr double kMostSpacings = 0x1p40;
+
+/// Throws Error(kInput) where spacing, origin or extent lie outside these bounds, or are no numbers; `what` names the
+/// volume.
+void require_lattice(const std::string& what, const Lattice& lattice);
+
+/// The same for the bounding box of a model or of points that is not empty.
+void require_extent(const std::string& what, const Box& box);
 
 /// Throws Error(kInput) if a mesh of this size is beyond the limits; `what` names it, such as "model.ply".
 void require_mesh_size(const char* what, std::uint64_t vertices, std::uint64_t faces);

@@ -12,6 +12,7 @@
 #include "regionmesh/label_table.h"
 #include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/output_file.h"
 
 namespace regionmesh {
 
@@ -29,6 +30,7 @@ struct WriteOptions {
     Space space = Space::kUnknown;              // of the coordinates, written where 3D Slicer reads it
     double metres = 1;                          // in a unit of the coordinates; .glb files are in metres
     bool boundary_is_open = false;              // the box is not capped: refused where volumes are needed
+    OutputOptions output = {};
 };
 
 /// Writes the living vertices and faces, numbered densely in order of id. Writes under temporary names beside `path`
@@ -62,6 +64,12 @@ struct WriteOptions {
 /// Returns the files written.
 std::vector<std::filesystem::path> write_mesh(const Mesh& mesh, const LabelTable& labels,
                                               const std::filesystem::path& path, const WriteOptions& options = {});
+
+/// The same into files that are committed together with others: a report. Does not commit them; their OutputOptions
+/// hold, not those of `options`.
+std::vector<std::filesystem::path> write_mesh(const Mesh& mesh, const LabelTable& labels,
+                                              const std::filesystem::path& path, const WriteOptions& options,
+                                              OutputFiles& files);
 
 /// Throws the errors of write_mesh for the extension, the options and the folder of `path`: for a check before long
 /// work.

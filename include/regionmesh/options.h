@@ -11,6 +11,7 @@
 
 #include "regionmesh/compare.h"
 #include "regionmesh/mesh_file.h"
+#include "regionmesh/page.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/reconstruct.h"
@@ -38,7 +39,9 @@ struct Settings {
 
     double metres = 1;  // in a unit of length of the input
 
-    std::string output, names, report, json, distance, regions;  // files
+    std::string output, names, report, json, distance, html, regions;  // files
+    std::uint32_t preview_faces = PageOptions{}.preview_faces;
+    OutputOptions writing;
     bool per_region = false, quiet = false;
 
     OptionValues given;  // set by apply_options()
@@ -69,6 +72,7 @@ enum Command : std::uint32_t {
     kCompare = 32,
     kInfo = 64,
     kVoxelise = 128,
+    kView = 256,
 };
 
 /// Kinds of input as bits.
@@ -84,8 +88,9 @@ struct OptionSpec {
     std::uint32_t inputs = kAnyInput;  // refused with inputs of other kinds
     bool is_argument = false;          // has no flag; required, in the order of the table
     bool is_required = false;
-    bool repeats = false;  // set() adds a value
-    char letter = 0;       // short flag; 0: none
+    bool repeats = false;    // set() adds a value
+    bool is_output = false;  // a file that the command writes
+    char letter = 0;         // short flag; 0: none
 
     // These follow from the member of Settings that the option is bound to.
     OptionKind kind = OptionKind::kFlag;
@@ -119,6 +124,11 @@ void apply_options(Settings& settings, const OptionValues& values);
 
 /// Throws Error(kUsage) where two options contradict each other, whatever the input.
 void require_consistent(const Settings& settings);
+
+/// Throws Error(kUsage) where a file that the run writes is one that it reads, or is written twice: whatever their
+/// names and links, and with the files that belong to a model. A model may be smoothed or decimated in place. Looks at
+/// the files; changes nothing.
+void require_distinct_files(const Settings& settings);
 
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);

@@ -1,6 +1,8 @@
 // Files that get their name only when they are complete.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -11,13 +13,21 @@
 
 namespace regionmesh {
 
+/// How files are written.
+struct OutputOptions {
+    bool force = false;  // replaces files that are read-only
+    bool sync = true;    // forces data, and the name, to disk before the file counts as written
+};
+
 /// Writes under a temporary name in the folder of `path` (`.name.part-<pid>`) and renames in commit(); without commit()
-/// the destructor removes the temporary file, and an earlier file at `path` stays. Follows links. Writes an existing
-/// path that is no regular file (a device, a pipe) in place. Every write is checked: a failure throws Error(kOutput)
-/// that names the file and the reason. Does not force data to disk, so it does not protect against loss of power.
+/// the destructor removes the temporary file, and an earlier file at `path` stays. A new file keeps the permissions of
+/// the earlier one, and its owner where the system allows it. Follows links. Writes
+/// an existing path that is no regular file (a device, a pipe that somebody reads) in place. Every write is checked.
+/// Throws Error(kOutput) that names the file and the reason: a write that failed, a read-only file without
+/// OutputOptions::force, a pipe that nobody reads, a link that leads nowhere.
 class OutputFile {
 public:
-    explicit OutputFile(const std::filesystem::path& path);
+    explicit OutputFile(const std::filesystem::path& path, const OutputOptions& options = {});
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -33,30 +43,54 @@ public:
     void commit();
 
 private:
-    void open_temporary();
+    friend class OutputFiles;
+
+    void open();
+    void open_temporary(mode_t mode);
+    void keep_permissions(const struct stat& earlier);
     void put(std::string_view bytes);
+    void take_name();
+    void give_back_name();
+    void finish();
+    void remove_temporary();
     [[noreturn]] void fail(int error_number) const;
+    [[noreturn]] void fail(const std::string& reason) const;
 
     std::filesystem::path path_;       // as given, for messages
     std::filesystem::path target_;     // links followed
     std::filesystem::path temporary_;  // empty where there is none
+    OutputOptions options_;
     std::FILE* file_ = nullptr;
     std::uint64_t size_ = 0;
+    enum class Name { kTemporary, kNew, kExchanged, kReplaced } name_ = Name::kTemporary;
 };
 
-/// Files that belong together: none gets its name before all are complete.
+/// Files that belong together: a model, what lies beside it, its report. None gets its name before all are complete,
+/// and where one cannot be renamed those before it get their earlier content back.
 class OutputFiles {
 public:
+    explicit OutputFiles(const OutputOptions& options = {}) : options_(options) {}
     /// Closes the previous file, so that the number of files is not limited by open descriptors.
     OutputFile& add(const std::filesystem::path& path);
-    /// Renames all files. If one fails, those before it keep their new names.
+    /// Renames all files.
     void commit();
 
 private:
+    OutputOptions options_;
     std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
-/// Throws Error(kOutput) where no file can be written at `path`; changes nothing. For a check before long work.
-void require_writable(const std::filesystem::path& path);
+/// Throws Error(kOutput) where no file can be written at `path`: for a check before long work. Removes temporary files
+/// that runs which were killed have left for this path, and for NAME-*.EXTENSION where `per_region`; changes nothing
+/// else.
+void require_writable(const std::filesystem::path& path, const OutputOptions& options = {}, bool per_region = false);
+
+/// For programs, called once before the first thread starts: SIGINT, SIGTERM and SIGHUP remove the temporary files of
+/// all outputs, then end the process as they do by default. Signals that the process ignores stay ignored. A commit is
+/// not interrupted.
+void remove_outputs_on_signals();
+
+/// Removes the temporary files of all outputs, for a process that is about to end without its destructors.
+void remove_outputs() noexcept;
 
 }  // namespace regionmesh

@@ -13,6 +13,10 @@
 
 namespace regionmesh {
 
+/// Work of a volume: its samples, and kSectionWork for each section, which takes about as long. 10^12 samples take some
+/// hours.
+inline constexpr std::uint64_t kMostWork = 1'000'000'000'000, kSectionWork = 4096;
+
 /// How to open a volume; all optional.
 struct ReadOptions {
     SweepChoice sweep = SweepChoice::kAuto;  // kAuto: along the axis with the smallest section (P 3.1)
@@ -21,6 +25,8 @@ struct ReadOptions {
     std::optional<SampleType> raw_type = {};                    // raw files: type of the little-endian samples
     std::optional<std::uint32_t> layer = {};                    // of a file with several layers, counted from 0
     Space space = Space::kUnknown;           // turns the volume into this space, if its file says another
+    std::uint64_t max_work = kMostWork;      // refuses volumes of more work, which a tiny file may describe
+    bool external_files = false;             // a header may name files outside its own folder and those below it
     Selection select = {};                   // part of the volume, labels, coarser samples
     std::filesystem::path merge_table = {};  // adds to select.merge and select.names: read_merge_table()
 };

@@ -19,14 +19,17 @@ namespace regionmesh {
 
 /// Options of a run. The words are those of the command line.
 struct ReconstructOptions {
-    std::optional<std::uint64_t> target_faces = {};     // decimate to this number of faces or fewer
-    std::optional<double> reduce = {};                  // or remove this share of the faces, 0 to 1
-    std::optional<double> max_error = {};               // or up to this rms distance, in the unit of the spacing
+    std::optional<std::uint64_t> target_faces = {};  // decimate to this number of faces or fewer
+    std::optional<double> reduce = {};               // or remove this share of the faces, 0 to 1
+    std::optional<double> max_error = {};            // or up to this rms distance, in the unit of the spacing
+    double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
+                      // change their label first, for noisy labels (docs/smoothing.md); 0: none changes
     SmoothOptions smooth = {};                          // its scale, quality, tests and threads are set from the run
     double min_quality = 0.1;                           // of every face that smoothing or decimation changes
     double perturbation = 1e-7;                         // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool keep_samples = true;                           // of sections: decimation carries no sample into another region
+    bool improve = false;                               // a last pass that makes faces better, for finite elements
     bool preserve_volume = false;  // finally give each region its volume before smoothing and decimation
     bool decimate = true;          // false: no decimation, even with a target
     bool intersect_check = true;

@@ -6,6 +6,7 @@
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/error.h"
+#include "regionmesh/improve.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/mesh_arrays.h"
@@ -15,4 +16,5 @@
 #include "regionmesh/select_sections.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
+#include "regionmesh/stop.h"
 #include "regionmesh/voxelise.h"

@@ -79,7 +79,8 @@ using WantedVolumes = std::vector<std::optional<double>>;
 /// gradient of the volume, divided by the area around v. This is the smallest motion, in the mean square over the
 /// surface, that corrects all volumes to first order. The matrix couples regions that share an interface. Quadruple
 /// points move, too: on a coarse mesh a small region may have no other vertices. Vertices on the box stay on its
-/// sides. Uses min_quality, intersect_check and threads of the options. Deterministic.
+/// sides. No region ends farther from its wanted volume than it began, beyond kVolumeTolerance. Uses
+/// min_quality, intersect_check and threads of the options. Deterministic.
 PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options);
 
 }  // namespace regionmesh

@@ -9,6 +9,7 @@
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/output_file.h"
 #include "regionmesh/report.h"
 #include "regionmesh/voxelise.h"
 
@@ -36,8 +37,7 @@ std::string compare_json(const CompareReport& report);
 std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                         const LabelNames& names = {});
 
-/// Writes `text` under a temporary name in the folder of `path`, then renames; writes a device or pipe in place. Throws
-/// Error(kOutput).
-void write_text(const std::filesystem::path& path, const std::string& text);
+/// Writes `text` as an OutputFile. Throws Error(kOutput).
+void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options = {});
 
 }  // namespace regionmesh

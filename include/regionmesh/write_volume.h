@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "regionmesh/output_file.h"
 #include "regionmesh/section_reader.h"
 
 namespace regionmesh {
@@ -23,7 +24,7 @@ public:
 /// By extension: .npy (shape z, y, x), .nii and .nii.gz (NIfTI-1, NIfTI-2 for axes beyond 32767 samples; the affine as
 /// sform in single or double precision), .nrrd (raw, in its own space), .raw (bare samples); little endian.
 /// Throws Error(kOutput) for another extension.
-std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice,
-                                             SampleType type);
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, SampleType type,
+                                             const OutputOptions& options = {});
 
 }  // namespace regionmesh

@@ -1,10 +1,64 @@
 #include "regionmesh/limits.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "regionmesh/error.h"
 
 namespace regionmesh {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const std::string& text) {
+    throw Error(ErrorCode::kInput, what + ": " + text);
+}
+
+std::string text_of(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", number);
+    return text;
+}
+
+/// Also false for NaN.
+bool is_length(double length, double most) { return length >= kLeastLength && length <= most; }
+
+std::string allowed(double most) {
+    return "; lengths from " + text_of(kLeastLength) + " to " + text_of(most) + " can be computed with: ";
+}
+
+}  // namespace
+
+void require_lattice(const std::string& what, const Lattice& lattice) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!is_length(lattice.spacing[axis], kMostLength))
+            refuse(what, std::string("the spacing along ") + "xyz"[axis] + " is " + text_of(lattice.spacing[axis]) +
+                             allowed(kMostLength) + "give the right one with --spacing X,Y,Z");
+    const Vec3 spacing = lattice.spacing;
+    const double least = std::min({spacing.x, spacing.y, spacing.z});
+    for (int row = 0; row < 3; ++row) {
+        double most = std::abs(lattice.origin[row]);
+        for (int axis = 0; axis < 3; ++axis)
+            most += std::abs(lattice.direction[3 * row + axis]) * lattice.size[axis] * spacing[axis];
+        if (!(most <= kMostSpacings * least))
+            refuse(what, std::string("the coordinates along ") + "xyz"[row] + " reach " + text_of(most) +
+                             ", more than 2^40 times the smallest spacing " + text_of(least) +
+                             ", which double precision does not resolve; move the origin or mend the spacing");
+    }
+}
+
+void require_extent(const std::string& what, const Box& box) {
+    const Vec3 size = box.high - box.low;
+    const double most = std::max({size.x, size.y, size.z});
+    for (int axis = 0; axis < 3; ++axis) {
+        const double farthest = std::max(std::abs(box.low[axis]), std::abs(box.high[axis]));
+        if (!(farthest <= kMostExtent))
+            refuse(what, std::string("the coordinates along ") + "xyz"[axis] + " reach " + text_of(farthest) +
+                             allowed(kMostExtent) + "scale the coordinates");
+    }
+    if (!is_length(most, kMostExtent))
+        refuse(what, "its size is " + text_of(most) + allowed(kMostExtent) + "scale the coordinates");
+}
 
 void require_mesh_size(const char* what, std::uint64_t vertices, std::uint64_t faces) {
     const auto require = [&](std::uint64_t count, std::uint64_t most, const char* things) {

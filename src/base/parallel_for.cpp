@@ -7,13 +7,18 @@
 
 #include <algorithm>
 
+#include "base/stop.h"
 #include "base/task_order.h"
 
 namespace regionmesh {
 
 void parallel_for(std::uint32_t count, std::uint32_t threads, const std::function<void(std::uint32_t)>& work) {
+    const std::atomic<bool>* stop = stop_of_this_thread();
     if (threads == 1 || count < 2) {
-        for (std::uint32_t n = 0; n < count; ++n) work(n);
+        for (std::uint32_t n = 0; n < count; ++n) {
+            throw_if(stop);
+            work(n);
+        }
         return;
     }
     // More threads than cores are no faster, and oneTBB prints a warning about them.
@@ -24,6 +29,7 @@ void parallel_for(std::uint32_t count, std::uint32_t threads, const std::functio
     arena.execute([&] {
         oneapi::tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t n) {
             begun.comes_first();
+            throw_if(stop);
             work(n);
             ended.happened();
         });

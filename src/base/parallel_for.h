@@ -11,7 +11,7 @@
 namespace regionmesh {
 
 /// Calls work(n) for n = 0 .. count - 1 on at most `threads` threads (0: one per core), in any order. Requires that
-/// calls do not share mutable data. Rethrows the exception of a call.
+/// calls do not share mutable data. Rethrows the exception of a call, or Stopped (regionmesh/stop.h).
 void parallel_for(std::uint32_t count, std::uint32_t threads, const std::function<void(std::uint32_t)>& work);
 
 /// Calls find(first, end) for the chunks of [0, size) on several threads, and append(result) for each result in order

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/stop.h"
 #include "base/task_order.h"
 
 namespace regionmesh {
@@ -14,8 +15,10 @@ namespace regionmesh {
 void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32_t threads, const OrderedWork& calls) {
     namespace tbb = oneapi::tbb;
     in_flight = std::max(in_flight, 1u);
+    const std::atomic<bool>* stop = stop_of_this_thread();
     if (threads == 1 || in_flight == 1 || count < 2) {
         for (std::uint32_t n = 0; n < count; ++n) {
+            throw_if(stop);
             calls.work(n, 0);
             calls.finish(n, 0);
         }
@@ -38,6 +41,7 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
     const auto work = tbb::make_filter<std::uint32_t, std::uint32_t>(tbb::filter_mode::parallel, [&](std::uint32_t n) {
         begun.comes_first();
         places[n % in_flight].comes_first();
+        throw_if(stop);
         calls.work(n, n % in_flight);
         places[n % in_flight].happened();
         return n;

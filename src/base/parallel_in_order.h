@@ -14,7 +14,8 @@ struct OrderedWork {
 };
 
 /// Runs on at most `threads` threads (0: one per core). Requires that calls of work() share no mutable data, and do not
-/// use data that finish() writes. Other items go on until `in_flight` are begun. Rethrows the exception of a call.
+/// use data that finish() writes. Other items go on until `in_flight` are begun. Rethrows the exception of a call,
+/// or Stopped (regionmesh/stop.h).
 void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32_t threads, const OrderedWork& calls);
 
 }  // namespace regionmesh

@@ -82,7 +82,9 @@ void DelaunayReader::refuse_ending() {
         }
     }
     std::string what = path_.string();
-    if (ending.signal) {
+    if (ending.was_idle) {
+        what += " did nothing for " + std::to_string(PipedProgram::kIdleSeconds.count()) + " s and was stopped";
+    } else if (ending.signal) {
         what += " was killed by signal " + std::to_string(*ending.signal);
         if (*ending.signal == kKilled) what += " (out of memory?)";
     } else if (ending.exit_code == kOutOfMemory) {

@@ -10,6 +10,7 @@
 #include "base/triangle.h"
 #include "cells/tuning.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
@@ -158,6 +159,7 @@ RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, 
         p += Vec3{0, 0, 0};  // -0 becomes 0
         all.add(p);
     }
+    if (!all.is_empty()) require_extent(reader.info().source, all);
     ranked.points.sweep = options.sweep ? *options.sweep : longest(all);
     const std::uint64_t count = given.positions.size();
     require_memory(reader, count, points_across(all, ranked.points.sweep, static_cast<double>(count)), options.memory);

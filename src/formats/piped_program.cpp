@@ -8,10 +8,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -27,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = std::chrono::seconds(10);
 constexpr std::size_t kMostWords = 500;
+constexpr std::int64_t kLookMilliseconds = 1000;  // between two looks at a program that does not answer
 
 [[noreturn]] void refuse(const std::filesystem::path& program, int problem) {
     throw Error(ErrorCode::kInput, program.string() + ": cannot be started: " + std::strerror(problem));
@@ -99,6 +103,26 @@ int spawn(std::vector<std::string> words, int socket, int errors, pid_t& process
     return problem;
 }
 
+struct Activity {
+    std::uint64_t ticks = 0;         // of processor time
+    bool is_in_system_call = false;  // it waits for a disk, say
+};
+
+/// What the system says of a process; nothing where it does not tell.
+Activity activity_of(pid_t process) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    std::string text;
+    std::getline(file, text);
+    // Behind the name in parentheses: the state, ten numbers, and the time in user and in system mode.
+    std::istringstream words(text.substr(std::min(text.rfind(')') + 1, text.size())));
+    std::string state;
+    words >> state;
+    std::uint64_t number = 0, user = 0, system = 0;
+    for (int n = 0; n < 10; ++n) words >> number;
+    words >> user >> system;
+    return {user + system, state == "D"};
+}
+
 std::string last_line(std::string_view text) {
     text = trim(text);
     return one_line(text.substr(text.rfind('\n') + 1));  // rfind is npos for a single line
@@ -143,13 +167,28 @@ void PipedProgram::read_errors() {
     if (words_.size() > kMostWords) words_.erase(0, words_.size() - kMostWords);
 }
 
+/// Its end closes the socket, which ends the wait.
+void PipedProgram::kill_if_idle() {
+    const Activity now = activity_of(process_);
+    if (now.is_in_system_call || now.ticks != ticks_) {
+        ticks_ = now.ticks;
+        busy_ = Clock::now();
+    } else if (Clock::now() - busy_ > patience_) {
+        was_idle_ = true;
+        ::kill(process_, SIGKILL);
+    }
+}
+
 short PipedProgram::wait_for(short events, int milliseconds) {
+    busy_ = Clock::now();
     for (;;) {
         pollfd files[] = {{socket_, events, 0}, {errors_, POLLIN, 0}};  // poll ignores negative descriptors
-        const int count = ::poll(files, 2, milliseconds);
+        const int slice = static_cast<int>(std::min<std::int64_t>(patience_.count(), kLookMilliseconds));
+        const int count = ::poll(files, 2, milliseconds < 0 ? slice : milliseconds);
         if (files[1].revents != 0) read_errors();
         if (count > 0 && files[0].revents != 0) return files[0].revents;
         if (milliseconds >= 0) return 0;
+        if (count == 0) kill_if_idle();
     }
 }
 
@@ -187,7 +226,7 @@ PipedProgram::Ending PipedProgram::end() {
         wait_for(0, errors_ >= 0 ? 100 : 1);
     }
     if (errors_ >= 0) read_errors();
-    Ending ending{.last_words = last_line(words_)};
+    Ending ending{.last_words = last_line(words_), .was_idle = was_idle_};
     if (ended != process_) {
         kill();
         return ending;

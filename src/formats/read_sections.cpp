@@ -1,9 +1,13 @@
 #include "regionmesh/read_sections.h"
 
+#include <fmt/format.h>
+
+#include "formats/array/read_pipe.h"
 #include "formats/array/volume_formats.h"
 #include "formats/input_file.h"
 #include "formats/registry.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "volume/chosen_sections.h"
 
 namespace regionmesh {
@@ -49,17 +53,6 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
                             " and directories of .png or .tif sections");
 }
 
-std::unique_ptr<SectionReader> open_all(const std::vector<fs::path>& inputs, const ReadOptions& options) {
-    if (inputs.empty())
-        throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
-    if (inputs.size() == 1) return open_one(inputs.front(), options);
-    if (options.raw_size || options.raw_type) {
-        formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
-                                          " are given; give one");
-    }
-    return formats::open_image_list(inputs, options);
-}
-
 }  // namespace
 
 formats::DatasetPath formats::split_dataset(const fs::path& path) {
@@ -76,12 +69,41 @@ formats::DatasetPath formats::split_dataset(const fs::path& path) {
     return {path, {}};
 }
 
+namespace {
+
+void require_work(const SectionReader& reader, std::uint64_t most) {
+    const double section = double(reader.section_width()) * reader.section_height();
+    const double work = reader.section_count() * (section + kSectionWork);
+    if (work <= static_cast<double>(most)) return;
+    formats::fail(reader.info().source,
+                  fmt::format("{} sections of {} x {} samples are work of {:.0f}, more than --max-work {}; crop the "
+                              "volume, read it along another axis, or raise --max-work",
+                              reader.section_count(), reader.section_width(), reader.section_height(), work, most));
+}
+
+std::unique_ptr<SectionReader> open_inputs(const std::vector<fs::path>& inputs, const ReadOptions& options) {
+    if (inputs.size() == 1 && inputs.front() == "-") return formats::open_pipe(options);
+    if (inputs.size() == 1) return open_one(inputs.front(), options);
+    if (options.raw_size || options.raw_type) {
+        formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
+                                          " are given; give one");
+    }
+    return formats::open_image_list(inputs, options);
+}
+
+}  // namespace
+
 std::string volume_extensions() { return formats::extensions_with(&Format::open_sections); }
 
 std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs, const ReadOptions& options) {
+    if (inputs.empty())
+        throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
     Selection selection = options.select;
     if (!options.merge_table.empty()) read_merge_table(options.merge_table, selection);
-    return select_sections(turn_sections(open_all(inputs, options), options.space), selection);
+    auto reader = open_inputs(inputs, options);
+    require_lattice(reader->info().source, reader->info().lattice);
+    require_work(*reader, options.max_work);
+    return select_sections(turn_sections(std::move(reader), options.space), selection);
 }
 
 }  // namespace regionmesh

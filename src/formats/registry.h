@@ -55,7 +55,8 @@ struct Format {
     void (*write_region)(const FileView&, OutputFile&) = nullptr;  // one region as a file
     bool has_point_arrays = false;
     bool needs_closed_regions = false;
-    const char* companion = nullptr;  // extension of a second file
+    const char* companion = nullptr;     // extension of a second file
+    bool is_named_in_companion = false;  // the second file has the name of the first between quotes
 };
 
 std::span<const Format> all_formats();

@@ -118,6 +118,7 @@ LabelledMesh assemble(const MeshArrays& arrays) {
 
 LabelledMesh import_arrays(const MeshArrays& arrays) {
     require_consistent(arrays);
+    if (!arrays.faces.empty()) require_extent("arrays", bounding_box(arrays));
     return assemble(arrays);
 }
 

@@ -101,7 +101,8 @@ Rows selection_rows() {
 
 Rows argument_rows() {
     static const std::string volumes = "volume (" + volume_extensions() +
-                                       "; file.h5:/dataset), folder or list of sections, or table of labelled points "
+                                       "; file.h5:/dataset; - for .npy or raw samples on standard input), folder or "
+                                       "list of sections, or table of labelled points "
                                        "or mesh of labelled tetrahedra (" +
                                        tetrahedron_extensions() + ")";
     static const std::string surface = "labelled surface (" + readable_extensions() + "), or a folder of them";
@@ -118,14 +119,18 @@ Rows argument_rows() {
         file_option({.name = "model",
                      .help = surface,
                      .group = "Arguments",
-                     .commands = kSurfaceCommands | kVoxelise,
+                     .commands = kSurfaceCommands | kVoxelise | kView,
                      .is_argument = true},
                     models),
         file_option({.name = "from", .help = surface, .group = "Arguments", .commands = kConvert, .is_argument = true},
                     models),
-        file_option(
-            {.name = "to", .help = written_help(), .group = "Arguments", .commands = kConvert, .is_argument = true},
-            [](Settings& s) { return &s.output; }),
+        file_option({.name = "to",
+                     .help = written_help(),
+                     .group = "Arguments",
+                     .commands = kConvert,
+                     .is_argument = true,
+                     .is_output = true},
+                    [](Settings& s) { return &s.output; }),
         file_option({.name = "a", .help = surface, .group = "Arguments", .commands = kCompare, .is_argument = true},
                     models),
         file_option({.name = "b",
@@ -173,6 +178,20 @@ Rows volume_rows() {
              .commands = kFileCommands,
              .inputs = kVolumeInput},
             [](Settings& s) { return &s.volume.layer; }, kLayers),
+        option({.name = "max-work",
+                .help = "volumes: most samples to read, where each section counts as 4096 more; a small file may "
+                        "describe endless ones",
+                .group = kGroup,
+                .commands = kFileCommands,
+                .unit = "samples",
+                .inputs = kVolumeInput},
+               [](Settings& s) { return &s.volume.max_work; }),
+        option({.name = "external-files",
+                .help = "volumes: the header may name files outside its own folder; for headers that you trust",
+                .group = kGroup,
+                .commands = kFileCommands,
+                .inputs = kVolumeInput},
+               [](Settings& s) { return &s.volume.external_files; }),
         option({.name = "size",
                 .help = "raw files: samples along x, y and z",
                 .group = kGroup,
@@ -237,18 +256,21 @@ Rows tetrahedra_rows() {
 Rows label_rows() {
     constexpr std::string_view kGroup = "Labels";
     constexpr std::uint32_t kBoxed = kReconstruct | kSurfaceCommands | kInfo;
+    // Made before the rows: g++ 12 destroys a temporary in a braced list twice where memory runs out.
+    const Settings defaults;
+    const std::string background = labels_text(defaults.reconstruct.background);
     return {
         special_option({.name = "background",
                         .help = "label of empty space, whose faces with the exterior are not made",
                         .group = kGroup,
-                        .commands = kBoxed | kConvert | kCompare | kVoxelise,
+                        .commands = kBoxed | kConvert | kCompare | kVoxelise | kView,
                         .repeats = true,
-                        .default_text = labels_text(Settings{}.reconstruct.background)},
+                        .default_text = background},
                        OptionKind::kLabel, add_background),
         special_option({.name = "no-background",
                         .help = "every label is a region",
                         .group = kGroup,
-                        .commands = kBoxed | kConvert | kCompare | kVoxelise},
+                        .commands = kBoxed | kConvert | kCompare | kVoxelise | kView},
                        OptionKind::kFlag,
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            if (parse_flag(flag, text)) s.reconstruct.background.clear();
@@ -263,7 +285,7 @@ Rows label_rows() {
              .help = "label of samples in no region, where there is no background",
              .group = kGroup,
              .commands = kVoxelise,
-             .default_text = std::to_string(Settings{}.outside)},
+             .default_text = std::to_string(defaults.outside)},
             OptionKind::kLabel,
             [](Settings& s, const std::string& flag, const std::string& text) { s.outside = parse_label(flag, text); }),
     };
@@ -271,7 +293,7 @@ Rows label_rows() {
 
 Rows surface_rows() {
     constexpr std::string_view kGroup = "Surfaces to read";
-    constexpr std::uint32_t kReaders = kSurfaceCommands | kConvert | kVoxelise;
+    constexpr std::uint32_t kReaders = kSurfaceCommands | kConvert | kVoxelise | kView;
     return {
         option({.name = "weld",
                 .help = "join points no farther apart than this; 0: points at the same place",

@@ -29,6 +29,7 @@ const std::vector<CommandSpec>& command_table() {
         {kCompare, "compare", "measure the distances between two models, and by region, interface and line"},
         {kInfo, "info", "print size, type, spacing and labels of an input, and the memory that a model needs"},
         {kVoxelise, "voxelise", "write the label of each sample of a lattice: the inverse of reconstruct"},
+        {kView, "view", "write a page that shows a labelled surface in a browser"},
     };
     return commands;
 }

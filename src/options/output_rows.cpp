@@ -7,11 +7,12 @@
 namespace regionmesh {
 namespace {
 
-constexpr Range kAnyThreads{0, 0xFFFFFFFFu};
+constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu};
 
 std::string_view output_help() {
     static const std::string text =
-        std::string(written_help()) + "; voxelise: labels to write: .npy .nii .nii.gz .nrrd .raw";
+        std::string(written_help()) +
+        "; voxelise: labels to write: .npy .nii .nii.gz .nrrd .raw; view: page to write (.html)";
     return text;
 }
 
@@ -24,18 +25,20 @@ std::string_view written_help() {
 
 Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
+    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare;
     return {
         file_option({.name = "output",
                      .help = output_help(),
                      .group = kGroup,
-                     .commands = kWriters | kVoxelise,
+                     .commands = kWriters | kVoxelise | kView,
                      .is_required = true,
+                     .is_output = true,
                      .letter = 'o'},
                     [](Settings& s) { return &s.output; }),
         file_option({.name = "names",
                      .help = "table of labels and names (.csv .tsv .txt .xml), instead of the names in the input",
                      .group = kGroup,
-                     .commands = kWriters | kConvert},
+                     .commands = kWriters | kConvert | kView},
                     [](Settings& s) { return &s.names; }),
         option({.name = "per-region",
                 .help = "one file for each region, MODEL-NAME or MODEL-LABEL: .stl, .obj and .ply",
@@ -64,20 +67,49 @@ Rows output_rows() {
         file_option({.name = "regions",
                      .help = "CSV table to write: volume, area, centroid, box and neighbours of each region",
                      .group = kGroup,
-                     .commands = kWriters | kConvert | kCheck},
+                     .commands = kWriters | kConvert | kCheck,
+                     .is_output = true},
                     [](Settings& s) { return &s.regions; }),
-        file_option({.name = "report", .help = "JSON report to write", .group = kGroup, .commands = kWriters},
+        file_option({.name = "report",
+                     .help = "JSON report to write",
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_output = true},
                     [](Settings& s) { return &s.report; }),
+        option({.name = "force", .help = "replace files that are read-only", .group = kGroup, .commands = kAllWriters},
+               [](Settings& s) { return &s.writing.force; }),
+        inverted_flag(
+            {.name = "no-sync",
+             .help = "do not force files to disk before they get their names: faster, but a loss of power may "
+                     "leave them empty",
+             .group = kGroup,
+             .commands = kAllWriters},
+            [](Settings& s) { return &s.writing.sync; }),
         file_option({.name = "json",
                      .help = "JSON file to write with all findings",
                      .group = kGroup,
-                     .commands = kCheck | kCompare},
+                     .commands = kCheck | kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.json; }),
+        file_option({.name = "html",
+                     .help = "page to write that shows the model and the report in a browser",
+                     .group = kGroup,
+                     .commands = kReconstruct | kDecimate | kCheck | kCompare,
+                     .is_output = true},
+                    [](Settings& s) { return &s.html; }),
+        option(
+            {.name = "preview-faces",
+             .help = "largest number of faces in the page; a larger model is simplified for it",
+             .group = kGroup,
+             .commands = kReconstruct | kDecimate | kCheck | kCompare | kView,
+             .unit = "faces"},
+            [](Settings& s) { return &s.preview_faces; }, kAnyFaces),
     };
 }
 
 Rows run_rows() {
     constexpr std::string_view kGroup = "Run";
+    const Settings defaults;  // not made in the braced list: input_rows.cpp says why
     return {
         special_option(
             {.name = "memory",
@@ -86,7 +118,7 @@ Rows run_rows() {
              .commands = kReconstruct,
              .unit = "bytes",
              .range = "above 0",
-             .default_text = bytes_text(Settings{}.reconstruct.memory)},
+             .default_text = bytes_text(defaults.reconstruct.memory)},
             OptionKind::kBytes,
             [](Settings& s, const std::string& flag, const std::string& text) {
                 s.reconstruct.memory = parse_bytes(flag, text);
@@ -101,12 +133,12 @@ Rows run_rows() {
             {.name = "threads",
              .help = "number of threads; 0: one per core. The result is the same for any number",
              .group = kGroup,
-             .commands = kDecimators | kSmooth | kCheck | kCompare},
+             .commands = kDecimators | kSmooth | kCheck | kCompare | kView},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
         option({.name = "quiet",
-                .help = "print nothing but errors",
+                .help = "print nothing but errors, and why a target was missed",
                 .group = kGroup,
-                .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise},
+                .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),
     };
 }

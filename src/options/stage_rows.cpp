@@ -3,12 +3,16 @@
 
 #include "options/bind_option.h"
 #include "options/option_rows.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
 
-constexpr Range kPasses{0, 100'000}, kSampleCounts{1, 1e9}, kShareRange{0, 1},
-    kPositive{.low = 0, .is_low_included = false};
+/// Up to the quality of an equilateral face, which is 0.2595 (base/triangle.h).
+constexpr Range kQualities{0, 0.26};
+
+constexpr Range kPasses{0, 100'000}, kSampleCounts{1, 1e9}, kShareRange{0, 1}, kRoom{0, 8},
+    kLengths{kLeastLength, kMostLength};
 
 /// Passes of taubin, laplacian and nifpms, and largest blocks of lattice.
 struct Strength {
@@ -59,7 +63,8 @@ Rows decimation_rows() {
                            s.reconstruct.reduce = parse_share(flag, text);
                        }),
         option({.name = "max-error",
-                .help = "stop at this rms distance to the planes of the merged faces",
+                .help = "no point of the model is farther than this from the surface before decimation, nor the other way "
+                        "round",
                 .group = kGroup,
                 .commands = kDecimators,
                 .unit = "length"},
@@ -107,6 +112,14 @@ Rows smoothing_rows() {
              .group = kGroup,
              .commands = kSmoothers},
             [](Settings& s) { return &s.reconstruct.smooth.lambda; }, kShareRange),
+        option(
+            {.name = "room",
+             .help = "samples nearer than this to the boundary of their region may change their label first, for noisy "
+                     "or enlarged labels; 0: none",
+             .group = kGroup,
+             .commands = kReconstruct,
+             .unit = "finest spacings"},
+            [](Settings& s) { return &s.reconstruct.room; }, kRoom),
         option({.name = "smooth-points",
                 .help = "quadruple points move along their lines, instead of not at all",
                 .group = kGroup,
@@ -118,7 +131,7 @@ Rows smoothing_rows() {
              .group = kGroup,
              .commands = kSmooth,
              .unit = "length"},
-            [](Settings& s) { return &s.scale; }, kPositive),
+            [](Settings& s) { return &s.scale; }, kLengths),
         option({.name = "preserve-volume",
                 .help = "at the end, restore the volume that every region had in the input",
                 .group = kGroup,
@@ -130,11 +143,18 @@ Rows smoothing_rows() {
 Rows validity_rows() {
     constexpr std::string_view kGroup = "Quality and crossing";
     return {
-        option({.name = "min-quality",
-                .help = "lowest quality of the faces that smoothing and decimation make; 0.26 is equilateral",
+        option(
+            {.name = "min-quality",
+             .help = "lowest quality of the faces that smoothing and decimation make; 0.26 is equilateral. Faces that "
+                     "come in below it may stay: a value above 0.14 is no bound of the model",
+             .group = kGroup,
+             .commands = kWriters},
+            [](Settings& s) { return &s.reconstruct.min_quality; }, kQualities),
+        option({.name = "improve",
+                .help = "at the end, flip edges and move vertices so that faces get better, for finite elements",
                 .group = kGroup,
-                .commands = kWriters},
-               [](Settings& s) { return &s.reconstruct.min_quality; }),
+                .commands = kDecimators},
+               [](Settings& s) { return &s.reconstruct.improve; }),
         inverted_flag({.name = "no-keep-samples",
                        .help = "decimation may carry samples of sections into other regions; more faces can go",
                        .group = kGroup,
@@ -160,7 +180,8 @@ Rows comparison_rows() {
         file_option({.name = "distance",
                      .help = ".vtp to write: A with the distance of each vertex to B, point array Distance",
                      .group = kGroup,
-                     .commands = kCompare},
+                     .commands = kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.distance; }),
     };
 }

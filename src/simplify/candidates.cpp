@@ -14,7 +14,11 @@ constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 }  // namespace
 
 Candidates::Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options)
-    : mesh_(mesh), placement_(placement), options_(options), heap_(mesh.vertex_end()) {
+    : mesh_(mesh),
+      placement_(placement),
+      options_(options),
+      heap_(mesh.vertex_end()),
+      key_unit_(std::ldexp(1.0, -4 * std::ilogb(options.scale))) {
     partner_.resize(mesh.vertex_end(), kNoVertex);
     floor_.resize(mesh.vertex_end(), kNoFloor);
 }
@@ -23,6 +27,7 @@ std::size_t Candidates::bytes() const { return partner_.bytes() + floor_.bytes()
 
 std::uint64_t Candidates::refresh() {
     std::uint64_t forbidden = 0;
+    has_edges_over_error_ = false;
     for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
         floor_[v] = kNoFloor;
         if (mesh_.is_alive(VertexId{v}))
@@ -76,14 +81,16 @@ VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
 }
 
 /// Rank of an edge; infinite above the threshold or the largest error.
-float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) const {
+float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) {
     constexpr float kNever = std::numeric_limits<float>::infinity();
     if (!(edge.cost <= options_.max_cost)) return kNever;
-    if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight)
+    if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight) {
+        has_edges_over_error_ = true;
         return kNever;
+    }
     const double scale2 = options_.scale * options_.scale;
-    return static_cast<float>(edge.rank +
-                              options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays)));
+    return static_cast<float>(
+        key_unit_ * (edge.rank + options_.perturbation * scale2 * scale2 * hash_unit(index(goes), index(stays))));
 }
 
 /// The cheapest edge owned by v that comes after `after`, or leads to `fresh`.

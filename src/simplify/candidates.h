@@ -20,6 +20,8 @@ public:
     std::uint64_t refresh();
 
     bool empty() const { return heap_.empty(); }
+    /// Whether the largest error has kept an edge out since the last refresh.
+    bool has_edges_over_error() const { return has_edges_over_error_; }
     VertexId goes() const { return heap_.top(); }
     VertexId stays() const { return partner_[index(heap_.top())]; }
 
@@ -53,7 +55,7 @@ private:
     void count_edge_labels(VertexId v, Neighbours& found);
     int label_count(VertexId v) const { return mesh_[v].label_count; }
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
-    float key(VertexId goes, VertexId stays, EdgeCost cost) const;
+    float key(VertexId goes, VertexId stays, EdgeCost cost);
     Best best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden);
     void rank(VertexId v, Best best);
 
@@ -65,6 +67,8 @@ private:
     EdgeHeap heap_;
     Neighbours neighbours_, round_merged_;
     std::vector<EdgeLabels> edge_labels_;
+    bool has_edges_over_error_ = false;
+    double key_unit_;  // a power of two near 1 / scale^4: keys are single precision, and would overflow or vanish
 };
 
 }  // namespace regionmesh

@@ -123,6 +123,29 @@ void gather_half(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star
     gather_link(mesh, star);
 }
 
+void gather_move(const Mesh& mesh, VertexId v, EdgeStar& star) {
+    gather_faces_of_goes(mesh, v, kNoVertex, star);
+    star.stays = v;
+    star.keeps_stays = false;
+    for (const StarFace& face : star.faces) {
+        add_to_link(star, face.a);
+        add_to_link(star, face.b);
+    }
+}
+
+void gather_flip(const Mesh& mesh, const Flip& flip, EdgeStar& star) {
+    start(mesh, flip.c, flip.c, star);
+    star.at_goes = 0.5 * (mesh.position(flip.u) + mesh.position(flip.v));
+    star.keeps_stays = true;
+    star.is_interface = true;
+    star.faces = {{flip.g, flip.u, flip.d, flip.c}, {flip.g, flip.d, flip.v, flip.c}};
+    star.link = {flip.u, flip.d, flip.v};
+    StarPair& pair = star.pairs.emplace_back();
+    pair.a = side_by_side(mesh.position(flip.u), mesh.position(flip.d));
+    pair.b = side_by_side(mesh.position(flip.d), mesh.position(flip.v));
+    measure(star);
+}
+
 void set_normals(EdgeStar& star, Vec3 position) {
     const Lanes3<Double2> merged = both(position);
     for (StarPair& pair : star.pairs) {

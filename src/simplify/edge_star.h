@@ -72,6 +72,19 @@ void gather_vertex(const Mesh& mesh, VertexId goes, EdgeStar& star);
 /// Collects the faces of `goes` only. Requires that goes-stays is an edge.
 void gather_half(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star);
 
+/// Collects all faces of a vertex that may move: a collapse of the vertex onto itself, without dead faces.
+void gather_move(const Mesh& mesh, VertexId v, EdgeStar& star);
+
+/// An edge u-v with two faces of one interface, f = (c, u, v) and g = (d, v, u) up to rotation.
+struct Flip {
+    FaceId f, g;
+    VertexId u, v, c, d;
+};
+
+/// Collects the two faces (c, u, d) and (c, d, v) that a flip makes, as half the collapse onto c of a vertex in the
+/// middle of u-v. Requires, for the tests, that f and g are not in the tree of faces.
+void gather_flip(const Mesh& mesh, const Flip& flip, EdgeStar& star);
+
 /// Fills in the normals that the surviving faces would have with the merged vertex at `position`.
 void set_normals(EdgeStar& star, Vec3 position);
 

@@ -24,6 +24,7 @@ std::vector<std::uint8_t> move_guarded(Mesh& mesh, const std::vector<Vec3>& to, 
     for (std::uint32_t round = 0; round < BacktrackRounds::kRounds; ++round) rounds.run(round, 0, true);
     IntersectionResolver resolver(window, steps, options);
     resolver.note_chunk(0);
+    resolver.note_whole();
     [[maybe_unused]] const bool is_resolved = resolver.add_chunk(0);
     assert(is_resolved);
     std::vector<std::uint8_t> backtrack(mesh.vertex_end());

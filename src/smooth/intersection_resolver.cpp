@@ -34,6 +34,7 @@ bool IntersectionResolver::add_chunk(std::uint32_t chunk) {
         if (options_.intersect_check) {
             if (request_crossings(faces, whole)) is_valid = false;
             if (request_islands()) is_valid = false;
+            if (request_inverted()) is_valid = false;
         }
         if (is_valid) return true;
         if (requested_.empty()) return false;
@@ -186,6 +187,13 @@ bool IntersectionResolver::request_islands() {
         any = true;
     }
     return any;
+}
+
+bool IntersectionResolver::request_inverted() {
+    if (!shells_) return false;
+    const std::vector<std::uint32_t> faces = shells_->inverted(window_, *steps_.now);
+    for (std::uint32_t f : faces) request_corners(f);
+    return !faces.empty();
 }
 
 void IntersectionResolver::release_before(std::uint32_t chunk) {

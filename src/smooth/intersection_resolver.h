@@ -2,18 +2,20 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "mesh/face_meeting.h"
 #include "mesh/sorted_face_tree.h"
 #include "smooth/backtrack.h"
 #include "smooth/islands.h"
+#include "smooth/shells.h"
 
 namespace regionmesh {
 
 /// Takes in the chunks one after the other. After each, all faces so far are valid: no face is turned over or of too
-/// low quality, no face crosses another, and no separate part of the surface has changed sides of another. Where one
-/// would, its vertices backtrack, and this repeats until all faces are valid. Terminates: the unsmoothed surface is
+/// low quality, no face crosses another, no separate part of the surface has changed sides of another, and, where the
+/// surface is wholly in core, no shell is turned inside out. Where one would, its vertices backtrack, and this repeats until all faces are valid. Terminates: the unsmoothed surface is
 /// valid. Vertices of released chunks do not move.
 class IntersectionResolver {
 public:
@@ -27,6 +29,10 @@ public:
     /// Notes the faces of a chunk that has just been added to the window.
     void note_chunk(std::uint32_t chunk) {
         if (options_.intersect_check) parts_.add_chunk(window_, chunk);
+    }
+    /// The window holds the whole surface, as one chunk.
+    void note_whole() {
+        if (options_.intersect_check) shells_.emplace(window_);
     }
     /// Releases the chunks before this one: their vertices do not move any more, and their faces are not tested again.
     void release_before(std::uint32_t chunk);
@@ -53,6 +59,7 @@ private:
     bool request_faulty_shapes(const std::vector<std::uint32_t>& faces);
     bool request_crossings(const std::vector<std::uint32_t>& faces, NumberRange whole);
     bool request_islands();
+    bool request_inverted();
     bool is_unsmoothed(std::uint32_t f) const;
     void request(std::uint32_t v);
     void request_corners(std::uint32_t f);
@@ -65,6 +72,7 @@ private:
     StepLengths& steps_;
     const SmoothOptions& options_;
     Parts parts_;
+    std::optional<Shells> shells_;
     std::vector<std::uint32_t> island_vertices_;  // one vertex of each complete part, in chunks not released
     std::deque<ChunkTree> trees_;
     std::uint32_t first_movable_ = 0;  // first chunk whose vertices may backtrack

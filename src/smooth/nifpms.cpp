@@ -20,6 +20,9 @@ bool is_before(Vec3 p, Vec3 q) { return p.x != q.x ? p.x < q.x : p.y != q.y ? p.
 
 double gaussian(double square, double sigma) { return std::exp(-square / (2 * sigma * sigma)); }
 
+/// False for a step that is no number: faces outside the window must not be reached.
+bool is_within(Vec3 step, double reach) { return length2(step) <= reach * reach; }
+
 /// A face, or an edge of a line, that predicts the position of a near vertex.
 struct Witness {
     Vec3 middle;
@@ -117,7 +120,7 @@ private:
                 if (!seen_faces_.add(f)) continue;
                 const ChunkFace& face = window_.faces[f];
                 const auto& [middle, area] = measures_[f];
-                if (!is_same_interface(face.labels, labels) || length2(middle - from) > reach * reach) continue;
+                if (!is_same_interface(face.labels, labels) || !is_within(middle - from, reach)) continue;
                 found_.push_back({middle, area, FaceId{f}});
                 for (std::uint32_t w : face.vertices)
                     if (seen_vertices_.add(w)) queue_.push_back(w);
@@ -129,7 +132,7 @@ private:
         const Vec3 from = window_.origin[v];
         for (std::uint32_t at = v;;) {
             const Vec3 p = window_.origin[at], q = window_.origin[next], middle = 0.5 * (p + q);
-            if (length2(middle - from) > reach * reach) return;
+            if (!is_within(middle - from, reach)) return;
             found_.push_back({middle, length(q - p), kNoFace, at, next});
             const auto onward = neighbours_.of(next);
             if (onward.size() != 2 || next == v) return;

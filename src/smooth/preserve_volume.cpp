@@ -28,47 +28,93 @@ struct Gradient {
     double area = 0;  // a third of the area of the star
 };
 
-class Preserving {
+/// Positions of vertices, and how far the volumes of regions are off there.
+struct State {
+    std::vector<Vec3> positions;
+    std::vector<double> drifts;  // |volume / wanted - 1| by region; 0 where nothing is wanted
+
+    std::uint64_t regions_off() const {
+        return static_cast<std::uint64_t>(
+            std::count_if(drifts.begin(), drifts.end(), [](double drift) { return drift > kVolumeTolerance; }));
+    }
+    double worst() const { return drifts.empty() ? 0 : *std::max_element(drifts.begin(), drifts.end()); }
+    bool is_better_than(const State& other) const {
+        return std::pair(regions_off(), worst()) < std::pair(other.regions_off(), other.worst());
+    }
+};
+
+State state_of(const Mesh& mesh, const WantedVolumes& wanted) {
+    State state{std::vector<Vec3>(mesh.vertex_end()), std::vector<double>(wanted.size())};
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) state.positions[v] = mesh.position(VertexId{v});
+    const std::vector<double> volumes = region_volumes(mesh);
+    for (Label label = 0; label < wanted.size(); ++label)
+        if (wanted[label] && *wanted[label] != 0)
+            state.drifts[label] = std::abs((label < volumes.size() ? volumes[label] : 0) / *wanted[label] - 1);
+    return state;
+}
+
+void put_back(Mesh& mesh, const std::vector<Vec3>& positions) {
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        if (mesh.is_alive(VertexId{v})) mesh[VertexId{v}].position = positions[v];
+}
+
+/// Calls visit(v) for the vertices round the regions that are marked, more than once for most.
+template <class Visit>
+void for_boundaries(const Mesh& mesh, const std::vector<bool>& marked, Visit&& visit) {
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+        if (!mesh.is_alive(FaceId{f})) continue;
+        for (Label label : mesh[FaceId{f}].labels)
+            if (label < marked.size() && marked[label])
+                for (VertexId v : mesh[FaceId{f}].vertices) visit(v);
+    }
+}
+
+/// Rounds that bring the volumes nearer to those wanted.
+class VolumeRounds {
 public:
-    Preserving(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options)
-        : mesh_(mesh), wanted_(wanted), options_(options), rest_(mesh.vertex_end()) {
+    /// The regions in `left` stay as they are.
+    VolumeRounds(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options, const std::vector<bool>& left)
+        : mesh_(mesh), wanted_(wanted), options_(options), left_(left), rest_(mesh.vertex_end()) {
         for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
             if (!mesh.is_alive(VertexId{v}) || mesh[VertexId{v}].is_fixed) rest_[v] = kForEver;
+        for_boundaries(mesh, left, [&](VertexId v) { rest_[index(v)] = kForEver; });
+        note_missing();
     }
 
-    PreserveReport run() {
-        note_missing();
-        report_.drift_before = report_.drift;
-        while (!is_done() && report_.rounds < kMostVolumeRounds) {
-            ++report_.rounds;
-            const std::vector<double> multipliers = solve();
-            std::vector<Vec3> to(mesh_.vertex_end());
-            for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) to[v] = target(VertexId{v}, multipliers);
-            hold(move_guarded(mesh_, to, options_));
-            note_missing();
-        }
-        return report_;
+    bool is_done() const {
+        for (Label label = 0; label < wanted_.size(); ++label)
+            if (is_wanted(label) && std::abs(missing_[label]) > kEnoughDrift * std::abs(*wanted_[label])) return false;
+        return true;
     }
+
+    /// Returns the number of vertices that the guard stopped.
+    std::uint64_t run_round() {
+        is_first_ = false;
+        const std::vector<double> multipliers = solve();
+        std::vector<Vec3> to(mesh_.vertex_end());
+        for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) to[v] = target(VertexId{v}, multipliers);
+        const std::uint64_t held = hold(move_guarded(mesh_, to, options_));
+        note_missing();
+        return held;
+    }
+
+    double largest_displacement() const { return largest_displacement_; }
 
 private:
     /// Has a wanted volume, and is not given up.
     bool is_wanted(Label label) const {
-        return label < wanted_.size() && wanted_[label] && stalled_[label] < kPatience;
+        return label < wanted_.size() && wanted_[label] && !left_[label] && stalled_[label] < kPatience;
     }
 
     /// Notes the volume that each region is missing, and the volume that it asks for in the next round.
     void note_missing() {
         const std::vector<double> volumes = region_volumes(mesh_);
         const std::vector<double> most = most_asked();
-        report_.drift = 0;
-        report_.regions_off = 0;
         for (Label label = 0; label < wanted_.size(); ++label) {
             if (!wanted_[label] || *wanted_[label] == 0) continue;
             const double missing = *wanted_[label] - (label < volumes.size() ? volumes[label] : 0);
             const double drift = std::abs(missing / *wanted_[label]);
-            report_.drift = std::max(report_.drift, drift);
-            report_.regions_off += drift > kVolumeTolerance;
-            if (report_.rounds > 0 && drift > kVolumeTolerance) {
+            if (!is_first_ && drift > kVolumeTolerance) {
                 const double gained = std::abs(missing_[label]) - std::abs(missing);
                 stalled_[label] = gained < kLeastGain * std::abs(asked_[label]) ? stalled_[label] + 1 : 0;
             }
@@ -78,25 +124,19 @@ private:
         balance();
     }
 
-    /// Without background the missing volumes sum to zero up to rounding, and so must the volumes asked for: the
-    /// largest region takes the difference.
+    /// Where no region is free the missing volumes sum to zero up to rounding, and so must the volumes asked for: all
+    /// regions take a share of the difference, by their volumes.
     void balance() {
-        Label largest = 0;
         double missing = 0, asked = 0, all = 0;
         for (Label label = 0; label < wanted_.size(); ++label) {
             if (!is_wanted(label)) continue;
-            if (!is_wanted(largest) || *wanted_[label] > *wanted_[largest]) largest = label;
             missing += missing_[label];
             asked += asked_[label];
             all += *wanted_[label];
         }
-        if (is_wanted(largest)) asked_[largest] += (std::abs(missing) < kRounding * all ? 0 : missing) - asked;
-    }
-
-    bool is_done() const {
+        if (!(std::abs(missing) < kRounding * all)) return;
         for (Label label = 0; label < wanted_.size(); ++label)
-            if (is_wanted(label) && std::abs(missing_[label]) > kEnoughDrift * std::abs(*wanted_[label])) return false;
-        return true;
+            if (is_wanted(label)) asked_[label] -= asked * *wanted_[label] / all;
     }
 
     /// By region: the area of its boundary times the most mean displacement.
@@ -112,15 +152,17 @@ private:
         return most;
     }
 
-    /// Vertices that backtracked rest for some rounds.
-    void hold(const std::vector<std::uint8_t>& levels) {
+    /// Vertices that backtracked rest for some rounds. Returns their number.
+    std::uint64_t hold(const std::vector<std::uint8_t>& levels) {
+        std::uint64_t held = 0;
         for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
             if (rest_[v] == kForEver) continue;
             if (rest_[v] > 0) --rest_[v];
             if (levels[v] == 0) continue;
             rest_[v] = kRestRounds;
-            ++report_.held_vertices;
+            ++held;
         }
+        return held;
     }
 
     /// Decimation has moved the vertices of a hull that is not a box; so they may move back.
@@ -170,7 +212,7 @@ private:
         for (int n = 0; n < g.size; ++n) step += multipliers[g.labels[n]] / g.area * g.of[n];
         const double size = length(step), longest = kLongestStep * edge_;
         if (size > longest) step = longest / size * step;
-        report_.largest_displacement = std::max(report_.largest_displacement, std::min(size, longest));
+        largest_displacement_ = std::max(largest_displacement_, std::min(size, longest));
         Vec3 to = from + step;
         keep_on_sides(kept_sides(v), from, to);
         return to;
@@ -179,18 +221,51 @@ private:
     Mesh& mesh_;
     const WantedVolumes& wanted_;
     const SmoothOptions& options_;
+    const std::vector<bool>& left_;
+    bool is_first_ = true;
     std::vector<std::uint8_t> rest_;  // rounds to sit out
     double edge_ = typical_edge(mesh_);
     std::vector<double> missing_ = std::vector<double>(wanted_.size());
     std::vector<double> asked_ = std::vector<double>(wanted_.size());
     std::vector<int> stalled_ = std::vector<int>(wanted_.size());  // rounds without progress
-    PreserveReport report_;
+    double largest_displacement_ = 0;
 };
+
+/// Regions that are farther off now than before.
+std::vector<Label> worse_regions(const State& before, const State& now) {
+    std::vector<Label> worse;
+    for (Label label = 0; label < now.drifts.size(); ++label)
+        if (now.drifts[label] > std::max(before.drifts[label], kVolumeTolerance)) worse.push_back(label);
+    return worse;
+}
 
 }  // namespace
 
 PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options) {
-    return Preserving(mesh, wanted, options).run();
+    const State before = state_of(mesh, wanted);
+    State best = before;
+    PreserveReport report;
+    std::vector<bool> left(wanted.size());
+    for (std::uint32_t attempt = 0; attempt < kMostAttempts; ++attempt) {
+        put_back(mesh, before.positions);
+        VolumeRounds rounds(mesh, wanted, options, left);
+        std::vector<Label> worse;
+        for (std::uint32_t round = 0; round < kMostVolumeRounds && !rounds.is_done(); ++round) {
+            report.held_vertices += rounds.run_round();
+            ++report.rounds;
+            State now = state_of(mesh, wanted);
+            worse = worse_regions(before, now);
+            if (worse.empty() && now.is_better_than(best)) best = std::move(now);
+        }
+        report.largest_displacement = std::max(report.largest_displacement, rounds.largest_displacement());
+        if (worse.empty()) break;
+        for (Label label : worse) left[label] = true;
+    }
+    put_back(mesh, best.positions);
+    report.drift_before = before.worst();
+    report.drift = best.worst();
+    report.regions_off = best.regions_off();
+    return report;
 }
 
 }  // namespace regionmesh

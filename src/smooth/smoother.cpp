@@ -46,6 +46,7 @@ bool Smoother::add(const Chunk& chunk, bool is_last, double next_low) {
 
 void Smoother::smooth_all(Mesh& mesh) {
     const std::vector<std::uint32_t> number = window_.add(mesh);
+    resolver_.note_whole();
     [[maybe_unused]] const bool is_done = work(true, HUGE_VAL);
     assert(is_done);
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)

@@ -5,6 +5,15 @@
 
 namespace regionmesh {
 
+void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
+    if (!options.improve) return;
+    const Timer timer = log.time("improve");
+    const SimplifyOptions simplify = simplify_options(options, shape);
+    ImproveOptions own{.min_quality = simplify.min_quality, .scale = simplify.scale, .samples = simplify.samples};
+    own.on_progress = [&] { log.report_progress("improve"); };
+    result.report.improved = improve(result.mesh, own);
+}
+
 void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log) {
     if (!options.preserve_volume) return;
     const Timer timer = log.time("preserve volume");

@@ -1,4 +1,4 @@
-// The last stages, on the finished mesh: preserve volumes, place in space, check.
+// The last stages, on the finished mesh: improve faces, preserve volumes, place in space, check.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,9 @@
 #include "stream/run_log.h"
 
 namespace regionmesh {
+
+/// Makes faces better, where the options ask for it.
+void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
 /// Gives the regions the volumes that they had before smoothing and decimation, where the options ask for it.
 void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log);

@@ -1,12 +1,13 @@
 // The whole story: from sections, or tetrahedra, to a checked mesh. Each stage has a header of its own.
 //
-//   read -> cells -> smooth -> tiles -> merge -> simplify -> check
+//   read -> cells -> smooth -> tiles -> merge -> simplify -> (improve) -> check
 #include "stream/pipeline.h"
 
 #include <optional>
 #include <string>
 
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/process.h"
 #include "regionmesh/voxelise.h"
 #include "stream/chunk_volumes.h"
@@ -21,6 +22,7 @@
 #include "stream/tetrahedron_faces.h"
 #include "stream/tile_stage.h"
 #include "stream/tuning.h"
+#include "volume/room_reader.h"
 
 namespace regionmesh {
 namespace {
@@ -87,6 +89,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     if (!plan.oracle) plan.oracle = source.oracle();
 
     simplify.bring_to_target();
+    improve_faces(result, options, shape, log);
     restore_volumes(result, options, shape.scale, log);
     give_back_freed_memory();
     result.report.pinned_vertices = simplify.release_all();
@@ -133,8 +136,10 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
     }
 }
 
-Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
-    const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
+namespace {
+
+Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOptions& options,
+                                    const OnProgress& on_progress) {
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
@@ -142,6 +147,18 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
                         is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality);
     Reconstruction result = reconstruct(source, options, on_progress);
     count_samples(result, source, options);
+    return result;
+}
+
+}  // namespace
+
+Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
+    require_lattice(reader.info().source, reader.info().lattice);
+    const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
+    if (options.room == 0) return reconstruct_sections(reader, options, on_progress);
+    RoomReader cleaned(reader, options.room, options.threads);
+    Reconstruction result = reconstruct_sections(cleaned, options, on_progress);
+    result.report.samples_in_room = cleaned.changed();
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "volume/choose_sweep.h"
 
 namespace regionmesh {
@@ -84,13 +85,6 @@ void require_usable(const LabelArray& array, const ArrayOptions& options) {
                "; give an array with samples");
     if (!array.data) refuse("no data; give the address of the first sample");
     if (!copy_of(array.type)) refuse("samples are single bits; give an array of 8, 16, 32 or 64-bit integers");
-    for (int axis = 0; axis < 3; ++axis) {
-        const double spacing = options.spacing[axis];
-        if (!std::isfinite(spacing) || spacing <= 0)
-            refuse(std::string("spacing along ") + "xyz"[axis] + " is " + std::to_string(spacing) +
-                   "; give three positive numbers");
-        if (!std::isfinite(options.origin[axis])) refuse("origin is not finite; give three numbers");
-    }
     for (const double entry : options.direction)
         if (!std::isfinite(entry)) refuse("direction is not finite; give nine numbers");
 }
@@ -105,6 +99,7 @@ std::unique_ptr<SectionReader> open_array(const LabelArray& array, const ArrayOp
                     .can_sweep = {true, true, true},
                     .names = options.names};
     info.lattice = {array.size, options.spacing, options.origin, options.direction};
+    require_lattice(options.name, info.lattice);
     info.sweep = *choose_sweep(info, options.sweep);
     return std::make_unique<ArraySections>(array, std::move(info));
 }

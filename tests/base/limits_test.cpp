@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mesh/bytes_per_face.h"
 #include "regionmesh/error.h"
 #include "regionmesh/mesh.h"
@@ -50,6 +52,49 @@ TEST(Limits, a_budget_expects_no_more_faces_than_a_mesh_can_hold) {
     demand.strip_faces.assign(9, 100);
     demand.asked_budget = kMostFaces * 10;
     EXPECT_EQ(plan_budget(std::uint64_t{1} << 50, demand).face_budget(0), kMostFaces);
+}
+
+std::string lattice_refusal(Vec3 spacing, Vec3 origin = {}) {
+    Lattice lattice{.size = {5, 4, 3}, .spacing = spacing, .origin = origin};
+    try {
+        require_lattice("v.nrrd", lattice);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kInput);
+        return error.what();
+    }
+    return "not refused";
+}
+
+TEST(Limits, of_spacing_hold_at_both_ends_and_refuse_no_number) {
+    EXPECT_EQ(lattice_refusal({kLeastLength, kLeastLength, kLeastLength}), "not refused");
+    EXPECT_EQ(lattice_refusal({kMostLength, kMostLength, kMostLength}), "not refused");
+    for (const double bad : {0.0, -1.0, 1e-90, 1e160, 1e-13, 1e9, HUGE_VAL, std::nan("")})
+        EXPECT_THAT(lattice_refusal({1, bad, 1}), HasSubstr("v.nrrd: the spacing along y is"));
+}
+
+TEST(Limits, of_origin_and_extent_follow_from_the_smallest_spacing) {
+    EXPECT_EQ(lattice_refusal({1, 1, 1}, {0, 0, 1e12}), "not refused");
+    for (const double bad : {1e13, -1e13, HUGE_VAL, std::nan("")})
+        EXPECT_THAT(lattice_refusal({1, 1, 1}, {0, 0, bad}), HasSubstr("v.nrrd: the coordinates along z reach"));
+    EXPECT_THAT(lattice_refusal({1e-6, 1e7, 1}), HasSubstr("the coordinates along y reach"));
+}
+
+TEST(Limits, of_models_refuse_what_is_too_large_or_too_small) {
+    const auto refused = [](double size, double at) {
+        Box box;
+        box.add({at, 0, 0});
+        box.add({at + size, 0, 0});
+        try {
+            require_extent("m.ply", box);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("not refused");
+    };
+    EXPECT_EQ(refused(1, 0), "not refused");
+    EXPECT_THAT(refused(1e-40, 0), HasSubstr("m.ply: its size is 1e-40"));
+    EXPECT_THAT(refused(1, 1e21), HasSubstr("m.ply: the coordinates along x reach 1e+21"));
+    EXPECT_THAT(refused(std::nan(""), 0), HasSubstr("m.ply"));
 }
 
 TEST(BytesPerFace, follow_from_the_structs) {

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <vector>
 
 #include "base/parallel_for.h"
 #include "base/parallel_in_order.h"
 #include "base/union_find.h"
+#include "regionmesh/stop.h"
 #include "support/random.h"
 
 namespace regionmesh {
@@ -52,6 +54,35 @@ TEST(ParallelInOrder, throws_what_a_call_throws) {
     };
     for (std::uint32_t threads : {1u, 2u})
         EXPECT_THROW(parallel_in_order(20, 4, threads, {work, [](std::uint32_t, std::uint32_t) {}}), std::uint32_t);
+}
+
+TEST(StopScope, ends_parallel_work_between_parts) {
+    for (const std::uint32_t threads : {1u, 2u}) {
+        std::atomic<bool> stop = false;
+        std::atomic<std::uint32_t> done = 0;
+        const StopScope scope(stop);
+        EXPECT_THROW(parallel_for(1000, threads, [&](std::uint32_t) { stop = ++done == 10 || stop; }), Stopped);
+        EXPECT_LT(done, 20u);
+        done = 0;
+        EXPECT_THROW(parallel_in_order(1000, 4, threads, {[&](auto, auto) { ++done; }, [](auto, auto) {}}), Stopped);
+        EXPECT_EQ(done, 0u);
+    }
+}
+
+TEST(StopScope, holds_for_its_thread_while_it_lives) {
+    std::atomic<bool> stop = true, go_on = false;
+    std::uint32_t done = 0;
+    const auto count = [&](std::uint32_t) { ++done; };
+    {
+        const StopScope outer(stop);
+        {
+            const StopScope inner(go_on);
+            parallel_for(3, 1, count);
+        }
+        EXPECT_THROW(parallel_for(3, 1, count), Stopped);
+    }
+    parallel_for(3, 1, count);
+    EXPECT_EQ(done, 6u);
 }
 
 TEST(ForChunks, rounds_sums_alike_on_any_number_of_threads) {

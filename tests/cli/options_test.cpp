@@ -65,7 +65,7 @@ protected:
         for (const OptionSpec& other : option_table()) {
             if ((other.commands & command.command) == 0 || &other == &option) continue;
             if (other.is_argument) line += ' ' + (other.name == "to" ? out("m.vtp") : path(input_for(option)).string());
-            if (other.is_required) line += " --" + other.name + ' ' + out("m.vtp");
+            if (other.is_required) line += " --" + other.name + ' ' + out(other.is_output ? "m.vtp" : "none.npy");
         }
         if (command.command == kDecimate && option.name != "target-faces") line += " --target-faces 10";
         if (option.inputs != kAnyInput && command.command == kCheck && option.name != "sections")

@@ -95,6 +95,17 @@ TEST_F(PipedPrograms, one_at_work_ends_with_the_object) {
     EXPECT_TRUE(send(endless, "a"));
 }
 
+TEST_F(PipedPrograms, one_that_hangs_is_killed_and_one_that_computes_is_not) {
+    PipedProgram hangs(program("exec sleep 1000"));
+    hangs.set_patience(std::chrono::milliseconds(300));
+    EXPECT_EQ(receive(hangs, 10), "");
+    EXPECT_TRUE(hangs.end().was_idle);
+    PipedProgram computes(program("n=0; while [ $n -lt 1000000 ]; do n=$((n+1)); done; echo done"));
+    computes.set_patience(std::chrono::milliseconds(300));
+    EXPECT_EQ(receive(computes, 10), "done\n");
+    EXPECT_FALSE(computes.end().was_idle);
+}
+
 TEST_F(PipedPrograms, it_can_be_interrupted_by_a_broken_pipe_even_if_we_cannot) {
     const auto before = std::signal(SIGPIPE, SIG_IGN);
     PipedProgram writer(program("(yes; echo $? >&2) | head -n 1"));

@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string_view>
+
 #include "mesh/region_volumes.h"
 #include "regionmesh/smooth.h"
+#include "smooth/guarded_move.h"
 #include "support/digest.h"
 #include "support/runs.h"
+#include "support/shapes.h"
 
 namespace regionmesh {
 namespace {
@@ -90,6 +95,63 @@ TEST(PreserveVolume, keeps_to_the_box) {
         }
     }
     EXPECT_NEAR(region_volumes(mesh)[0], 1.02 * before[0], 1e-6);
+}
+
+/// Six labels, dense and noisy: islands of few samples that volumes push through each other.
+constexpr std::string_view kIslands =
+    "555555555555555555555555555555555555555055555555555555555555555555555555555555550555555555555555555055555"
+    "555555555555555555555555555555555555555555555505055555555555555555555555555555555555555555555555555555550"
+    "505050555555555555555555555555555555555555555555555555555555555055555550555555555555555555555555555555555"
+    "555555555555555000005555500050555551555555555555555555555555555550055555555000055555500000555550555555555"
+    "555555555555555555550555555555000005555500000555555555555555555555555555555555550555555555000055555500000"
+    "555550555555555555555555500555555550000555533000005555505555555555555555555555555555550555555550044555555"
+    "000055555500055555555555555555555555555500055555550000555555000055555550055555555555225555555555555500055"
+    "555550000055555000055555550055555555555222555555555555555555555550005555555000005555500005555555550055555";
+
+TEST(PreserveVolume, keeps_islands_where_they_are) {
+    std::vector<InputLabel> labels;
+    for (char digit : kIslands) labels.push_back(digit - '0');
+    test::ArrayVolume volume({10, 6, 14}, std::move(labels));
+    ReconstructOptions options = test::reduced(0.95);
+    options.preserve_volume = true;
+    const Reconstruction made = test::run(volume, options);
+    test::expect_sound(made.report.check);
+    EXPECT_EQ(made.report.preserved.regions_off, 0u);
+}
+
+TEST(PreserveVolume, puts_no_region_farther_off) {
+    for (std::uint32_t seed : {1u, 2u, 3u}) {
+        test::ArrayVolume volume = test::noise_volume({16, 14, 9}, 60, seed);
+        const std::vector<double> wanted = region_volumes(test::run(volume).mesh);
+        Mesh mesh = test::run(volume, test::reduced(0.9)).mesh;
+        const std::vector<double> before = region_volumes(mesh);
+        const PreserveReport report = preserve_volumes(mesh, {wanted.begin(), wanted.end()}, {});
+        test::expect_sound(check(mesh));
+        const std::vector<double> now = region_volumes(mesh);
+        std::uint64_t off = 0;
+        for (std::size_t n = 0; n < wanted.size(); ++n) {
+            const double was_off = std::abs(before[n] / wanted[n] - 1), is_off = std::abs(now[n] / wanted[n] - 1);
+            EXPECT_LE(is_off, std::max(was_off, kVolumeTolerance) * (1 + 1e-9)) << seed << " region " << n;
+            off += is_off > kVolumeTolerance;
+        }
+        EXPECT_EQ(report.regions_off, off);
+    }
+}
+
+TEST(MoveGuarded, turns_no_region_inside_out) {
+    // A flat tetrahedron, region 0 in region 1, whose apex wants to go through its base: no face would turn over, and
+    // none would cross another.
+    const double low = 0.05;
+    Mesh mesh = test::shape({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, low}},
+                            {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}});
+    std::vector<Vec3> to;
+    for (std::uint32_t v = 0; v < 4; ++v) to.push_back(mesh.position(VertexId{v}));
+    to[3].z = -low;
+    ASSERT_GT(region_volumes(mesh)[0], 0);
+    SmoothOptions options;
+    options.min_quality = 0;
+    move_guarded(mesh, to, options);
+    EXPECT_GT(region_volumes(mesh)[0], 0);
 }
 
 }  // namespace

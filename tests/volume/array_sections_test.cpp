@@ -146,7 +146,7 @@ TEST(ArraySections, refuse_arrays_that_cannot_be_read) {
     EXPECT_THAT(refusal(label_array(samples.data(), {2, 0, 2})), HasSubstr("size is 2 x 0 x 2"));
     EXPECT_THAT(refusal({nullptr, SampleType::kU8, {2, 2, 2}, {1, 2, 4}}), HasSubstr("no data"));
     EXPECT_THAT(refusal({samples.data(), SampleType::kU1, {2, 2, 2}, {1, 2, 4}}), HasSubstr("single bits"));
-    EXPECT_THAT(refusal(good, {.spacing = {1, 0, 1}, .name = "ct"}), HasSubstr("ct: spacing along y is 0"));
+    EXPECT_THAT(refusal(good, {.spacing = {1, 0, 1}, .name = "ct"}), HasSubstr("ct: the spacing along y is 0"));
     EXPECT_THAT(refusal(good, {.origin = {1, 0, HUGE_VAL}}), HasSubstr("origin"));
     EXPECT_THAT(refusal(good, {.direction = {NAN}}), HasSubstr("direction"));
 }

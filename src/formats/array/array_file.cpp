@@ -91,10 +91,24 @@ std::optional<Pattern> parse_pattern(std::string_view text) {
     return pattern;
 }
 
+/// A header from somewhere must not make the program read any file of this machine.
+void require_files_within(const ArrayFile& array) {
+    for (const fs::path& file : array.files) {
+        fs::path folder = array.source.parent_path();
+        if (folder.empty()) folder = ".";
+        if (file.is_absolute()) folder = fs::absolute(folder);
+        const fs::path inside = file.lexically_normal().lexically_relative(folder.lexically_normal());
+        if (inside.empty() || *inside.begin() == "..")
+            fail(array.source, "names " + shown(file.string()) +
+                                   ", a file outside its folder; give --external-files if you trust the header");
+    }
+}
+
 }  // namespace
 
 std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options) {
     const std::vector<fs::path> files = array.files.empty() ? std::vector{array.source} : array.files;
+    if (!options.external_files) require_files_within(array);
     const SampleFormat format = array.encoding == Encoding::kAscii ? kAsciiFormat : array.sample;
     const auto& size = array.lattice.size;
     const std::uint64_t volume = volume_bytes(array.source, size, sample_bytes(format.type) * array.components);

@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -128,17 +129,29 @@ Columns qform_columns(const Header& header, Vec3 spacing) {
             qfac * spacing.z * Vec3{2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b}};
 }
 
-void read_affine(const std::filesystem::path& path, const Header& header, Lattice& lattice) {
+/// pixdim of an axis that the header counts must be a length. `given` is --spacing, which replaces it.
+Vec3 zooms(const std::filesystem::path& path, const Header& header, const std::optional<Vec3>& given) {
+    Vec3 spacing = header.vector(kPixdim, 1);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis >= header.at(kDim) || given) {
+            spacing[axis] = given ? (*given)[axis] : 1;
+        } else if (!(std::isfinite(spacing[axis]) && spacing[axis] > 0)) {
+            fail(path, "pixdim[" + std::to_string(axis + 1) + "] is " + std::to_string(spacing[axis]) +
+                           ", no distance of samples; give the right one with --spacing X,Y,Z");
+        }
+    }
+    return spacing;
+}
+
+void read_affine(const std::filesystem::path& path, const Header& header, const ReadOptions& options,
+                 Lattice& lattice) {
     if (header.at(kSformCode) > 0) {
         const auto column = [&](std::size_t i) { return header.vector(kSrow, i, 4); };  // of three rows of four
         set_affine(path, "sform", "set sform_code to 0 or mend it", {column(0), column(1), column(2)}, column(3),
                    lattice);
         return;
     }
-    for (int axis = 0; axis < 3; ++axis) {
-        const double spacing = std::abs(header.vector(kPixdim, 1)[axis]);  // 0 if unknown: 1, as in nifticlib
-        lattice.spacing[axis] = std::isfinite(spacing) && spacing > 0 ? spacing : 1;
-    }
+    lattice.spacing = zooms(path, header, options.spacing);
     if (header.at(kQformCode) > 0) {
         set_affine(path, "qform", "set qform_code to 0 or mend it", qform_columns(header, lattice.spacing),
                    header.vector(kQoffset), lattice);
@@ -195,7 +208,7 @@ std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, con
     array.sample = {sample_type(path, header.at(kDatatype)), header.is_big_endian};
     array.lattice.size = volume_size(path, header);
     check_unscaled(path, header);
-    read_affine(path, header, array.lattice);
+    read_affine(path, header, options, array.lattice);
     array.space = Space::kRas;
     array.skipped_bytes = data_offset(path, header);
     array.names = names_beside(path);

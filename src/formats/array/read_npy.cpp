@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "formats/array/array_file.h"
+#include "formats/array/read_pipe.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
 #include "formats/text/json_text.h"
@@ -14,6 +16,7 @@
 namespace regionmesh::formats {
 namespace {
 
+constexpr std::size_t kStartBytes = 12;  // magic, version, and the length of the header
 constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 20;
 
 struct NpyHeader {
@@ -69,21 +72,29 @@ NpyHeader parse_header(const std::filesystem::path& path, std::string_view text)
     return {};
 }
 
-NpyHeader read_header(const InputFile& file) {
-    std::array<std::byte, 12> start{};
-    const std::size_t present = file.read(0, start);
+/// Where the text of the header lies.
+struct TextPlace {
+    std::size_t begin, length;
+};
+
+/// `start` are the first bytes of the file, kStartBytes if it has as many.
+TextPlace find_text(const std::filesystem::path& path, std::span<const std::byte> start) {
     const auto byte = [&](std::size_t i) { return std::to_integer<std::size_t>(start[i]); };
-    const std::string_view magic(reinterpret_cast<const char*>(start.data()), 6);
-    if (present < start.size() || magic != "\x93NUMPY") {
-        fail(file.path(), "not an npy file (it does not begin as one); write it with numpy.save");
-    }
+    const std::string_view magic(reinterpret_cast<const char*>(start.data()), std::min<std::size_t>(6, start.size()));
+    if (start.size() < kStartBytes || magic != "\x93NUMPY")
+        fail(path, "not an npy file (it does not begin as one); write it with numpy.save");
     const std::size_t version = byte(6);
-    if (version < 1 || version > 3)
-        fail(file.path(), "npy version " + std::to_string(version) + "; versions 1 to 3 are read");
+    if (version < 1 || version > 3) fail(path, "npy version " + std::to_string(version) + "; versions 1 to 3 are read");
     const std::size_t length_bytes = version == 1 ? 2 : 4;
     std::size_t length = 0;
     for (std::size_t i = 0; i < length_bytes; ++i) length |= byte(8 + i) << (8 * i);
-    const std::uint64_t offset = 8 + length_bytes;
+    return {8 + length_bytes, length};
+}
+
+NpyHeader read_header(const InputFile& file) {
+    std::array<std::byte, kStartBytes> start{};
+    const std::size_t present = file.read(0, start);
+    const auto [offset, length] = find_text(file.path(), std::span(start).first(present));
     if (length > kMaxHeaderBytes || offset + length > file.size()) {
         fail(file.path(), "the npy header says it takes " + std::to_string(length) + " bytes of a file of " +
                               std::to_string(file.size()) + "; the file is truncated, fetch it again");
@@ -117,18 +128,37 @@ SampleFormat parse_format(const std::filesystem::path& path, const std::string& 
     return format;
 }
 
+/// The size along x, y, z. numpy's last index is x.
+std::array<std::uint32_t, 3> size_of(const std::filesystem::path& path, NpyHeader& header) {
+    if (header.shape.size() != 2 && header.shape.size() != 3) {
+        fail(path, "the array has " + std::to_string(header.shape.size()) + " dimensions; save one of shape (z, y, x)");
+    }
+    if (header.shape.size() == 2) header.shape.insert(header.shape.begin(), 1);
+    return checked_size(path, {header.shape[2], header.shape[1], header.shape[0]});
+}
+
 }  // namespace
+
+StreamedHeader read_npy_header(const std::filesystem::path& path, ByteStream& stream) {
+    std::vector<std::byte> bytes(kStartBytes);
+    bytes.resize(stream.read(bytes));
+    const auto [offset, length] = find_text(path, bytes);
+    if (length > kMaxHeaderBytes || offset + length < kStartBytes)
+        fail(path, "the npy header says it takes " + std::to_string(length) + " bytes; write it with numpy.save");
+    bytes.resize(offset + length);
+    const auto rest = std::span(bytes).subspan(kStartBytes);
+    if (stream.read(rest) < rest.size()) fail(path, stream.problem());
+    NpyHeader header = parse_header(path, {reinterpret_cast<const char*>(bytes.data()) + offset, length});
+    if (header.is_fortran) fail(path, "is in Fortran order; send numpy.ascontiguousarray(a)");
+    return {size_of(path, header), parse_format(path, header.descr)};
+}
 
 std::unique_ptr<SectionReader> open_npy(const std::filesystem::path& path, const ReadOptions& options) {
     NpyHeader header = read_header(InputFile(path));
     ArrayFile array{.format = "npy", .source = path, .sample = parse_format(path, header.descr)};
-    if (header.shape.size() != 2 && header.shape.size() != 3) {
-        fail(path, "the array has " + std::to_string(header.shape.size()) + " dimensions; save one of shape (z, y, x)");
-    }
-    // numpy's last index is x; in Fortran order the first index, z, runs fastest.
-    if (header.shape.size() == 2) header.shape.insert(header.shape.begin(), 1);
-    array.lattice.size = checked_size(path, {header.shape[2], header.shape[1], header.shape[0]});
+    array.lattice.size = size_of(path, header);
     array.begin = header.data_offset;
+    // In Fortran order the first index, z, runs fastest.
     if (header.is_fortran) array.order = {2, 1, 0};
     return open_array(array, options);
 }

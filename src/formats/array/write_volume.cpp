@@ -171,7 +171,8 @@ constexpr std::array<Format, 5> kFormats{{{".npy", npy_header, false},
 /// Bytes into a file, through gzip where wanted.
 class Output {
 public:
-    Output(const std::filesystem::path& path, bool is_gzipped) : file_(path), is_gzipped_(is_gzipped) {
+    Output(const std::filesystem::path& path, bool is_gzipped, const OutputOptions& options)
+        : file_(path, options), is_gzipped_(is_gzipped) {
         constexpr int kGzipWrapper = 15 + 16, kMemory = 8;
         if (is_gzipped && deflateInit2(&stream_, 6, Z_DEFLATED, kGzipWrapper, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
             throw std::bad_alloc();
@@ -211,11 +212,17 @@ private:
     std::array<char, 1 << 16> buffer_;
 };
 
+struct VolumeKind {
+    const Lattice& lattice;
+    SampleType type;
+};
+
 class VolumeWriter final : public SectionWriter {
 public:
-    VolumeWriter(const std::filesystem::path& path, const Format& format, const Lattice& lattice, SampleType type)
-        : path_(path), type_(names_of(type)), output_(path, format.is_gzipped) {
-        output_.write(format.header(lattice, type_));
+    VolumeWriter(const std::filesystem::path& path, const Format& format, const VolumeKind& kind,
+                 const OutputOptions& options)
+        : path_(path), type_(names_of(kind.type)), output_(path, format.is_gzipped, options) {
+        output_.write(format.header(kind.lattice, type_));
     }
 
     void write(std::span<const InputLabel> section) override {
@@ -242,12 +249,13 @@ private:
 
 }  // namespace
 
-std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice,
-                                             SampleType type) {
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, SampleType type,
+                                             const OutputOptions& options) {
     const std::string name = path.filename().string();
     std::string known;
     for (const Format& format : kFormats) {
-        if (name.ends_with(format.extension)) return std::make_unique<VolumeWriter>(path, format, lattice, type);
+        if (name.ends_with(format.extension))
+            return std::make_unique<VolumeWriter>(path, format, VolumeKind{lattice, type}, options);
         known += std::string(" ") + format.extension;
     }
     throw Error(ErrorCode::kOutput, path.string() + ": labels are written as" + known);

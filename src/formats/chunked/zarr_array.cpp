@@ -76,7 +76,10 @@ StoreArray parse_version_2(const fs::path& folder, const Json& json) {
     array.fill = stored_sample(metadata, json.value("fill_value", Json()), array.format);
     array.stored = c_order(array.chunk.size());
     if (json.value("order", "C") == "F") std::ranges::reverse(array.stored);
-    array.names.separator = json.value("dimension_separator", ".") == "/" ? '/' : '.';
+    const std::string separator = json.value("dimension_separator", ".");
+    if (separator != "/" && separator != ".")
+        fail(metadata, "the dimension_separator '" + separator + "' is neither / nor .");
+    array.names.separator = separator[0];
     if (const Json filters = json.value("filters", Json()); !filters.is_null() && !filters.empty())
         refuse_codec(metadata, filters.at(0).at("id"));
     if (const Json compressor = json.value("compressor", Json()); !compressor.is_null())

@@ -57,6 +57,23 @@ Json smoothing_json(const Report& report) {
             {"window_bytes", done.window_bytes}};
 }
 
+Json shapes_json(const FaceShapes& shapes) {
+    return {{"min_quality", shapes.min_quality},
+            {"mean_quality", shapes.mean_quality},
+            {"min_angle", shapes.min_angle},
+            {"max_angle", shapes.max_angle},
+            {"faces_below", shapes.faces_below}};
+}
+
+Json improved_json(const ImproveResult& done) {
+    return {{"flips", done.flips},
+            {"moves", done.moves},
+            {"collapses", done.collapses},
+            {"sweeps", done.sweeps},
+            {"before", shapes_json(done.before)},
+            {"after", shapes_json(done.after)}};
+}
+
 Json violations_json(const std::vector<Violation>& violations, const LabelTable& labels) {
     Json json = Json::array();
     for (const Violation& violation : violations) {
@@ -121,7 +138,9 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     Json& verdicts = json["verdicts"] = Json::object();
     for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
     json["refreshes"] = report.refreshes;
+    json["samples_in_room"] = report.samples_in_room;
     json["stopped"] = report.stopped;
+    json["error_bound"] = report.error_bound;
     json["smoothing"] = smoothing_json(report);
     json["pinned_vertices"] = report.pinned_vertices;
     json["volumes_preserved"] = {{"rounds", report.preserved.rounds},
@@ -129,6 +148,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
                                  {"drift", report.preserved.drift},
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
+    if (report.improved) json["improved"] = improved_json(*report.improved);
     put_check(json, report.check, labels, names, &report);
     if (report.samples) put_samples(json, *report.samples, labels);
     return text_of(json);
@@ -142,8 +162,8 @@ std::string check_json(const CheckReport& report, const LabelTable& labels, cons
     return text_of(json);
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    OutputFile file(path);
+void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options) {
+    OutputFile file(path, options);
     file.write(text);
     file.commit();
 }

@@ -6,6 +6,24 @@
 #include "formats/text/header_text.h"
 
 namespace regionmesh {
+namespace {
+
+/// Corners of the largest polygon that is split from its first corner. A fan of more faces at one vertex makes work in
+/// proportion to the square of their number.
+constexpr std::size_t kMostInFan = 64;
+
+/// Triangles of the polygon from corner `first` to corner `last`: one to the middle, then the two halves. No vertex has
+/// more faces than twice the logarithm of the number of corners.
+template <class Add>
+void split_between(std::size_t first, std::size_t last, Add&& add) {
+    if (last - first < 2) return;
+    const std::size_t middle = first + (last - first) / 2;
+    add(first, middle, last);
+    split_between(first, middle, add);
+    split_between(middle, last, add);
+}
+
+}  // namespace
 
 void add_point(FileSurface& surface, Vec3 point, const std::filesystem::path& path) {
     if (!is_finite(point))
@@ -32,6 +50,7 @@ void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, c
             return;
         }
     }
+    if (corners.size() > kMostInFan) return split_between(0, corners.size() - 1, add);
     for (std::size_t n = 2; n < corners.size(); ++n) add(0, n - 1, n);
 }
 

@@ -94,6 +94,9 @@ std::string readable_extensions() { return formats::extensions_with(&Format::rea
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options) {
     FileSurface surface = read_surface(path);
+    Box box;
+    for (const Vec3 p : surface.points) box.add(p);
+    if (!surface.faces.empty()) require_extent(path.string(), box);
     turn(surface, options.space);
     if (options.weld || !surface.has_shared_points) {
         surface.is_on_hull.clear();  // points get other numbers

@@ -164,8 +164,10 @@ private:
     template <class T, class Make>
     void put_array(hid_t parent, const char* name, std::array<hsize_t, 2> shape, Make&& make) {
         const Hdf5Space space(need(H5Screate_simple(2, shape.data(), nullptr)));
+        const Hdf5Properties untimed(need(H5Pcreate(H5P_DATASET_CREATE)));
+        need_done(H5Pset_obj_track_times(untimed.id(), false));  // the same model gives the same bytes
         const Hdf5Dataset array(
-            need(H5Dcreate2(parent, name, ArrayType<T>::stored(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)));
+            need(H5Dcreate2(parent, name, ArrayType<T>::stored(), space.id(), H5P_DEFAULT, untimed.id(), H5P_DEFAULT)));
         put_object(array.id(), ArrayType<T>::kName);
         put_numbers(array.id(), "TupleDimensions", {shape[0]});
         put_numbers(array.id(), "ComponentDimensions", {shape[1]});

@@ -13,6 +13,7 @@
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "mesh/extent.h"
+#include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 
 namespace regionmesh {
@@ -28,16 +29,14 @@ struct Part {
     std::vector<std::uint32_t> corners;
 };
 
-/// A light colour that depends only on the label, in linear RGB as glTF needs.
-std::array<double, 4> colour_of(InputLabel label) {
-    const double hue = 6 * std::abs(std::fmod(static_cast<double>(label) * 0.61803398875, 1.0));
-    std::array<double, 4> colour{0, 0, 0, 1};
+/// A colour of sRGB in linear RGB, as glTF needs it, without transparency.
+std::array<double, 4> linear_colour(std::uint32_t colour) {
+    std::array<double, 4> linear{0, 0, 0, 1};
     for (int n = 0; n < 3; ++n) {
-        const double k = std::fmod(5 - 2 * n + hue, 6.0);
-        const double srgb = 0.92 - 0.5 * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
-        colour[n] = std::round(1e4 * std::pow(srgb, 2.2)) / 1e4;
+        const double value = (colour >> (16 - 8 * n) & 0xFF) / 255.0;
+        linear[n] = std::round(1e4 * (value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4))) / 1e4;
     }
-    return colour;
+    return linear;
 }
 
 class GlbWriter {
@@ -48,6 +47,7 @@ public:
           metres_(metres),
           regions_(view),
           faces_(faces_by_region(view, regions_)),
+          colours_(region_colours(view)),
           middle_(middle_of(view)) {}
 
     void write() {
@@ -130,10 +130,11 @@ private:
             add_accessor(json, {{"componentType", kUnsignedInt}, {"count", part.corners.size()}, {"type", "SCALAR"}},
                          4 * part.corners.size(), kElementBuffer);
         const InputLabel label = view_.labels().input(region.label);
-        json["materials"].push_back(
-            {{"name", region.title},
-             {"pbrMetallicRoughness",
-              {{"baseColorFactor", colour_of(label)}, {"metallicFactor", 0}, {"roughnessFactor", 0.7}}}});
+        json["materials"].push_back({{"name", region.title},
+                                     {"pbrMetallicRoughness",
+                                      {{"baseColorFactor", linear_colour(colours_[view_.rank(region.label)])},
+                                       {"metallicFactor", 0},
+                                       {"roughnessFactor", 0.7}}}});
         json["meshes"].push_back(
             {{"name", region.title},
              {"primitives",
@@ -163,6 +164,7 @@ private:
     double metres_;  // in a unit of the coordinates
     FileRegions regions_;
     GroupedFaces faces_;
+    std::vector<std::uint32_t> colours_;  // by place in the order of files
     Vec3 middle_;
     std::uint64_t bytes_ = 0;  // of the buffer
 };

@@ -18,6 +18,12 @@ using Path = std::filesystem::path;
 
 using formats::Format;
 
+/// Whether a script that has the name between quotes means the file and nothing else.
+bool is_plain(const std::string& name) {
+    return std::ranges::none_of(
+        name, [](unsigned char c) { return c < ' ' || c == 0x7F || c == '"' || c == '\\' || c == '\''; });
+}
+
 /// The format of `path`, if it can hold what the options ask for.
 const Format& format_of(const Path& path, const WriteOptions& options, bool has_point_arrays) {
     const auto refuse = [&](const std::string& text) {
@@ -34,6 +40,9 @@ const Format& format_of(const Path& path, const WriteOptions& options, bool has_
         refuse("a file for each region is written as " + formats::extensions_with(&Format::write_region));
     if (options.boundary_is_open && found->needs_closed_regions)
         refuse("holds closed regions only: leave out --boundary open");
+    if (found->is_named_in_companion && !is_plain(path.filename().string()))
+        refuse(fmt::format("the {} file names it: a name without quotes, backslashes and control characters is needed",
+                           found->companion));
     return *found;
 }
 
@@ -85,25 +94,30 @@ std::vector<Path> write_regions(const FileView& view, const Format& format, Outp
 
 std::string writable_extensions() { return formats::extensions_with(&Format::write_surface); }
 
-std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path,
-                             const WriteOptions& options) {
+std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path, const WriteOptions& options,
+                             OutputFiles& files) {
     const Format& format = format_of(path, options, !options.point_arrays.empty());
     FileView view(mesh, labels, options.background, options.names);
     view.set_space(options.space);
-    OutputFiles files;
+    if (options.per_region) return write_regions(view, format, files, path);
     std::vector<Path> written{path};
-    if (options.per_region)
-        written = write_regions(view, format, files, path);
-    else
-        format.write_surface(view, options, files, path);
+    format.write_surface(view, options, files, path);
+    if (format.companion) written.push_back(Path(path).replace_extension(format.companion));
+    return written;
+}
+
+std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path,
+                             const WriteOptions& options) {
+    OutputFiles files(options.output);
+    auto written = write_mesh(mesh, labels, path, options, files);
     files.commit();
     return written;
 }
 
 void require_writable_mesh(const Path& path, const WriteOptions& options, bool with_point_arrays) {
     const Format& format = format_of(path, options, with_point_arrays || !options.point_arrays.empty());
-    require_writable(path);
-    if (format.companion) require_writable(Path(path).replace_extension(format.companion));
+    require_writable(path, options.output, options.per_region);
+    if (format.companion) require_writable(Path(path).replace_extension(format.companion), options.output);
 }
 
 }  // namespace regionmesh

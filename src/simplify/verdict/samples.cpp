@@ -1,3 +1,5 @@
+#include "simplify/verdict/samples.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -97,36 +99,48 @@ bool meets_sample(const std::array<Lines, 3>& lines, const std::array<Vec3, 3>& 
 
 }  // namespace
 
-Verdict test_samples(Collapse& collapse) {
-    if (!collapse.samples) return Verdict::kAccepted;
-    const EdgeStar& star = collapse.star;
-    Box box = star.link_box;
-    for (Vec3 p : {star.at_goes, star.at_stays, collapse.position}) box.add(p);
-    const Lattice& lattice = *collapse.samples;
+bool changes_samples(const Lattice& lattice, std::span<const LabelledTriangle> before,
+                     std::span<const LabelledTriangle> after) {
+    Box box;
+    for (const auto& part : {before, after})
+        for (const LabelledTriangle& face : part)
+            for (Vec3 p : face.at) box.add(p);
     const std::array<Lines, 3> all{Lines(lattice, box, 0), Lines(lattice, box, 1), Lines(lattice, box, 2)};
-    if (!all[0].has_samples()) return Verdict::kAccepted;
+    if (!all[0].has_samples()) return false;
     const Lines& lines =
         *std::min_element(all.begin(), all.end(), [](const Lines& a, const Lines& b) { return a.count() < b.count(); });
     thread_local std::vector<Change> changes;
     changes.clear();
-    for (int n = 0; n < star.face_count(); ++n) {
-        const auto& labels = collapse.mesh[star.faces[n].face].labels;
-        const std::array<Vec3, 3> merged{collapse.position, star.at_a(n), star.at_b(n)};
+    for (const LabelledTriangle& face : before) note_crossings(lines, face.at, face.labels, -1, changes);
+    for (const LabelledTriangle& face : after) {
         // Caps pass through the samples of their side; elsewhere such a sample would be in no region for certain.
-        if (!is_exterior(labels[0]) && !is_exterior(labels[1]) && meets_sample(all, merged)) return Verdict::kSamples;
-        note_crossings(lines, {star.at_apex(n), star.at_a(n), star.at_b(n)}, labels, -1, changes);
-        note_crossings(lines, merged, labels, 1, changes);
+        if (!is_exterior(face.labels[0]) && !is_exterior(face.labels[1]) && meets_sample(all, face.at)) return true;
+        note_crossings(lines, face.at, face.labels, 1, changes);
     }
-    for (FaceId f : star.dead) note_crossings(lines, collapse.mesh.corners(f), collapse.mesh[f].labels, -1, changes);
     // Crossings between the same two samples cancel: no sample lies between them.
     std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.place() < b.place(); });
     for (std::size_t n = 0; n < changes.size();) {
         const std::size_t first = n;
         int times = 0;
         for (; n < changes.size() && changes[n].place() == changes[first].place(); ++n) times += changes[n].times;
-        if (times != 0) return Verdict::kSamples;
+        if (times != 0) return true;
     }
-    return Verdict::kAccepted;
+    return false;
+}
+
+Verdict test_samples(Collapse& collapse) {
+    if (!collapse.samples) return Verdict::kAccepted;
+    const EdgeStar& star = collapse.star;
+    thread_local std::vector<LabelledTriangle> before, after;
+    before.clear();
+    after.clear();
+    for (int n = 0; n < star.face_count(); ++n) {
+        const auto& labels = collapse.mesh[star.faces[n].face].labels;
+        before.push_back({{star.at_apex(n), star.at_a(n), star.at_b(n)}, labels});
+        after.push_back({{collapse.position, star.at_a(n), star.at_b(n)}, labels});
+    }
+    for (FaceId f : star.dead) before.push_back({collapse.mesh.corners(f), collapse.mesh[f].labels});
+    return changes_samples(*collapse.samples, before, after) ? Verdict::kSamples : Verdict::kAccepted;
 }
 
 }  // namespace regionmesh

@@ -88,6 +88,19 @@ TEST_F(ReadNiftiTest, without_sform_and_qform_the_zooms_are_the_spacing) {
     EXPECT_EQ(reader->info().lattice.origin, (Vec3{0, 0, 0}));
 }
 
+TEST_F(ReadNiftiTest, zooms_that_are_no_lengths_are_refused_unless_the_spacing_is_given) {
+    const std::string good = text_of(data("nifti/zooms_uint16.nii"));
+    for (const float bad : {std::nanf(""), HUGE_VALF, 0.0f, -2.0f}) {
+        std::string text = good;
+        const auto bytes = std::bit_cast<std::array<char, 4>>(bad);
+        text.replace(84, 4, std::string(bytes.begin(), bytes.end()));  // pixdim[2]
+        put_text(path("zooms.nii"), text);
+        EXPECT_THAT(refusal({path("zooms.nii")}), HasSubstr("pixdim[2] is"));
+        EXPECT_EQ(open_sections({path("zooms.nii")}, {.spacing = Vec3{1, 2, 3}})->info().lattice.spacing,
+                  (Vec3{1, 2, 3}));
+    }
+}
+
 TEST_F(ReadNiftiTest, samples_that_are_no_integers_are_refused_by_name) {
     EXPECT_THAT(refusal({data("nifti/bad/float32.nii")}), HasSubstr("float32.nii: samples are float32 (datatype 16)"));
     EXPECT_THAT(refusal({data("nifti/bad/float64.nii.gz")}), HasSubstr("samples are float64"));

@@ -55,6 +55,11 @@ TEST_F(ReadZarrTest, every_type_codec_order_and_sweep_of_versions_2_and_3_comes_
     }
 }
 
+TEST_F(ReadZarrTest, separator_of_version_2_that_is_neither_slash_nor_dot_is_refused) {
+    const fs::path store = changed("zarr2/bad/missing_int16.zarr", ".zarray", "{", R"({"dimension_separator": "!",)");
+    EXPECT_THAT(refusal({store}), HasSubstr("the dimension_separator '!' is neither / nor ."));
+}
+
 TEST_F(ReadZarrTest, chunks_that_are_not_there_are_the_fill_value_in_the_byte_order_of_the_array) {
     EXPECT_EQ(read_volume({data("chunked/zarr2/bad/missing_int16.zarr")}).labels,
               expected([](InputLabel v) { return v == 0 ? 5 : -7; }));

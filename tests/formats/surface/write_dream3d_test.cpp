@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <thread>
+
 #include "formats/surface/surfaces.h"
 #include "formats/surface/written_meshes.h"
 #include "regionmesh/error.h"
@@ -16,6 +19,13 @@ TEST_F(WriterTest, dream3d_file_comes_back_in_single_precision) {
     test::expect_sound(check(file.mesh));
     for (const RegionReport& region : grains().report.check.regions)
         EXPECT_NEAR(volume_of(file, grains().labels.input(region.label)), region.volume, 1e-4);
+}
+
+TEST_F(WriterTest, dream3d_file_has_the_same_bytes_a_second_later) {
+    write_mesh(grains().mesh, grains().labels, path("a.dream3d"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // times in HDF5 are whole seconds
+    write_mesh(grains().mesh, grains().labels, path("b.dream3d"));
+    EXPECT_TRUE(text_of(path("a.dream3d")) == text_of(path("b.dream3d")));
 }
 
 TEST_F(WriterTest, dream3d_refuses_labels_that_it_cannot_hold) {

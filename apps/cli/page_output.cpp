@@ -1,0 +1,68 @@
+#include "page_output.h"
+
+#include <algorithm>
+
+#include "regionmesh/error.h"
+
+namespace regionmesh::cli {
+namespace {
+
+/// In single quotes where a shell would not take the text as one word.
+std::string quoted(const std::string& text) {
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+    std::string made = "'";
+    for (const char letter : text) made += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return made + "'";
+}
+
+const CommandSpec& spec_of(Command command) {
+    return *std::ranges::find(command_table(), command, &CommandSpec::command);
+}
+
+}  // namespace
+
+std::string command_line_of(Command command, const Settings& settings) {
+    std::string line = "regionmesh " + std::string(spec_of(command).name);
+    for (const auto& [name, text] : settings.given) {
+        const OptionSpec& option = *find_option(name);
+        if (option.kind == OptionKind::kFlag && text != "true") continue;
+        if (!option.is_argument) line += ' ' + option.flag();
+        if (option.kind != OptionKind::kFlag) line += ' ' + quoted(text);
+    }
+    return line;
+}
+
+PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels) {
+    PageOptions options;
+    options.command = spec_of(command).name;
+    options.command_line = command_line_of(command, settings);
+    options.report = std::move(report);
+    options.has_labels = has_labels;
+    if (command == kReconstruct || command == kDecimate) {
+        options.min_quality = settings.reconstruct.min_quality;
+        options.max_error = settings.reconstruct.max_error;
+    }
+    options.preview_faces = settings.preview_faces;
+    options.threads = settings.reconstruct.threads;
+    return options;
+}
+
+void require_page(const std::string& path, const OutputOptions& options) {
+    if (path.empty()) return;
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension != ".html" && extension != ".htm") throw Error(ErrorCode::kOutput, path + ": a page ends in .html");
+    require_writable(path, options);
+}
+
+std::string title_of(const std::string& path) {
+    const std::filesystem::path whole(path);
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+PageModel page_model(const std::string& path, const Mesh& mesh, const LabelTable& labels,
+                     const std::vector<Label>& background, const LabelNames& names) {
+    return {.mesh = mesh, .labels = labels, .title = title_of(path), .background = background, .names = names};
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,29 @@
+// The page of --html and of the command view.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "regionmesh/formats.h"
+#include "regionmesh/options.h"
+
+namespace regionmesh::cli {
+
+/// The command as typed, with its options in the order of the table.
+std::string command_line_of(Command command, const Settings& settings);
+
+/// Options of a page with the report `report` (JSON text). `has_labels`: it compares the topology with the input.
+PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels);
+
+/// Throws Error where the page could not be written: before the work.
+void require_page(const std::string& path, const OutputOptions& options);
+
+/// The name of a file without its folder.
+std::string title_of(const std::string& path);
+
+/// A model for a page. `background` is dense.
+PageModel page_model(const std::string& path, const Mesh& mesh, const LabelTable& labels,
+                     const std::vector<Label>& background, const LabelNames& names);
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,31 @@
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "input.h"
+#include "output.h"
+#include "page_output.h"
+
+namespace regionmesh::cli {
+
+int run_view(const Settings& given) {
+    require_page(given.output, given.writing);
+    const std::string& path = given.models.front();
+    MeshFile file = read_mesh(path, given.surface);
+    const Settings settings = settings_for(given, file);
+    CheckOptions options = check_options(settings, file.labels);
+    options.threads = settings.reconstruct.threads;
+    const CheckReport report = check(file.mesh, options);
+    const LabelNames names = names_or(settings, file.names);
+    OutputFiles files(settings.writing);
+    write_page(settings.output, {page_model(path, file.mesh, file.labels, options.background, names)},
+               page_options(kView, settings, check_json(report, file.labels, names), false), files);
+    files.commit();
+    if (!settings.quiet) {
+        fmt::print("{}: {} faces, {} regions, {} violations\n", settings.output, file.mesh.face_count(),
+                   report.regions.size(), report.violation_count());
+        print_violations(report, 0);
+    }
+    return kGood;
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,154 @@
+"""Builds the wheel with CMake; needs no package from an index (PEP 517).
+
+    pip install --no-build-isolation --no-index .
+
+The wheel holds the module, the program `regionmesh`, and the shared libraries that both need beyond the C and C++
+libraries, so that it works where these are not installed. HDF5 is left out, because its library brings some thirty
+others; arrays of h5py are read all the same. Settings (pip: --config-settings KEY=VALUE) and variables:
+
+    hdf5=on           with HDF5 and DREAM.3D files
+    build-dir=FOLDER  pack what was built there with REGIONMESH_WITH_PYTHON, instead of building
+    CMAKE_ARGS        more arguments of CMake
+"""
+
+import base64
+import hashlib
+import io
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import zipfile
+from pathlib import Path
+
+_ROOT = Path(__file__).resolve().parents[2]
+_PACKAGE = _ROOT / "python" / "regionmesh"
+# On every system with an interpreter and apt.
+_OF_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so")
+_SOURCES = (
+    "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "pyproject.toml",
+    "apps", "cmake", "include", "src", "python", "script",
+)  # fmt: skip
+
+
+def _version():
+    return re.search(r"project\(regionmesh VERSION ([0-9.]+)", (_ROOT / "CMakeLists.txt").read_text())[1]
+
+
+def _metadata():
+    readme = (_ROOT / "README.md").read_text(encoding="utf-8")
+    return f"""Metadata-Version: 2.1
+Name: regionmesh
+Version: {_version()}
+Summary: Certified multi-region surface models from labelled planar sections
+License: BSD-3-Clause
+Requires-Python: >=3.9
+Requires-Dist: numpy
+Description-Content-Type: text/markdown
+
+{readme}"""
+
+
+def _build(settings):
+    """Configure and build; returns the build folder."""
+    if "build-dir" in settings:
+        return Path(settings["build-dir"]).resolve()
+    folder = _ROOT / "build" / "wheel"
+    hdf5 = "ON" if settings.get("hdf5", "off").lower() in ("on", "1", "true") else "OFF"
+    configure = [
+        "cmake", "-S", _ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON",
+        "-DCMAKE_CXX_FLAGS_RELEASE=-O3 -DNDEBUG",
+        "-DREGIONMESH_WITH_PYTHON=ON", "-DREGIONMESH_TESTS=OFF", "-DREGIONMESH_DELAUNAY=OFF",
+        f"-DREGIONMESH_WITH_HDF5={hdf5}", f"-DPython_EXECUTABLE={sys.executable}",
+    ]  # fmt: skip
+    if not (folder / "CMakeCache.txt").exists() and shutil.which("ninja"):
+        configure += ["-G", "Ninja"]
+    subprocess.run(configure + shlex.split(os.environ.get("CMAKE_ARGS", "")), check=True)
+    subprocess.run(["cmake", "--build", folder, "--parallel", str(os.cpu_count())], check=True)
+    return folder
+
+
+def _shared_libraries(files):
+    """The libraries that the files load and that a system may lack, by name."""
+    found = {}
+    for file in files:
+        lines = subprocess.run(["ldd", file], check=True, capture_output=True, text=True).stdout
+        for name, path in re.findall(r"(\S+) => (/\S+)", lines):
+            if not _OF_SYSTEM.match(name):
+                found[name] = Path(path)
+    return found
+
+
+class _Wheel:
+    """A zip file that keeps its own record."""
+
+    def __init__(self, path):
+        self.zip = zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED)
+        self.record = []
+
+    def _write(self, name, data, mode):
+        info = zipfile.ZipInfo(name, (2000, 1, 1, 0, 0, 0))  # the same bytes whenever it is built
+        info.external_attr = (0o100000 | mode) << 16
+        info.compress_type = zipfile.ZIP_DEFLATED
+        self.zip.writestr(info, data)
+
+    def add(self, name, data, mode=0o644):
+        self._write(name, data, mode)
+        digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+        self.record.append(f"{name},sha256={digest},{len(data)}")
+
+    def close(self, folder):
+        self.record.append(f"{folder}/RECORD,,")
+        self._write(f"{folder}/RECORD", "\n".join(self.record) + "\n", 0o644)
+        self.zip.close()
+
+
+def get_requires_for_build_wheel(config_settings=None):
+    return []
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """Build the wheel and return its name."""
+    folder = _build(config_settings or {})
+    (module,) = (folder / "python" / "regionmesh").glob("_core.*.so")
+    programs = [path for path in (folder / "regionmesh", folder / "regionmesh-hdf5") if path.exists()]
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    tag = f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+    name = f"regionmesh-{_version()}-{tag}.whl"
+    wheel = _Wheel(Path(wheel_directory) / name)
+    for path in sorted(_PACKAGE.iterdir()):
+        if path.suffix in (".py", ".pyi", ".html") or path.name == "py.typed":
+            wheel.add(f"regionmesh/{path.name}", path.read_bytes())
+    wheel.add(f"regionmesh/{module.name}", module.read_bytes(), 0o755)
+    for program in programs:
+        wheel.add(f"regionmesh/bin/{program.name}", program.read_bytes(), 0o755)
+    for library, path in sorted(_shared_libraries([module, *programs]).items()):
+        wheel.add(f"regionmesh/lib/{library}", path.read_bytes(), 0o755)
+    info = f"regionmesh-{_version()}.dist-info"
+    wheel.add(f"{info}/METADATA", _metadata().encode())
+    wheel.add(f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: regionmesh\nRoot-Is-Purelib: false\nTag: {tag}\n".encode())
+    wheel.add(f"{info}/entry_points.txt", b"[console_scripts]\nregionmesh = regionmesh.__main__:main\n")
+    wheel.add(f"{info}/LICENSE", (_ROOT / "LICENSE").read_bytes())
+    wheel.close(info)
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    """Pack the sources and return the name of the archive."""
+    base = f"regionmesh-{_version()}"
+
+    def is_source(info):
+        return None if "__pycache__" in info.name else info
+
+    with tarfile.open(Path(sdist_directory) / f"{base}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT) as archive:
+        for name in _SOURCES:
+            archive.add(_ROOT / name, f"{base}/{name}", filter=is_source)
+        data = _metadata().encode()
+        info = tarfile.TarInfo(f"{base}/PKG-INFO")
+        info.size = len(data)
+        archive.addfile(info, io.BytesIO(data))
+    return f"{base}.tar.gz"

@@ -1,0 +1,164 @@
+"""Types of the package. Written by python/tests/make_stubs.py."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+
+_Path = str | PathLike[str]
+_Progress = bool | Callable[[str, int, int | None], object]
+
+class Surface(NamedTuple):
+    points: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.uint32]
+    point_ids: npt.NDArray[np.uint32]
+    face_ids: npt.NDArray[np.int64]
+
+class Mesh:
+    @property
+    def points(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def labels(self) -> npt.NDArray[Any]: ...
+    @property
+    def node_types(self) -> npt.NDArray[np.uint8]: ...
+    @property
+    def exterior_label(self) -> int: ...
+    @property
+    def background(self) -> list[int]: ...
+    @property
+    def names(self) -> dict[int, str]: ...
+    @property
+    def bounds(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def lines(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def quadruple_points(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    @property
+    def violations(self) -> list[dict[str, Any]]: ...
+    @property
+    def certified(self) -> bool: ...
+    @property
+    def regions(self) -> dict[str, npt.NDArray[Any]]: ...
+    @property
+    def interfaces(self) -> dict[str, npt.NDArray[Any]]: ...
+    def region(self, label: int) -> Surface: ...
+    def interface(self, a: int, b: int) -> Surface: ...
+    def simplify(
+        self,
+        *,
+        progress: _Progress | None = None,
+        target_faces: int | None = None,
+        reduce: float | str | None = None,
+        max_error: float | None = None,
+        perturbation: float | None = None,
+        placement: Literal["quadric", "lindstrom-turk"] | None = None,
+        min_quality: float | None = None,
+        intersect_check: bool | None = None,
+        threads: int | None = None,
+    ) -> Mesh: ...
+    def smooth(
+        self,
+        *,
+        smooth: str | int | bool | None = None,
+        smooth_filter: Literal["auto", "lattice", "taubin", "laplacian", "nifpms", "none"] | None = None,
+        smooth_lambda: float | None = None,
+        smooth_points: bool | None = None,
+        scale: float | None = None,
+        preserve_volume: bool | None = None,
+        min_quality: float | None = None,
+        intersect_check: bool | None = None,
+        threads: int | None = None,
+    ) -> Mesh: ...
+    def check(
+        self,
+        labels: Any = None,
+        *,
+        spacing: Sequence[float] | None = None,
+        origin: Sequence[float] | None = None,
+        direction: npt.ArrayLike | None = None,
+        threads: int = 0,
+    ) -> dict[str, Any]: ...
+    def compare(self, other: Mesh, *, samples: int | None = None, threads: int | None = None) -> dict[str, Any]: ...
+    def voxelise(
+        self,
+        like: Any = None,
+        *,
+        shape: Sequence[int] | None = None,
+        spacing: Sequence[float] | None = None,
+        origin: Sequence[float] | None = None,
+        direction: npt.ArrayLike | None = None,
+        dtype: npt.DTypeLike | None = None,
+        outside: int = 0,
+    ) -> npt.NDArray[Any]: ...
+    def save(self, path: _Path, *, per_region: bool = False) -> None: ...
+    def to_vtk(self) -> Any: ...
+    def to_pyvista(self) -> Any: ...
+    def to_meshio(self) -> Any: ...
+    def to_trimesh(self, label: int) -> Any: ...
+    def __len__(self) -> int: ...
+
+def reconstruct(
+    labels: Any,
+    *,
+    spacing: Sequence[float] | None = None,
+    origin: Sequence[float] | None = None,
+    direction: npt.ArrayLike | None = None,
+    names: Mapping[int, str] | _Path | None = None,
+    labels_to_keep: Iterable[int] | None = None,
+    sections: int | None = None,
+    progress: _Progress | None = None,
+    sweep: Literal["auto", "x", "y", "z"] | None = None,
+    layer: int | None = None,
+    size: Sequence[int] | None = None,
+    type: str | None = None,
+    columns: str | None = None,
+    step: float | None = None,
+    scale_z: float | None = None,
+    array: str | None = None,
+    hull: bool | None = None,
+    background: int | Iterable[int] | None = None,
+    boundary: Literal["cap", "open"] | None = None,
+    target_faces: int | None = None,
+    reduce: float | str | None = None,
+    max_error: float | None = None,
+    perturbation: float | None = None,
+    placement: Literal["quadric", "lindstrom-turk"] | None = None,
+    decimate: bool | None = None,
+    smooth: str | int | bool | None = None,
+    smooth_filter: Literal["auto", "lattice", "taubin", "laplacian", "nifpms", "none"] | None = None,
+    smooth_lambda: float | None = None,
+    smooth_points: bool | None = None,
+    preserve_volume: bool | None = None,
+    min_quality: float | None = None,
+    keep_samples: bool | None = None,
+    intersect_check: bool | None = None,
+    memory: int | str | None = None,
+    face_budget: int | None = None,
+    threads: int | None = None,
+) -> Mesh: ...
+def load(
+    path: _Path,
+    *,
+    background: int | Iterable[int] | None = 0,
+    weld: float | None = None,
+    orient: bool = False,
+    boundary: Literal["cap", "open"] = "cap",
+) -> Mesh: ...
+def from_arrays(
+    points: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    labels: Any,
+    *,
+    background: int | Iterable[int] | None = 0,
+    exterior_label: int = -1,
+    names: Mapping[int, str] | _Path | None = None,
+    boundary: Literal["cap", "open"] = "cap",
+) -> Mesh: ...

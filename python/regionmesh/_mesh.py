@@ -1,0 +1,409 @@
+"""A surface model of many regions."""
+
+import json
+import os
+
+import numpy as np
+
+from . import _core, _measure, _options, _progress, _sources, _surface
+from ._labels import bits
+
+
+class Mesh:
+    """Triangles that separate two regions and belong to both.
+
+    Made by `reconstruct`, `load` and `from_arrays`. A mesh never changes: `simplify` and `smooth` return a new one. All
+    arrays are read-only, have no copy, and stay valid after the mesh is gone.
+
+    Examples
+    --------
+    >>> import numpy as np, regionmesh
+    >>> labels = np.zeros((9, 9, 9), np.uint8)
+    >>> labels[2:7, 2:7, 2:4], labels[2:7, 2:7, 4:7] = 1, 2
+    >>> mesh = regionmesh.reconstruct(labels)
+    >>> mesh.certified
+    True
+    >>> [int(label) for label in mesh.regions["voxels"]]
+    [50, 75]
+    >>> mesh.regions["neighbours"][0]
+    [0, 2]
+    >>> surface = mesh.region(1)
+    >>> surface.points.shape[1], surface.faces.shape[1]
+    (3, 3)
+    >>> len(mesh.simplify(reduce=0.5)) <= len(mesh) / 2
+    True
+    >>> bool((mesh.voxelise() == labels).all())
+    True
+    """
+
+    def __init__(self, model, lattice=None):
+        self._model = model
+        self._lattice = lattice
+        self._views = None
+        self._report = None
+
+    # Arrays
+
+    def _arrays(self):
+        if self._views is None:
+            self._views = self._model.arrays
+        return self._views
+
+    @property
+    def points(self):
+        """(n, 3) float64: x, y, z of each point, in the unit of the spacing."""
+        return self._arrays()[0]
+
+    @property
+    def faces(self):
+        """(m, 3) uint32: rows of `points`. The normal of a face points from its first label to its second."""
+        return self._arrays()[1]
+
+    @property
+    def labels(self):
+        """(m, 2) int64, or uint64 for labels of that type: the two regions of each face.
+
+        The smaller label is first; background and the exterior (`exterior_label`) are second.
+        """
+        return self._arrays()[2]
+
+    @property
+    def node_types(self):
+        """(n,) uint8: number of labels around each point, 2, 3 or 4, where sides of the box count; +10 on the box."""
+        return self._arrays()[3]
+
+    @property
+    def exterior_label(self):
+        """The label that stands for the outside of the box in `labels`."""
+        return self._unsigned(self._model.exterior_label)
+
+    @property
+    def background(self):
+        """Labels of empty space, a list of int."""
+        return [self._unsigned(label) for label in self._model.background]
+
+    @property
+    def space(self):
+        """Where x and y point in the patient: "RAS" or "LPS", or None where no file said it. Saved with the model."""
+        return self._model.space or None
+
+    def _unsigned(self, label):
+        return label + (1 << 64) if self._model.is_unsigned and label < 0 else label
+
+    @property
+    def names(self):
+        """Names of regions, a dict by label."""
+        return {self._unsigned(label): name for label, name in self._model.names.items()}
+
+    @property
+    def bounds(self):
+        """(2, 3) float64: the lowest and the highest x, y, z of all points; nan without points."""
+        if not len(self.points):
+            return np.full((2, 3), np.nan)
+        return np.stack([self.points.min(axis=0), self.points.max(axis=0)])
+
+    @property
+    def lines(self):
+        """(k, 2) uint32: edges where three or more regions meet, the outside counted; rows of `points`."""
+        return _measure.lines(self.faces)
+
+    @property
+    def quadruple_points(self):
+        """(k,) int64: rows of `points` where four regions meet, on the box or inside."""
+        return np.flatnonzero(self.node_types % 10 == 4)
+
+    # What was found
+
+    @property
+    def report(self):
+        """The report of the last step as a dict; docs/report.md lists the keys. A loaded model is checked first."""
+        if self._report is None:
+            self._report = json.loads(self._model.report or _core.check(self._model, 0, None))
+        return self._report
+
+    @property
+    def violations(self):
+        """What the check found: a list of dicts with kind, text, vertices and faces."""
+        return self.report["violations"]
+
+    @property
+    def certified(self):
+        """True if the check found no violation, and no sample lies in another region where samples were checked."""
+        report = self.report
+        return sum(report["violation_counts"].values()) == 0 and report.get("samples_wrong", 0) == 0
+
+    @property
+    def regions(self):
+        """A dict of columns, one row a region, in the order of labels; `pandas.DataFrame(mesh.regions)` takes it.
+
+        label, name; voxels (samples; -1 where they are not known); volume (length^3); area (length^2); euler (Euler
+        characteristic of the boundary); components (of the boundary); mean_quality (of faces; 0.26 is equilateral);
+        centroid_x, centroid_y, centroid_z (of the volume); box_low_x to box_high_z; neighbours (list of labels,
+        background included).
+        """
+        return _measure.regions(self)
+
+    @property
+    def interfaces(self):
+        """A dict of columns, one row a pair of labels: first, second, faces, area (length^2)."""
+        return _measure.interfaces(self)
+
+    def region(self, label):
+        """Return the closed surface of a region, its normals outward.
+
+        Parameters
+        ----------
+        label : int
+            A label of the model.
+
+        Returns
+        -------
+        Surface
+
+        Raises
+        ------
+        KeyError
+            For a label that no face has.
+        """
+        return _surface.region(self, label)
+
+    def interface(self, a, b):
+        """Return the faces between two labels, their normals from `a` to `b`.
+
+        Parameters
+        ----------
+        a, b : int
+            Labels; `exterior_label` stands for the outside of the box.
+
+        Returns
+        -------
+        Surface
+            Without faces where the two do not meet.
+        """
+        return _surface.interface(self, a, b)
+
+    # What can be done
+
+    def simplify(self, *, progress=None, **options):
+        """Return a mesh with fewer faces and the same regions.
+
+        Parameters
+        ----------
+        progress : bool or callable, optional
+            As in `reconstruct`.
+        **options
+            The options of `regionmesh decimate`; `reduce`, `target_faces` or `max_error` is needed. See below.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        ValueError
+            Without a target, and for values out of range.
+        """
+        pairs = _options.pairs("decimate", options, "simplify")
+        with _progress.bar(progress) as report:
+            return self._derived(_core.simplify(self._model, pairs, report))
+
+    def smooth(self, **options):
+        """Return a smoother mesh with the same faces.
+
+        Parameters
+        ----------
+        **options
+            The options of `regionmesh smooth`; see below.
+
+        Returns
+        -------
+        Mesh
+        """
+        return self._derived(_core.smooth(self._model, _options.pairs("smooth", options)))
+
+    def _derived(self, model):
+        mesh = Mesh(model, self._lattice)
+        for key in ("dice_of_regions",):  # the counts of samples stay
+            if key in self.report:
+                mesh.report.setdefault(key, self.report[key])
+        return mesh
+
+    def check(self, labels=None, *, spacing=None, origin=None, direction=None, threads=0):
+        """Look for cracks, folds, crossing faces and changes of topology.
+
+        Parameters
+        ----------
+        labels : array_like, path or image, optional
+            The labels that the model was made from, as in `reconstruct`: the model is compared with them, too.
+        spacing, origin, direction : optional
+            As in `reconstruct`; default: those the model was made with.
+        threads : int
+            0: one per core.
+
+        Returns
+        -------
+        dict
+            quality, regions, region_pairs, quadruple_points_inside, violations, violation_counts; with labels also
+            samples, samples_wrong and dice (docs/report.md).
+        """
+        source = None
+        if labels is not None:
+            source = self._source(labels, spacing, origin, direction)
+        return json.loads(_core.check(self._model, threads, source))
+
+    def _source(self, labels, spacing, origin, direction):
+        if _sources.is_path(labels):
+            pairs = _options.pairs("reconstruct", {"spacing": spacing})
+            return _core.file_source(_sources.paths_of(labels), pairs)
+        source = _sources.source(labels, self._place(spacing, origin, direction), [], {})
+        if not source.info["can_rewind"]:
+            raise ValueError("labels: an iterator is read once and check reads twice; give a list or an array")
+        return source
+
+    def _place(self, spacing, origin, direction):
+        """Where samples lie: as given, else as the mesh was made."""
+        given = {"spacing": spacing, "origin": origin, "direction": direction}
+        own = self._lattice or {}
+        return [value if value is not None else own.get(key) for key, value in given.items()]
+
+    def compare(self, other, **options):
+        """Measure the distances to another model: as a whole, by region, by interface and by line.
+
+        Parameters
+        ----------
+        other : Mesh
+        **options
+            The options of `regionmesh compare`; see below.
+
+        Returns
+        -------
+        dict
+            docs/compare.md lists the keys.
+        """
+        if not isinstance(other, Mesh):
+            raise TypeError(f"compare: {type(other).__name__}; give a Mesh")
+        return json.loads(_core.compare(self._model, other._model, _options.pairs("compare", options)))
+
+    def voxelise(self, like=None, *, shape=None, spacing=None, origin=None, direction=None, dtype=None, outside=0):
+        """Return the label of each sample of a lattice: the inverse of `reconstruct`.
+
+        Parameters
+        ----------
+        like : array_like, optional
+            A volume [z, y, x] with the shape and type of the result.
+        shape : (3,) sequence of int, optional
+            Samples along z, y, x. Default: those the model was made from.
+        spacing, origin, direction : optional
+            As in `reconstruct`; default: those the model was made with.
+        dtype : integer type, optional
+            Default: that of `like`, else that the model was made from.
+        outside : int
+            Label of samples in no region, where there is no background.
+
+        Returns
+        -------
+        (z, y, x) ndarray
+
+        Raises
+        ------
+        ValueError
+            Without a shape, for a type that cannot hold the labels, and for a surface that is not closed.
+        """
+        own = self._lattice or {}
+        if like is not None:
+            shape, dtype = like.shape, like.dtype if dtype is None else dtype
+        if shape is None and "size" in own:
+            shape = own["size"][::-1]
+        if shape is None or len(shape) != 3:
+            raise ValueError("voxelise: no lattice; give like or shape with three axes")
+        dtype = np.dtype(own.get("type", "int64") if dtype is None else dtype)
+        regions = [row["label"] for row in self.report["regions"]] + self.background + [outside]
+        if dtype.kind not in "iu" or min(regions) < np.iinfo(dtype).min or max(regions) > np.iinfo(dtype).max:
+            raise ValueError(f"voxelise: {dtype} cannot hold the labels {min(regions)} to {max(regions)}; give dtype")
+        where = _sources.frame(*self._place(spacing, origin, direction))
+        result = np.empty(tuple(shape), dtype.newbyteorder("="))
+        _core.voxelise(self._model, where, bits(outside), result)
+        return result
+
+    def save(self, path, *, per_region=False, units="m"):
+        """Write the model; the extension selects the format (docs/files.md).
+
+        Parameters
+        ----------
+        path : path
+            .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .dream3d
+        per_region : bool
+            .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
+            name.
+        units : {"m", "mm", "um", "nm"}
+            The unit of length of the model: .glb files are in metres and are scaled.
+
+        Returns
+        -------
+        list of str
+            The files written.
+
+        Raises
+        ------
+        OSError
+            For another extension, and where the file cannot be written.
+        """
+        return _core.save(self._model, os.fspath(path), per_region, [("units", units)])
+
+    # Python
+
+    def __len__(self):
+        return self._model.face_count
+
+    def __repr__(self):
+        state = "certified" if self.certified else f"{sum(self.report['violation_counts'].values())} violations"
+        return (
+            f"<regionmesh.Mesh: {self._model.face_count} faces, {self._model.vertex_count} points, "
+            f"{len(self.report['regions'])} regions, {state}>"
+        )
+
+    def __reduce__(self):
+        types = self.node_types
+        state = {
+            "background": self._model.background,
+            "order": self._model.label_order,
+            "is_open": self._model.is_open,
+            "names": self._model.names,
+            "space": self._model.space,
+            "exterior": self._model.exterior_label,
+            "is_unsigned": self._model.is_unsigned,
+            "lattice": self._lattice,
+            "report": self.report,
+        }
+        from ._make import unpickle
+
+        return unpickle, (self.points, self.faces, self.labels, types, state)
+
+    def to_vtk(self):
+        """Return a vtkPolyData with the cell array BoundaryLabels and the point array NodeType. Needs VTK."""
+        from . import _convert
+
+        return _convert.to_vtk(self)
+
+    def to_pyvista(self):
+        """Return a pyvista.PolyData with the arrays of `to_vtk`. Needs PyVista."""
+        from . import _convert
+
+        return _convert.to_pyvista(self)
+
+    def to_meshio(self):
+        """Return a meshio.Mesh with the arrays of `to_vtk`. Needs meshio."""
+        from . import _convert
+
+        return _convert.to_meshio(self)
+
+    def to_trimesh(self, label):
+        """Return a trimesh.Trimesh of one region. Needs trimesh."""
+        from . import _convert
+
+        return _convert.to_trimesh(self, label)
+
+    def _repr_html_(self):
+        from . import _page
+
+        return _page.html(self)

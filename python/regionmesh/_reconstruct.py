@@ -1,0 +1,147 @@
+"""From labels to a model."""
+
+import os
+
+from . import _core, _options, _progress, _sources
+from ._labels import bits, names_of
+from ._mesh import Mesh
+
+_OF_FILES = ("size", "type", "layer", "columns", "step", "scale_z", "array", "hull")
+
+
+def _split(options, names):
+    return [(name, text) for name, text in options if name in names]
+
+
+def _from_files(labels, options, kept, names, progress):
+    paths = _sources.paths_of(labels)
+    try:
+        if _core.kind_of_input(paths) == "tetrahedra":
+            if kept is not None:
+                raise ValueError("labels_to_keep: does not apply to tables and meshes; leave it out")
+            return Mesh(_core.reconstruct_tetrahedra(paths[0], options, names, progress))
+        source = _core.file_source(paths, options)
+        return Mesh(_core.reconstruct_source(source, options, kept, names, progress), lattice=source.info)
+    except ValueError as error:
+        missing = next((path for path in paths if not os.path.exists(path.split(":/")[0])), None)
+        if missing is not None:
+            raise FileNotFoundError(str(error)) from None
+        raise
+
+
+def reconstruct(
+    labels,
+    *,
+    spacing=None,
+    origin=None,
+    direction=None,
+    names=None,
+    labels_to_keep=None,
+    sections=None,
+    progress=None,
+    **options,
+):
+    """Make one surface model of all regions, and check it.
+
+    Parameters
+    ----------
+    labels : array_like, path, iterable or image
+        A volume of integers [z, y, x] of any type and strides: a numpy array or memory map (not copied); an array
+        of dask, zarr or h5py (read section by section); an image of SimpleITK or nibabel, with its place in space;
+        an iterable of sections [y, x]; or the path of a file that the program `regionmesh` reads, or a list of paths
+        of sections.
+    spacing : (3,) sequence of float, optional
+        Distance between samples along x, y, z. Default: that of the image or file, else 1.
+    origin : (3,) sequence of float, optional
+        Place of the first sample, x, y, z, in the unit of the spacing. Not for paths.
+    direction : (3, 3) array_like, optional
+        Directions of the axes x, y, z as orthonormal columns. Not for paths.
+    names : dict of int to str, or path, optional
+        Names of labels.
+    labels_to_keep : sequence of int, optional
+        All other labels become background.
+    sections : int, optional
+        Number of sections of an iterator. With it the sections are used as they come and the volume is never
+        stored; without it they go through a temporary file in TMPDIR.
+    progress : bool or callable, optional
+        True: a progress bar, by tqdm where it is installed. A callable gets (stage, done, total); total is None where
+        it is not known.
+    **options
+        The options of `regionmesh reconstruct`; see below.
+
+    Returns
+    -------
+    Mesh
+        The model. Violations are no errors: see `Mesh.certified` and `Mesh.report`.
+
+    Raises
+    ------
+    TypeError
+        For labels that are no integers, unknown options and values of the wrong type.
+    ValueError
+        For values out of range and for input that cannot be used, with the line of the program.
+    FileNotFoundError
+        For a path where there is no file.
+    KeyboardInterrupt
+        At Ctrl-C; everything is freed. An exception of an iterator or of `progress` comes through in the same way.
+
+    Notes
+    -----
+    Another thread of Python may run meanwhile. Iterators are called on another thread than the caller's. The
+    model depends on labels and options only, not on the number of threads.
+
+    Examples
+    --------
+    >>> import numpy as np, regionmesh
+    >>> labels = np.zeros((10, 10, 10), np.int16)
+    >>> labels[2:8, 2:8, 2:8] = 5
+    >>> mesh = regionmesh.reconstruct(labels, smooth="off")
+    >>> mesh.bounds
+    array([[1.5, 1.5, 1.5],
+           [7.5, 7.5, 7.5]])
+    """
+    from_files = _sources.is_path(labels)
+    kept = None if labels_to_keep is None else [bits(label) for label in labels_to_keep]
+    names = names_of(names)
+    with _progress.bar(progress) as report:
+        if from_files:
+            if origin is not None or direction is not None:
+                raise TypeError("reconstruct(): origin and direction are those of the file; leave them out")
+            if spacing is not None:
+                options = {"spacing": spacing, **options}
+            return _from_files(labels, _options.pairs("reconstruct", options), kept, names, report)
+        for name in _OF_FILES:
+            if options.get(name) is not None:
+                raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
+        pairs = _options.pairs("reconstruct", options)
+        given = _sources.source(labels, (spacing, origin, direction), _split(pairs, {"sweep"}), names or {}, sections)
+        model = _core.reconstruct_source(given, pairs, kept, names, report)
+    return Mesh(model, lattice=given.info)
+
+
+def _describe(function, command):
+    """Add the options to the signature and the docstring of a function."""
+    import inspect
+
+    lines = ["", "Other Parameters", "----------------"]
+    signature = inspect.signature(function)
+    parameters = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
+    taken = {p.name for p in parameters}
+    for keyword, row in _options.rows(command).items():
+        if keyword in taken:
+            continue
+        parameters.append(inspect.Parameter(keyword, inspect.Parameter.KEYWORD_ONLY, default=None))
+        details = [row["kind"] if not row["words"] else " | ".join(row["words"])]
+        details += [row["unit"]] if row["unit"] else []
+        details += [row["range"]] if row["range"] else []
+        details += [f"default {row['default']}"] if row["default"] else []
+        help_text = row["help"] if not row["name"].startswith("no-") else f"False: {row['help']}"
+        lines += [f"{keyword} : {', '.join(details)}", f"    {help_text}"]
+    function.__signature__ = signature.replace(parameters=parameters)
+    function.__doc__ = inspect.cleandoc(function.__doc__) + "\n" + "\n".join(lines) + "\n"
+
+
+_describe(reconstruct, "reconstruct")
+_describe(Mesh.simplify, "decimate")
+_describe(Mesh.smooth, "smooth")
+_describe(Mesh.compare, "compare")

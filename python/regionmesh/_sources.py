@@ -1,0 +1,249 @@
+"""Labels in any form that Python has, as sources of sections."""
+
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+from . import _core
+
+_IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+_SLAB_BYTES = 64 << 20  # of sections that are read at once from an array in chunks
+
+
+def frame(spacing, origin, direction):
+    """Where samples lie; each may be None."""
+    spacing = _vector("spacing", spacing, (1.0, 1.0, 1.0))
+    origin = _vector("origin", origin, (0.0, 0.0, 0.0))
+    return _core.Frame(spacing, origin, _direction(direction))
+
+
+def _vector(name, value, default):
+    if value is None:
+        return default
+    try:
+        vector = tuple(float(item) for item in value)
+    except TypeError:
+        raise TypeError(f"{name}={value!r}: not three numbers") from None
+    if len(vector) != 3:
+        raise ValueError(f"{name}={value!r}: {len(vector)} numbers; give three, along x, y and z")
+    return vector
+
+
+def _direction(value):
+    if value is None:
+        return _IDENTITY
+    matrix = np.asarray(value, dtype=float)
+    if matrix.size != 9:
+        raise ValueError(f"direction: {matrix.size} numbers; give nine: the directions of x, y, z as columns")
+    matrix = matrix.reshape(3, 3)
+    if not np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-6):
+        raise ValueError("direction: the columns are not orthonormal; give the directions of x, y, z as unit columns")
+    return tuple(matrix.ravel().tolist())
+
+
+class Placed:
+    """What an input says about its place in space; None where it says nothing."""
+
+    def __init__(self, data, spacing=None, origin=None, direction=None):
+        self.data, self.spacing, self.origin, self.direction = data, spacing, origin, direction
+
+
+def is_path(labels):
+    """Whether the input names files: a path, or a list of paths."""
+    if isinstance(labels, (str, os.PathLike)):
+        return True
+    return isinstance(labels, (list, tuple)) and bool(labels) and all(isinstance(p, (str, os.PathLike)) for p in labels)
+
+
+def paths_of(labels):
+    """The paths as texts."""
+    return [os.fspath(p) for p in ([labels] if isinstance(labels, (str, os.PathLike)) else labels)]
+
+
+def _from_simpleitk(image):
+    module = sys.modules[type(image).__module__.split(".")[0]]
+    data = module.GetArrayViewFromImage(image)
+    return Placed(data, image.GetSpacing(), image.GetOrigin(), image.GetDirection())
+
+
+class _Turned:
+    """An array [x, y, z] on disk, read as [z, y, x]."""
+
+    def __init__(self, data):
+        self.data = data
+        self.shape = tuple(data.shape)[::-1]
+        self.dtype = data.dtype
+        self.ndim = len(self.shape)
+
+    def __getitem__(self, sections):
+        return np.asanyarray(self.data[..., sections]).T
+
+
+def _from_nibabel(image):
+    if len(image.shape) != 3:
+        raise ValueError(f"labels: an image of {len(image.shape)} axes; give one of three")
+    data = image.dataobj
+    affine = np.asarray(image.affine, dtype=float)
+    spacing = np.linalg.norm(affine[:3, :3], axis=0)
+    if np.any(spacing == 0):
+        raise ValueError("labels: the affine of the image is singular; give one with three axes")
+    turned = data.T if isinstance(data, np.ndarray) else _Turned(data)
+    return Placed(turned, spacing, affine[:3, 3], affine[:3, :3] / spacing)
+
+
+def placed(labels):
+    """Unwrap images of other libraries."""
+    if all(hasattr(labels, name) for name in ("GetSpacing", "GetOrigin", "GetDirection")):
+        return _from_simpleitk(labels)
+    if hasattr(labels, "affine") and hasattr(labels, "dataobj"):
+        return _from_nibabel(labels)
+    return Placed(labels)
+
+
+def _native(array):
+    """Bring into the byte order of the machine; no copy otherwise."""
+    array = np.asarray(array)
+    return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
+
+
+def _type_name(dtype):
+    dtype = np.dtype(dtype)
+    if dtype.kind == "b":
+        return "uint8"
+    if dtype.kind not in "iu":
+        raise TypeError(f"labels are {dtype}; give integers")
+    return dtype.name
+
+
+def _chunk_depth(array):
+    """Sections that lie in one chunk."""
+    chunks = getattr(array, "chunks", None)
+    if not chunks:
+        return 1
+    depth = chunks[0]
+    return max(int(depth[0] if isinstance(depth, tuple) else depth), 1)
+
+
+class _ArrayCalls:
+    """Sections of anything that has a shape and is read by slices, a slab of chunks at a time."""
+
+    def __init__(self, array):
+        self.array = array
+        section_bytes = max(int(np.prod(array.shape[1:], dtype=np.int64)) * np.dtype(array.dtype).itemsize, 1)
+        self.depth = min(_chunk_depth(array), max(_SLAB_BYTES // section_bytes, 1))
+        self.rewind()
+
+    def rewind(self):
+        self.section, self.slab, self.first = 0, None, 0
+
+    def next(self):
+        section = self.section
+        if section >= self.array.shape[0]:
+            return None
+        if self.slab is None or section >= self.first + len(self.slab):
+            self.slab, self.first = None, section
+            slab = self.array[section : section + self.depth]
+            self.slab = _native(slab)
+        self.section += 1
+        return self.slab[section - self.first]
+
+
+class _IteratorCalls:
+    """Sections of an iterator, once, or of a sequence, any number of times."""
+
+    def __init__(self, first, rest, sections=None):
+        self.first, self.rest, self.sections = first, rest, sections
+
+    def rewind(self):
+        self.rest, self.first = iter(self.sections), None
+
+    def next(self):
+        if self.first is not None:
+            section, self.first = self.first, None
+            return section
+        section = next(self.rest, None)
+        return None if section is None else _section(section)
+
+
+def _section(section):
+    section = _native(section)
+    if section.ndim != 2:
+        raise ValueError(f"labels: a section of {section.ndim} axes; give sections [y, x]")
+    _type_name(section.dtype)
+    return section
+
+
+def _spooled(first, rest):
+    """Copy sections into a file without a name, in TMPDIR, and map it: their number is known only at the end."""
+    with tempfile.TemporaryFile(prefix="regionmesh-") as file:
+        count = 0
+        section = first
+        while section is not None:
+            if section.shape != first.shape or section.dtype != first.dtype:
+                raise ValueError(
+                    f"labels section {count}: {section.shape} {section.dtype}, the first has {first.shape} "
+                    f"{first.dtype}; give sections of one size and type"
+                )
+            file.write(np.ascontiguousarray(section).data)
+            count += 1
+            section = next(rest, None)
+            section = None if section is None else _section(section)
+        file.flush()
+        return np.memmap(file, dtype=first.dtype, mode="r", shape=(count, *first.shape))
+
+
+def _iterated(labels, sections):
+    """An array or the calls for an iterable of sections."""
+    count = len(labels) if hasattr(labels, "__len__") else sections
+    rest = iter(labels)
+    first = next(rest, None)
+    if first is None:
+        raise ValueError("labels: no sections; give at least two")
+    first = _section(first)
+    if count is None:
+        return _spooled(first, rest)
+    sequence = labels if hasattr(labels, "__len__") else None
+    calls = _IteratorCalls(first, rest, sequence)
+    size = (first.shape[1], first.shape[0], int(count))
+    return calls.next, (calls.rewind if sequence is not None else None), size, _type_name(first.dtype)
+
+
+def _is_sliced(data):
+    """Whether it is a volume that is no array of numpy, but has its types."""
+    if isinstance(data, np.ndarray) or not hasattr(data, "dtype") or len(getattr(data, "shape", ())) != 3:
+        return False
+    try:
+        np.dtype(data.dtype)
+    except TypeError:
+        return False  # such as a tensor, which becomes an array at once
+    return True
+
+
+def source(labels, given, options, names, sections=None):
+    """Open an input that is no path.
+
+    `given` has spacing, origin and direction, None where the input's own are meant.
+    """
+    own = placed(labels)
+    theirs = own.spacing, own.origin, own.direction
+    where = frame(*(mine if mine is not None else other for mine, other in zip(given, theirs)))
+    data = own.data
+    if _is_sliced(data):
+        calls = _ArrayCalls(data)
+        size = tuple(int(n) for n in data.shape[::-1])
+        data = calls.next, calls.rewind, size, _type_name(data.dtype)
+    elif not isinstance(data, np.ndarray) and hasattr(data, "__array__"):
+        data = np.asarray(data)
+    elif not isinstance(data, np.ndarray):
+        if not hasattr(data, "__iter__"):
+            raise TypeError(f"labels: {type(labels).__name__}; give an array, a path or an iterable of sections")
+        data = _iterated(data, sections)
+    if not isinstance(data, np.ndarray):
+        return _core.call_source(data, where, names, "labels")
+    if not data.dtype.isnative and data.dtype.kind in "iu" and data.ndim == 3:
+        calls = _ArrayCalls(data)
+        call = calls.next, calls.rewind, data.shape[::-1], _type_name(data.dtype.newbyteorder("="))
+        return _core.call_source(call, where, names, "labels")
+    return _core.array_source(data, where, options, names, "labels")

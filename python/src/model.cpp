@@ -1,0 +1,340 @@
+#include "model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+#include "regionmesh/census.h"
+#include "regionmesh/check.h"
+#include "regionmesh/compare.h"
+#include "regionmesh/error.h"
+#include "regionmesh/mesh_arrays.h"
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/process.h"
+#include "regionmesh/voxelise.h"
+#include "regionmesh/write_report.h"
+#include "settings.h"
+
+namespace regionmesh::python {
+namespace {
+
+/// Sets the result of a run; frees what the run alone needed.
+Model model_from(Reconstruction made, const LabelNames& names, bool is_open, Space space = Space::kUnknown) {
+    Model model{std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, space};
+    model.report = report_json(made.report, model.labels, names);
+    return model;
+}
+
+InputLabel first_background(const ReconstructOptions& options) {
+    return options.background.empty() ? 0 : options.background.front();
+}
+
+/// The same vertices and faces under the same ids, with other dense labels. Requires ids without gaps.
+Mesh relabelled(const Mesh& mesh, const std::vector<Label>& new_label) {
+    Mesh copy;
+    copy.reserve(mesh.vertex_end(), mesh.face_end());
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+        const Vertex& vertex = mesh[VertexId{v}];
+        copy.add_vertex(vertex.position, vertex.sides, vertex.is_fixed);
+    }
+    const auto translate = [&](Label label) { return is_exterior(label) ? label : new_label[label]; };
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+        const auto& [vertices, next, labels] = mesh[FaceId{f}];
+        copy.add_face(vertices[0], vertices[1], vertices[2], translate(labels[0]), translate(labels[1]));
+    }
+    return copy;
+}
+
+Mesh copy_of(const Mesh& mesh, const LabelTable& labels) {
+    std::vector<Label> same(labels.size());
+    std::iota(same.begin(), same.end(), Label{0});
+    return relabelled(mesh, same);
+}
+
+/// Gives the labels of a mesh the numbers that they have in `order`.
+void renumber(LabelledMesh& made, const std::vector<InputLabel>& order) {
+    LabelTable table(made.labels.is_unsigned());
+    for (const InputLabel label : order) table.dense(label);
+    std::vector<Label> new_label(made.labels.size());
+    for (Label label = 0; label < made.labels.size(); ++label) new_label[label] = table.dense(made.labels.input(label));
+    made.mesh = relabelled(made.mesh, new_label);
+    made.labels = std::move(table);
+}
+
+Model copy_of(const Model& model) {
+    return {copy_of(model.mesh, model.labels), model.labels, model.background, model.names, model.is_open, model.space};
+}
+
+CheckOptions check_options(const Model& model, std::uint32_t threads) {
+    CheckOptions options;
+    options.boundary_is_open = model.is_open;
+    options.background = model.background;
+    options.threads = threads;
+    options.label_text = [&model](Label label) { return model.labels.text(model.labels.input(label)); };
+    return options;
+}
+
+SimplifyOptions simplify_options(const ReconstructOptions& asked, const Mesh& mesh) {
+    SimplifyOptions options;
+    if (asked.target_faces)
+        options.target_faces =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
+    if (asked.reduce)
+        options.target_faces = static_cast<std::uint32_t>(std::llround(mesh.face_count() * (1 - *asked.reduce)));
+    if (asked.max_error) options.max_error = *asked.max_error;
+    options.min_quality = asked.min_quality;
+    options.perturbation = asked.perturbation;
+    options.intersect_check = asked.intersect_check;
+    options.placement = asked.placement;
+    options.threads = asked.threads;
+    options.scale = typical_edge(mesh);
+    return options;
+}
+
+SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh) {
+    SmoothOptions options = settings.reconstruct.smooth;
+    options.min_quality = settings.reconstruct.min_quality;
+    options.intersect_check = settings.reconstruct.intersect_check;
+    options.threads = settings.reconstruct.threads;
+    options.scale = settings.scale.value_or(typical_edge(mesh));
+    return options;
+}
+
+/// The report of a change to a mesh, before the change. Parts with violations are locked.
+Report begin_change(Mesh& mesh, const CheckReport& before, const CheckOptions& options) {
+    Report report;
+    report.initial_faces = report.peak_faces = mesh.face_count();
+    report.initial_vertices = mesh.vertex_count();
+    if (before.violation_count() > 0) lock_violations(mesh, options);
+    return report;
+}
+
+/// Unlocks, checks and describes the changed mesh.
+void end_change(Model& model, Report& report, const CheckOptions& options) {
+    model.mesh.compact();
+    for (std::uint32_t v = 0; v < model.mesh.vertex_end(); ++v) model.mesh[VertexId{v}].is_fixed = false;
+    report.check = check(model.mesh, options);
+    report.final_faces = model.mesh.face_count();
+    report.final_vertices = model.mesh.vertex_count();
+    report.peak_bytes = peak_resident_bytes();
+    model.report = report_json(report, model.labels, model.names);
+}
+
+WantedVolumes volumes_of(const CheckReport& report) {
+    WantedVolumes volumes;
+    for (const RegionReport& region : report.regions) {
+        if (region.label >= volumes.size()) volumes.resize(region.label + 1);
+        volumes[region.label] = region.volume;
+    }
+    return volumes;
+}
+
+/// The oracle of a volume in the dense labels of a model; labels that the model does not have are added to `labels`.
+LabelOracle translate(const Census& census, LabelTable& labels) {
+    LabelOracle oracle = census.oracle;
+    oracle.euler.clear();
+    for (Label dense = 0; dense < census.oracle.euler.size(); ++dense) {
+        const Label in_model = labels.dense(census.labels.input(dense));
+        if (in_model >= oracle.euler.size()) oracle.euler.resize(in_model + 1, 0);
+        oracle.euler[in_model] = census.oracle.euler[dense];
+    }
+    return oracle;
+}
+
+std::vector<InputLabel> background_of(const Model& model) {
+    std::vector<InputLabel> background;
+    for (const Label label : model.background) background.push_back(model.labels.input(label));
+    return background;
+}
+
+}  // namespace
+
+Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
+    const Settings settings = settings_from(run.options);
+    const ReconstructOptions& options = settings.reconstruct;
+    Model model;
+    watch.run([&] {
+        std::unique_ptr<SectionReader> kept;
+        if (run.kept) kept = keep_labels(*source.reader, *run.kept, first_background(options));
+        WatchedSections sections(kept ? *kept : *source.reader, watch);
+        StageProgress progress(watch, options);
+        Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
+        model =
+            model_from(std::move(made), run.names.value_or(sections.info().names), !options.cap, sections.info().space);
+    });
+    return model;
+}
+
+Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Watch& watch) {
+    const Settings settings = settings_from(run.options, {path});
+    Model model;
+    watch.run([&] {
+        const auto reader = open_tetrahedra(path, settings.tetrahedra);
+        StageProgress progress(watch, settings.reconstruct);
+        Reconstruction made =
+            reconstruct(*reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
+        model = model_from(std::move(made), run.names.value_or(reader->info().names), !settings.reconstruct.cap);
+    });
+    return model;
+}
+
+Model load_model(const std::string& path, const OptionValues& options) {
+    const Settings settings = settings_from(options);
+    const py::gil_scoped_release release;
+    MeshFile file = read_mesh(path, settings.surface);
+    file.mesh.compact();
+    const bool is_given = std::ranges::any_of(settings.given, [](const auto& option) {
+        return option.first == "background" || option.first == "no-background";
+    });
+    std::vector<Label> background;
+    for (const InputLabel label : !is_given && file.background ? *file.background : settings.reconstruct.background)
+        background.push_back(file.labels.dense(label));
+    return {std::move(file.mesh),  std::move(file.labels),    std::move(background),
+            std::move(file.names), !settings.reconstruct.cap, file.space};
+}
+
+std::vector<std::string> save_model(const Model& model, const std::string& path, bool per_region,
+                                    const OptionValues& options) {
+    const Settings settings = settings_from(options);
+    const py::gil_scoped_release release;
+    std::vector<std::string> paths;
+    for (const auto& file : write_mesh(model.mesh, model.labels, path,
+                                       {.background = model.background,
+                                       .names = model.names,
+                                       .per_region = per_region,
+                                       .space = model.space,
+                                       .metres = settings.metres,
+                                       .boundary_is_open = model.is_open}))
+        paths.push_back(file.string());
+    return paths;
+}
+
+Model model_of(const GivenArrays& given, const GivenLabels& labels) {
+    MeshArrays arrays{.exterior_label = given.exterior_label, .is_unsigned = given.is_unsigned};
+    const auto copy = [](const auto& from, auto& to, std::size_t rows) {
+        to.resize(rows);
+        if (rows > 0) std::memcpy(static_cast<void*>(to.data()), from.data(), rows * sizeof(to[0]));
+    };
+    copy(given.points, arrays.points, static_cast<std::size_t>(given.points.shape(0)));
+    copy(given.faces, arrays.faces, static_cast<std::size_t>(given.faces.shape(0)));
+    copy(given.labels, arrays.labels, static_cast<std::size_t>(given.labels.shape(0)));
+    if (given.node_types)
+        copy(*given.node_types, arrays.node_types, static_cast<std::size_t>(given.node_types->shape(0)));
+    const py::gil_scoped_release release;
+    LabelledMesh made = import_arrays(arrays);
+    if (!labels.order.empty()) renumber(made, labels.order);
+    std::vector<Label> background;
+    for (const InputLabel label : labels.background) background.push_back(made.labels.dense(label));
+    return {std::move(made.mesh), std::move(made.labels), std::move(background),
+            labels.names,         labels.is_open,         labels.space};
+}
+
+Model simplified(const Model& model, const OptionValues& options, Watch& watch) {
+    const Settings settings = settings_from(options);
+    const ReconstructOptions& asked = settings.reconstruct;
+    if (!asked.target_faces && !asked.reduce && !asked.max_error)
+        throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error");
+    Model made;
+    watch.run([&] {
+        made = copy_of(model);
+        const CheckOptions checks = check_options(made, asked.threads);
+        Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
+        SimplifyOptions simplify_with = simplify_options(asked, made.mesh);
+        const std::uint64_t before = made.mesh.face_count(), gone = before - simplify_with.target_faces;
+        simplify_with.on_progress = [&] { watch.note("decimate", before - made.mesh.face_count(), gone); };
+        {
+            const Timer timer(report.seconds["decimate"]);
+            const SimplifyResult done = simplify(made.mesh, simplify_with);
+            report.verdicts = done.verdicts;
+            report.refreshes = done.refreshes;
+            report.stopped = to_string(done.stopped);
+            report.bytes_per_face =
+                static_cast<double>(done.bytes) / static_cast<double>(std::max<std::uint64_t>(before, 1));
+        }
+        watch.note("check", 0, std::nullopt);
+        end_change(made, report, checks);
+    });
+    return made;
+}
+
+Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
+    const Settings settings = settings_from(options);
+    Model made;
+    watch.run([&] {
+        made = copy_of(model);
+        const CheckOptions checks = check_options(made, settings.reconstruct.threads);
+        const CheckReport before = check(made.mesh, checks);
+        Report report = begin_change(made.mesh, before, checks);
+        const SmoothOptions smooth_with = smooth_options(settings, made.mesh);
+        {
+            const Timer timer(report.seconds["smooth"]);
+            report.smoothing = smooth(made.mesh, smooth_with);
+        }
+        report.unsmoothed_volumes = report.smoothing.volume_before;
+        if (settings.reconstruct.preserve_volume)
+            report.preserved = preserve_volumes(made.mesh, volumes_of(before), smooth_with);
+        report.stopped = "none asked";
+        end_change(made, report, checks);
+    });
+    return made;
+}
+
+std::string check_text(const Model& model, std::uint32_t threads, Source* source, Watch& watch) {
+    std::string text;
+    watch.run([&] {
+        LabelTable labels = model.labels;
+        CheckOptions options = check_options(model, threads);
+        options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
+        std::optional<SampleAgreement> samples;
+        if (source != nullptr) {
+            WatchedSections sections(*source->reader, watch);
+            const CensusOptions census{.cap = !model.is_open, .background = background_of(model)};
+            options.oracle = translate(count_labels(sections, census), labels);
+            sections.rewind();
+            if (!model.is_open) samples = compare_samples(model.mesh, labels, model.background, sections);
+        }
+        const CheckReport report = check(model.mesh, options);
+        text = check_json(report, labels, model.names, samples ? &*samples : nullptr);
+    });
+    return text;
+}
+
+std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch) {
+    const Settings settings = settings_from(options);
+    const CompareOptions asked{
+        .samples = settings.samples, .background = background_of(a), .threads = settings.reconstruct.threads};
+    std::string text;
+    watch.run([&] { text = compare_json(compare({a.mesh, a.labels}, {b.mesh, b.labels}, asked)); });
+    return text;
+}
+
+void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels) {
+    VoxeliseOptions options;
+    const auto& [s, o] = std::pair(frame.spacing, frame.origin);
+    options.lattice = {{static_cast<std::uint32_t>(labels.shape(2)), static_cast<std::uint32_t>(labels.shape(1)),
+                        static_cast<std::uint32_t>(labels.shape(0))},
+                       {s[0], s[1], s[2]},
+                       {o[0], o[1], o[2]},
+                       frame.direction};
+    options.background = model.background;
+    auto* to = static_cast<std::byte*>(labels.mutable_data());
+    const auto bytes = static_cast<std::size_t>(labels.itemsize());
+    const py::gil_scoped_release release;
+    Voxeliser voxeliser(model.mesh, options);
+    std::vector<Label> section(std::size_t{options.lattice.size[0]} * options.lattice.size[1]);
+    while (voxeliser.next(section))
+        for (const Label label : section) {
+            // The low bytes of a label, on a machine that is little endian.
+            const InputLabel input = is_exterior(label) ? outside : model.labels.input(label);
+            std::memcpy(to, &input, bytes);
+            to += bytes;
+        }
+    if (voxeliser.contradictions() != 0)
+        throw Error(ErrorCode::kInput, "the surface is not closed: it contradicts itself at " +
+                                           std::to_string(voxeliser.contradictions()) +
+                                           " samples; check() lists the places");
+}
+
+}  // namespace regionmesh::python

@@ -1,0 +1,76 @@
+// A model as Python holds it, and what can be done with it. Functions without a Watch release the GIL.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "regionmesh/label_names.h"
+#include "regionmesh/options.h"
+#include "regionmesh/reconstruct.h"
+#include "sources.h"
+#include "watch.h"
+
+namespace regionmesh::python {
+
+/// Never changed after it is made, so that views of it stay valid and threads may share it. Ids have no gaps.
+struct Model {
+    Mesh mesh;
+    LabelTable labels;
+    std::vector<Label> background;
+    LabelNames names;
+    bool is_open = false;
+    Space space = Space::kUnknown;
+    std::string report = {};  // JSON; empty where it was not checked yet
+};
+
+/// What a reconstruction takes besides its labels.
+struct RunOptions {
+    OptionValues options;
+    std::optional<std::vector<InputLabel>> kept = {};
+    std::optional<LabelNames> names = {};
+};
+
+Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch);
+Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Watch& watch);
+
+/// With the background of the file where the options name none.
+Model load_model(const std::string& path, const OptionValues& options);
+/// `options` are those of the files: units. Returns the paths written.
+std::vector<std::string> save_model(const Model& model, const std::string& path, bool per_region,
+                                    const OptionValues& options);
+
+/// points, faces, labels and node types, read-only; the arrays own the memory.
+py::tuple arrays_of(const Model& model);
+
+struct GivenArrays {
+    py::array_t<double, py::array::c_style> points;
+    py::array_t<std::uint32_t, py::array::c_style> faces;
+    py::array_t<std::int64_t, py::array::c_style> labels;
+    std::optional<py::array_t<std::uint8_t, py::array::c_style>> node_types;
+    InputLabel exterior_label;
+    bool is_unsigned;
+};
+struct GivenLabels {
+    std::vector<InputLabel> background;
+    std::vector<InputLabel> order;  // by dense number, so that a copy of a model is treated alike; may be empty
+    LabelNames names;
+    bool is_open;
+    Space space;
+};
+Model model_of(const GivenArrays& given, const GivenLabels& labels);
+
+Model simplified(const Model& model, const OptionValues& options, Watch& watch);
+Model smoothed(const Model& model, const OptionValues& options, Watch& watch);
+
+/// The check as JSON. With a source also against its labels.
+std::string check_text(const Model& model, std::uint32_t threads, Source* source, Watch& watch);
+std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch);
+
+/// Fills `labels` [z, y, x], of integers in memory order. Throws Error(kInput) for a surface that is not closed.
+void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels);
+
+}  // namespace regionmesh::python

@@ -1,0 +1,163 @@
+// The module regionmesh._core: what the package in python/regionmesh is made of. Not for users.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <mutex>
+
+#include "model.h"
+#include "regionmesh/error.h"
+#include "regionmesh/label_names_file.h"
+#include "regionmesh/process.h"
+#include "regionmesh/read_sections.h"
+#include "settings.h"
+#include "sources.h"
+
+namespace regionmesh::python {
+namespace {
+
+void raise_in_python(std::exception_ptr failure) {
+    try {
+        if (failure) std::rethrow_exception(failure);
+    } catch (const Error& error) {
+        PyErr_SetString(error.code() == ErrorCode::kOutput ? PyExc_OSError : PyExc_ValueError, error.what());
+    }
+}
+
+ArrayOptions array_options(const OptionValues& options, const LabelNames& names, const std::string& name) {
+    return {.sweep = settings_from(options).volume.sweep, .names = names, .name = name};
+}
+
+py::dict info_of(const Source& source) {
+    const VolumeInfo& info = source.reader->info();
+    const Lattice& lattice = info.lattice;
+    const auto tuple = [](Vec3 v) { return py::make_tuple(v.x, v.y, v.z); };
+    py::dict result;
+    result["size"] = lattice.size;
+    result["type"] = to_string(info.type);
+    result["spacing"] = tuple(lattice.spacing);
+    result["origin"] = tuple(lattice.origin);
+    result["direction"] = lattice.direction;
+    result["names"] = info.names;
+    result["can_rewind"] = info.can_rewind;
+    return result;
+}
+
+void free_large_arrays_at_once() {
+    static std::once_flag once;
+    std::call_once(once, keep_large_arrays_apart);
+}
+
+void bind_sources(py::module_& module) {
+    py::class_<Frame>(module, "Frame")
+        .def(py::init<std::array<double, 3>, std::array<double, 3>, std::array<double, 9>>());
+    py::class_<Source>(module, "Source").def_property_readonly("info", info_of);
+    module.def("array_source",
+               [](const py::array& array, const Frame& frame, const OptionValues& options, const LabelNames& names,
+                  const std::string& name) { return array_source(array, frame, array_options(options, names, name)); });
+    module.def("call_source",
+               [](const std::tuple<py::object, py::object, std::array<std::uint32_t, 3>, std::string>& calls,
+                  const Frame& frame, const LabelNames& names, const std::string& name) {
+                   const auto& [next, rewind, size, type] = calls;
+                   return call_source({next, rewind, size, type}, frame, {.names = names, .name = name});
+               });
+    module.def("file_source", file_source);
+}
+
+void bind_runs(py::module_& module) {
+    using Kept = std::optional<std::vector<InputLabel>>;
+    using Names = std::optional<LabelNames>;
+    module.def("reconstruct_source", [](Source& source, const OptionValues& options, const Kept& kept,
+                                        const Names& names, const py::object& progress) {
+        free_large_arrays_at_once();
+        Watch watch(progress);
+        return reconstruct_source(source, {options, kept, names}, watch);
+    });
+    module.def("reconstruct_tetrahedra", [](const std::string& path, const OptionValues& options, const Names& names,
+                                            const py::object& progress) {
+        free_large_arrays_at_once();
+        Watch watch(progress);
+        return reconstruct_tetrahedra(path, {options, std::nullopt, names}, watch);
+    });
+    module.def("simplify", [](const Model& model, const OptionValues& options, const py::object& progress) {
+        Watch watch(progress);
+        return simplified(model, options, watch);
+    });
+    module.def("smooth", [](const Model& model, const OptionValues& options) {
+        Watch watch(py::none{});
+        return smoothed(model, options, watch);
+    });
+    module.def(
+        "check",
+        [](const Model& model, std::uint32_t threads, Source* source) {
+            Watch watch(py::none{});
+            return check_text(model, threads, source, watch);
+        },
+        py::arg("model"), py::arg("threads"), py::arg("source").none(true));
+    module.def("compare", [](const Model& a, const Model& b, const OptionValues& options) {
+        Watch watch(py::none{});
+        return compare_text(a, b, options, watch);
+    });
+    module.def("voxelise", voxelise);
+}
+
+Space space_of(const std::string& name) {
+    for (const Space space : {Space::kRas, Space::kLps})
+        if (name == space_name(space)) return space;
+    return Space::kUnknown;
+}
+
+void bind_model(py::module_& module) {
+    py::class_<Model>(module, "Model")
+        .def_property_readonly("arrays", arrays_of)
+        .def_readonly("report", &Model::report)
+        .def_readonly("names", &Model::names)
+        .def_readonly("is_open", &Model::is_open)
+        .def_property_readonly("space", [](const Model& model) { return std::string(space_name(model.space)); })
+        .def_property_readonly("is_unsigned", [](const Model& model) { return model.labels.is_unsigned(); })
+        .def_property_readonly("exterior_label", [](const Model& model) { return model.labels.exterior_label(); })
+        .def_property_readonly("vertex_count", [](const Model& model) { return model.mesh.vertex_count(); })
+        .def_property_readonly("face_count", [](const Model& model) { return model.mesh.face_count(); })
+        .def_property_readonly("label_order",
+                               [](const Model& model) {
+                                   std::vector<InputLabel> labels(model.labels.size());
+                                   for (Label label = 0; label < labels.size(); ++label)
+                                       labels[label] = model.labels.input(label);
+                                   return labels;
+                               })
+        .def_property_readonly("background", [](const Model& model) {
+            std::vector<InputLabel> labels;
+            for (const Label label : model.background) labels.push_back(model.labels.input(label));
+            return labels;
+        });
+    module.def("load", load_model);
+    module.def("save", save_model);
+    using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
+                              decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
+    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, std::string>;
+    module.def("from_arrays",
+               [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned, bool is_open) {
+                   const auto& [points, faces, labels, types] = arrays;
+                   const auto& [background, order, names, space] = about;
+                   return model_of({points, faces, labels, types, exterior, is_unsigned},
+                                   {background, order, names, is_open, space_of(space)});
+               });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+    module.attr("version") = REGIONMESH_VERSION;
+    py::register_exception_translator(raise_in_python);
+    module.def("option_rows", option_rows);
+    module.def("check_options", [](const OptionValues& options) { settings_from(options); });
+    module.def("kind_of_input", [](const std::vector<std::string>& paths) {
+        return kind_of_input(paths) == kVolumeInput ? "volume" : "tetrahedra";
+    });
+    module.def("volume_extensions", volume_extensions);
+    module.def("read_names", [](const std::string& path) { return read_label_names(path); });
+    bind_sources(module);
+    bind_runs(module);
+    bind_model(module);
+}
+
+}  // namespace regionmesh::python

@@ -1,0 +1,20 @@
+// The options of the programs, for Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <string>
+
+#include "regionmesh/options.h"
+
+namespace regionmesh::python {
+
+/// The declared options of a command, each as a dict. Throws ValueError for another command.
+pybind11::list option_rows(const std::string& command);
+
+/// The settings that the texts describe, checked against the kind of input. Throws Error(kUsage) with the line that the
+/// program would print.
+Settings settings_from(const OptionValues& values, const std::vector<std::string>& inputs = {});
+
+}  // namespace regionmesh::python

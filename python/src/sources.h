@@ -1,0 +1,50 @@
+// Where labels come from: arrays, calls into Python, files.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "regionmesh/array_sections.h"
+#include "regionmesh/options.h"
+#include "regionmesh/section_reader.h"
+
+namespace regionmesh::python {
+
+namespace py = pybind11;
+
+/// A reader, and the Python object that its samples lie in.
+struct Source {
+    py::object owner;
+    std::unique_ptr<SectionReader> reader;
+};
+
+/// Where samples lie, as Python passes it: x, y, z; the direction in row-major order.
+struct Frame {
+    std::array<double, 3> spacing, origin;
+    std::array<double, 9> direction;
+};
+
+/// A view of an array [z, y, x]. Throws TypeError for samples that are no integers in the byte order of the machine.
+Source array_source(const py::array& array, const Frame& frame, const ArrayOptions& rest);
+
+/// Calls `next` for each section [y, x] along z, and `rewind`, if it is not None, to begin again. Both are called with
+/// the GIL, on any thread, one at a time.
+struct SectionCalls {
+    py::object next, rewind;
+    std::array<std::uint32_t, 3> size;  // x, y, z
+    std::string type;                   // as in --type
+};
+Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& rest);
+
+Source file_source(const std::vector<std::string>& paths, const OptionValues& options);
+
+/// The labels of a reader; those that are not kept become `other`.
+std::unique_ptr<SectionReader> keep_labels(SectionReader& reader, std::vector<InputLabel> kept, InputLabel other);
+
+}  // namespace regionmesh::python

@@ -1,0 +1,394 @@
+"""What a mesh knows and what can be done with it."""
+
+import copy
+import os
+import pickle
+
+import numpy as np
+import pytest
+
+import regionmesh
+
+
+@pytest.fixture(scope="module")
+def filled(grains):
+    """A model without background."""
+    return regionmesh.reconstruct(grains, background=None, spacing=(1, 1, 2), reduce=0.4)
+
+
+def volume_of(surface):
+    a, b, c = (surface.points[surface.faces[:, n]] for n in range(3))
+    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+
+
+def edge_counts(faces):
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    return np.unique(edges, axis=0, return_counts=True)
+
+
+def test_a_region_is_closed_and_outward(filled):
+    for label, volume in zip(filled.regions["label"], filled.regions["volume"]):
+        surface = filled.region(label)
+        edges, counts = edge_counts(surface.faces)
+        assert (counts == 1).all()
+        assert {tuple(edge) for edge in edges[:, ::-1].tolist()} == {tuple(edge) for edge in edges.tolist()}
+        assert volume_of(surface) == pytest.approx(volume, rel=1e-9)
+        np.testing.assert_array_equal(filled.points[surface.point_ids], surface.points)
+        np.testing.assert_array_equal(
+            np.sort(filled.faces[surface.face_ids], axis=1), np.sort(surface.point_ids[surface.faces], axis=1)
+        )
+
+
+def test_a_region_that_is_not_there(filled):
+    with pytest.raises(KeyError):
+        filled.region(999)
+
+
+def test_an_interface_has_two_directions(filled):
+    a, b = (int(filled.interfaces[name][0]) for name in ("first", "second"))
+    there, back = filled.interface(a, b), filled.interface(b, a)
+    assert len(there.faces) == filled.interfaces["faces"][0]
+    np.testing.assert_array_equal(there.faces, back.faces[:, ::-1])
+    assert len(filled.interface(a, 999).faces) == 0
+
+
+def test_an_interface_points_from_the_first_label(mesh):
+    surface = mesh.interface(1, 2)
+    a, b, c = (surface.points[surface.faces[:, n]] for n in range(3))
+    assert np.cross(b - a, c - a).sum(axis=0)[2] > 0  # box 2 lies above box 1
+
+
+def test_interfaces_cover_all_faces(filled):
+    columns = filled.interfaces
+    assert columns["faces"].sum() == len(filled)
+    report_area = sum(filled.regions["area"])
+    both = columns["second"] != filled.exterior_label
+    assert columns["area"].sum() + columns["area"][both].sum() == pytest.approx(report_area)
+
+
+def test_regions_agree_with_the_labels(filled, grains):
+    columns = filled.regions
+    labels, counts = np.unique(grains, return_counts=True)
+    np.testing.assert_array_equal(columns["label"], labels)
+    np.testing.assert_array_equal(columns["voxels"], counts)
+    assert columns["volume"].sum() == pytest.approx(19 * 19 * 38)
+    assert (columns["euler"] == 2).all() and (columns["components"] == 1).all()
+    for n, label in enumerate(labels):
+        samples = np.argwhere(grains == label)[:, ::-1] * [1, 1, 2]
+        centroid = [columns[f"centroid_{axis}"][n] for axis in "xyz"]
+        assert np.abs(samples.mean(axis=0) - centroid).max() < 1.5
+        assert columns["box_low_z"][n] <= samples[:, 2].min() and columns["box_high_z"][n] >= samples[:, 2].max()
+
+
+def test_the_centroid_of_a_box(two_boxes):
+    columns = regionmesh.reconstruct(two_boxes, smooth="off", origin=(100, 0, 0)).regions
+    # Not smoothed: along the interface, where three regions meet, the model follows the simplices of the lattice.
+    np.testing.assert_allclose(columns["centroid_x"], [104.5, 104.5], atol=0.05)
+    np.testing.assert_allclose(columns["centroid_z"], [4, 8.5], atol=0.1)
+    np.testing.assert_allclose(columns["box_low_x"], [101.5, 101.5])
+    np.testing.assert_allclose([columns["box_low_z"][0], columns["box_high_z"][1]], [1.5, 10.5])
+
+
+def test_neighbours_are_symmetric(filled, mesh):
+    table = dict(zip(filled.regions["label"].tolist(), filled.regions["neighbours"]))
+    for label, neighbours in table.items():
+        assert neighbours == sorted(neighbours) and all(label in table[other] for other in neighbours)
+    assert list(mesh.regions["neighbours"]) == [[0, 2], [0, 1]]
+
+
+def test_the_quality_is_that_of_the_report(filled):
+    from regionmesh import _measure
+
+    quality = _measure.quality(filled.points, filled.faces)
+    assert quality.min() == pytest.approx(filled.report["quality"]["min"], rel=1e-6)
+    assert quality.mean() == pytest.approx(filled.report["quality"]["mean"], rel=1e-6)
+
+
+def test_regions_are_a_data_frame(filled):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(filled.regions)
+    assert len(frame) == 24 and frame.set_index("label").loc[3, "voxels"] > 0
+
+
+def test_quadruple_points_and_lines(filled, mesh):
+    inside = filled.node_types[filled.quadruple_points] == 4
+    assert inside.sum() == filled.report["quadruple_points_inside"]
+    assert len(mesh.quadruple_points) == 0
+    lines = mesh.lines
+    assert len(lines) == mesh.report["triple_lines"]["edges"]
+    length = np.linalg.norm(mesh.points[lines[:, 0]] - mesh.points[lines[:, 1]], axis=1).sum()
+    assert length == pytest.approx(mesh.report["triple_lines"]["length"])
+
+
+def test_simplify_makes_a_new_mesh(filled):
+    before = filled.points.copy(), len(filled)
+    fewer = filled.simplify(reduce=0.5)
+    assert fewer.certified and len(fewer) <= before[1] / 2
+    np.testing.assert_array_equal(filled.points, before[0])
+    assert len(filled) == before[1]
+    np.testing.assert_array_equal(fewer.regions["voxels"], filled.regions["voxels"])
+
+
+def test_simplify_is_that_of_the_program(filled, tmp_path):
+    filled.save(tmp_path / "a.vtp")
+    direct = filled.simplify(target_faces=600)
+    loaded = regionmesh.load(tmp_path / "a.vtp", background=None).simplify(target_faces=600)
+    np.testing.assert_array_equal(direct.points, loaded.points)
+    np.testing.assert_array_equal(direct.faces, loaded.faces)
+
+
+@pytest.mark.parametrize("options", [{"target_faces": 10}, {"max_error": 0.2}, {"reduce": "99%"}])
+def test_simplify_says_why_it_stopped(filled, options):
+    fewer = filled.simplify(**options)
+    assert fewer.certified
+    assert fewer.report["stopped"] in ("topology", "max_error")
+
+
+def test_simplify_needs_a_target(filled):
+    with pytest.raises(ValueError, match="no target"):
+        filled.simplify()
+    with pytest.raises(TypeError, match="simplify.*memory"):
+        filled.simplify(memory=5)
+
+
+def test_simplify_reports_progress(filled):
+    calls = []
+    filled.simplify(reduce=0.2, progress=lambda *call: calls.append(call))
+    assert calls[-1][0] == "check"
+
+
+def test_smooth_moves_points(two_boxes):
+    rough = regionmesh.reconstruct(two_boxes, smooth="off")
+    smooth = rough.smooth(smooth=10)
+    np.testing.assert_array_equal(smooth.faces, rough.faces)
+    assert smooth.certified and not np.array_equal(smooth.points, rough.points)
+    kept = rough.smooth(smooth=10, preserve_volume=True)
+    np.testing.assert_allclose(kept.regions["volume"], rough.regions["volume"], rtol=1e-6)
+
+
+def test_smooth_needs_a_filter_for_meshes(filled):
+    with pytest.raises(ValueError, match="lattice"):
+        filled.smooth(smooth_filter="lattice")
+
+
+def test_check_against_the_labels(filled, grains):
+    found = filled.check(grains)
+    assert found["samples"] == grains.size and found["samples_wrong"] == 0 and not found["violations"]
+    other = np.where(grains == 3, 4, grains)
+    found = filled.check(other)
+    assert found["samples_wrong"] == (grains == 3).sum()
+    assert {violation["kind"] for violation in found["violations"]} >= {"region_pairs"}
+
+
+def test_check_reads_files_and_sections(filled, grains, tmp_path):
+    np.save(tmp_path / "grains.npy", grains)
+    assert filled.check(tmp_path / "grains.npy", spacing=(1, 1, 2))["samples_wrong"] == 0
+    assert filled.check(list(grains))["samples_wrong"] == 0
+    assert filled.check(iter(grains))["samples_wrong"] == 0
+
+
+def test_a_hole_is_found(mesh):
+    open_model = regionmesh.from_arrays(mesh.points, mesh.faces[::2], mesh.labels[::2])
+    assert not open_model.certified
+    assert "open_edge" in {violation["kind"] for violation in open_model.violations}
+    assert "violations" in repr(open_model)
+    with pytest.raises(ValueError, match="not closed"):
+        open_model.voxelise(shape=(14, 12, 10))
+
+
+def test_compare_with_itself(filled):
+    found = filled.compare(filled, samples=2000)
+    assert found["distance"]["both"]["max"] < 1e-9
+    moved = regionmesh.from_arrays(filled.points + [1, 0, 0], filled.faces, filled.labels, background=None)
+    assert 0.1 < filled.compare(moved, samples=2000)["distance"]["both"]["max"] <= 1 + 1e-9
+    with pytest.raises(TypeError, match="give a Mesh"):
+        filled.compare(filled.points)
+
+
+def test_voxelise_gives_the_labels_back(filled, grains):
+    again = filled.voxelise()
+    assert again.dtype == grains.dtype
+    np.testing.assert_array_equal(again, grains)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.int16, np.uint32, np.int64])
+def test_voxelise_into_any_type(mesh, two_boxes, dtype):
+    again = mesh.voxelise(like=two_boxes.astype(dtype))
+    assert again.dtype == dtype
+    np.testing.assert_array_equal(again, two_boxes)
+
+
+def test_voxelise_takes_arrays_for_the_place(two_boxes):
+    made = regionmesh.reconstruct(two_boxes, spacing=np.array([1.0, 2, 3]), origin=np.ones(3), direction=np.eye(3))
+    there = {"spacing": np.array([1.0, 2, 3]), "origin": np.ones(3), "direction": np.eye(3)}
+    np.testing.assert_array_equal(made.voxelise(two_boxes, **there), two_boxes)
+    assert made.check(two_boxes, **there)["samples_wrong"] == 0
+
+
+def test_voxelise_on_a_finer_lattice(mesh, two_boxes):
+    fine = mesh.voxelise(shape=(27, 23, 19), spacing=(0.5, 0.5, 0.5))
+    np.testing.assert_array_equal(fine[::2, ::2, ::2], two_boxes)
+
+
+def test_voxelise_refuses_a_type_that_is_too_small(two_boxes):
+    made = regionmesh.reconstruct(two_boxes.astype(np.int32) * 1000)
+    with pytest.raises(ValueError, match="cannot hold"):
+        made.voxelise(dtype=np.uint8)
+    with pytest.raises(ValueError, match="no lattice"):
+        regionmesh.from_arrays(made.points, made.faces, made.labels).voxelise()
+
+
+def test_a_file_says_which_labels_are_background(filled, tmp_path):
+    filled.save(tmp_path / "none.vtp")
+    assert regionmesh.load(tmp_path / "none.vtp").background == []
+    labels = np.full((8, 8, 8), 9, np.uint8)
+    labels[2:6, 2:6, 2:6] = 4
+    made = regionmesh.reconstruct(labels, background=9)
+    for name in ("nine.vtp", "nine.ply", "nine.obj"):
+        made.save(tmp_path / name)
+        again = regionmesh.load(tmp_path / name)
+        assert again.background == [9] and list(again.regions["label"]) == [4]
+        assert list(regionmesh.load(tmp_path / name, background=None).regions["label"]) == [4, 9]
+
+
+def test_the_space_of_a_volume_goes_into_the_files_of_its_model(two_boxes, tmp_path):
+    header = {"type": "uint8", "dimension": 3, "space": "left-posterior-superior", "sizes": "10 12 14"}
+    lines = [f"{key}: {value}" for key, value in header.items()]
+    lines += ["space directions: (1,0,0) (0,1,0) (0,0,1)", "space origin: (0,0,0)", "encoding: raw"]
+    (tmp_path / "v.nrrd").write_bytes(("NRRD0005\n" + "\n".join(lines) + "\n\n").encode() + two_boxes.tobytes())
+    made = regionmesh.reconstruct(tmp_path / "v.nrrd")
+    assert made.space == "LPS" and regionmesh.reconstruct(two_boxes).space is None
+    for again in (pickle.loads(pickle.dumps(made)), made.smooth(), made.simplify(reduce=0.2)):
+        again.save(tmp_path / "m.vtp")
+        assert "SPACE=LPS" in (tmp_path / "m.vtp").read_bytes().decode("latin-1")
+        assert regionmesh.load(tmp_path / "m.vtp").space == "LPS"
+
+
+def test_save_returns_the_files_and_scales_to_metres(two_boxes, tmp_path):
+    made = regionmesh.reconstruct(two_boxes, names={1: "left lung"})
+    files = made.save(tmp_path / "m.stl", per_region=True)
+    assert files == [str(tmp_path / "m-left_lung.stl"), str(tmp_path / "m-2.stl")]
+    assert all(os.path.getsize(file) > 0 for file in files)
+    assert made.save(tmp_path / "m.glb", units="mm") == [str(tmp_path / "m.glb")]
+    assert b'"scale":[0.001,0.001,0.001]' in (tmp_path / "m.glb").read_bytes()
+    with pytest.raises(ValueError, match="--units"):
+        made.save(tmp_path / "m.glb", units="furlong")
+
+
+def test_arrays_in_and_out(filled):
+    again = regionmesh.from_arrays(filled.points, filled.faces, filled.labels, background=None)
+    assert again.certified
+    for name in ("points", "faces", "labels"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(filled, name))
+
+
+def test_arrays_of_lists():
+    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    made = regionmesh.from_arrays(points, faces, [(7, 0)] * 4, names={7: "corner"})
+    assert made.certified
+    assert made.regions["volume"][0] == pytest.approx(1 / 6)
+    assert made.regions["name"][0] == "corner"
+
+
+@pytest.mark.parametrize(
+    "change, error",
+    [
+        ({"points": np.zeros((4, 2))}, ValueError),
+        ({"points": [[np.nan, 0, 0]] * 4}, ValueError),
+        ({"points": "abcd"}, ValueError),
+        ({"faces": [(0, 1, 4)]}, ValueError),
+        ({"faces": [(0, 1, -1)]}, ValueError),
+        ({"faces": [(0.0, 1.0, 2.0)]}, TypeError),
+        ({"faces": [(0, 1)]}, ValueError),
+        ({"labels": [(1, 0)] * 3}, ValueError),
+        ({"labels": [1]}, ValueError),
+        ({"labels": [(0.5, 1)]}, TypeError),
+    ],
+)
+def test_wrong_arrays_are_refused(change, error):
+    arrays = {"points": np.eye(4)[:, :3], "faces": [(0, 1, 2)], "labels": [(1, 0)]}
+    with pytest.raises(error):
+        regionmesh.from_arrays(**{**arrays, **change})
+
+
+@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+def test_a_pickle_keeps_everything(filled, protocol):
+    again = pickle.loads(pickle.dumps(filled, protocol))
+    for name in ("points", "faces", "labels", "node_types"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(filled, name))
+    assert again.report == filled.report and again.background == filled.background
+    np.testing.assert_array_equal(again.voxelise(), filled.voxelise())
+    np.testing.assert_array_equal(again.simplify(reduce=0.3).points, filled.simplify(reduce=0.3).points)
+
+
+def test_a_pickle_of_unsigned_labels(two_boxes):
+    large = 2**64 - 2
+    made = regionmesh.reconstruct(two_boxes.astype(np.uint64) * np.uint64(2**63 - 1), names={large: "large"})
+    again = copy.deepcopy(made)
+    assert list(again.regions["name"]) == ["", "large"]
+    np.testing.assert_array_equal(again.labels, made.labels)
+    assert again.exterior_label == made.exterior_label and again.names == made.names
+
+
+def test_save_refuses_other_extensions(mesh, tmp_path):
+    with pytest.raises(OSError, match="model.xyz"):
+        mesh.save(tmp_path / "model.xyz")
+    with pytest.raises(OSError):
+        mesh.save(tmp_path / "no such folder" / "model.vtp")
+
+
+def test_save_per_region(mesh, tmp_path):
+    mesh.save(tmp_path / "organ.stl", per_region=True)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["organ-1.stl", "organ-2.stl"]
+
+
+def test_to_vtk(mesh):
+    pytest.importorskip("vtkmodules")
+    data = mesh.to_vtk()
+    assert data.GetNumberOfPoints() == len(mesh.points) and data.GetNumberOfPolys() == len(mesh)
+    assert data.GetCellData().GetArray("BoundaryLabels").GetNumberOfComponents() == 2
+    assert data.GetPoint(5) == tuple(mesh.points[5])
+
+
+def test_to_meshio(mesh, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    mesh.to_meshio().write(tmp_path / "model.vtu")
+    again = meshio.read(tmp_path / "model.vtu")
+    np.testing.assert_array_equal(again.points, mesh.points)
+    np.testing.assert_array_equal(again.cells_dict["triangle"], mesh.faces)
+    np.testing.assert_array_equal(again.cell_data["BoundaryLabels"][0], mesh.labels)
+
+
+def test_to_trimesh(mesh):
+    trimesh = pytest.importorskip("trimesh")
+    box = mesh.to_trimesh(1)
+    assert isinstance(box, trimesh.Trimesh) and box.is_watertight
+    assert box.volume == pytest.approx(mesh.regions["volume"][0])
+
+
+def test_to_pyvista(mesh):
+    pyvista = pytest.importorskip("pyvista")
+    data = mesh.to_pyvista()
+    assert isinstance(data, pyvista.PolyData) and data.n_cells == len(mesh)
+
+
+def test_the_view_is_self_contained(filled):
+    page = filled._repr_html_()
+    assert "24 regions" in page and "certified" in page
+    assert "http" not in page and "@" not in page
+    assert page == filled._repr_html_()
+
+
+def test_the_view_of_a_large_model_is_small(grains):
+    large = regionmesh.reconstruct(grains.repeat(3, 0).repeat(3, 1).repeat(3, 2), background=None)
+    assert len(large) > 30_000
+    assert len(large._repr_html_()) < 600_000
+
+
+def test_the_view_of_nothing():
+    assert "0 faces" in regionmesh.reconstruct(np.zeros((3, 3, 3), int))._repr_html_()
+
+
+def test_repr_and_length(mesh):
+    assert repr(mesh) == f"<regionmesh.Mesh: {len(mesh.faces)} faces, {len(mesh.points)} points, 2 regions, certified>"

@@ -1,0 +1,115 @@
+"""The program, the wheel, the stubs."""
+
+import os
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import regionmesh
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILT = Path(regionmesh.__file__).parent.parent.parent
+
+
+def run(*arguments, **options):
+    return subprocess.run(arguments, capture_output=True, text=True, **options)
+
+
+def test_the_module_is_the_program(two_boxes, tmp_path):
+    np.save(tmp_path / "labels.npy", two_boxes)
+    done = run(sys.executable, "-m", "regionmesh", "reconstruct", tmp_path / "labels.npy", "-o", tmp_path / "model.vtp")
+    assert done.returncode == 0, done.stderr
+    made = regionmesh.load(tmp_path / "model.vtp")
+    np.testing.assert_array_equal(made.points, regionmesh.reconstruct(two_boxes).points)
+
+
+@pytest.mark.parametrize("arguments, code", [(["--version"], 0), (["reconstruct"], 2), (["check", "no.vtp"], 1)])
+def test_the_program_returns_its_exit_code(arguments, code):
+    done = run(sys.executable, "-m", "regionmesh", *arguments)
+    assert done.returncode == code
+    if arguments == ["--version"]:
+        assert done.stdout.strip() == regionmesh.__version__
+
+
+def test_the_version_is_that_of_the_project():
+    assert f"project(regionmesh VERSION {regionmesh.__version__} " in (ROOT / "CMakeLists.txt").read_text()
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """The wheel of what is built, by the hooks that pip calls."""
+    folder = tmp_path_factory.mktemp("wheel")
+    hook = f"import regionmesh_backend as b; print(b.build_wheel({str(folder)!r}, {{'build-dir': {str(BUILT)!r}}}))"
+    done = run(sys.executable, "-c", hook, cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT / "python/backend")})
+    assert done.returncode == 0, done.stderr
+    return folder / done.stdout.strip()
+
+
+def test_a_wheel_works_where_it_is_unpacked(wheel, tmp_path, two_boxes):
+    assert run(sys.executable, "-m", "zipfile", "-e", wheel, tmp_path).returncode == 0
+    (tmp_path / "regionmesh/bin/regionmesh").chmod(0o755)
+    program = """if True:
+        import numpy as np, regionmesh
+        labels = np.zeros((5, 5, 5), int)
+        labels[2, 2, 2] = 1
+        print(regionmesh.__file__, regionmesh.reconstruct(labels).certified)
+    """
+    environment = {"PYTHONPATH": str(tmp_path), "PATH": os.environ["PATH"]}
+    done = run(sys.executable, "-c", program, env=environment, cwd=tmp_path)
+    assert done.stdout.split() == [str(tmp_path / "regionmesh/__init__.py"), "True"], done.stderr
+    assert run(sys.executable, "-m", "regionmesh", "--version", env=environment, cwd=tmp_path).returncode == 0
+
+
+def test_a_wheel_brings_the_libraries_that_it_loads(wheel, tmp_path):
+    run(sys.executable, "-m", "zipfile", "-e", wheel, tmp_path)
+    (module,) = (tmp_path / "regionmesh").glob("_core*.so")
+    brought = str(tmp_path / "regionmesh")
+    for file in (module, tmp_path / "regionmesh/bin/regionmesh"):
+        file.chmod(0o755)
+        lines = run("ldd", file).stdout.splitlines()
+        # libjpeg is loaded by libtiff, which knows nothing of the wheel.
+        found = [line for line in lines if any(name in line for name in ("libtbb", "libgmp", "libfmt", "libjpeg"))]
+        assert len(found) == 4
+        for line in found:
+            assert brought in line
+
+
+def test_pip_installs_the_wheel(wheel, tmp_path):
+    done = run(sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--target", tmp_path, wheel)
+    if "No module named pip" in done.stderr:
+        pytest.skip("pip is not installed")
+    assert done.returncode == 0, done.stderr
+    assert list(tmp_path.glob("*.dist-info/RECORD"))
+    assert run(tmp_path / "bin" / "regionmesh", "--version", env={"PYTHONPATH": str(tmp_path)}).returncode == 0
+
+
+def test_the_record_of_a_wheel_lists_every_file(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        names = set(archive.namelist())
+        (record,) = (name for name in names if name.endswith("/RECORD"))
+        listed = {line.split(",")[0] for line in archive.read(record).decode().splitlines()}
+    assert listed == names
+    assert {"regionmesh/__init__.py", "regionmesh/py.typed", "regionmesh/bin/regionmesh"} <= names
+
+
+def test_the_files_of_a_wheel_have_no_time_of_the_build(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        assert {info.date_time for info in archive.infolist()} == {(2000, 1, 1, 0, 0, 0)}
+
+
+def test_an_archive_of_sources_holds_what_a_build_needs(tmp_path):
+    sys.path.insert(0, str(ROOT / "python/backend"))
+    try:
+        import regionmesh_backend
+    finally:
+        sys.path.pop(0)
+    name = regionmesh_backend.build_sdist(tmp_path)
+    listed = run("tar", "-tzf", tmp_path / name).stdout.split()
+    base = name.removesuffix(".tar.gz")
+    for path in ("CMakeLists.txt", "pyproject.toml", "python/CMakeLists.txt", "src/base/stop.cpp", "PKG-INFO"):
+        assert f"{base}/{path}" in listed
+    assert not [path for path in listed if "__pycache__" in path]

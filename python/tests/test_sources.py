@@ -1,0 +1,411 @@
+"""Every form in which labels come."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import types
+
+import numpy as np
+import pytest
+
+import regionmesh
+
+INTEGERS = [np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64]
+
+
+def same(a, b):
+    np.testing.assert_array_equal(a.points, b.points)
+    np.testing.assert_array_equal(a.faces, b.faces)
+    np.testing.assert_array_equal(a.labels, b.labels)
+
+
+@pytest.mark.parametrize("dtype", INTEGERS)
+def test_every_integer_type(two_boxes, mesh, dtype):
+    made = regionmesh.reconstruct(two_boxes.astype(dtype))
+    np.testing.assert_array_equal(made.points, mesh.points)
+    assert made.labels.dtype == (np.uint64 if dtype == np.uint64 else np.int64)
+
+
+@pytest.mark.parametrize("dtype", [t for t in INTEGERS if np.dtype(t).itemsize > 1])
+def test_the_other_byte_order(two_boxes, mesh, dtype):
+    other = two_boxes.astype(np.dtype(dtype).newbyteorder())
+    assert not other.dtype.isnative
+    same(regionmesh.reconstruct(other), regionmesh.reconstruct(two_boxes.astype(dtype), sweep="z"))
+
+
+def test_bool(two_boxes):
+    made = regionmesh.reconstruct(two_boxes > 0)
+    assert list(made.regions["label"]) == [1]
+    same(made, regionmesh.reconstruct((two_boxes > 0).astype(np.uint8)))
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.complex64, object, "S1", "M8[s]"])
+def test_other_types_are_refused(two_boxes, dtype):
+    with pytest.raises(TypeError, match="give integers"):
+        regionmesh.reconstruct(two_boxes.astype(np.int64).astype(dtype))
+
+
+STRIDES = {
+    "fortran": lambda a: np.asfortranarray(a),
+    "reversed": lambda a: np.ascontiguousarray(a[::-1, ::-1, ::-1])[::-1, ::-1, ::-1],
+    "transposed": lambda a: np.ascontiguousarray(a.T).T,
+    "every second": lambda a: a.repeat(2, 0).repeat(3, 2)[::2, :, ::3],
+    "window": lambda a: np.pad(a, 3)[3:-3, 3:-3, 3:-3],
+    "field": lambda a: np.array(list(zip(a.ravel(), a.ravel())), [("x", "u1"), ("y", "u1")])["y"].reshape(a.shape),
+    "unaligned": lambda a: np.frombuffer(b"x" + a.astype("<i4").tobytes(), np.uint8)[1:].view("<i4").reshape(a.shape),
+    "read-only": lambda a: np.frombuffer(a.tobytes(), a.dtype).reshape(a.shape),
+}
+
+
+@pytest.mark.parametrize("name", STRIDES)
+def test_any_strides(two_boxes, mesh, name):
+    array = STRIDES[name](two_boxes)
+    np.testing.assert_array_equal(array, two_boxes)
+    np.testing.assert_array_equal(regionmesh.reconstruct(array).points, mesh.points)
+
+
+def test_a_broadcast_array_has_stride_zero():
+    section = np.zeros((8, 9), np.uint8)
+    section[2:6, 3:7] = 4
+    flat = np.broadcast_to(section, (50, 8, 9))
+    same(regionmesh.reconstruct(flat), regionmesh.reconstruct(flat.copy()))
+
+
+def test_an_array_is_not_copied():
+    """Zeros of numpy take no memory until they are written; a copy of these would take 512 MB."""
+    program = """if True:
+        import numpy as np, regionmesh, resource
+        labels = np.zeros((400, 400, 400), np.int64)
+        labels[10:20, 10:20, 10:20] = 1
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        assert regionmesh.reconstruct(labels).certified
+        print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+    """
+    kilobytes = int(subprocess.run([sys.executable, "-c", program], check=True, capture_output=True).stdout)
+    assert kilobytes < 150_000
+
+
+def test_negative_labels(two_boxes):
+    made = regionmesh.reconstruct(two_boxes.astype(np.int32) * -7)
+    assert list(made.regions["label"]) == [-14, -7]
+    assert made.exterior_label == -15
+
+
+def test_labels_of_64_bits(two_boxes):
+    factor = 2**61 - 1
+    made = regionmesh.reconstruct(two_boxes.astype(np.int64) * factor)
+    assert list(made.regions["label"]) == [factor, 2 * factor]
+    made = regionmesh.reconstruct(two_boxes.astype(np.uint64) * np.uint64(2**63 - 1) + np.uint64(0))
+    assert [int(label) for label in made.regions["label"]] == [2**63 - 1, 2**64 - 2]
+    assert made.labels.dtype == np.uint64
+
+
+def test_large_unsigned_labels_are_kept_and_background(two_boxes):
+    big = two_boxes.astype(np.uint64)
+    big[big == 2] = 2**64 - 1
+    big[big == 0] = 2**63 + 5
+    made = regionmesh.reconstruct(big, background=2**63 + 5, labels_to_keep=[2**64 - 1])
+    assert [int(label) for label in made.regions["label"]] == [2**64 - 1]
+    assert len(made.region(2**64 - 1).faces) == len(made)
+
+
+@pytest.mark.parametrize("shape", [(0, 4, 4), (4, 0, 4), (4, 4, 0), (1, 5, 5), (5, 1, 5), (5, 5, 1)])
+def test_a_volume_without_cells_is_refused(shape):
+    with pytest.raises(ValueError):
+        regionmesh.reconstruct(np.ones(shape, np.uint8))
+
+
+@pytest.mark.parametrize("shape", [(), (4,), (4, 4), (2, 4, 4, 4)])
+def test_other_numbers_of_axes_are_refused(shape):
+    with pytest.raises(ValueError, match="axes"):
+        regionmesh.reconstruct(np.ones(shape, np.uint8))
+
+
+@pytest.mark.parametrize("labels", [None, 5, 2.5, {1, 2}, object()])
+def test_what_is_no_volume_is_refused(labels):
+    with pytest.raises((TypeError, ValueError), match="labels"):
+        regionmesh.reconstruct(labels)
+
+
+def test_a_volume_of_background_has_no_faces():
+    made = regionmesh.reconstruct(np.zeros((4, 4, 4), np.uint8))
+    assert len(made) == 0 and made.points.shape == (0, 3) and made.labels.shape == (0, 2)
+    assert made.certified
+    assert len(made.regions["label"]) == 0 and len(made.interfaces["area"]) == 0
+    assert np.isnan(made.bounds).all()
+
+
+def test_nested_lists(two_boxes):
+    lists = [section.tolist() for section in two_boxes]
+    same(regionmesh.reconstruct(lists), regionmesh.reconstruct(two_boxes.astype(int)))
+
+
+# Iterators of sections
+
+
+def test_a_list_of_sections(two_boxes, mesh):
+    same(regionmesh.reconstruct(list(two_boxes), sweep=None), regionmesh.reconstruct(two_boxes, sweep="z"))
+
+
+def test_a_generator_of_known_length_is_streamed(two_boxes):
+    held = []
+
+    def sections():
+        for section in two_boxes:
+            held.append(True)
+            yield section.copy()
+
+    made = regionmesh.reconstruct(sections(), sections=len(two_boxes))
+    assert len(held) == len(two_boxes)
+    np.testing.assert_array_equal(made.points, regionmesh.reconstruct(two_boxes, sweep="z").points)
+    assert "samples" not in made.report  # read once: not compared
+
+
+def test_a_generator_of_unknown_length_goes_through_a_file(two_boxes, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    made = regionmesh.reconstruct(section for section in two_boxes)
+    same(made, regionmesh.reconstruct(two_boxes))
+    assert made.report["samples_wrong"] == 0
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_an_exception_of_a_generator_comes_through(two_boxes, known):
+    class Broken(Exception):
+        pass
+
+    def sections():
+        yield from two_boxes[:4]
+        raise Broken("scanner")
+
+    with pytest.raises(Broken, match="scanner"):
+        regionmesh.reconstruct(sections(), sections=len(two_boxes) if known else None)
+
+
+def test_a_generator_that_is_too_short_names_the_section(two_boxes):
+    with pytest.raises(ValueError, match="section 5: missing; 14 sections were announced"):
+        regionmesh.reconstruct(iter(two_boxes[:5]), sections=14)
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_sections_of_different_size_are_refused(two_boxes, known):
+    sections = [*two_boxes[:3], two_boxes[3, :5]]
+    with pytest.raises(ValueError, match="section 3: .*one size"):
+        regionmesh.reconstruct(iter(sections), sections=4 if known else None)
+
+
+@pytest.mark.parametrize("bad", [np.zeros((2, 3, 4), np.uint8), np.zeros(5, np.uint8)])
+def test_sections_with_other_axes_are_refused(two_boxes, bad):
+    with pytest.raises(ValueError, match="axes"):
+        regionmesh.reconstruct(iter([two_boxes[0], bad]), sections=2)
+
+
+def test_sections_of_floats_are_refused(two_boxes):
+    with pytest.raises(TypeError, match="give integers"):
+        regionmesh.reconstruct(iter(two_boxes.astype(float)), sections=14)
+
+
+def test_no_sections_are_refused():
+    with pytest.raises(ValueError, match="no sections"):
+        regionmesh.reconstruct(iter([]))
+
+
+def test_a_generator_is_closed_after_an_error(two_boxes):
+    closed = []
+
+    def sections():
+        try:
+            for _ in range(3):
+                yield two_boxes[0]
+            yield two_boxes[0, :3]
+        finally:
+            closed.append(True)
+
+    with pytest.raises(ValueError):
+        regionmesh.reconstruct(sections(), sections=9)
+    assert closed
+
+
+# Arrays on disk
+
+
+def test_a_memory_map(two_boxes, tmp_path):
+    np.save(tmp_path / "labels.npy", two_boxes)
+    mapped = np.load(tmp_path / "labels.npy", mmap_mode="r")
+    same(regionmesh.reconstruct(mapped), regionmesh.reconstruct(two_boxes))
+
+
+def test_zarr_is_read_a_chunk_at_a_time(two_boxes, tmp_path):
+    zarr = pytest.importorskip("zarr")
+    array = zarr.open(str(tmp_path / "a.zarr"), mode="w", shape=two_boxes.shape, chunks=(4, 12, 10), dtype="u1")
+    array[:] = two_boxes
+    same(regionmesh.reconstruct(array), regionmesh.reconstruct(two_boxes, sweep="z"))
+
+
+def test_h5py(two_boxes, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file.create_dataset("labels", data=two_boxes, chunks=(3, 5, 5), compression="gzip")
+    with h5py.File(tmp_path / "a.h5") as file:
+        same(regionmesh.reconstruct(file["labels"]), regionmesh.reconstruct(two_boxes, sweep="z"))
+
+
+def test_dask(two_boxes):
+    dask_array = pytest.importorskip("dask.array")
+    array = dask_array.from_array(two_boxes, chunks=(5, 6, 6))
+    same(regionmesh.reconstruct(array), regionmesh.reconstruct(two_boxes, sweep="z"))
+
+
+def test_an_array_on_disk_is_read_by_slabs_of_its_chunks(two_boxes):
+    class Array:
+        shape, dtype, chunks = two_boxes.shape, two_boxes.dtype, (4, 12, 10)
+        reads = []
+
+        def __getitem__(self, key):
+            self.reads.append((key.start, key.stop))
+            return two_boxes[key]
+
+    same(regionmesh.reconstruct(Array()), regionmesh.reconstruct(two_boxes, sweep="z"))
+    assert Array.reads[:4] == [(0, 4), (4, 8), (8, 12), (12, 16)]
+
+
+def test_an_exception_of_an_array_on_disk_comes_through(two_boxes):
+    class Array:
+        shape, dtype = two_boxes.shape, two_boxes.dtype
+
+        def __getitem__(self, key):
+            raise OSError("disk")
+
+    with pytest.raises(OSError, match="disk"):
+        regionmesh.reconstruct(Array())
+
+
+def test_an_object_with_types_of_its_own_becomes_an_array(two_boxes, mesh):
+    class Tensor:
+        shape, dtype = two_boxes.shape, "its uint8"
+
+        def __array__(self, dtype=None):
+            return two_boxes
+
+    same(regionmesh.reconstruct(Tensor()), mesh)
+
+
+# Images
+
+
+def test_nibabel_gives_spacing_origin_and_axes(two_boxes, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    affine = np.array([[0, -2.0, 0, 5], [1, 0, 0, 6], [0, 0, 3, 7], [0, 0, 0, 1]])
+    image = nibabel.Nifti1Image(np.ascontiguousarray(two_boxes.T), affine)
+    nibabel.save(image, tmp_path / "labels.nii.gz")
+    expected = regionmesh.reconstruct(
+        two_boxes, sweep="z", spacing=(1, 2, 3), origin=(5, 6, 7), direction=[[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+    )
+    for opened in (image, nibabel.load(tmp_path / "labels.nii.gz")):
+        made = regionmesh.reconstruct(opened, sweep="z")
+        np.testing.assert_allclose(made.points, expected.points)
+    from_file = regionmesh.reconstruct(tmp_path / "labels.nii.gz", sweep="z")
+    np.testing.assert_allclose(from_file.points, expected.points)
+
+
+def test_nibabel_with_sheared_axes_is_refused(two_boxes):
+    nibabel = pytest.importorskip("nibabel")
+    affine = np.array([[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+    with pytest.raises(ValueError, match="orthonormal"):
+        regionmesh.reconstruct(nibabel.Nifti1Image(two_boxes, affine))
+
+
+def test_an_image_of_simpleitk(two_boxes):
+    simpleitk = pytest.importorskip("SimpleITK")
+    image = simpleitk.GetImageFromArray(two_boxes)
+    image.SetSpacing((1, 2, 4))
+    image.SetOrigin((10, 20, 30))
+    same(regionmesh.reconstruct(image), regionmesh.reconstruct(two_boxes, spacing=(1, 2, 4), origin=(10, 20, 30)))
+
+
+def test_the_interface_of_simpleitk(two_boxes, monkeypatch):
+    """The four functions that are called, where SimpleITK is not installed."""
+    module = types.ModuleType("itk_like")
+    module.GetArrayViewFromImage = lambda image: image.data
+
+    class Image:
+        __module__ = "itk_like"
+        data = two_boxes
+
+        def GetSpacing(self):
+            return (1.0, 2.0, 4.0)
+
+        def GetOrigin(self):
+            return (10.0, 20.0, 30.0)
+
+        def GetDirection(self):
+            return (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+
+    monkeypatch.setitem(sys.modules, "itk_like", module)
+    same(regionmesh.reconstruct(Image()), regionmesh.reconstruct(two_boxes, spacing=(1, 2, 4), origin=(10, 20, 30)))
+
+
+# Files
+
+
+def test_a_path(two_boxes, mesh, tmp_path):
+    np.save(tmp_path / "labels.npy", two_boxes)
+    for path in (tmp_path / "labels.npy", str(tmp_path / "labels.npy"), [tmp_path / "labels.npy"]):
+        same(regionmesh.reconstruct(path), mesh)
+
+
+def test_a_model_of_a_file_knows_its_lattice(two_boxes, tmp_path):
+    np.save(tmp_path / "labels.npy", two_boxes)
+    made = regionmesh.reconstruct(tmp_path / "labels.npy", spacing=(1, 2, 3))
+    again = made.voxelise()
+    assert again.dtype == np.uint8
+    np.testing.assert_array_equal(again, two_boxes)
+    assert made.check(two_boxes)["samples_wrong"] == 0
+
+
+def test_a_path_takes_the_options_of_its_format(two_boxes, tmp_path):
+    (tmp_path / "labels.raw").write_bytes(two_boxes.tobytes())
+    made = regionmesh.reconstruct(tmp_path / "labels.raw", size=(10, 12, 14), type="uint8", spacing=(1, 2, 3))
+    same(made, regionmesh.reconstruct(two_boxes, spacing=(1, 2, 3)))
+
+
+def test_a_table_of_points(tmp_path):
+    random = np.random.default_rng(0)
+    points = random.uniform(0, 10, (300, 3))
+    rows = "".join(f"{x},{y},{z},{1 + (x > 5)}\n" for x, y, z in points)
+    (tmp_path / "points.csv").write_text("x,y,z,label\n" + rows)
+    try:
+        made = regionmesh.reconstruct(tmp_path / "points.csv", background=None)
+    except ValueError as error:
+        assert "regionmesh-delaunay: not found" in str(error)
+        pytest.skip("regionmesh-delaunay is not built")
+    assert list(made.regions["label"]) == [1, 2]
+
+
+def test_a_missing_file_is_not_found(tmp_path):
+    with pytest.raises(FileNotFoundError, match="nothing.nii.gz"):
+        regionmesh.reconstruct(tmp_path / "nothing.nii.gz")
+    with pytest.raises(FileNotFoundError, match="nothing.vtp"):
+        regionmesh.load(tmp_path / "nothing.vtp")
+
+
+@pytest.mark.parametrize("name, text", [("a.nrrd", "no header"), ("a.txt", "text"), ("a.npy", "")])
+def test_a_damaged_file_raises_one_line(tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ValueError) as raised:
+        regionmesh.reconstruct(tmp_path / name)
+    assert name in str(raised.value) and "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("option", [{"origin": (0, 0, 0)}, {"direction": np.eye(3)}])
+def test_place_in_space_is_that_of_the_file(tmp_path, two_boxes, option):
+    np.save(tmp_path / "labels.npy", two_boxes)
+    with pytest.raises(TypeError, match="of the file"):
+        regionmesh.reconstruct(tmp_path / "labels.npy", **option)
+
+
+@pytest.mark.parametrize("option", ["layer", "size", "type", "columns", "step", "scale_z", "array"])
+def test_options_of_files_do_not_apply_to_arrays(two_boxes, option):
+    with pytest.raises(TypeError, match=f"{option} applies to files"):
+        regionmesh.reconstruct(two_boxes, **{option: 1})

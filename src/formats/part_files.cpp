@@ -1,0 +1,138 @@
+#include "formats/part_files.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <map>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include "regionmesh/output_file.h"
+
+namespace regionmesh {
+namespace formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMark = ".part-";
+/// Of the 255 bytes of a file name: leaves room for the rest of a temporary name.
+constexpr std::size_t kLongestName = 200;
+
+struct Parts {
+    std::mutex mutex;
+    std::map<const OutputFile*, fs::path> paths;
+};
+
+/// Never destroyed: the thread that waits for signals may outlive main().
+Parts& parts() {
+    static Parts* const all = new Parts;
+    return *all;
+}
+
+/// Whether a process with the id that the name ends with is alive; true for a name that is none of ours.
+bool has_living_writer(std::string_view name) {
+    const std::size_t mark = name.rfind(kMark);
+    if (mark == std::string_view::npos) return true;
+    name.remove_prefix(mark + kMark.size());
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
+    const bool is_id = error == std::errc{} && process > 0 && (end == name.data() + name.size() || *end == '-');
+    return !is_id || ::kill(process, 0) == 0 || errno != ESRCH;
+}
+
+/// A writer on another machine, or in another container, holds the lock of its file.
+bool is_locked(const fs::path& part) {
+    const int file = ::open(part.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) return true;
+    const bool is_held = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(file);
+    return is_held;
+}
+
+}  // namespace
+
+std::string part_name(const fs::path& target, int attempt) {
+    std::string name =
+        "." + target.filename().string().substr(0, kLongestName) + std::string(kMark) + std::to_string(::getpid());
+    if (attempt > 0) name += "-" + std::to_string(attempt);
+    return name;
+}
+
+void note_part(const OutputFile* output, const fs::path& part) {
+    const std::lock_guard lock(parts().mutex);
+    parts().paths[output] = fs::absolute(part);
+}
+
+void forget_part(const OutputFile* output) noexcept {
+    const std::lock_guard lock(parts().mutex);
+    parts().paths.erase(output);
+}
+
+PartsHeld::PartsHeld() : lock_(parts().mutex) {}
+
+void remove_stale_parts(const fs::path& target, bool per_region) {
+    const std::string whole = "." + target.filename().string().substr(0, kLongestName) + std::string(kMark);
+    const std::string region = "." + target.stem().string() + "-",
+                      has = target.extension().string() + std::string(kMark);
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::error_code ignored;
+    for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end; at.increment(ignored)) {
+        const std::string name = at->path().filename().string();
+        const bool is_ours =
+            name.starts_with(whole) || (per_region && name.starts_with(region) && name.find(has) != std::string::npos);
+        std::error_code unknown;
+        if (is_ours && at->is_regular_file(unknown) && !has_living_writer(name) && !is_locked(at->path()))
+            fs::remove(at->path(), unknown);
+    }
+}
+
+}  // namespace formats
+
+void remove_outputs() noexcept {
+    const std::unique_lock lock(formats::parts().mutex, std::try_to_lock);  // a commit in this thread may hold it
+    if (!lock) return;
+    for (const auto& [output, part] : formats::parts().paths) ::unlink(part.c_str());
+}
+
+void remove_outputs_on_signals() {
+    sigset_t waited;
+    ::sigemptyset(&waited);
+    bool is_any = false;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction now {};
+        if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) continue;
+        ::sigaddset(&waited, signal);
+        is_any = true;
+    }
+    if (!is_any) return;
+    formats::parts();
+    // All threads that start later inherit the mask; so only the thread below gets these signals.
+    ::pthread_sigmask(SIG_BLOCK, &waited, nullptr);
+    const auto wait_and_remove = [waited] {
+        int signal = 0;
+        while (::sigwait(&waited, &signal) != 0) {
+        }
+        const std::lock_guard lock(formats::parts().mutex);  // kept to the end: no file is made or renamed any more
+        for (const auto& [output, part] : formats::parts().paths) ::unlink(part.c_str());
+        ::signal(signal, SIG_DFL);
+        sigset_t one;
+        ::sigemptyset(&one);
+        ::sigaddset(&one, signal);
+        ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+        ::raise(signal);
+        ::_exit(128 + signal);
+    };
+    try {
+        std::thread(wait_and_remove).detach();
+    } catch (const std::system_error&) {  // no room for a thread: signals end the process as they do by default
+        ::pthread_sigmask(SIG_UNBLOCK, &waited, nullptr);
+    }
+}
+
+}  // namespace regionmesh

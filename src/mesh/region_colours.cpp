@@ -1,0 +1,127 @@
+#include "mesh/region_colours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace regionmesh {
+namespace {
+
+/// Of Okabe and Ito (2008) and Tol (2021), with light and dark tones, without the greys.
+constexpr std::array<std::uint32_t, 16> kPalette{0x56B4E9, 0xE69F00, 0x009E73, 0xCC6677, 0xF0E442, 0x4466BB,
+                                                 0xCC79A7, 0x88CCEE, 0xDDAA66, 0x44AA99, 0xEE8866, 0xAA4499,
+                                                 0xBBCC33, 0x8877CC, 0xD55E00, 0xFFAABB};
+
+using Colour = std::array<double, 3>;
+
+Colour linear_rgb(std::uint32_t colour) {
+    Colour rgb;
+    for (int n = 0; n < 3; ++n) {
+        const double value = (colour >> (16 - 8 * n) & 0xFF) / 255.0;
+        rgb[n] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    }
+    return rgb;
+}
+
+using Matrix = std::array<Colour, 3>;
+
+Colour product(const Matrix& matrix, const Colour& colour) {
+    Colour made{};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) made[row] += matrix[row][column] * colour[column];
+    return made;
+}
+
+/// What is seen of linear RGB: normal, and full protanopia and deuteranopia (Machado, Oliveira and Fernandes 2009).
+constexpr std::array<Matrix, 3> kEyes{
+    {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+     {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
+     {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}}}};
+
+/// CIE L*a*b* under D65.
+Colour lab(const Colour& rgb) {
+    constexpr Matrix kXyz{{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}};
+    constexpr Colour kWhite{0.9505, 1, 1.089};
+    Colour f = product(kXyz, rgb);
+    for (int n = 0; n < 3; ++n) {
+        const double t = std::max(f[n], 0.0) / kWhite[n];
+        f[n] = t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116;
+    }
+    return {116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])};
+}
+
+using Distances = std::array<std::array<double, kPalette.size()>, kPalette.size()>;
+
+/// The smallest distance in L*a*b* over all kinds of eyes.
+Distances palette_distances() {
+    Distances distances;
+    for (std::size_t a = 0; a < kPalette.size(); ++a)
+        for (std::size_t b = 0; b < kPalette.size(); ++b) {
+            double least = 1e9;
+            for (const Matrix& eye : kEyes) {
+                const Colour p = lab(product(eye, linear_rgb(kPalette[a])));
+                const Colour q = lab(product(eye, linear_rgb(kPalette[b])));
+                least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+            }
+            distances[a][b] = least;
+        }
+    return distances;
+}
+
+/// By place, the places of the regions with a common interface; no background.
+std::vector<std::set<std::uint32_t>> neighbours_of(const FileView& view) {
+    std::vector<std::set<std::uint32_t>> neighbours(view.labels().size());
+    const auto is_region = [&](Label label) { return !is_exterior(label) && !view.is_background(label); };
+    view.for_faces([&](FaceId f) {
+        const auto [a, b] = view.mesh()[f].labels;
+        if (!is_region(a) || !is_region(b)) return;
+        neighbours[view.rank(a)].insert(view.rank(b));
+        neighbours[view.rank(b)].insert(view.rank(a));
+    });
+    return neighbours;
+}
+
+constexpr std::size_t kNoColour = kPalette.size();
+
+/// A colour far from those of the neighbours and little used.
+std::size_t best_colour(const std::vector<std::size_t>& taken, const std::array<std::size_t, kPalette.size()>& uses,
+                        const Distances& distances) {
+    constexpr double kEnough = 30;  // differences above it are plain to see
+    constexpr double kPerUse = 5;   // of difference, for each use more than that of the least used colour
+    const std::size_t least = *std::ranges::min_element(uses);
+    std::size_t best = 0;
+    double best_score = -std::numeric_limits<double>::infinity();
+    for (std::size_t colour = 0; colour < kPalette.size(); ++colour) {
+        double distance = kEnough;
+        for (const std::size_t other : taken) distance = std::min(distance, distances[colour][other]);
+        const double score = distance - kPerUse * static_cast<double>(std::min<std::size_t>(uses[colour] - least, 2));
+        if (score > best_score) best = colour, best_score = score;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> region_colours(const FileView& view) {
+    static const Distances kDistances = palette_distances();
+    const auto neighbours = neighbours_of(view);
+    std::vector<std::uint32_t> order(neighbours.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, std::greater{}, [&](std::uint32_t place) { return neighbours[place].size(); });
+    std::vector<std::size_t> chosen(neighbours.size(), kNoColour);
+    std::array<std::size_t, kPalette.size()> uses{};
+    for (const std::uint32_t place : order) {
+        std::vector<std::size_t> taken;
+        for (const std::uint32_t other : neighbours[place])
+            if (chosen[other] != kNoColour) taken.push_back(chosen[other]);
+        ++uses[chosen[place] = best_colour(taken, uses, kDistances)];
+    }
+    std::vector<std::uint32_t> colours;
+    for (const std::size_t colour : chosen) colours.push_back(kPalette[colour]);
+    return colours;
+}
+
+}  // namespace regionmesh

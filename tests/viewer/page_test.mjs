@@ -1,0 +1,273 @@
+// The page in a browser.  page_test.mjs PROGRAM REPOSITORY FOLDER
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { launch, open, picture } from "./browser.mjs";
+
+const [program, repository, folder] = process.argv.slice(2);
+mkdirSync(folder, { recursive: true });
+const run = (...words) => execFileSync(program, words, { encoding: "utf8" });
+
+async function shows_lists_and_isolates(browser) {
+    run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/poly.vtp`, "--reduce", "80%", "--quiet");
+    run("view", `${folder}/poly.vtp`, "-o", `${folder}/poly.html`);
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const whole = await picture(page);
+    assert.ok(whole.drawn > 0.2, `draws ${whole.drawn} of the picture`);
+    assert.ok(whole.colours > 100, `${whole.colours} colours`);
+    assert.equal(await page.$$eval("#region-rows .row", (rows) => rows.length), 10);
+
+    await page.click("#region-rows .row:nth-child(3) .row-only");
+    const one = await picture(page);
+    assert.ok(one.drawn > 0 && one.drawn < whole.drawn, `one region draws ${one.drawn}`);
+    assert.equal(await page.$eval("#region-count", (e) => e.textContent), "10 of 10 regions, 9 hidden");
+    await page.click("#show-all");
+    assert.equal((await picture(page)).sum, whole.sum, "all regions are shown again");
+
+    await page.type("#region-search", "region 1");
+    assert.equal(await page.$eval("#region-count", (e) => e.textContent), "2 of 10 regions");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function cuts_colours_and_explodes(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const seen = new Set([(await picture(page)).sum]);
+    const isNew = async (what) => {
+        const { sum, drawn } = await picture(page);
+        assert.ok(drawn > 0.05, `${what} draws ${drawn}`);
+        assert.ok(!seen.has(sum), `${what} changes nothing`);
+        seen.add(sum);
+    };
+    for (const axis of ["x", "y", "z"]) {
+        await page.select("#section-axis", axis);
+        await isNew(`section across ${axis}`);
+    }
+    await page.select("#section-axis", "x");
+    assert.ok(await capsHoldNoHoles(page), "a section of a solid block has no holes");
+    await page.select("#section-axis", "none");
+    for (const what of ["interface", "quality", "curvature"]) {
+        await page.select("#colour-by", what);
+        await isNew(`colours by ${what}`);
+        assert.equal(await page.$eval("#legend", (e) => e.hidden), what === "interface");
+    }
+    await page.select("#colour-by", "region");
+    for (const id of ["show-edges", "show-flat", "show-lines", "show-points"]) {
+        await page.click(`#${id}`);
+        await isNew(id);
+    }
+    const [found, report] = await page.evaluate("(({ edgeCount, pointCount }) => [{ edgeCount, pointCount }, regionmesh.data.report.quadruple_points_inside])(regionmesh.stage.drawn[0].lineParts)");
+    assert.ok(found.edgeCount > 0 && found.pointCount >= report, `${found.pointCount} points, ${report} of them inside`);
+    await page.click("#region-rows .row .row-only");
+    const [some, all] = await page.evaluate("[regionmesh.stage.drawn[0].lines.geometry.index.count, 2 * regionmesh.stage.drawn[0].lineParts.edgeCount]");
+    assert.ok(some > 0 && some < all, "lines of hidden regions are not drawn");
+    await page.click("#show-all");
+    await page.$eval("#explode", (e) => {
+        e.value = 0.5;
+        e.dispatchEvent(new Event("input"));
+    });
+    await isNew("exploded view");
+    await page.click("#theme");
+    await isNew("other theme");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function keys_and_focus_reach_everything(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const before = await picture(page);
+    await page.focus("#canvas");
+    await page.keyboard.press("ArrowLeft");
+    assert.notEqual((await picture(page)).sum, before.sum, "an arrow key turns the picture");
+    await page.focus("#region-rows .row-name");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    assert.equal(await page.evaluate("regionmesh.regions.selected === regionmesh.list.found[1]"), true);
+    await page.keyboard.press("i");
+    assert.equal(await page.$eval("#region-count", (e) => e.textContent), "10 of 10 regions, 9 hidden");
+    await page.keyboard.press("?");
+    assert.ok(await page.$eval("#keys", (e) => e.open));
+    await page.keyboard.press("Escape");
+    const unnamed = await page.$$eval("button, input, select, canvas", (found) => found.filter((e) =>
+        !(e.getAttribute("aria-label") || e.textContent.trim() || e.closest("label")?.textContent.trim())).map((e) => e.outerHTML));
+    assert.deepEqual(unnamed, [], "every control has a name");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function large_models_are_shown_as_a_preview(browser) {
+    run("view", `${folder}/poly.vtp`, "-o", `${folder}/preview.html`, "--preview-faces", "9000");
+    const errors = [], page = await open(browser, `${folder}/preview.html`, errors);
+    assert.ok((await page.$eval("#summary", (e) => e.textContent)).includes("preview"));
+    assert.ok((await picture(page)).drawn > 0.2);
+    const faces = await page.evaluate("[regionmesh.models[0].faces, regionmesh.models[0].shown_faces, regionmesh.models[0].geometry.faces]");
+    assert.ok(faces[1] <= 9000 && faces[2] === faces[1] && faces[0] > 20000, `${faces}`);
+    const bytes = statSync(`${folder}/poly.html`).size - statSync(`${repository}/viewer/dist/page.html`).size;
+    assert.ok(bytes < 12 * faces[0], `${bytes / faces[0]} bytes a face`);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+/** Looks along the normal of the section: every pixel near the middle is of the cut, none of the background. */
+function capsHoldNoHoles(page) {
+    return page.evaluate(() => {
+        const { stage, tools } = window.regionmesh;
+        stage.setDirection([1, 0, 0.0001]);
+        tools.setSection("x");
+        stage.setCoarse(false);
+        stage.renderNow();
+        const gl = stage.renderer.getContext(), [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+        const size = 200, pixels = new Uint8Array(4 * size * size);
+        gl.readPixels((width - size) / 2, (height - size) / 2, size, size, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        for (let n = 0; n < pixels.length; n += 4)
+            if (((pixels[n] << 16) | (pixels[n + 1] << 8) | pixels[n + 2]) === stage.background) return false;
+        return true;
+    });
+}
+
+async function a_click_names_the_region(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const box = await (await page.$("#canvas")).boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    const told = await page.$eval("#info", (e) => e.textContent);
+    for (const word of ["Region", "Interface", "Area", "Quality of the face"]) assert.ok(told.includes(word), told);
+    const label = await page.evaluate("window.regionmesh.regions.selected.label");
+    await page.keyboard.press("h");
+    assert.equal(await page.evaluate((l) => window.regionmesh.regions.byLabel.get(l).state, label), "hidden");
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    assert.notEqual(await page.evaluate("window.regionmesh.regions.selected?.label"), label, "a hidden region is not hit");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function tables_equal_the_report(browser) {
+    const volume = `${repository}/tests/data/solvers/in100.nii.gz`;
+    run("reconstruct", volume, "-o", `${folder}/in.vtp`, "--reduce", "70%", "--quiet", "--report", `${folder}/in.json`, "--html", `${folder}/in.html`);
+    const report = JSON.parse(readFileSync(`${folder}/in.json`, "utf8"));
+    const errors = [], page = await open(browser, `${folder}/in.html`, errors);
+    const rows = (await downloaded(page, "csv")).trim().split("\r\n").map((line) => line.split(","));
+    const json = JSON.parse(await downloaded(page, "json"));
+    assert.equal(rows.length, report.regions.length + 1);
+    const dice = new Map(report.dice_of_regions.map((row) => [row.label, row.dice]));
+    report.regions.forEach((region, n) => {
+        const cells = Object.fromEntries(rows[0].map((name, column) => [name, rows[n + 1][column]]));
+        assert.equal(cells.label, String(region.label));
+        assert.equal(json[n].label, String(region.label));
+        for (const key of ["volume", "area", "euler", "components", "volume_unsmoothed", "volume_change"]) {
+            assert.equal(Number(cells[key]), region[key], key);
+            assert.equal(json[n][key], region[key], key);
+        }
+        assert.equal(Number(cells.dice), dice.get(region.label));
+    });
+    assert.deepEqual(JSON.parse(await downloaded(page, "report")).verdicts, report.verdicts);
+    await page.click('#region-table [data-column="volume"] button');
+    const volumes = await page.$$eval('#region-table tbody tr td:nth-child(3)', (cells) => cells.map((e) => Number(e.textContent.replaceAll(",", ""))));
+    assert.deepEqual(volumes, [...volumes].sort((a, b) => b - a));
+    assert.equal(await page.$$eval(".certificates .good", (found) => found.length) >= 3, true);
+    assert.equal(await page.$$eval("svg.histogram", (found) => found.length), 2);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+/** The text of the file that a button saves. */
+async function downloaded(page, id) {
+    return page.evaluate(async (button) => {
+        let blob;
+        const make = URL.createObjectURL;
+        URL.createObjectURL = (given) => make.call(URL, (blob = given));
+        document.getElementById(button).click();
+        URL.createObjectURL = make;
+        return blob.text();
+    }, id);
+}
+
+async function a_planted_violation_is_found(browser) {
+    // The first face of a text file goes: three open edges.
+    run("convert", `${folder}/in.vtp`, `${folder}/in.obj`);
+    const lines = readFileSync(`${folder}/in.obj`, "utf8").split("\n");
+    lines.splice(lines.findIndex((line) => line.startsWith("f ")), 1);
+    writeFileSync(`${folder}/open.obj`, lines.join("\n"));
+    assert.equal(lines.length > 100, true);
+    run("view", `${folder}/open.obj`, "-o", `${folder}/open.html`);
+    const errors = [], page = await open(browser, `${folder}/open.html`, errors);
+    assert.ok(await page.$eval(".certificates .bad", (e) => e.textContent.includes("open edge")));
+    const before = await picture(page);
+    await page.click("#violation-next");
+    const told = await page.$eval("#violation", (e) => e.textContent);
+    assert.ok(/^1 of \d+: .*edge/.test(told), told);
+    assert.notEqual((await picture(page)).sum, before.sum, "goes to the place");
+    const first = told;
+    await page.keyboard.press("v");
+    assert.notEqual(await page.$eval("#violation", (e) => e.textContent), first);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function two_models_share_a_camera(browser) {
+    run("decimate", `${folder}/in.vtp`, "-o", `${folder}/fewer.vtp`, "--reduce", "50%", "--quiet");
+    run("compare", `${folder}/in.vtp`, `${folder}/fewer.vtp`, "--html", `${folder}/compare.html`, "--quiet");
+    const errors = [], page = await open(browser, `${folder}/compare.html`, errors);
+    const halves = () => page.evaluate(() => {
+        const { stage } = window.regionmesh;
+        stage.renderNow();
+        const gl = stage.renderer.getContext(), [width, height] = [gl.drawingBufferWidth >> 1, gl.drawingBufferHeight];
+        return [0, width].map((left) => {
+            const pixels = new Uint8Array(4 * width * height);
+            gl.readPixels(left, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+            return pixels.filter((_, n) => n % 4 === 1 && pixels[n] !== ((stage.background >> 8) & 255)).length;
+        });
+    });
+    const whole = await halves();
+    assert.ok(whole[0] > 1000 && Math.abs(whole[0] - whole[1]) < 0.05 * whole[0], `${whole}`);
+    await page.evaluate("window.regionmesh.stage.zoom(1.5)");
+    const far = await halves();
+    assert.ok(far[0] < 0.6 * whole[0] && far[1] < 0.6 * whole[1], `${far} of ${whole}`);
+    await page.select("#colour-by", "distance");
+    assert.equal(await page.$eval("#legend", (e) => e.hidden), false);
+    await page.click("#region-rows .row .row-only");
+    assert.ok((await picture(page)).drawn > 0);
+    assert.ok(await page.$eval("#proof", (e) => e.textContent.includes("B to A")));
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function without_webgl_the_proof_is_there(repository) {
+    const other = await launch(repository, ["--disable-3d-apis"]);
+    try {
+        const errors = [], page = await open(other, `${folder}/in.html`, errors);
+        assert.ok(await page.$eval("#notice", (e) => !e.hidden && e.textContent.includes("hardware acceleration")));
+        assert.ok((await page.$$("#region-table tbody tr")).length > 10);
+    } finally {
+        await other.close();
+    }
+}
+
+async function hostile_names_are_text(browser) {
+    const names = ["</script><script>window.hacked=1</script>", "<img src=x onerror=window.hacked=1>", "<!--<script>", "\"'><svg onload=window.hacked=1>"];
+    writeFileSync(`${folder}/names.csv`, "label,name\n" + names.map((name, n) => `${n + 1},"${name.replaceAll('"', '""')}"\n`).join(""));
+    const model = `${folder}/<b onclick=window.hacked=1>.vtp`;
+    run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", model, "--reduce", "80%", "--quiet");
+    run("view", model, "-o", `${folder}/hostile.html`, "--names", `${folder}/names.csv`);
+    const errors = [], page = await open(browser, `${folder}/hostile.html`, errors);
+    await page.click("#region-rows .row .row-name");
+    const texts = await page.$$eval("#region-rows .row-name", (rows) => rows.map((row) => row.textContent));
+    for (const name of names) assert.ok(texts.includes(name), `${name} among ${texts.join(" ; ")}`);
+    assert.equal(await page.evaluate("window.hacked"), undefined, "text of a file ran");
+    assert.equal(await page.$$eval("body img, body b, #region-rows svg", (found) => found.length), 0);
+    assert.ok((await page.title()).startsWith("<b onclick"));
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+const browser = await launch(repository);
+try {
+    for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
+        large_models_are_shown_as_a_preview, a_click_names_the_region, tables_equal_the_report,
+        a_planted_violation_is_found, two_models_share_a_camera, hostile_names_are_text]) {
+        await test(browser);
+        console.log(`ok ${test.name}`);
+    }
+    await without_webgl_the_proof_is_there(repository);
+} finally {
+    await browser.close();
+}

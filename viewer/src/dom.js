@@ -1,0 +1,35 @@
+// Elements. Text always goes in as text: names in files are not trusted.
+
+/** An element with attributes and children; a child that is a string is text. `on...` are listeners. */
+export function element(tag, attributes = {}, ...children) {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) {
+        if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+        else if (value === true) made.setAttribute(name, "");
+        else if (value !== false && value !== null && value !== undefined) made.setAttribute(name, value);
+    }
+    made.append(...children.filter((child) => child !== null && child !== undefined && child !== false));
+    return made;
+}
+
+export const byId = (id) => document.getElementById(id);
+
+/** 1234567 as 1,234,567. */
+export const grouped = (count) => Math.round(count).toLocaleString("en");
+
+/** A few digits. */
+export function short(number, digits = 4) {
+    if (number === null || number === undefined || !Number.isFinite(number)) return "–";
+    if (number === 0) return "0";
+    const size = Math.abs(number);
+    if (size >= 1e7 || size < 1e-3) return number.toExponential(digits - 2);
+    return size >= 1000 ? grouped(number) : String(Number(number.toPrecision(digits)));
+}
+
+export const percent = (share) => `${short(100 * share, 3)} %`;
+
+export function download(name, type, content) {
+    const link = element("a", { href: URL.createObjectURL(new Blob([content], { type })), download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}

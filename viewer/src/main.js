@@ -1,0 +1,125 @@
+// Puts the page together.
+import { byId, download, element, grouped } from "./dom.js";
+import { loadModel } from "./geometry.js";
+import { addKeys } from "./keys.js";
+import { showProof } from "./proof.js";
+import { RegionList } from "./region_list.js";
+import { Regions } from "./regions.js";
+import { Stage } from "./stage.js";
+import { showTable } from "./table.js";
+import { addTheme } from "./theme.js";
+import { Tools } from "./tools.js";
+
+const kViews = { front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
+
+function say(text) {
+    byId("notice").textContent = text;
+    byId("notice").hidden = false;
+}
+
+function hasWebGl() {
+    try {
+        return Boolean(document.createElement("canvas").getContext("webgl2"));
+    } catch {
+        return false;
+    }
+}
+
+function showHead(data, models) {
+    byId("title").textContent = models.map(({ title }) => title).join(" and ");
+    const texts = models.map((model) => {
+        const regions = model.labels.filter(({ background }) => !background).length;
+        const preview = model.shown_faces < model.faces
+            ? ` (the picture shows a preview with ${grouped(model.shown_faces)} faces; all figures are of the whole model)` : "";
+        return `${grouped(model.faces)} faces, ${grouped(model.vertices)} vertices, ${grouped(regions)} regions${preview}`;
+    });
+    byId("summary").textContent = texts.join("; ");
+    if (models.length > 1)
+        byId("names").append(...models.map(({ title }, n) => element("span", {}, `${"AB"[n]}  ${title}`)));
+}
+
+function actions(stage, regions, title) {
+    const shown = () => stage.drawn.map((_, which) => regions.shown(which));
+    const view = (direction) => () => {
+        stage.setDirection(direction);
+        stage.fit(shown());
+    };
+    return {
+        fit: () => stage.fit(shown()),
+        front: view(kViews.front), side: view(kViews.side), top: view(kViews.top),
+        screenshot: () => stage.screenshot((blob) => download(`${title.replace(/[^\w.-]+/g, "_")}.png`, "image/png", blob)),
+        keys: () => byId("keys").showModal(),
+    };
+}
+
+/** A click is a press without a move; it selects a region and describes the face. */
+function addPicking(stage, regions, tools, list) {
+    let press = null;
+    const hitOf = (event) => stage.pickAt(event.clientX, event.clientY, stage.drawn.map((_, which) => regions.shown(which)));
+    stage.canvas.addEventListener("pointerdown", (event) => (press = [event.clientX, event.clientY, event.button]));
+    stage.canvas.addEventListener("pointerup", (event) => {
+        if (!press || press[2] !== 0 || Math.hypot(event.clientX - press[0], event.clientY - press[1]) > 4) return;
+        const hit = hitOf(event), region = hit ? regions.at(hit.which, hit.label) : null;
+        tools.describe(region, hit);
+        regions.select(region);
+        if (region) list.reveal(region);
+    });
+    stage.canvas.addEventListener("dblclick", (event) => {
+        const hit = hitOf(event);
+        if (hit) stage.lookAt(hit.at, stage.radius / 6);
+    });
+}
+
+function showModels(data, models, regions) {
+    const stage = new Stage(byId("canvas"), models);
+    stage.isOpen = (data.report?.violations ?? []).length > 0 || models.some((model) => model.is_open);
+    const lookAt = (region) => {
+        const which = region.places.findIndex((place) => place !== undefined);
+        stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === which && place === region.places[which])));
+    };
+    const list = new RegionList(regions, lookAt);
+    const act = actions(stage, regions, models[0].title);
+    const tools = new Tools({ stage, regions, models, fit: act.fit, violations: data.report?.violations ?? [] });
+    const update = () => {
+        stage.drawn.forEach((drawn, which) => {
+            drawn.show(regions.drawnStates(which));
+            drawn.uniforms.selected.value = regions.selected?.places[which] ?? -1;
+        });
+        stage.render();
+    };
+    regions.addEventListener("change", update);
+    update();
+    addPicking(stage, regions, tools, list);
+    stage.canvas.addEventListener("webglcontextlost", () => say("The graphics card gave up the picture: reload the page."));
+    for (const button of document.querySelectorAll("[data-act]")) button.addEventListener("click", act[button.dataset.act]);
+    addKeys({ stage, regions, tools, act });
+    addTheme((background) => stage.setBackground(background));
+    act.fit();
+    return { stage, regions, tools, list, act };
+}
+
+async function start() {
+    const data = JSON.parse(byId("page-data").textContent);
+    showHead(data, data.models);
+    const models = [];
+    for (const [n, model] of data.models.entries()) models.push(await loadModel(n, model));
+    const regions = new Regions(models);
+    let page = { regions };
+    if (hasWebGl()) page = showModels(data, models, regions);
+    else {
+        say("No picture: this browser has no WebGL 2. Turn on hardware acceleration in its settings, or open the page in " +
+            "a current Firefox, Chrome, Edge or Safari. The proof and the table below are complete.");
+        byId("model").hidden = true;
+        addTheme(() => {});
+    }
+    showProof(data);
+    showTable(data, regions);
+    page.stage?.renderNow();
+    window.regionmesh = { ...page, data, models, readyAfter: performance.now() };
+    document.documentElement.dataset.ready = "true";
+}
+
+start().catch((error) => {
+    console.error(error);
+    say(`The page could not be shown: ${error.message}`);
+});

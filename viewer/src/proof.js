@@ -1,0 +1,156 @@
+// What was proved, and what the run did: from the report in the page.
+import { barRow, histogram } from "./charts.js";
+import { byId, element, grouped, short } from "./dom.js";
+
+const sum = (numbers) => Object.values(numbers ?? {}).reduce((a, b) => a + b, 0);
+const kOfLabels = ["euler", "quadruple_points", "region_pairs", "nesting"];
+
+/** { name, verdict: "good" | "bad" | "none", said, meaning } */
+function certificates(data) {
+    const { report } = data;
+    return [samplesKept(report), violations(report), topology(data, report), qualityFloor(data, report), errorBound(data, report), sameBytes(data)];
+}
+
+function samplesKept({ samples, samples_wrong: wrong, dice }) {
+    const meaning = "Every sample of the input lies in the region of its label. Tested for each sample, in exact arithmetic.";
+    if (samples === undefined) return { name: "Samples kept", verdict: "none", said: "not tested: the input was not at hand", meaning };
+    if (wrong === 0) return { name: "Samples kept", verdict: "good", said: `all ${grouped(samples)}`, meaning };
+    return { name: "Samples kept", verdict: "bad", said: `${grouped(wrong)} of ${grouped(samples)} lie in another region; Dice ${dice.toFixed(6)}`, meaning };
+}
+
+function violations({ violation_counts: counts }) {
+    const found = Object.entries(counts).filter(([, count]) => count > 0);
+    return {
+        name: "Violations", verdict: found.length ? "bad" : "good",
+        said: found.length ? found.map(([kind, count]) => `${kind.replaceAll("_", " ")} ${grouped(count)}`).join(", ") : "none",
+        meaning: "No cracks, no folds, no crossing faces, no degenerate faces: every region is closed and its faces have one orientation. Crossing is tested in exact arithmetic.",
+    };
+}
+
+function topology({ has_labels: has }, { violation_counts: counts }) {
+    const meaning = "Euler characteristic of every region, number of quadruple points, and pairs of regions in contact equal those of the labels.";
+    if (!has) return { name: "Topology", verdict: "none", said: "not compared with labels", meaning };
+    const wrong = kOfLabels.reduce((count, kind) => count + (counts[kind] ?? 0), 0);
+    return { name: "Topology", verdict: wrong ? "bad" : "good", said: wrong ? `${grouped(wrong)} differences from the labels` : "equal to that of the labels", meaning };
+}
+
+function qualityFloor({ min_quality: bound }, { quality }) {
+    const meaning = "Quality is 0.26 for an equilateral face, 0 for a degenerate one. Decimation makes no face below its bound; faces that were below it may stay.";
+    if (bound === null) return { name: "Quality floor", verdict: "none", said: `lowest ${short(quality.min, 3)}; no bound was asked`, meaning };
+    if (quality.min >= bound * (1 - 1e-9))
+        return { name: "Quality floor", verdict: "good", said: `lowest ${short(quality.min, 3)}, at least the bound ${short(bound)}`, meaning };
+    const { bin_width: width, counts } = quality.histogram, all = sum(counts) || 1;
+    const below = counts.filter((_, n) => (n + 1) * width <= bound * (1 + 1e-9)).reduce((a, b) => a + b, 0);
+    return {
+        name: "Quality floor", verdict: "none", meaning,
+        said: `lowest ${short(quality.min, 3)}; ${short((100 * below) / all, 2)} % of the faces are below ${short(bound)}, left from before decimation`,
+    };
+}
+
+function errorBound({ max_error: bound }, { stopped }) {
+    const meaning = "The rms distance to the planes of the faces that a vertex stands for, since the last start of decimation.";
+    if (bound === null) return { name: "Error bound", verdict: "none", said: "none was asked", meaning };
+    return { name: "Error bound", verdict: "good", said: `at most ${short(bound)}${stopped === "max_error" ? "; decimation ended there" : ""}`, meaning };
+}
+
+function sameBytes({ models }) {
+    return {
+        name: "Same bytes", verdict: "none", said: `fingerprint ${models.map(({ fingerprint }) => fingerprint).join(", ")}`,
+        meaning: "Input and options alone decide the model, not the number of threads. A second run gives the same fingerprint of positions, faces and labels.",
+    };
+}
+
+const kMarks = { good: "✓", bad: "✗", none: "–" };
+const kWords = { good: "proved", bad: "failed", none: "no claim" };
+
+function certificateBox(data) {
+    const all = certificates(data), good = all.filter(({ verdict }) => verdict === "good").length;
+    const bad = all.filter(({ verdict }) => verdict === "bad").length;
+    return element("div", { class: "certificates" },
+        element("p", { class: "verdict" }, bad ? `${bad} of ${good + bad} claims failed` : `All ${good} claims proved`),
+        element("ul", {}, ...all.map(({ name, verdict, said, meaning }) =>
+            element("li", { class: verdict },
+                element("span", { class: "mark", role: "img", "aria-label": kWords[verdict] }, kMarks[verdict]),
+                element("div", {}, element("strong", {}, name), " ", element("span", { class: "said" }, said), element("p", {}, meaning))))));
+}
+
+function card(title, ...children) {
+    return element("article", { class: "card" }, element("h3", {}, title), ...children);
+}
+
+const kVerdictTexts = {
+    accepted: "collapsed", strata: "would change topology (strata)", link: "would change topology (link)", fold: "would fold a face",
+    quality: "would make a face of low quality", pinch: "would pinch a region", samples: "would lose a sample", intersect: "would make faces cross",
+};
+
+function verdictCard({ verdicts, stopped, refreshes }) {
+    const largest = Math.max(...Object.values(verdicts));
+    return card("Collapses of edges, by verdict",
+        element("table", { class: "bars" }, ...Object.entries(verdicts).map(([kind, count]) =>
+            barRow(kVerdictTexts[kind] ?? kind, count, largest, grouped(count), kind === "accepted"))),
+        element("p", { class: "hint" }, `Decimation ended: ${stopped.replaceAll("_", " ")}. Candidates gathered again: ${grouped(refreshes)} times.`));
+}
+
+function secondsCard({ seconds, peak_bytes: bytes }) {
+    const { total, ...stages } = seconds, largest = Math.max(...Object.values(stages), 1e-9);
+    const rows = Object.entries(stages).sort((a, b) => b[1] - a[1]);
+    return card("Seconds by stage",
+        element("table", { class: "bars" }, ...rows.map(([stage, time]) => barRow(stage, time, largest, time < 0.001 ? "< 0.001" : short(time, 3)))),
+        element("p", { class: "hint" }, `${total === undefined ? "" : `${short(total, 3)} s in all. `}${bytes ? `At most ${grouped(bytes / 1e6)} MB of memory.` : ""}`));
+}
+
+function qualityCards(qualities) {
+    const made = [];
+    for (const [name, quality] of qualities) {
+        const of = name ? ` of ${name}` : "";
+        made.push(
+            card(`Quality of faces${of}`, histogram(quality.histogram, "faces"),
+                element("p", { class: "hint" }, `lowest ${short(quality.min, 3)}, mean ${short(quality.mean, 3)}`)),
+            card(`Angles of faces${of}, degrees`, histogram(quality.angles, "angles"),
+                element("p", { class: "hint" }, `lowest ${short(quality.min_angle, 3)}, highest ${short(quality.max_angle, 4)}`)));
+    }
+    return made;
+}
+
+function distanceCard({ distance }) {
+    const rows = [["A to B", distance.a_to_b], ["B to A", distance.b_to_a], ["both", distance.both]];
+    return card("Distance between the models",
+        element("table", {}, element("tr", {}, ...["", "rms", "mean", "95 %", "largest"].map((text) => element("th", {}, text))),
+            ...rows.map(([name, d]) => element("tr", {}, element("th", {}, name),
+                ...[d.rms, d.mean, d.quantile_95, d.max].map((x) => element("td", {}, short(x)))))));
+}
+
+function onlyCard(report) {
+    const text = ({ regions, interfaces, lines }) => `${grouped(regions.length)} regions, ${grouped(interfaces.length)} interfaces, ${grouped(lines.length)} lines`;
+    return card("In one model only", element("p", {}, `A: ${text(report.only_in_a)}`), element("p", {}, `B: ${text(report.only_in_b)}`));
+}
+
+function commandCard(data) {
+    const copy = element("button", { type: "button", onclick: () => navigator.clipboard?.writeText(data.command_line) }, "Copy");
+    return card("Made by", element("pre", {}, data.command_line), copy);
+}
+
+/** Shows the report, and a line of certificates below the title. */
+export function showProof(data) {
+    const { report } = data, section = byId("proof");
+    section.append(element("h2", {}, data.command === "compare" ? "Comparison" : "Proof"));
+    const cards = element("div", { class: "cards" });
+    if (report && data.command === "compare") {
+        cards.append(distanceCard(report), onlyCard(report),
+            ...qualityCards([["A", report.quality.a], ["B", report.quality.b]]));
+    } else if (report) {
+        section.append(certificateBox(data));
+        showChips(data);
+        if (sum(report.verdicts) > 0) cards.append(verdictCard(report));
+        cards.append(...qualityCards([["", report.quality]]));
+        if (report.seconds) cards.append(secondsCard(report));
+    }
+    if (data.command_line) cards.append(commandCard(data));
+    section.append(cards);
+}
+
+function showChips(data) {
+    const chips = certificates(data).filter(({ verdict }) => verdict !== "none")
+        .map(({ name, verdict, said }) => element("a", { href: "#proof", class: `chip ${verdict}` }, `${kMarks[verdict]} ${name}: ${said}`));
+    byId("summary").after(element("p", { id: "chips" }, ...chips));
+}

@@ -1,0 +1,123 @@
+// The list of regions. Only the rows in view exist as elements, so that ten thousand regions cost what twenty do.
+import { byId, element, grouped, short } from "./dom.js";
+
+const kRowHeight = 30;
+const kOrders = {
+    volume: { value: (region) => -region.measures.volume, text: (region) => short(region.measures.volume, 3) },
+    area: { value: (region) => -region.measures.area, text: (region) => short(region.measures.area, 3) },
+    faces: { value: (region) => -region.measures.faces, text: (region) => grouped(region.measures.faces) },
+    name: { value: (region) => region.title.toLowerCase(), text: (region) => region.label },
+    label: { value: (region) => Number(region.label), text: (region) => region.label },
+};
+
+export class RegionList {
+    constructor(regions, lookAt) {
+        this.regions = regions;
+        this.lookAt = lookAt;
+        this.box = byId("region-rows");
+        this.space = element("div", { class: "row-space" });
+        this.box.append(this.space);
+        this.search = byId("region-search");
+        this.order = byId("region-order");
+        this.search.addEventListener("input", () => this.refilter());
+        this.order.addEventListener("change", () => this.refilter());
+        this.box.addEventListener("scroll", () => this.draw());
+        this.box.addEventListener("keydown", (event) => this.moveFocus(event));
+        new ResizeObserver(() => this.draw()).observe(this.box);
+        regions.addEventListener("change", () => this.draw());
+        for (const [id, act] of Object.entries({
+            "show-all": () => regions.setState(regions.all, "solid"),
+            "hide-all": () => regions.setState(this.found, "hidden"),
+            "ghost-all": () => regions.setState(this.found, "ghost"),
+            "only-found": () => this.showOnlyFound(),
+        })) byId(id).addEventListener("click", act);
+        this.refilter();
+    }
+
+    showOnlyFound() {
+        const found = new Set(this.found);
+        for (const region of this.regions.all) region.state = found.has(region) ? "solid" : "hidden";
+        this.regions.changed();
+    }
+
+    refilter() {
+        const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
+        const { value } = kOrders[this.order.value];
+        this.found = this.regions.all.filter((region) => {
+            const text = `${region.label} ${region.title}`.toLowerCase();
+            return words.every((word) => text.includes(word));
+        });
+        this.found.sort((a, b) => (value(a) < value(b) ? -1 : value(a) > value(b) ? 1 : 0));
+        this.box.scrollTop = 0;
+        this.draw();
+    }
+
+    /** Scrolls to a region, if it is in the list. */
+    reveal(region) {
+        const row = this.found.indexOf(region);
+        if (row < 0) return;
+        const top = row * kRowHeight, { scrollTop, clientHeight } = this.box;
+        if (top < scrollTop || top + kRowHeight > scrollTop + clientHeight) this.box.scrollTop = top - clientHeight / 2;
+        this.draw();
+    }
+
+    draw() {
+        const hidden = this.regions.all.filter((region) => region.state === "hidden").length;
+        byId("region-count").textContent =
+            `${grouped(this.found.length)} of ${grouped(this.regions.all.length)} regions` + (hidden ? `, ${grouped(hidden)} hidden` : "");
+        const first = Math.max(0, Math.floor(this.box.scrollTop / kRowHeight) - 4);
+        const last = Math.min(this.found.length, Math.ceil((this.box.scrollTop + (this.box.clientHeight || 600)) / kRowHeight) + 4);
+        this.space.style.height = `${this.found.length * kRowHeight}px`;
+        const focused = document.activeElement?.dataset?.focus;
+        this.space.replaceChildren();
+        for (let n = first; n < last; ++n) this.space.append(this.row(n));
+        if (focused) this.space.querySelector(`[data-focus="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
+    }
+
+    row(n) {
+        const region = this.found[n], { regions } = this;
+        const button = (kind, label, text, isPressed, act) =>
+            element("button", {
+                type: "button", class: `row-${kind}`, title: label, "aria-label": `${label}: ${region.title}`,
+                "aria-pressed": isPressed === null ? null : String(isPressed), "data-focus": `${kind} ${region.label}`,
+                tabindex: kind === "name" ? null : "-1", onclick: act,
+            }, text);
+        const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
+        swatch.style.background = region.colour;
+        const name = button("name", "Select", region.title, regions.selected === region, () => {
+            regions.select(region);
+            if (region.state === "hidden") regions.setState([region], "solid");
+        });
+        name.addEventListener("dblclick", () => this.lookAt(region));
+        const row = element("div", {
+            class: `row ${region.state}${regions.selected === region ? " selected" : ""}`, role: "listitem",
+            "aria-setsize": this.found.length, "aria-posinset": n + 1,
+        },
+            button("eye", region.state === "hidden" ? "Show" : "Hide", region.state === "hidden" ? "○" : "●", null,
+                () => regions.setState([region], region.state === "hidden" ? "solid" : "hidden")),
+            swatch, name,
+            element("span", { class: "row-value" }, kOrders[this.order.value].text(region)),
+            button("ghost", "See through", "◌", region.state === "ghost",
+                () => regions.setState([region], region.state === "ghost" ? "solid" : "ghost")),
+            button("only", "Isolate", "◉", null, () => regions.isolate(region)));
+        row.style.top = `${n * kRowHeight}px`;
+        return row;
+    }
+
+    /** Arrow keys walk the list; right and left reach the buttons of a row. */
+    moveFocus(event) {
+        const now = document.activeElement?.closest?.(".row");
+        if (!now || !["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"].includes(event.key)) return;
+        event.preventDefault();
+        event.stopPropagation();
+        const buttons = [...now.querySelectorAll("button")], at = buttons.indexOf(document.activeElement);
+        if (event.key === "ArrowLeft") buttons[Math.max(0, at - 1)].focus();
+        else if (event.key === "ArrowRight") buttons[Math.min(buttons.length - 1, at + 1)].focus();
+        else {
+            const next = Number(now.getAttribute("aria-posinset")) - 1 + (event.key === "ArrowDown" ? 1 : -1);
+            if (next < 0 || next >= this.found.length) return;
+            this.reveal(this.found[next]);
+            this.space.querySelector(`[aria-posinset="${next + 1}"] .row-name`)?.focus();
+        }
+    }
+}

@@ -1,0 +1,118 @@
+// The table of regions: sorted by any column, and as CSV and JSON with the numbers of the report.
+import { byId, download, element, grouped, short } from "./dom.js";
+
+const kFirstRows = 200;
+
+/** Columns of a report of one model: [name in files, title, value of a row, text]. */
+const kColumns = [
+    ["label", "Label", (row) => row.label, (value) => value],
+    ["name", "Name", (row) => row.name, (value) => value],
+    ["volume_unsmoothed", "Volume before", (row) => row.volume_unsmoothed, short],
+    ["volume", "Volume", (row) => row.volume, short],
+    ["volume_change", "Change", (row) => row.volume_change, (value) => `${value >= 0 ? "+" : ""}${(100 * value).toFixed(3)} %`],
+    ["dice", "Dice", (row) => row.dice, (value) => value.toFixed(5)],
+    ["area", "Area", (row) => row.area, short],
+    ["neighbours", "Neighbours", (row) => row.neighbours, grouped],
+    ["euler", "Euler", (row) => row.euler, String],
+    ["components", "Parts", (row) => row.components, grouped],
+];
+
+const kCompareColumns = [
+    ["label", "Label", (row) => row.label, (value) => value],
+    ["name", "Name", (row) => row.name, (value) => value],
+    ["volume_a", "Volume A", (row) => row.a?.volume, short],
+    ["volume_b", "Volume B", (row) => row.b?.volume, short],
+    ["area_a", "Area A", (row) => row.a?.area, short],
+    ["area_b", "Area B", (row) => row.b?.area, short],
+    ["euler_a", "Euler A", (row) => row.a?.euler, String],
+    ["euler_b", "Euler B", (row) => row.b?.euler, String],
+    ["rms", "Distance, rms", (row) => row.distance?.both?.rms, short],
+    ["quantile_95", "95 %", (row) => row.distance?.both?.quantile_95, short],
+    ["max", "Largest", (row) => row.distance?.both?.max, short],
+];
+
+function rowsOf({ report, models }, regions) {
+    const dice = new Map((report.dice_of_regions ?? []).map((row) => [row.label, row.dice]));
+    return report.regions.map((row) => {
+        const region = regions.byLabel.get(row.label);
+        const made = { ...row, name: row.name ?? region?.name ?? "" };
+        if (models.length > 1) return made;
+        if (dice.has(row.label)) made.dice = dice.get(row.label);
+        if (region) made.neighbours = region.measures.neighbours.size;
+        return made;
+    });
+}
+
+/** A cell of CSV (RFC 4180). A leading sign of a formula gets an apostrophe: spreadsheets would run it. */
+function csvCell(value) {
+    if (value === null || value === undefined) return "";
+    if (typeof value === "number") return String(value);
+    const text = /^[=+@\t\r]|^-(?!\d+$)/.test(value) ? `'${value}` : value;
+    return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+export function csvOf(columns, rows) {
+    const lines = [columns.map(([name]) => name), ...rows.map((row) => columns.map(([, , value]) => csvCell(value(row))))];
+    return lines.map((cells) => cells.join(",") + "\r\n").join("");
+}
+
+function jsonOf(columns, rows) {
+    const objects = rows.map((row) => Object.fromEntries(columns.map(([name, , value]) => [name, value(row) ?? null])));
+    return JSON.stringify(objects, null, 2) + "\n";
+}
+
+const compare = (a, b) => (a === undefined || a === null) - (b === undefined || b === null) || (a < b ? -1 : a > b ? 1 : 0);
+
+export function showTable(data, regions) {
+    if (!data.report) return;
+    const all = rowsOf(data, regions), columns = (data.models.length > 1 ? kCompareColumns : kColumns)
+        .filter(([, , value]) => all.some((row) => value(row) !== undefined && value(row) !== null && value(row) !== ""));
+    let [order, sign, shown] = [0, 1, kFirstRows];
+    const section = byId("table"), body = element("tbody"), more = element("button", { type: "button" });
+    const keyOf = (row) => {
+        const value = columns[order][2](row);
+        return columns[order][0] === "label" ? Number(value) : typeof value === "string" ? value.toLowerCase() : value;
+    };
+    const heads = columns.map(([name, title], n) =>
+        element("th", { scope: "col", "data-column": name }, element("button", { type: "button", onclick: () => sortBy(n) }, title)));
+    const draw = () => {
+        const sorted = [...all].sort((a, b) => sign * compare(keyOf(a), keyOf(b)));
+        body.replaceChildren(...sorted.slice(0, shown).map((row) => tableRow(row, columns, regions)));
+        heads.forEach((head, n) => head.setAttribute("aria-sort", n !== order ? "none" : sign > 0 ? "ascending" : "descending"));
+        more.hidden = shown >= all.length;
+        more.textContent = `Show all ${grouped(all.length)} rows`;
+    };
+    const sortBy = (n) => {
+        sign = n === order ? -sign : n < 2 ? 1 : -1;
+        order = n;
+        draw();
+    };
+    more.addEventListener("click", () => {
+        shown = all.length;
+        draw();
+    });
+    const name = data.models[0].title.replace(/[^\w.-]+/g, "_");
+    section.append(element("h2", {}, "Regions"),
+        element("div", { class: "buttons" },
+            element("button", { type: "button", id: "csv", onclick: () => download(`${name}.regions.csv`, "text/csv", csvOf(columns, all)) }, "Download CSV"),
+            element("button", { type: "button", id: "json", onclick: () => download(`${name}.regions.json`, "application/json", jsonOf(columns, all)) }, "Download JSON"),
+            element("button", { type: "button", id: "report", onclick: () => download(`${name}.report.json`, "application/json", JSON.stringify(data.report, null, 2) + "\n") }, "Download the whole report")),
+        element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Table of regions, scrolls" },
+            element("table", { id: "region-table" }, element("thead", {}, element("tr", {}, ...heads)), body)), more);
+    draw();
+}
+
+function tableRow(row, columns, regions) {
+    const region = regions.byLabel.get(row.label);
+    const cells = columns.map(([name, , value, text]) => {
+        const found = value(row);
+        const shown = found === undefined || found === null ? "–" : text(found);
+        if (name !== "label" || !region) return element("td", { "data-column": name }, shown);
+        const swatch = element("span", { class: "swatch" });
+        swatch.style.background = region.colour;
+        return element("td", {}, swatch, shown);
+    });
+    const made = element("tr", {}, ...cells);
+    if (region) made.addEventListener("click", () => regions.select(region));
+    return made;
+}

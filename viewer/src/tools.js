@@ -1,0 +1,184 @@
+// The panel on the right: the selected region or face, colours, section, exploded view, lines, violations.
+import { byId, element, grouped, short } from "./dom.js";
+import { faceQuality, interfaceMeasures } from "./measures.js";
+import { kRamps } from "./ramps.js";
+
+function group(title, ...children) {
+    return element("fieldset", {}, element("legend", {}, title), ...children);
+}
+
+function choice(id, label, options, onchange) {
+    const select = element("select", { id, onchange: () => onchange(select.value) },
+        ...options.map(([value, text]) => element("option", { value }, text)));
+    return element("label", { class: "field" }, label, select);
+}
+
+function slider(id, label, value, oninput) {
+    const input = element("input", { id, type: "range", min: 0, max: 1, step: "any", value, oninput: () => oninput(Number(input.value)) });
+    return element("label", { class: "field" }, label, input);
+}
+
+function toggle(id, label, onchange) {
+    const input = element("input", { id, type: "checkbox", onchange: () => onchange(input.checked) });
+    return element("label", { class: "toggle" }, input, label);
+}
+
+export class Tools {
+    constructor(page) {
+        Object.assign(this, page);  // stage, regions, models, violations, list
+        this.info = element("div", { id: "info", role: "status", "aria-live": "polite" });
+        byId("tools").append(
+            group("Selected", this.info), this.colourGroup(), this.sectionGroup(), this.shapeGroup(), this.lineGroup());
+        if (this.violations.length > 0) byId("tools").append(this.violationGroup());
+        this.describe(null);
+        this.regions.addEventListener("change", () => {
+            if (this.described !== this.regions.selected) this.describe(this.regions.selected);
+        });
+    }
+
+    colourGroup() {
+        const options = [["region", "Region"], ["interface", "Interface"], ["quality", "Quality"], ["curvature", "Curvature"]];
+        if (this.models.some((model) => model.has_distances)) options.push(["distance", "Distance"]);
+        return group("Colour", choice("colour-by", "By ", options, (what) => this.colourBy(what)));
+    }
+
+    colourBy(what) {
+        byId("colour-by").value = what;
+        const found = this.stage.colourBy(what);
+        byId("legend").hidden = !found;
+        if (!found) return;
+        byId("legend-title").textContent = found.title;
+        byId("legend-low").textContent = short(found.low, 3);
+        byId("legend-high").textContent = short(found.high, 3);
+        byId("legend-bar").style.background = `linear-gradient(to right, ${kRamps[found.ramp].join(", ")})`;
+    }
+
+    sectionGroup() {
+        const place = element("output", { id: "section-place" });
+        const update = () => {
+            const axis = byId("section-axis").value;
+            this.stage.setSection(axis, Number(byId("section-share").value), byId("section-turn").checked);
+            place.textContent = axis === "none" ? "" : `${axis} = ${short(this.stage.sectionPlace)}`;
+        };
+        const chooseAxis = (axis) => {
+            if (axis !== "none") byId("section-turn").checked = this.stage.looksFromBelow(axis);
+            update();
+        };
+        this.updateSection = () => chooseAxis(byId("section-axis").value);
+        return group("Section",
+            choice("section-axis", "Across ", [["none", "no axis"], ["x", "x"], ["y", "y"], ["z", "z"]], chooseAxis),
+            slider("section-share", "Place ", 0.5, () => {
+                if (byId("section-axis").value === "none") this.setSection("x");
+                else update();
+            }),
+            toggle("section-turn", "Keep the other side", update), place);
+    }
+
+    setSection(axis) {
+        byId("section-axis").value = axis;
+        this.updateSection();
+    }
+
+    shapeGroup() {
+        const height = element("input", {
+            id: "stretch", type: "number", min: "0.1", max: "1000", step: "any", value: this.stage.shared.stretch.value,
+            onchange: () => this.stretch(Number(height.value) || 1),
+        });
+        return group("Shape", slider("explode", "Explode ", 0, (share) => this.explode(share)),
+            element("label", { class: "field", title: "For flat models, such as strata" }, "Height × ", height));
+    }
+
+    explode(share) {
+        byId("explode").value = share;
+        if (!this.stage.offsets) this.stage.setOffsets(this.models.map((_, which) => this.regions.offsets(which)));
+        this.stage.setExplode(share);
+        this.showLines();
+    }
+
+    stretch(factor) {
+        byId("stretch").value = factor;
+        this.stage.setStretch(factor);
+        this.updateSection();
+        this.fit();
+    }
+
+    lineGroup() {
+        return group("Show",
+            toggle("show-edges", "Edges of faces (E)", (isOn) => this.stage.showEdges(isOn)),
+            toggle("show-flat", "Flat faces (L)", (isOn) => this.stage.showFlat(isOn)),
+            toggle("show-lines", "Lines where three regions meet (T)", () => this.showLines()),
+            toggle("show-points", "Points where four regions meet (Q)", () => this.showLines()),
+            element("p", { id: "line-counts", class: "hint", role: "status" }));
+    }
+
+    /** Lines stay where they are in an exploded view, so they are not drawn there. */
+    showLines() {
+        const isWhole = this.stage.shared.explode.value === 0;
+        const [lines, points] = [byId("show-lines").checked, byId("show-points").checked];
+        for (const drawn of this.stage.drawn) {
+            drawn.showLines(lines && isWhole);
+            drawn.showPoints(points && isWhole);
+        }
+        const counts = this.stage.drawn.filter((drawn) => drawn.lineParts)
+            .map(({ lineParts }) => `${grouped(lineParts.edgeCount)} edges on lines, ${grouped(lineParts.pointCount)} points`);
+        byId("line-counts").textContent = lines || points ? (isWhole ? counts.join("; ") : "not drawn in an exploded view") : "";
+        this.stage.render();
+    }
+
+    violationGroup() {
+        const text = element("p", { id: "violation", role: "status" });
+        const step = (by) => {
+            const { violations } = this, count = violations.length;
+            this.violation = ((this.violation ?? (by > 0 ? -1 : 0)) + by + count) % count;
+            const found = violations[this.violation];
+            text.textContent = `${this.violation + 1} of ${count}: ${found.text}`;
+            if (!found.at) return;
+            const [drawn] = this.stage.drawn;
+            this.stage.lookAt(found.at.map((x, axis) => x - drawn.model.centre[axis]), this.stage.radius / 8);
+        };
+        this.stepViolation = step;
+        this.stage.drawn[0].showMarkers(this.violations.filter(({ at }) => at).map(({ at }) => at));
+        return group("Violations",
+            element("div", { class: "buttons" },
+                element("button", { type: "button", id: "violation-back", onclick: () => step(-1) }, "Previous"),
+                element("button", { type: "button", id: "violation-next", onclick: () => step(1) }, "Next (V)")),
+            text);
+    }
+
+    /** Shows a region, or the face of a hit. */
+    describe(region, hit = null) {
+        this.described = region;
+        const rows = [];
+        if (region) {
+            const { measures } = region;
+            rows.push(["Region", region.title], ["Label", region.label], ["Volume", short(measures.volume)],
+                ["Area", short(measures.area)], ["Faces", grouped(measures.faces)], ["Neighbours", this.neighbourText(region)]);
+        }
+        if (hit) rows.push(...this.faceRows(hit));
+        if (rows.length === 0) {
+            this.info.replaceChildren(element("p", { class: "hint" }, "Click a face, or a name in the list."));
+            return;
+        }
+        const list = element("dl", {}, ...rows.flatMap(([name, text]) => [element("dt", {}, name), element("dd", {}, text)]));
+        const act = (text, run) => element("button", { type: "button", onclick: run }, text);
+        this.info.replaceChildren(list, element("div", { class: "buttons" },
+            act("Isolate (I)", () => this.regions.isolate(region)), act("Hide (H)", () => this.regions.setState([region], "hidden")),
+            act("See through (G)", () => this.regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))));
+    }
+
+    neighbourText(region) {
+        const which = region.places.findIndex((place) => place !== undefined);
+        const names = [...region.measures.neighbours].map((place) => this.regions.titleAt(which, place));
+        return names.length > 6 ? `${names.slice(0, 6).join(", ")} and ${names.length - 6} more` : names.join(", ");
+    }
+
+    faceRows({ which, face, isCap, at }) {
+        const { model } = this.stage.drawn[which], place = at.map((x, axis) => short(x + model.centre[axis])).join(", ");
+        if (isCap) return [["Place", place]];
+        const f = model.surface.faceOf[face], pair = model.geometry.pairOfFace[f], found = interfaceMeasures(model, pair);
+        const names = model.pairs[pair].slice(0, 2).map((label) => this.regions.titleAt(which, label));
+        const quality = faceQuality(model.positions, ...model.geometry.corners.subarray(3 * f, 3 * f + 3));
+        return [["Interface", `${names[0]} | ${names[1]}`], ["Its area", short(found.area)], ["Its faces", grouped(found.faces)],
+            ["Quality of the face", short(quality, 3)], ["Place", place]];
+    }
+}
