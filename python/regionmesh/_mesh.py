@@ -192,7 +192,8 @@ class Mesh:
         progress : bool or callable, optional
             As in `reconstruct`.
         **options
-            The options of `regionmesh decimate`; `reduce`, `target_faces` or `max_error` is needed. See below.
+            The options of `regionmesh decimate`, see below; one of `reduce`, `target_faces`, `max_error` and `improve`
+            is needed.
 
         Returns
         -------

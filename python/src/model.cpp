@@ -10,6 +10,7 @@
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/error.h"
+#include "regionmesh/improve.h"
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/process.h"
@@ -76,8 +77,10 @@ CheckOptions check_options(const Model& model, std::uint32_t threads) {
     return options;
 }
 
+bool has_target(const ReconstructOptions& asked) { return asked.target_faces || asked.reduce || asked.max_error; }
+
 SimplifyOptions simplify_options(const ReconstructOptions& asked, const Mesh& mesh) {
-    SimplifyOptions options;
+    SimplifyOptions options{.target_faces = has_target(asked) ? 0 : mesh.face_count()};
     if (asked.target_faces)
         options.target_faces =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
@@ -234,8 +237,8 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
 Model simplified(const Model& model, const OptionValues& options, Watch& watch) {
     const Settings settings = settings_from(options);
     const ReconstructOptions& asked = settings.reconstruct;
-    if (!asked.target_faces && !asked.reduce && !asked.max_error)
-        throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error");
+    if (!has_target(asked) && !asked.improve)
+        throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error, or improve=True");
     Model made;
     watch.run([&] {
         made = copy_of(model);
@@ -250,8 +253,15 @@ Model simplified(const Model& model, const OptionValues& options, Watch& watch) 
             report.verdicts = done.verdicts;
             report.refreshes = done.refreshes;
             report.stopped = to_string(done.stopped);
+            report.error_bound = done.error_bound;
             report.bytes_per_face =
                 static_cast<double>(done.bytes) / static_cast<double>(std::max<std::uint64_t>(before, 1));
+        }
+        if (asked.improve) {
+            watch.note("improve", 0, std::nullopt);
+            const Timer timer(report.seconds["improve"]);
+            report.improved =
+                improve(made.mesh, {.min_quality = simplify_with.min_quality, .scale = simplify_with.scale});
         }
         watch.note("check", 0, std::nullopt);
         end_change(made, report, checks);

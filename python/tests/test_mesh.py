@@ -137,6 +137,12 @@ def test_simplify_is_that_of_the_program(filled, tmp_path):
     np.testing.assert_array_equal(direct.faces, loaded.faces)
 
 
+def test_simplify_can_improve_faces_without_a_target(filled):
+    better = filled.simplify(improve=True)
+    before, after = better.report["improved"]["before"], better.report["improved"]["after"]
+    assert better.certified and after["mean_quality"] > before["mean_quality"]
+
+
 @pytest.mark.parametrize("options", [{"target_faces": 10}, {"max_error": 0.2}, {"reduce": "99%"}])
 def test_simplify_says_why_it_stopped(filled, options):
     fewer = filled.simplify(**options)
