@@ -6,7 +6,11 @@ from . import _core, _options, _progress, _sources
 from ._labels import bits, names_of
 from ._mesh import Mesh
 
-_OF_FILES = ("size", "type", "layer", "columns", "step", "scale_z", "array", "hull")
+# Slices, numpy and labels_to_keep choose a part of an array.
+_OF_FILES = (
+    "size", "type", "layer", "columns", "step", "scale_z", "array", "hull", "max_work", "external_files", "roi", "box",
+    "downsample", "min_region",
+)  # fmt: skip
 
 
 def _split(options, names):
