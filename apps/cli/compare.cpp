@@ -148,10 +148,12 @@ std::vector<Label> background_of(const Settings& settings, const LabelTable& lab
 
 /// A with the distance of each vertex to B.
 void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report, OutputFiles& files) {
-    write_mesh(
-        a.mesh, a.labels, settings.distance,
-        {.background = background_of(settings, a.labels), .point_arrays = {{"Distance", report.vertex_distances}}},
-        files);
+    write_mesh(a.mesh, a.labels, settings.distance,
+               {.background = background_of(settings, a.labels),
+                .point_arrays = {{"Distance", report.vertex_distances}},
+                .names = a.names,
+                .space = a.space},
+               files);
 }
 
 /// The distance of each vertex of B to A.
@@ -180,11 +182,12 @@ void write_comparison(const Settings& settings, const MeshFile& a, const MeshFil
 
 }  // namespace
 
-int run_compare(const Settings& settings) {
-    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
-    require_page(settings.html, settings.writing);
-    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {.output = settings.writing}, true);
-    const MeshFile a = read_faces(settings.models[0]), b = read_faces(settings.models[1]);
+int run_compare(const Settings& given) {
+    if (!given.json.empty()) require_writable(given.json, given.writing);
+    require_page(given.html, given.writing);
+    if (!given.distance.empty()) require_writable_mesh(given.distance, {.output = given.writing}, true);
+    const MeshFile a = read_faces(given.models[0]), b = read_faces(given.models[1]);
+    const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
     const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
                                          {.samples = settings.samples,
                                           .background = settings.reconstruct.background,

@@ -63,13 +63,14 @@ void print_summary(const std::string& path, const Report& report) {
 
 }  // namespace
 
-int run_decimate(const Settings& settings) {
-    const ReconstructOptions& asked = settings.reconstruct;
+int run_decimate(const Settings& given) {
+    const ReconstructOptions& asked = given.reconstruct;
     if (!has_target(asked) && !asked.improve)
         throw Error(ErrorCode::kUsage,
                     "decimate: no target; give --target-faces, --reduce or --max-error, or --improve");
-    require_outputs(settings);
-    MeshFile file = read_mesh(settings.models.front(), settings.surface);
+    require_outputs(given);
+    MeshFile file = read_mesh(given.models.front(), given.surface);
+    const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
@@ -77,14 +78,15 @@ int run_decimate(const Settings& settings) {
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    const Model model{file.mesh, file.labels, options.background, names};
+    const Model model{file.mesh, file.labels, options.background, names, file.space};
     OutputFiles files(settings.writing);
-    write_model(settings, model, files);
+    const auto written = write_model(settings, model, files);
     write_report_file(settings, report, model, files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
                    page_options(kDecimate, settings, report_json(report, file.labels, names), false), files);
     files.commit();
+    print_region_files(settings, written);
     if (!settings.quiet) {
         print_summary(settings.output, report);
         print_fixed_part(fixed, before, report.check);

@@ -97,13 +97,26 @@ void add_commands(CLI::App& app, Action& action) {
     for (std::size_t n = 0; n < command_table().size(); ++n) add_command(app, command_table()[n], kRuns[n], action);
 }
 
-/// A flag that is not in help texts: prints docs/reference/command-line.md and ends.
+/// Options that are not in help texts: each prints docs/reference/command-line.md, the page for man(1), or a script for
+/// completion, and ends.
 void add_page(CLI::App& app) {
     const auto print_page = [] {
         fmt::print("{}", command_line_page());
         throw CLI::Success();
     };
     app.add_flag_callback("--help-markdown", print_page)->group("");
+    const auto print_manual = [] {
+        fmt::print("{}", manual_page());
+        throw CLI::Success();
+    };
+    app.add_flag_callback("--help-man", print_manual)->group("");
+    const auto print_completion = [](const std::string& shell) {
+        fmt::print("{}", completion_script(shell));
+        throw CLI::Success();
+    };
+    app.add_option_function<std::string>("--completion", print_completion)
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+        ->group("");
 }
 
 int parse_and_run(int argc, char** argv) {

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -27,7 +28,8 @@ void require_outputs(const Settings& settings) {
         settings.output,
         {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap, .output = settings.writing});
     if (!settings.names.empty()) read_label_names(settings.names);
-    if (!settings.report.empty()) require_writable(settings.report, settings.writing);
+    for (const std::string& file : {settings.report, settings.regions})
+        if (!file.empty()) require_writable(file, settings.writing);
     require_page(settings.html, settings.writing);
 }
 
@@ -35,9 +37,21 @@ LabelNames names_or(const Settings& settings, const LabelNames& found) {
     return settings.names.empty() ? found : read_label_names(settings.names);
 }
 
-void write_model(const Settings& settings, const Model& model, OutputFiles& files) {
-    write_mesh(model.mesh, model.labels, settings.output,
-               {.background = model.background, .names = model.names, .per_region = settings.per_region}, files);
+std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
+    if (!settings.regions.empty())
+        files.add(settings.regions).write(regions_csv(model.mesh, model.labels, model.background, model.names));
+    return write_mesh(model.mesh, model.labels, settings.output,
+                      {.background = model.background,
+                       .names = model.names,
+                       .per_region = settings.per_region,
+                       .space = model.space,
+                       .metres = settings.metres},
+                      files);
+}
+
+void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written) {
+    if (settings.quiet || !settings.per_region) return;
+    for (const auto& file : written) fmt::print("{}\n", printable(file.string()));
 }
 
 void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files) {

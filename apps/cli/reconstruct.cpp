@@ -49,11 +49,18 @@ void print_summary(const Settings& settings, const Report& report) {
     print_certificate(check, report.samples ? &*report.samples : nullptr);
 }
 
-/// Reconstructs the input, whichever kind it is of, and sets `names` to those of its labels.
-Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
+/// What the input says besides its samples.
+struct ModelNotes {
+    LabelNames names;
+    Space space = Space::kUnknown;
+};
+
+/// Reconstructs the input, whichever kind it is of, and sets `notes` to what it says about its labels and its space.
+Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
     ProgressLine line(settings.quiet);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
-        names = names_or(settings, reader.info().names);
+        notes.names = names_or(settings, reader.info().names);
+        if constexpr (requires { reader.info().space; }) notes.space = reader.info().space;
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& progress) { line.show(progress); });
         line.clear();
@@ -65,23 +72,25 @@ Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
 
 int run_reconstruct(const Settings& settings) {
     require_outputs(settings);
-    LabelNames names;
-    Reconstruction made = reconstruct_input(settings, names);
+    ModelNotes notes;
+    Reconstruction made = reconstruct_input(settings, notes);
     Report& report = made.report;
-    const Model model{made.mesh, made.labels, made.background, names};
+    const Model model{made.mesh, made.labels, made.background, notes.names, notes.space};
     OutputFiles files(settings.writing);
+    std::vector<std::filesystem::path> written;
     double writing = 0;
     {
         const Timer timer(writing);
-        write_model(settings, model, files);
+        written = write_model(settings, model, files);
     }
     report.seconds["write"] = writing;
     report.seconds["total"] += writing;
     write_report_file(settings, report, model, files);
     if (!settings.html.empty())
-        write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, names)},
-                   page_options(kReconstruct, settings, report_json(report, made.labels, names), true), files);
+        write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, notes.names)},
+                   page_options(kReconstruct, settings, report_json(report, made.labels, notes.names), true), files);
     files.commit();
+    print_region_files(settings, written);
     settings.quiet ? print_stop(settings, report) : print_summary(settings, report);
     return exit_code(report);
 }

@@ -7,10 +7,11 @@
 
 namespace regionmesh::cli {
 
-int run_view(const Settings& settings) {
-    require_page(settings.output, settings.writing);
-    const std::string& path = settings.models.front();
-    MeshFile file = read_mesh(path, settings.surface);
+int run_view(const Settings& given) {
+    require_page(given.output, given.writing);
+    const std::string& path = given.models.front();
+    MeshFile file = read_mesh(path, given.surface);
+    const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
     const CheckReport report = check(file.mesh, options);

@@ -37,7 +37,9 @@ struct Settings {
 
     InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
-    std::string output, names, report, json, distance, html;  // files
+    double metres = 1;  // in a unit of length of the input
+
+    std::string output, names, report, json, distance, html, regions;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
     bool per_region = false, quiet = false;
@@ -136,6 +138,13 @@ void require_fit(const Settings& settings, const std::vector<std::string>& input
 
 /// Placeholder of the value in help texts: "COUNT", "auto|x|y|z"; empty for flags.
 std::string value_name(const OptionSpec& option);
+
+/// A page for man(1), in the language of groff.
+std::string manual_page();
+
+/// A script with which the shell "bash", "zsh" or "fish" completes commands, options and words. Throws Error(kUsage)
+/// for another shell.
+std::string completion_script(const std::string& shell);
 
 /// The text of docs/reference/command-line.md.
 std::string command_line_page();

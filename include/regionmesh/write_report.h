@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "regionmesh/compare.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/mesh.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/report.h"
 #include "regionmesh/voxelise.h"
@@ -27,6 +29,13 @@ std::string check_json(const CheckReport& report, const LabelTable& labels, cons
 /// lines are in order of label; the exterior is labels.exterior_label() and last in a list. Measures that only one mesh
 /// has are null for the other, and so are the distances; `only_in_a` and `only_in_b` name them.
 std::string compare_json(const CompareReport& report);
+
+/// A table of the regions as CSV, in order of label: label, name, faces, volume, area, centroid_x, _y, _z, box_low_x to
+/// box_high_z, equivalent_diameter (of the sphere of the same volume), neighbours (labels, separated by blanks; the
+/// background and the exterior are none) and neighbour_areas. The volume and the centroid of an open region mean
+/// nothing. `background` is dense.
+std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
+                        const LabelNames& names = {});
 
 /// Writes `text` as an OutputFile. Throws Error(kOutput).
 void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options = {});

@@ -82,6 +82,11 @@ class Mesh:
         """Labels of empty space, a list of int."""
         return [self._unsigned(label) for label in self._model.background]
 
+    @property
+    def space(self):
+        """Where x and y point in the patient: "RAS" or "LPS", or None where no file said it. Saved with the model."""
+        return self._model.space or None
+
     def _unsigned(self, label):
         return label + (1 << 64) if self._model.is_unsigned and label < 0 else label
 
@@ -190,7 +195,8 @@ class Mesh:
         progress : bool or callable, optional
             As in `reconstruct`.
         **options
-            The options of `regionmesh decimate`; `reduce`, `target_faces` or `max_error` is needed. See below.
+            The options of `regionmesh decimate`, see below; one of `reduce`, `target_faces`, `max_error` and `improve`
+            is needed.
 
         Returns
         -------
@@ -369,7 +375,7 @@ class Mesh:
         _core.voxelise(self._model, where, bits(outside), result)
         return result
 
-    def save(self, path, *, per_region=False):
+    def save(self, path, *, per_region=False, units="m"):
         """Write the model; the extension selects the format (docs/files.md).
 
         Parameters
@@ -377,14 +383,22 @@ class Mesh:
         path : path
             .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .dream3d
         per_region : bool
-            .stl, .obj and .ply: a file for each region, NAME-LABEL.EXTENSION.
+            .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
+            name.
+        units : {"m", "mm", "um", "nm"}
+            The unit of length of the model: .glb files are in metres and are scaled.
+
+        Returns
+        -------
+        list of str
+            The files written.
 
         Raises
         ------
         OSError
             For another extension, and where the file cannot be written.
         """
-        _core.save(self._model, os.fspath(path), per_region)
+        return _core.save(self._model, os.fspath(path), per_region, [("units", units)])
 
     # Python
 
@@ -405,6 +419,7 @@ class Mesh:
             "order": self._model.label_order,
             "is_open": self._model.is_open,
             "names": self._model.names,
+            "space": self._model.space,
             "exterior": self._model.exterior_label,
             "is_unsigned": self._model.is_unsigned,
             "lattice": self._lattice,

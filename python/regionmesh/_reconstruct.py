@@ -8,7 +8,7 @@ from ._mesh import Mesh
 
 # Options that say how an input is read.
 _OF_SOURCE = {"sweep", "roi", "box", "downsample", "min-region", "background", "no-background"}
-_OF_FILES = ("size", "type", "layer", "columns", "step", "array", "hull")
+_OF_FILES = ("size", "type", "layer", "columns", "step", "array", "hull", "max_work", "external_files")
 
 
 def _split(options, names):

@@ -105,12 +105,19 @@ void bind_runs(py::module_& module) {
     module.def("voxelise", voxelise);
 }
 
+Space space_of(const std::string& name) {
+    for (const Space space : {Space::kRas, Space::kLps})
+        if (name == space_name(space)) return space;
+    return Space::kUnknown;
+}
+
 void bind_model(py::module_& module) {
     py::class_<Model>(module, "Model")
         .def_property_readonly("arrays", arrays_of)
         .def_readonly("report", &Model::report)
         .def_readonly("names", &Model::names)
         .def_readonly("is_open", &Model::is_open)
+        .def_property_readonly("space", [](const Model& model) { return std::string(space_name(model.space)); })
         .def_property_readonly("is_unsigned", [](const Model& model) { return model.labels.is_unsigned(); })
         .def_property_readonly("exterior_label", [](const Model& model) { return model.labels.exterior_label(); })
         .def_property_readonly("vertex_count", [](const Model& model) { return model.mesh.vertex_count(); })
@@ -131,13 +138,14 @@ void bind_model(py::module_& module) {
     module.def("save", save_model);
     using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
                               decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
-    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames>;
-    module.def("from_arrays", [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned,
-                                 bool is_open) {
-        const auto& [points, faces, labels, types] = arrays;
-        const auto& [background, order, names] = about;
-        return model_of({points, faces, labels, types, exterior, is_unsigned}, {background, order, names, is_open});
-    });
+    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, std::string>;
+    module.def("from_arrays",
+               [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned, bool is_open) {
+                   const auto& [points, faces, labels, types] = arrays;
+                   const auto& [background, order, names, space] = about;
+                   return model_of({points, faces, labels, types, exterior, is_unsigned},
+                                   {background, order, names, is_open, space_of(space)});
+               });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "formats/registry.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
+#include "volume/chosen_sections.h"
 
 namespace regionmesh {
 namespace {
@@ -102,7 +103,7 @@ std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs
     auto reader = open_inputs(inputs, options);
     require_lattice(reader->info().source, reader->info().lattice);
     require_work(*reader, options.max_work);
-    return select_sections(std::move(reader), selection);
+    return select_sections(turn_sections(std::move(reader), options.space), selection);
 }
 
 }  // namespace regionmesh

@@ -41,10 +41,35 @@ Rows output_rows() {
                      .commands = kWriters | kConvert | kView},
                     [](Settings& s) { return &s.names; }),
         option({.name = "per-region",
-                .help = "one file for each region, MODEL-LABEL: .stl, .obj and .ply",
+                .help = "one file for each region, MODEL-NAME or MODEL-LABEL: .stl, .obj and .ply",
                 .group = kGroup,
                 .commands = kWriters | kConvert},
                [](Settings& s) { return &s.per_region; }),
+        word_option(
+            {.name = "space",
+             .help = "space of the model: keep that of the input, or turn it so that x and y point as in ras or lps",
+             .group = kGroup,
+             .commands = kWriters | kConvert},
+            {"keep", "ras", "lps"},
+            [](Settings& s, std::size_t word) {
+                constexpr Space kSpaces[] = {Space::kUnknown, Space::kRas, Space::kLps};
+                s.volume.space = s.surface.space = kSpaces[word];
+            }),
+        word_option({.name = "units",
+                     .help = "unit of length of the input; .glb files are in metres and are scaled",
+                     .group = kGroup,
+                     .commands = kWriters | kConvert},
+                    {"m", "mm", "um", "nm"},
+                    [](Settings& s, std::size_t word) {
+                        constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
+                        s.metres = kMetres[word];
+                    }),
+        file_option({.name = "regions",
+                     .help = "CSV table to write: volume, area, centroid, box and neighbours of each region",
+                     .group = kGroup,
+                     .commands = kWriters | kConvert | kCheck,
+                     .is_output = true},
+                    [](Settings& s) { return &s.regions; }),
         file_option({.name = "report",
                      .help = "JSON report to write",
                      .group = kGroup,
@@ -69,7 +94,8 @@ Rows output_rows() {
         file_option({.name = "html",
                      .help = "page to write that shows the model and the report in a browser",
                      .group = kGroup,
-                     .commands = kReconstruct | kDecimate | kCheck | kCompare},
+                     .commands = kReconstruct | kDecimate | kCheck | kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.html; }),
         option(
             {.name = "preview-faces",
