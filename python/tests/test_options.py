@@ -80,7 +80,7 @@ def test_none_is_the_default():
         {"sweep": 2},
         {"size": 5},
         {"columns": "X"},
-        {"roi": "0:4,0:4,0:4"},
+        {"roi": [0, 4]},
         {"max_work": 5},
         {"progress": 3},
         {"background": "skin"},
