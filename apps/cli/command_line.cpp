@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "messages.h"
+
 namespace regionmesh::cli {
 namespace {
 
@@ -56,13 +58,14 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
         if ((spec.commands & command.command) == 0) continue;
         add_option(subcommand, spec, *all->emplace_back(std::make_unique<Texts>()));
     }
-    subcommand.callback([all, run, &action] {
-        action = [all, run] {
+    subcommand.callback([all, run, &command, &action] {
+        action = [all, run, &command] {
             OptionValues values;
             for (const auto& texts : *all) texts->append_to(values);
             Settings settings;
             apply_options(settings, values);
             require_distinct_files(settings);
+            begin_messages(command.command, settings);
             return run(settings);
         };
     });

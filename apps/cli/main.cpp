@@ -14,6 +14,7 @@
 
 #include "command_line.h"
 #include "commands.h"
+#include "messages.h"
 #include "printable.h"
 #include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
@@ -25,14 +26,17 @@ namespace {
 const char* advice = "end other programs, or take a part of the input";
 
 /// One line on standard error. Allocates nothing and cannot fail: the exit code says the same where nobody reads it.
-void say(std::initializer_list<const char*> words) {
+void complain(std::initializer_list<const char*> words) {
     std::fputs("regionmesh: ", stderr);
     for (const char* word : words)
         for_printable(word, [](const char* bytes, std::size_t count) { std::fwrite(bytes, 1, count, stderr); });
     std::fputc('\n', stderr);
 }
 
-void say_out_of_memory() { say({"out of memory; ", advice}); }
+void say_out_of_memory() {
+    log_line("out of memory");
+    complain({"out of memory; ", advice});
+}
 
 /// Libraries allocate in destructors, from which no exception can leave: memory that runs out there ends up here.
 [[noreturn]] void end_without_destructors() noexcept {
@@ -55,19 +59,20 @@ int run(const Act& action) {
     try {
         return action();
     } catch (const Error& error) {
-        say({error.what()});
+        log_line(error.what());
+        complain({error.what()});
         return error.code() == ErrorCode::kUsage ? kBadUsage : kBadInput;
     } catch (const std::bad_alloc&) {
         say_out_of_memory();
     } catch (const std::system_error& error) {
         if (std::ferror(stdout)) return kBadInput;
         const bool is_busy = error.code() == std::errc::resource_unavailable_try_again;
-        say({error.what(), is_busy ? ": a thread cannot start; end other programs, or raise the limit of processes "
+        complain({error.what(), is_busy ? ": a thread cannot start; end other programs, or raise the limit of processes "
                                      "(ulimit -u)"
                                    : ""});
     } catch (const std::exception& error) {
         if (std::ferror(stdout)) return kBadInput;  // a write failed: finish() says so
-        say({error.what()});
+        complain({error.what()});
     }
     return kBadInput;
 }
@@ -78,7 +83,7 @@ int finish(int code) {
     std::cout.flush();
     const bool is_written = std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
     if (is_written) return code;
-    say({"standard output cannot be written", errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno)});
+    complain({"standard output cannot be written", errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno)});
     return kBadInput;
 }
 
@@ -119,7 +124,7 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::Success& asked) {
         return app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        say({error.what(), "; see regionmesh --help"});
+        complain({error.what(), "; see regionmesh --help"});
         return kBadUsage;
     }
     if (app.got_subcommand("reconstruct")) advice = "give a smaller --memory, fewer --threads or a lower target";

@@ -27,6 +27,11 @@ void write_model(const Settings& settings, const Model& model, OutputFiles& file
 /// Writes the report of the model if --report asks for it, with the memory used until now.
 void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files);
 
+/// 7109137 as 7,109,137.
+std::string grouped(std::uint64_t count);
+/// "1 region", "7,109 regions".
+std::string counted(std::uint64_t count, const std::string& noun);
+
 /// kViolations where the report has some, else kGood.
 int exit_code(const CheckReport& report);
 /// The same, or kNotMet where the model is sound but regions are off the volumes asked for.

@@ -37,10 +37,10 @@ struct Settings {
 
     InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
-    std::string output, names, report, json, distance, html;  // files
+    std::string output, names, report, json, distance, html, log;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
-    bool per_region = false, quiet = false;
+    bool per_region = false, quiet = false, verbose = false;
 
     OptionValues given;  // set by apply_options()
 };

@@ -47,6 +47,7 @@ struct Progress {
     const char* stage = "";
     std::uint32_t strips_read = 0, strip_count = 0;
     std::uint64_t faces_read = 0, faces_held = 0;
+    double share = 0;  // of the work of all stages, estimated, 0 to 1; begins again where smoothing does
 };
 
 struct Reconstruction {

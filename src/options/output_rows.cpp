@@ -114,6 +114,17 @@ Rows run_rows() {
                 .group = kGroup,
                 .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),
+        option({.name = "verbose",
+                .help = "print more: what smoothing did, why edges stayed, seconds by stage",
+                .group = kGroup,
+                .commands = kReconstruct},
+               [](Settings& s) { return &s.verbose; }),
+        file_option({.name = "log",
+                     .help = "text file to write as the run goes on: the command, its stages, and all that it says",
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_output = true},
+                    [](Settings& s) { return &s.log; }),
     };
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "mesh/chunk.h"
@@ -18,6 +19,7 @@ struct TileOptions {
     std::uint32_t threads = 1;                 // tiles at work at a time; 0: one per core. The result is the same
     std::uint32_t in_flight = kTilesInFlight;  // tiles out of the chunk at a time; the result is the same
     SimplifyOptions simplify;                  // quality, error, perturbation, scale, placement, tests
+    std::function<void(double)> on_share = {};  // share of the tiles that are done: one call at a time, on any thread
 };
 
 struct TileResult {
