@@ -67,9 +67,10 @@ int run(const Act& action) {
     } catch (const std::system_error& error) {
         if (std::ferror(stdout)) return kBadInput;
         const bool is_busy = error.code() == std::errc::resource_unavailable_try_again;
-        complain({error.what(), is_busy ? ": a thread cannot start; end other programs, or raise the limit of processes "
-                                     "(ulimit -u)"
-                                   : ""});
+        complain({error.what(), is_busy
+                                    ? ": a thread cannot start; end other programs, or raise the limit of processes "
+                                      "(ulimit -u)"
+                                    : ""});
     } catch (const std::exception& error) {
         if (std::ferror(stdout)) return kBadInput;  // a write failed: finish() says so
         complain({error.what()});

@@ -8,6 +8,7 @@
 #include "page_output.h"
 #include "printable.h"
 #include "regionmesh/error.h"
+#include "regionmesh/output_file.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -38,6 +39,7 @@ void put_into_log(std::string_view line) {
 void begin_messages(Command command, const Settings& settings) {
     state = {.is_quiet = settings.quiet, .is_verbose = settings.verbose, .start = Clock::now()};
     if (settings.log.empty()) return;
+    require_writable(settings.log, settings.writing);
     state.log = std::fopen(settings.log.c_str(), "we");
     if (!state.log)
         throw Error(ErrorCode::kOutput, "--log " + settings.log + ": cannot be written: " + std::strerror(errno));

@@ -11,7 +11,8 @@
 namespace regionmesh::cli {
 
 /// Follows --quiet and --verbose from here on, and begins the file of --log with the command line. Throws
-/// Error(kOutput) where the file cannot be written.
+/// Error(kOutput) where the file cannot be written, or is read-only without --force. The log is written in place, so
+/// that it can be read while the run goes on.
 void begin_messages(Command command, const Settings& settings);
 
 /// Who gets a line. Those for --verbose, and all with --quiet, go into the log only, where they are not shown.

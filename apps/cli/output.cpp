@@ -67,8 +67,7 @@ std::string counted(std::uint64_t count, const std::string& noun) {
 void print_improved(const Report& report) {
     if (!report.improved) return;
     const FaceShapes &before = report.improved->before, &after = report.improved->after;
-    say(
-        "improved: lowest quality {:.3f} -> {:.3f}, mean {:.3f} -> {:.3f}, angles {:.1f} to {:.1f} -> {:.1f} to {:.1f} "
+    say("improved: lowest quality {:.3f} -> {:.3f}, mean {:.3f} -> {:.3f}, angles {:.1f} to {:.1f} -> {:.1f} to {:.1f} "
         "degrees, {} -> {} faces below --min-quality",
         before.min_quality, after.min_quality, before.mean_quality, after.mean_quality, before.min_angle,
         before.max_angle, after.min_angle, after.max_angle, before.faces_below, after.faces_below);
@@ -80,8 +79,7 @@ void print_violations(const CheckReport& report, int listed) {
         say("violation {}: {}", to_string(static_cast<ViolationKind>(kind)), report.counts[kind]);
         int count = 0;
         for (const Violation& violation : report.violations)
-            if (violation.kind == static_cast<ViolationKind>(kind) && count++ < listed)
-                say("  {}", violation.text);
+            if (violation.kind == static_cast<ViolationKind>(kind) && count++ < listed) say("  {}", violation.text);
     }
 }
 
@@ -116,13 +114,13 @@ void print_orient_hint(const CheckReport& report) {
 
 void print_fixed_part(const LockedPart& fixed, const CheckReport& before, const CheckReport& after) {
     if (before.violation_count() > 0)
-        say("{} vertices and {} faces not changed, because of violations in the input: {}", fixed.vertices,
-                   fixed.faces, counts_text(before));
+        say("{} vertices and {} faces not changed, because of violations in the input: {}", fixed.vertices, fixed.faces,
+            counts_text(before));
     print_orient_hint(before);
     for (int kind = 0; kind < kViolationKindCount; ++kind)
         if (after.counts[kind] > before.counts[kind])
-            say("more violations than in the input: {} {}, before {}",
-                       to_string(static_cast<ViolationKind>(kind)), after.counts[kind], before.counts[kind]);
+            say("more violations than in the input: {} {}, before {}", to_string(static_cast<ViolationKind>(kind)),
+                after.counts[kind], before.counts[kind]);
 }
 
 }  // namespace regionmesh::cli

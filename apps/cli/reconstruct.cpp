@@ -43,8 +43,8 @@ void print_details(const Report& report) {
     std::string refused;
     for (int n = 0; n < kVerdictCount; ++n)
         if (report.verdicts[n] > 0)
-            refused += fmt::format("{}{} {}", refused.empty() ? "" : ", ", kVerdictNames[n],
-                                   grouped(report.verdicts[n]));
+            refused +=
+                fmt::format("{}{} {}", refused.empty() ? "" : ", ", kVerdictNames[n], grouped(report.verdicts[n]));
     if (!refused.empty()) say_more("edges tried: {}", refused);
     std::string stages;
     for (const auto& [stage, seconds] : report.seconds)
@@ -74,9 +74,9 @@ void print_summary(const Settings& settings, const Report& report) {
     print_violations(check, 0);
     if (report.samples_in_room > 0)
         say("{} changed the label within --room", counted(report.samples_in_room, "sample"));
-    say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}",
-        counted(check.regions.size(), "region"), counted(report.final_faces, "face"),
-        counted(report.final_vertices, "vertex"), grouped(report.initial_faces), check.quality.min, check.quality.mean);
+    say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}", counted(check.regions.size(), "region"),
+        counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
+        check.quality.min, check.quality.mean);
     print_certificate(check, report.samples ? &*report.samples : nullptr);
     say("written: {}; {:.2f} s, {} MB of memory", files_text(settings), report.seconds.at("total"),
         grouped(report.peak_bytes / 1000000));

@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
 #include "printable.h"
 
@@ -45,9 +46,8 @@ Report smoothed(const Settings& settings, Mesh& mesh, const CheckReport& before)
 }
 
 void print_summary(const std::string& path, const Report& report, const CheckReport& before) {
-    fmt::print(
-        "{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
-        "(before {})\n",
+    say("{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
+        "(before {})",
         printable(path), report.smoothing.vertices, report.smoothing.backtracked, report.smoothing.largest_displacement,
         report.check.quality.min, report.check.violation_count(), before.violation_count());
 }
@@ -68,10 +68,8 @@ int run_smooth(const Settings& settings) {
     write_model(settings, model, files);
     write_report_file(settings, report, model, files);
     files.commit();
-    if (!settings.quiet) {
-        print_summary(settings.output, report, before);
-        print_fixed_part(fixed, before, report.check);
-    }
+    print_summary(settings.output, report, before);
+    print_fixed_part(fixed, before, report.check);
     return exit_code(report);
 }
 

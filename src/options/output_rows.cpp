@@ -69,7 +69,8 @@ Rows output_rows() {
         file_option({.name = "html",
                      .help = "page to write that shows the model and the report in a browser",
                      .group = kGroup,
-                     .commands = kReconstruct | kDecimate | kCheck | kCompare},
+                     .commands = kReconstruct | kDecimate | kCheck | kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.html; }),
         option(
             {.name = "preview-faces",
@@ -120,7 +121,7 @@ Rows run_rows() {
                 .commands = kReconstruct},
                [](Settings& s) { return &s.verbose; }),
         file_option({.name = "log",
-                     .help = "text file to write as the run goes on: the command, its stages, and all that it says",
+                     .help = "text file to write during the run: the command, the stages and all messages, with times",
                      .group = kGroup,
                      .commands = kWriters,
                      .is_output = true},

@@ -10,7 +10,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::MatchesRegex;
-
 using testing::StartsWith;
 
 class Messages : public Program {
@@ -71,6 +70,32 @@ TEST_F(Messages, of_an_error_are_in_the_log) {
 TEST_F(Messages, log_that_cannot_be_written_is_refused_before_the_work) {
     expect_refusal(command("--log " + path("no/run.log").string()), 1, "no/run.log: cannot be written: No such file");
     expect_refusal(command("--log " + path("volume.raw").string()), 2, "is the same file as");
+    expect_refusal(command("--log " + out("m.vtp")), 2, "is the same file as");
+}
+
+TEST_F(Messages, log_that_is_read_only_is_refused_without_force) {
+    put_text(path("run.log"), "old");
+    std::filesystem::permissions(path("run.log"), std::filesystem::perms::owner_read);
+    expect_refusal(command("--log " + path("run.log").string()), 1, "run.log: ");
+    EXPECT_EQ(text_of(path("run.log")), "old");
+    EXPECT_EQ(run(command("--force --log " + path("run.log").string())).code, 0);
+    EXPECT_THAT(text_of(path("run.log")), HasSubstr("written: "));
+}
+
+TEST_F(Messages, of_decimate_and_smooth_go_into_the_log) {
+    ASSERT_EQ(run(command()).code, 0);
+    for (const char* work : {"decimate --reduce 10%", "smooth"}) {
+        const std::string made = out("made.vtp"), log = out("of.log");
+        const Ran ran = run(std::string(work) + ' ' + out("m.vtp") + " -o " + made + " --quiet --log " + log);
+        EXPECT_EQ(ran.code, 0) << ran.error;
+        EXPECT_EQ(ran.out, "");
+        EXPECT_THAT(text_of(log), HasSubstr("lowest quality"));
+    }
+}
+
+TEST_F(Messages, page_is_a_file_of_the_run_like_the_others) {
+    expect_refusal(command("--html " + path("volume.raw").string()), 2, "is the same file as");
+    expect_refusal(command("--html " + out("m.vtp")), 2, "is the same file as");
 }
 
 }  // namespace

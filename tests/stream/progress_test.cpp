@@ -29,7 +29,7 @@ TEST(Progress, rises_in_every_stage_up_to_the_end) {
     test::ArrayVolume volume = test::ball_volume({40, 40, 40}, 15);
     std::vector<double> shares;
     std::map<std::string, double> first;
-    reconstruct(volume, {.reduce = 0.9, .threads = 1, .improve = true}, [&](const Progress& progress) {
+    reconstruct(volume, {.reduce = 0.9, .improve = true, .threads = 1}, [&](const Progress& progress) {
         first.emplace(progress.stage, progress.share);
         shares.push_back(progress.share);
     });
