@@ -44,6 +44,8 @@ void add_option(CLI::App& command, const OptionSpec& spec, Texts& texts) {
         texts.option = command.add_option(flags, texts.many, description);
     else
         texts.option = command.add_option(flags, texts.one, description);
+    // So that "--background 0 scan.nii.gz" leaves the input alone.
+    if (spec.kind == OptionKind::kLabel) texts.option->allow_extra_args(false);
     if (spec.kind != OptionKind::kFlag) texts.option->type_name(spec.is_argument ? "" : value_name(spec));
     if (!spec.is_argument) texts.option->group(std::string(spec.group));
     texts.option->required(spec.is_argument || spec.is_required);

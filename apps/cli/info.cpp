@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
 #include "printable.h"
@@ -52,7 +53,8 @@ int print_info(SectionReader& reader, const CensusOptions& options) {
     fmt::print("spacing    {} x {} x {}\n", lattice.spacing.x, lattice.spacing.y, lattice.spacing.z);
     fmt::print("origin     {}, {}, {}\n", lattice.origin.x, lattice.origin.y, lattice.origin.z);
     if (!lattice.is_axis_aligned()) {
-        const auto& d = lattice.direction;
+        auto d = lattice.direction;
+        for (double& part : d) part += 0.0;  // not -0
         fmt::print("direction  [{:g} {:g} {:g}] [{:g} {:g} {:g}] [{:g} {:g} {:g}]\n", d[0], d[1], d[2], d[3], d[4],
                    d[5], d[6], d[7], d[8]);
     }
@@ -71,8 +73,11 @@ int print_info(SectionReader& reader, const CensusOptions& options) {
 }  // namespace
 
 int run_info(const Settings& settings) {
-    return with_reader(settings, settings.inputs,
-                       [&](auto& reader) { return print_info(reader, census_options(settings)); });
+    return with_reader(settings, settings.inputs, [&](auto& reader) {
+        const int code = print_info(reader, census_options(settings));
+        warn_of_grey_scale(settings, reader);
+        return code;
+    });
 }
 
 }  // namespace regionmesh::cli

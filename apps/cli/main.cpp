@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -10,8 +11,11 @@
 #include <initializer_list>
 #include <iostream>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
+#include "arguments.h"
 #include "command_line.h"
 #include "commands.h"
 #include "messages.h"
@@ -120,12 +124,17 @@ int parse_and_run(int argc, char** argv) {
     Action action;
     add_commands(app, action);
     add_page(app);
+    std::vector<std::string> arguments = arguments_of(argc, argv);
+    const CommandSpec* const command = command_in(arguments);
+    const std::string help = fmt::format("regionmesh{}{} --help", command ? " " : "", command ? command->name : "");
     try {
-        app.parse(argc, argv);
+        std::ranges::reverse(arguments);  // as CLI11 wants them
+        app.parse(arguments);
     } catch (const CLI::Success& asked) {
         return app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        complain({error.what(), "; see regionmesh --help"});
+        const std::string unknown = unknown_word(arguments_of(argc, argv));
+        complain({unknown.empty() ? error.what() : unknown.c_str(), "; see ", help.c_str()});
         return kBadUsage;
     }
     if (app.got_subcommand("reconstruct")) advice = "give a smaller --memory, fewer --threads or a lower target";

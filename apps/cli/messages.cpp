@@ -52,6 +52,12 @@ void put_line(Audience audience, std::string_view line) {
     fmt::print("{}\n", line);
 }
 
+void warn(std::string_view text) {
+    const std::string line = fmt::format("warning: {}", printable(std::string(text)));
+    put_into_log(line);
+    if (!state.is_quiet) std::fputs(("regionmesh: " + line + "\n").c_str(), stderr);
+}
+
 void log_line(const char* text) { put_into_log(text); }
 
 }  // namespace regionmesh::cli

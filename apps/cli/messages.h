@@ -31,6 +31,9 @@ void say_more(fmt::format_string<T...> format, T&&... values) {
     put_line(Audience::kVerbose, fmt::format(format, std::forward<T>(values)...));
 }
 
+/// A warning on standard error and in the log; not on standard error with --quiet.
+void warn(std::string_view text);
+
 /// One line for the log alone, where there is one. Allocates nothing.
 void log_line(const char* text);
 

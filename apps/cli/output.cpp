@@ -80,6 +80,8 @@ void print_violations(const CheckReport& report, int listed) {
         int count = 0;
         for (const Violation& violation : report.violations)
             if (violation.kind == static_cast<ViolationKind>(kind) && count++ < listed) say("  {}", violation.text);
+        if (listed > 0 && report.counts[kind] > static_cast<std::uint64_t>(listed))
+            say("  and {} more; --json lists them", grouped(report.counts[kind] - listed));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
 #include "messages.h"
@@ -87,6 +88,7 @@ Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
     ProgressLine line(settings.quiet);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
         names = names_or(settings, reader.info().names);
+        warn_of_grey_scale(settings, reader);
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& progress) { line.show(progress); });
         line.clear();
@@ -100,6 +102,8 @@ int run_reconstruct(const Settings& settings) {
     require_outputs(settings);
     LabelNames names;
     Reconstruction made = reconstruct_input(settings, names);
+    require_regions(settings, made.report.check);
+    warn_of_absent_labels(settings, made.mesh, made.labels);
     Report& report = made.report;
     const Model model{made.mesh, made.labels, made.background, names};
     put_line(Audience::kLog, "write");

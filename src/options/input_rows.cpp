@@ -12,6 +12,7 @@ namespace regionmesh {
 namespace {
 
 constexpr Range kLayers{0, 0x7FFFFFFF}, kPositive{.low = 0, .is_low_included = false};
+constexpr std::uint64_t kMostBackgroundLabels = 65535;
 
 void choose_sweep(Settings& settings, std::size_t word) {
     constexpr SweepChoice kChoices[] = {SweepChoice::kAuto, SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
@@ -30,7 +31,13 @@ void add_background(Settings& settings, const std::string& flag, const std::stri
     std::vector<InputLabel>& background = settings.reconstruct.background;
     const bool is_first = std::ranges::none_of(settings.given, [](const auto& v) { return v.first == "background"; });
     if (is_first) background.clear();  // the default
-    background.push_back(parse_label(flag, text));
+    for (const LabelRange& range : parse_label_ranges(flag, text)) {
+        const auto more = static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(range.first);
+        if (more > kMostBackgroundLabels)
+            refuse_value(flag, text, "a range of at most 65,536 labels, from low to high");
+        for (std::uint64_t n = 0; n <= more; ++n)
+            background.push_back(static_cast<InputLabel>(static_cast<std::uint64_t>(range.first) + n));
+    }
     settings.volume.select.rest = background.front();
 }
 
@@ -261,7 +268,7 @@ Rows label_rows() {
     const std::string background = labels_text(defaults.reconstruct.background);
     return {
         special_option({.name = "background",
-                        .help = "label of empty space, whose faces with the exterior are not made",
+                        .help = "labels of empty space, as 0 or 0,5-9; their faces with the exterior are not made",
                         .group = kGroup,
                         .commands = kBoxed | kConvert | kCompare | kVoxelise | kView,
                         .repeats = true,

@@ -67,7 +67,8 @@ protected:
             if (other.is_argument) line += ' ' + (other.name == "to" ? out("m.vtp") : path(input_for(option)).string());
             if (other.is_required) line += " --" + other.name + ' ' + out(other.is_output ? "m.vtp" : "none.npy");
         }
-        if (command.command == kDecimate && option.name != "target-faces") line += " --target-faces 10";
+        if (command.command == kDecimate && option.name != "target-faces" && option.name != "reduce")
+            line += " --target-faces 10";
         if (option.inputs != kAnyInput && command.command == kCheck && option.name != "sections")
             line += " --sections " + path(input_for(option)).string();
         line += option.is_argument ? "" : " --" + option.name;
