@@ -56,15 +56,20 @@ std::vector<std::string> command_names() {
     return names;
 }
 
-std::string unknown_option(const CommandSpec& command, const std::vector<std::string>& arguments) {
-    std::vector<std::string> flags{"--help", "--help-all"};
+std::vector<std::string> flags_of(const CommandSpec& command) {
+    std::vector<std::string> flags{"--help"};
     for (const OptionSpec& option : option_table())
         if ((option.commands & command.command) != 0 && !option.is_argument) flags.push_back(option.flag());
+    return flags;
+}
+
+std::string unknown_option(const CommandSpec& command, const std::vector<std::string>& arguments) {
+    const std::vector<std::string> flags = flags_of(command);
     for (const std::string& argument : arguments) {
         if (argument == "--") break;
         const std::string flag = argument.substr(0, argument.find('='));
         if (!flag.starts_with("--") || std::ranges::find(flags, flag) != flags.end()) continue;
-        return fmt::format("{}: {} has no such option{}", flag, command.name, guess(flag, flags));
+        return no_such_option(command, flag);
     }
     return {};
 }
@@ -85,6 +90,13 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
         is_value = takes_labels(text);
     }
     return arguments;
+}
+
+std::string no_such_option(const CommandSpec& command, const std::string& name) {
+    std::vector<std::string> names = flags_of(command);
+    if (!name.starts_with("--"))
+        for (std::string& flag : names) flag.erase(0, 2);
+    return fmt::format("{}: {} has no such option{}", name, command.name, guess(name, names));
 }
 
 const CommandSpec* command_in(const std::vector<std::string>& arguments) {

@@ -15,6 +15,10 @@ std::vector<std::string> arguments_of(int argc, char** argv);
 /// What is wrong with a command or an option that does not exist, and which one may be meant; empty where all exist.
 std::string unknown_word(const std::vector<std::string>& arguments);
 
+/// "redcue: reconstruct has no such option; did you mean reduce?". `name` may begin with dashes; then so does the
+/// guess.
+std::string no_such_option(const CommandSpec& command, const std::string& name);
+
 /// The command among the arguments; null where there is none.
 const CommandSpec* command_in(const std::vector<std::string>& arguments);
 

@@ -81,10 +81,12 @@ int run_decimate(const Settings& settings) {
     const Model model{file.mesh, file.labels, options.background, names};
     OutputFiles files(settings.writing);
     write_model(settings, model, files);
-    write_report_file(settings, report, model, files);
+    write_report_file(settings, report, model, made_by(kDecimate, settings), files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
-                   page_options(kDecimate, settings, report_json(report, file.labels, names), false), files);
+                   page_options(kDecimate, settings,
+                                report_json(report, file.labels, names, made_by(kDecimate, settings)), false),
+                   files);
     files.commit();
     print_summary(settings.output, report);
     print_fixed_part(fixed, before, report.check);

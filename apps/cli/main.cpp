@@ -100,11 +100,12 @@ void hold_standard_streams() {
             (void)!::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-void add_commands(CLI::App& app, Action& action) {
+void add_commands(CLI::App& app, bool has_config, Action& action) {
     // In the order of command_table().
     constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth,   run_check, run_convert,
                                                  run_compare,     run_info,     run_voxelise, run_view};
-    for (std::size_t n = 0; n < command_table().size(); ++n) add_command(app, command_table()[n], kRuns[n], action);
+    for (std::size_t n = 0; n < command_table().size(); ++n)
+        add_command(app, command_table()[n], kRuns[n], has_config, action);
 }
 
 /// A flag that is not in help texts: prints docs/reference/command-line.md and ends.
@@ -121,10 +122,14 @@ int parse_and_run(int argc, char** argv) {
     app.name("regionmesh");
     app.set_version_flag("--version", REGIONMESH_VERSION);
     app.require_subcommand(1);
+    app.footer("Example: " + std::string(command_table().front().example) +
+               "\nregionmesh COMMAND --help lists the options of a command, with defaults and units.");
     Action action;
-    add_commands(app, action);
-    add_page(app);
     std::vector<std::string> arguments = arguments_of(argc, argv);
+    const bool has_config = std::ranges::any_of(
+        arguments, [](const std::string& text) { return text == "--config" || text.starts_with("--config="); });
+    add_commands(app, has_config, action);
+    add_page(app);
     const CommandSpec* const command = command_in(arguments);
     const std::string help = fmt::format("regionmesh{}{} --help", command ? " " : "", command ? command->name : "");
     try {

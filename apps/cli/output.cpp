@@ -41,9 +41,11 @@ void write_model(const Settings& settings, const Model& model, OutputFiles& file
                {.background = model.background, .names = model.names, .per_region = settings.per_region}, files);
 }
 
-void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files) {
+void write_report_file(const Settings& settings, Report& report, const Model& model, const MadeBy& made_by,
+                       OutputFiles& files) {
     report.peak_bytes = peak_resident_bytes();
-    if (!settings.report.empty()) files.add(settings.report).write(report_json(report, model.labels, model.names));
+    if (!settings.report.empty())
+        files.add(settings.report).write(report_json(report, model.labels, model.names, made_by));
 }
 
 int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }
@@ -59,9 +61,13 @@ std::string grouped(std::uint64_t count) {
     return digits;
 }
 
+std::string plural_of(const std::string& noun) {
+    if (noun == "tetrahedron") return "tetrahedra";
+    return noun == "vertex" ? "vertices" : noun + 's';
+}
+
 std::string counted(std::uint64_t count, const std::string& noun) {
-    const std::string plural = noun == "vertex" ? "vertices" : noun + 's';
-    return grouped(count) + ' ' + (count == 1 ? noun : plural);
+    return grouped(count) + ' ' + (count == 1 ? noun : plural_of(noun));
 }
 
 void print_improved(const Report& report) {

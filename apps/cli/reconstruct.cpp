@@ -115,10 +115,12 @@ int run_reconstruct(const Settings& settings) {
     }
     report.seconds["write"] = writing;
     report.seconds["total"] += writing;
-    write_report_file(settings, report, model, files);
+    write_report_file(settings, report, model, made_by(kReconstruct, settings), files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, names)},
-                   page_options(kReconstruct, settings, report_json(report, made.labels, names), true), files);
+                   page_options(kReconstruct, settings,
+                                report_json(report, made.labels, names, made_by(kReconstruct, settings)), true),
+                   files);
     files.commit();
     print_summary(settings, report);
     return exit_code(report);

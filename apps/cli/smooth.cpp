@@ -4,6 +4,7 @@
 #include "input.h"
 #include "messages.h"
 #include "output.h"
+#include "page_output.h"
 #include "printable.h"
 
 namespace regionmesh::cli {
@@ -66,7 +67,7 @@ int run_smooth(const Settings& settings) {
     const Model model{file.mesh, file.labels, options.background, names};
     OutputFiles files(settings.writing);
     write_model(settings, model, files);
-    write_report_file(settings, report, model, files);
+    write_report_file(settings, report, model, made_by(kSmooth, settings), files);
     files.commit();
     print_summary(settings.output, report, before);
     print_fixed_part(fixed, before, report.check);

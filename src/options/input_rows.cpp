@@ -52,6 +52,7 @@ Rows selection_rows() {
              .group = kGroup,
              .commands = kLatticeCommands,
              .unit = "samples",
+             .value = "X,Y,Z",
              .inputs = kVolumeInput},
             OptionKind::kText,
             [](Settings& s, const std::string& flag, const std::string& text) {
@@ -62,6 +63,7 @@ Rows selection_rows() {
                         .group = kGroup,
                         .commands = kLatticeCommands,
                         .unit = "length",
+                        .value = "X,Y,Z",
                         .inputs = kVolumeInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
@@ -78,6 +80,7 @@ Rows selection_rows() {
                         .help = "volumes: labels to keep, as 1,5-9; samples with another label become background",
                         .group = kGroup,
                         .commands = kVolumeCommands,
+                        .value = "LABELS",
                         .inputs = kVolumeInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
@@ -89,6 +92,7 @@ Rows selection_rows() {
              .group = kGroup,
              .commands = kLatticeCommands,
              .unit = "samples",
+             .value = "N|X,Y,Z",
              .inputs = kVolumeInput},
             OptionKind::kText,
             [](Settings& s, const std::string& flag, const std::string& text) {
@@ -210,6 +214,7 @@ Rows volume_rows() {
                         .help = "raw files: type of a sample, little endian: int8, uint8, ... int64, uint64",
                         .group = kGroup,
                         .commands = kFileCommands,
+                        .value = "TYPE",
                         .inputs = kVolumeInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
@@ -228,6 +233,7 @@ Rows tetrahedra_rows() {
                 .help = "tables: which columns are which, as X,Y,Z,LABEL or hole=nr,label=lith ...",
                 .group = kGroup,
                 .commands = kVolumeCommands,
+                .value = "COLUMNS",
                 .inputs = kTableInput},
                [](Settings& s) { return &s.tetrahedra.columns; }),
         option(
@@ -249,6 +255,7 @@ Rows tetrahedra_rows() {
                 .help = "meshes: name of the array of labels",
                 .group = kGroup,
                 .commands = kVolumeCommands,
+                .value = "NAME",
                 .inputs = kMeshInput},
                [](Settings& s) { return &s.tetrahedra.array; }),
         option({.name = "hull",
@@ -271,6 +278,7 @@ Rows label_rows() {
                         .help = "labels of empty space, as 0 or 0,5-9; their faces with the exterior are not made",
                         .group = kGroup,
                         .commands = kBoxed | kConvert | kCompare | kVoxelise | kView,
+                        .value = "LABELS",
                         .repeats = true,
                         .default_text = background},
                        OptionKind::kLabel, add_background),

@@ -94,6 +94,7 @@ Rows smoothing_rows() {
                         .help = "how much: off, light, normal, strong, or a number of passes; 0: none",
                         .group = kGroup,
                         .commands = kSmoothers,
+                        .value = "WORD|PASSES",
                         .default_text = "normal"},
                        OptionKind::kText, choose_strength),
         word_option(
