@@ -114,6 +114,13 @@ TEST_F(Usage, one_thing_is_one_thing_and_lists_say_how_many_more) {
     ASSERT_EQ(run(ball()).code, 0);
     EXPECT_THAT(run("check " + out("m.vtp")).out, HasSubstr(": 1 region, "));
     EXPECT_THAT(run("view " + out("m.vtp") + " -o " + out("m.html")).out, HasSubstr(" 1 region, 0 violations"));
+    const std::string facet =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    std::string apart = facet;
+    for (std::size_t at = 0; (at = apart.find("vertex ", at)) != std::string::npos; at += 8) apart.insert(at + 7, "9");
+    put_text(path("open.stl"), "solid a\n" + facet + apart + "endsolid a\n");
+    EXPECT_THAT(run("check " + path("open.stl").string()).out,
+                AllOf(HasSubstr("violation open_edge: 6\n"), HasSubstr("  and 3 more; --json lists them\n")));
 }
 
 }  // namespace
