@@ -27,10 +27,9 @@ LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
 }
 
 void print_findings(const std::string& name, const CheckReport& report) {
-    fmt::print(
-        "{}: {} regions, {} pairs with an interface, {} quadruple points inside, lowest quality {:.3f}, mean {:.3f}\n",
-        printable(name), report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
-        report.quality.mean);
+    fmt::print("{}: {}, {} with an interface, {} inside, lowest quality {:.3f}, mean {:.3f}\n", printable(name),
+               counted(report.regions.size(), "region"), counted(report.region_pairs, "pair"),
+               counted(report.quadruple_points_inside, "quadruple point"), report.quality.min, report.quality.mean);
     print_violations(report, kListed);
     if (report.violation_count() == 0) fmt::print("no violations\n");
     print_orient_hint(report);

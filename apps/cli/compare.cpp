@@ -21,12 +21,16 @@ MeshFile read_faces(const std::string& path) {
     return file;
 }
 
-/// Labels as typed: "3", or "3|7|-1".
-std::string name_of(const std::vector<Label>& labels, const LabelTable& table) {
+/// Names, or labels as typed where there is none: "Femur", or "Femur|7|-1".
+std::string name_of(const std::vector<Label>& labels, const LabelTable& table, const LabelNames& names) {
     std::string name;
     for (const Label label : labels) {
         if (!name.empty()) name += '|';
-        name += is_exterior(label) ? std::to_string(table.exterior_label()) : table.text(table.input(label));
+        const auto named = is_exterior(label) ? names.end() : names.find(table.input(label));
+        if (named != names.end())
+            name += printable(named->second);
+        else
+            name += is_exterior(label) ? std::to_string(table.exterior_label()) : table.text(table.input(label));
     }
     return name;
 }
@@ -38,7 +42,8 @@ struct Row {
     const TwoSidedDistance& distance;
 };
 
-std::vector<Row> rows_of(const CompareReport& report, const std::vector<RegionComparison>& regions) {
+std::vector<Row> rows_of(const CompareReport& report, const std::vector<RegionComparison>& regions,
+                         const LabelNames& names) {
     std::vector<Row> rows;
     for (const RegionComparison& region : regions) {
         const auto& [a, b] = region.measures;
@@ -47,19 +52,20 @@ std::vector<Row> rows_of(const CompareReport& report, const std::vector<RegionCo
             measures = fmt::format("{:>12.5g} {:>+10.3g} {:>12.5g} {:>+10.3g} {:>6} {:>+5}", a->volume,
                                    b->volume - a->volume, a->area, b->area - a->area, a->euler, b->euler - a->euler);
         rows.push_back(
-            {name_of({region.label}, report.labels), measures, a.has_value(), b.has_value(), region.distance});
+            {name_of({region.label}, report.labels, names), measures, a.has_value(), b.has_value(), region.distance});
     }
     return rows;
 }
 
-std::vector<Row> rows_of(const CompareReport& report, const std::vector<StratumComparison>& strata) {
+std::vector<Row> rows_of(const CompareReport& report, const std::vector<StratumComparison>& strata,
+                         const LabelNames& names) {
     std::vector<Row> rows;
     for (const StratumComparison& stratum : strata) {
         const auto& [a, b] = stratum.measures;
         std::string measures;
         if (a && b) measures = fmt::format("{:>12.5g} {:>+10.3g}", *a, *b - *a);
         rows.push_back(
-            {name_of(stratum.labels, report.labels), measures, a.has_value(), b.has_value(), stratum.distance});
+            {name_of(stratum.labels, report.labels, names), measures, a.has_value(), b.has_value(), stratum.distance});
     }
     return rows;
 }
@@ -123,7 +129,7 @@ void print_quality(const std::array<QualityReport, 2>& quality) {
     fmt::print("\n");
 }
 
-void print_report(const Settings& settings, const CompareReport& report) {
+void print_report(const Settings& settings, const CompareReport& report, const LabelNames& names) {
     fmt::print("A  {}: {} faces, {} vertices\n", printable(settings.models[0]), report.faces[0], report.vertices[0]);
     fmt::print("B  {}: {} faces, {} vertices\n", printable(settings.models[1]), report.faces[1], report.vertices[1]);
     fmt::print("\n{:<{}}{}\n", "surface", kNameWidth, kDistanceHead);
@@ -131,9 +137,9 @@ void print_report(const Settings& settings, const CompareReport& report) {
     fmt::print("{:<{}}{}\n", "B to A", kNameWidth, text_of(*report.distance.b_to_a));
     fmt::print("{:<{}}{}\n", "both", kNameWidth, text_of(*report.distance.both));
     print_table("regions", "    volume A     change       area A     change  Euler change",
-                rows_of(report, report.regions));
-    print_table("interfaces", "      area A     change", rows_of(report, report.interfaces));
-    print_table("lines", "    length A     change", rows_of(report, report.lines));
+                rows_of(report, report.regions, names));
+    print_table("interfaces", "      area A     change", rows_of(report, report.interfaces, names));
+    print_table("lines", "    length A     change", rows_of(report, report.lines, names));
     print_quality(report.quality);
 }
 
@@ -198,12 +204,14 @@ int run_compare(const Settings& given) {
                     fmt::format("{}, {}: one of them has no face of positive area, except faces between background and "
                                 "exterior: there is nothing to compare; see --no-background",
                                 settings.models[0], settings.models[1]));
+    LabelNames names = a.names;
+    names.insert(b.names.begin(), b.names.end());
     OutputFiles files(settings.writing);
-    if (!settings.json.empty()) files.add(settings.json).write(compare_json(report));
+    if (!settings.json.empty()) files.add(settings.json).write(compare_json(report, names));
     if (!settings.distance.empty()) write_distances(settings, a, report, files);
     if (!settings.html.empty()) write_comparison(settings, a, b, report, files);
     files.commit();
-    if (!settings.quiet) print_report(settings, report);
+    if (!settings.quiet) print_report(settings, report, names);
     return kGood;
 }
 

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
 #include "page_output.h"
 #include "printable.h"
@@ -56,8 +57,8 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving)
 }
 
 void print_summary(const std::string& path, const Report& report) {
-    fmt::print("{}: {} faces (from {}), lowest quality {:.3f}, {} violations\n", printable(path), report.final_faces,
-               report.initial_faces, report.check.quality.min, report.check.violation_count());
+    say("{}: {} faces (from {}), lowest quality {:.3f}, {}", printable(path), report.final_faces, report.initial_faces,
+        report.check.quality.min, counted(report.check.violation_count(), "violation"));
     print_improved(report);
 }
 
@@ -81,16 +82,16 @@ int run_decimate(const Settings& given) {
     const Model model{file.mesh, file.labels, options.background, names, file.space};
     OutputFiles files(settings.writing);
     const auto written = write_model(settings, model, files);
-    write_report_file(settings, report, model, files);
+    write_report_file(settings, report, model, made_by(kDecimate, settings), files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
-                   page_options(kDecimate, settings, report_json(report, file.labels, names), false), files);
+                   page_options(kDecimate, settings,
+                                report_json(report, file.labels, names, made_by(kDecimate, settings)), false),
+                   files);
     files.commit();
     print_region_files(settings, written);
-    if (!settings.quiet) {
-        print_summary(settings.output, report);
-        print_fixed_part(fixed, before, report.check);
-    }
+    print_summary(settings.output, report);
+    print_fixed_part(fixed, before, report.check);
     print_stop(settings, report);
     return exit_code(report.check);
 }

@@ -33,7 +33,15 @@ std::vector<std::filesystem::path> write_model(const Settings& settings, const M
 void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written);
 
 /// Writes the report of the model if --report asks for it, with the memory used until now.
-void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files);
+void write_report_file(const Settings& settings, Report& report, const Model& model, const MadeBy& made_by,
+                       OutputFiles& files);
+
+/// 7109137 as 7,109,137.
+std::string grouped(std::uint64_t count);
+/// "regions", "vertices", "tetrahedra".
+std::string plural_of(const std::string& noun);
+/// "1 region", "7,109 regions".
+std::string counted(std::uint64_t count, const std::string& noun);
 
 /// kViolations where the report has some, else kGood.
 int exit_code(const CheckReport& report);

@@ -2,7 +2,9 @@
 
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
+#include "page_output.h"
 #include "printable.h"
 
 namespace regionmesh::cli {
@@ -45,9 +47,8 @@ Report smoothed(const Settings& settings, Mesh& mesh, const CheckReport& before)
 }
 
 void print_summary(const std::string& path, const Report& report, const CheckReport& before) {
-    fmt::print(
-        "{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
-        "(before {})\n",
+    say("{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
+        "(before {})",
         printable(path), report.smoothing.vertices, report.smoothing.backtracked, report.smoothing.largest_displacement,
         report.check.quality.min, report.check.violation_count(), before.violation_count());
 }
@@ -67,13 +68,11 @@ int run_smooth(const Settings& given) {
     const Model model{file.mesh, file.labels, options.background, names, file.space};
     OutputFiles files(settings.writing);
     const auto written = write_model(settings, model, files);
-    write_report_file(settings, report, model, files);
+    write_report_file(settings, report, model, made_by(kSmooth, settings), files);
     files.commit();
     print_region_files(settings, written);
-    if (!settings.quiet) {
-        print_summary(settings.output, report, before);
-        print_fixed_part(fixed, before, report.check);
-    }
+    print_summary(settings.output, report, before);
+    print_fixed_part(fixed, before, report.check);
     return exit_code(report);
 }
 

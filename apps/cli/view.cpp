@@ -21,8 +21,8 @@ int run_view(const Settings& given) {
                page_options(kView, settings, check_json(report, file.labels, names), false), files);
     files.commit();
     if (!settings.quiet) {
-        fmt::print("{}: {} faces, {} regions, {} violations\n", settings.output, file.mesh.face_count(),
-                   report.regions.size(), report.violation_count());
+        fmt::print("{}: {}, {}, {}\n", settings.output, counted(file.mesh.face_count(), "face"),
+                   counted(report.regions.size(), "region"), counted(report.violation_count(), "violation"));
         print_violations(report, 0);
     }
     return kGood;

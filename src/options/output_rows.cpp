@@ -25,7 +25,7 @@ std::string_view written_help() {
 
 Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
-    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare;
+    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare | kInfo;
     return {
         file_option({.name = "output",
                      .help = output_help(),
@@ -88,9 +88,11 @@ Rows output_rows() {
         file_option({.name = "json",
                      .help = "JSON file to write with all findings",
                      .group = kGroup,
-                     .commands = kCheck | kCompare,
+                     .commands = kCheck | kCompare | kInfo,
                      .is_output = true},
                     [](Settings& s) { return &s.json; }),
+        option({.name = "all", .help = "list all labels, not the first 20", .group = kGroup, .commands = kInfo},
+               [](Settings& s) { return &s.list_all; }),
         file_option({.name = "html",
                      .help = "page to write that shows the model and the report in a browser",
                      .group = kGroup,
@@ -111,6 +113,12 @@ Rows run_rows() {
     constexpr std::string_view kGroup = "Run";
     const Settings defaults;  // not made in the braced list: input_rows.cpp says why
     return {
+        file_option({.name = "config",
+                     .help = "options in a file: name = value lines (.toml), or the report of an earlier run (.json). "
+                             "Those on the command line come first",
+                     .group = kGroup,
+                     .commands = kEveryCommand},
+                    [](Settings& s) { return &s.config; }),
         special_option(
             {.name = "memory",
              .help = "memory that the process may use, such as 500MiB; too little is refused before the work starts",
@@ -140,6 +148,17 @@ Rows run_rows() {
                 .group = kGroup,
                 .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),
+        option({.name = "verbose",
+                .help = "print more: what smoothing did, why edges stayed, seconds by stage",
+                .group = kGroup,
+                .commands = kReconstruct},
+               [](Settings& s) { return &s.verbose; }),
+        file_option({.name = "log",
+                     .help = "text file to write during the run: the command, the stages and all messages, with times",
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_output = true},
+                    [](Settings& s) { return &s.log; }),
     };
 }
 

@@ -82,10 +82,7 @@ Rows decimation_rows() {
                      .commands = kDecimators},
                     {kPlacementNames.begin(), kPlacementNames.end()},
                     [](Settings& s, std::size_t word) { s.reconstruct.placement = static_cast<PlacementKind>(word); }),
-        inverted_flag({.name = "no-decimate",
-                       .help = "do not decimate, whatever the targets",
-                       .group = kGroup,
-                       .commands = kReconstruct},
+        inverted_flag({.name = "no-decimate", .help = "do not decimate", .group = kGroup, .commands = kReconstruct},
                       [](Settings& s) { return &s.reconstruct.decimate; }),
     };
 }
@@ -97,6 +94,7 @@ Rows smoothing_rows() {
                         .help = "how much: off, light, normal, strong, or a number of passes; 0: none",
                         .group = kGroup,
                         .commands = kSmoothers,
+                        .value = "WORD|PASSES",
                         .default_text = "normal"},
                        OptionKind::kText, choose_strength),
         word_option(

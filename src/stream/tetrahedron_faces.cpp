@@ -131,7 +131,7 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
 
 void TetrahedronFaces::require_memory(std::uint64_t held) const {
     if (kProcessBytes + held <= options_.memory) return;
-    throw Error(ErrorCode::kInput, "--memory " + megabytes(options_.memory) + ": " + shape_.name + " needs more than " +
+    throw Error(ErrorCode::kInput, memory_limit_text(options_.memory) + ": " + shape_.name + " needs more than " +
                                        megabytes(kProcessBytes + held) +
                                        " while its faces are made; raise --memory, or change --sweep");
 }
