@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "input.h"
+#include "memory_watch.h"
 #include "output.h"
 #include "page_output.h"
 #include "printable.h"
@@ -65,6 +66,8 @@ Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
 
 int run_reconstruct(const Settings& settings) {
     require_outputs(settings);
+    std::optional<MemoryWatch> watch;
+    if (settings.memory_is_hard) watch.emplace(settings.reconstruct.memory);
     LabelNames names;
     Reconstruction made = reconstruct_input(settings, names);
     Report& report = made.report;

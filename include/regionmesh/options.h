@@ -41,6 +41,7 @@ struct Settings {
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
     bool per_region = false, quiet = false;
+    bool memory_is_hard = false;  // the program ends rather than exceed reconstruct.memory
 
     OptionValues given;  // set by apply_options()
 };

@@ -97,6 +97,14 @@ Rows run_rows() {
             [](Settings& s, const std::string& flag, const std::string& text) {
                 s.reconstruct.memory = parse_bytes(flag, text);
             }),
+        word_option(
+            {.name = "memory-limit",
+             .help = "what --memory is: plan, the work is laid out for it and may exceed it where faces left by "
+                     "topology or --max-error are not known before; hard, the run ends with exit code 1 and no output "
+                     "rather than exceed it",
+             .group = kGroup,
+             .commands = kReconstruct},
+            {"plan", "hard"}, [](Settings& s, std::size_t word) { s.memory_is_hard = word == 1; }),
         option({.name = "face-budget",
                 .help = "largest number of faces in memory at a time; derived from --memory if not given",
                 .group = kGroup,
