@@ -43,6 +43,7 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving)
         report.verdicts = done.verdicts;
         report.refreshes = done.refreshes;
         report.stopped = to_string(done.stopped);
+        report.error_bound = done.error_bound;
         report.bytes_per_face = static_cast<double>(done.bytes) / report.peak_faces;
     }
     if (is_improving) {

@@ -1,6 +1,6 @@
 """What a share of the faces costs: distance, quality and volume, for five kinds of data."""
 import plots
-from lab import ALL_REGIONS, total
+from lab import ALL_REGIONS, TAUBIN, total
 
 TITLE = "Which --reduce? Quality at a given number of faces"
 VOLUMES = {"atlas": ("aal.npy", "AAL brain atlas, 117 labels"),
@@ -24,11 +24,11 @@ def measure(lab):
     results = {}
     for name, (file, _) in VOLUMES.items():
         volume = lab.volume(file)
-        full = lab.reconstruct(volume, "--no-decimate", *ALL_REGIONS, model="full.vtp")
+        full = lab.reconstruct(volume, "--no-decimate", *TAUBIN, *ALL_REGIONS, model="full.vtp")
         rows = [{"remain": 100, "faces": full["final_faces"], "rms": 0, "max": 0, "least": full["quality"]["min"],
                  "mean": full["quality"]["mean"], "volume": 0, "volume_max": 0, "seconds": total(full), "stopped": full["stopped"]}]
         for share in SHARES:
-            report = lab.reconstruct(volume, "--reduce", f"{100 - share}%", *ALL_REGIONS)
+            report = lab.reconstruct(volume, "--reduce", f"{100 - share}%", *TAUBIN, *ALL_REGIONS)
             distance = lab.compare("full.vtp", "model.vtp", *ALL_REGIONS)["distance"]["both"]
             drift, worst = volume_change(report, full)
             rows.append({"remain": 100 * report["final_faces"] / full["final_faces"], "faces": report["final_faces"], "rms": distance["rms"],
@@ -62,7 +62,7 @@ def at(rows, share):
 
 
 def write(page, results):
-    page.paragraph("Each model is smoothed (20 passes) and then decimated, and compared with the smoothed model of all faces. Distances are\n"
+    page.paragraph("Each model is smoothed (20 passes of taubin) and then decimated, and compared with the smoothed model of all faces. Distances are\n"
                    "both ways, in samples. Change of volume: the sum of what regions win or lose, over all volume; and the worst region\n"
                    f"of more than {SMALL} samples. The last point of each curve is the limit: nothing more can be collapsed.")
     for name, (_, words) in VOLUMES.items():

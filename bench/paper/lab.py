@@ -5,6 +5,7 @@ import statistics
 import subprocess
 
 SMOOTH_OFF = ("--smooth", "0")
+TAUBIN = ("--smooth-filter", "taubin")  # 20 passes: the paper smooths with filters of this kind
 ALL_REGIONS = ("--no-background",)
 DECIMATION = ("decimate tiles", "raise level", "decimate")  # stages of a report
 

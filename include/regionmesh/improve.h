@@ -11,10 +11,11 @@
 namespace regionmesh {
 
 struct ImproveOptions {
-    double min_quality = 0.1;                // faces below are counted
-    double scale = 1;                        // length of a typical edge: the sample spacing, or typical_edge(mesh)
-    double tolerance = 0.1;                  // share of the scale by which the surface may move, all steps together
-    std::uint32_t sweeps = 12;               // at most, over all edges and vertices
+    double min_quality = 0.1;   // of faces: round those below, the surface may move farther and edges be collapsed
+    double scale = 1;           // length of a typical edge: the sample spacing, or typical_edge(mesh)
+    double tolerance = 0.1;     // share of the scale by which the surface may move, all steps together; three times as
+                                // much round faces below min_quality
+    std::uint32_t sweeps = 12;  // at most, over all edges and vertices
     std::optional<Lattice> samples = {};     // no sample of it changes its region; its direction is not looked at
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };
@@ -27,17 +28,17 @@ struct FaceShapes {
 };
 
 struct ImproveResult {
-    std::uint64_t flips = 0, moves = 0;
+    std::uint64_t flips = 0, moves = 0, collapses = 0;
     std::uint32_t sweeps = 0;
     FaceShapes before, after;
 };
 
-/// Flips edges inside interfaces and moves vertices within their stratum: along interfaces and sides of the box, along
-/// lines; quadruple points, corners of the box and fixed vertices stay. Each step passes the tests of a collapse (fold,
-/// pinch, intersect, and samples where a lattice is given), lowers no worst quality and lowers the sum of 1 / quality^3
-/// of the faces that it changes, in which the worst faces count most. So no violation is added, and the worst quality
-/// of the mesh never falls. Deterministic. Requires that every vertex that is not fixed has all its faces in the mesh.
-/// Renumbers vertices and faces.
+/// Flips edges inside interfaces, moves vertices within their stratum (along interfaces and sides of the box, along
+/// lines; quadruple points, corners of the box and fixed vertices stay), and collapses edges of faces below
+/// min_quality. Each step passes the tests of a collapse (fold, pinch, intersect, and samples where a lattice is
+/// given), lowers no worst quality and lowers the sum of 1 / quality^3 of the faces that it changes, in which the worst
+/// faces count most. So no violation is added, and the worst quality of the mesh never falls. Deterministic. Requires
+/// that every vertex that is not fixed has all its faces in the mesh. Renumbers vertices and faces.
 ImproveResult improve(Mesh& mesh, const ImproveOptions& options);
 
 }  // namespace regionmesh

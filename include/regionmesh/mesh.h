@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,9 +35,25 @@ struct Vertex {
     Vec3 position;
     Corner star = kNoCorner;  // first corner of the star
     SideSet sides = 0;        // sides of the box it lies on; it keeps its coordinate across each of them
-    bool is_fixed = false;    // locked: neither moved nor removed, because some of its faces are elsewhere (rim, front)
-    bool is_alive = true;
-    std::uint8_t label_count = 0;  // of its stratum; valid while simplifying (src/simplify/candidates.h)
+    bool is_fixed : 1 =
+        false;  // locked: neither moved nor removed, because some of its faces are elsewhere (rim, front)
+    bool is_alive : 1 = true;
+    std::uint8_t label_count : 5 = 0;  // of its stratum; valid while simplifying (src/simplify/candidates.h)
+    std::uint32_t bound_bits : 17 = 0;
+
+    /// How far the faces round it may be from the surface that decimation was given, and that from them: a length at
+    /// this corner of each face, linear in between (docs/decimate.md).
+    float error_bound() const { return std::bit_cast<float>(std::uint32_t{bound_bits} << kBoundShift); }
+    /// Stores the least number with 9 bits of mantissa that is not below `bound`, which is at least 0.
+    void set_error_bound(double bound) {
+        auto rounded = static_cast<float>(bound);
+        if (rounded < bound) rounded = std::nextafter(rounded, HUGE_VALF);
+        bound_bits = ((std::bit_cast<std::uint32_t>(rounded) + kBoundMask) >> kBoundShift) & 0x1FFFFu;
+    }
+
+private:
+    static constexpr int kBoundShift = 14;
+    static constexpr std::uint32_t kBoundMask = (1u << kBoundShift) - 1;
 };
 static_assert(sizeof(Vertex) == 32);
 

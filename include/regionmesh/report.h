@@ -32,6 +32,7 @@ struct Report {
     std::uint64_t refreshes = 0;
     std::string stopped;                    // why decimation ended: "target", "max_error", "topology", "none asked"
     std::optional<ImproveResult> improved;  // where ReconstructOptions::improve asked for it
+    double error_bound = 0;  // no point of the surface before or after decimation is farther from the other
     CheckReport check;
     std::uint64_t samples_in_room = 0;       // changed by ReconstructOptions::room, before anything else
     std::optional<SampleAgreement> samples;  // of sections; none where they cannot be read again, or the box is open

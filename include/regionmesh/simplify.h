@@ -23,7 +23,7 @@ inline constexpr std::array<const char*, 2> kPlacementNames{"quadric", "lindstro
 struct SimplifyOptions {
     std::uint32_t target_faces = 0;                              // stop at this number of faces or fewer
     double max_cost = std::numeric_limits<double>::infinity();   // threshold: squared length times area
-    double max_error = std::numeric_limits<double>::infinity();  // rms distance to the planes gathered, a length
+    double max_error = std::numeric_limits<double>::infinity();  // no point farther off, either way: a length
     double min_quality = 0.1;                                    // of changed faces; 0 for no bound
     double perturbation = 1e-7;  // largest share of scale^4 added to a cost, hashed from the edge (P 4.5)
     double scale = 1;            // length of a typical edge: the sample spacing, or typical_edge(mesh)
@@ -46,7 +46,8 @@ struct SimplifyResult {
     std::uint32_t tile_passes = 0;  // passes over the mesh tile by tile
     std::uint32_t refreshes = 0;    // times that the candidates of the last trim were gathered after the first
     StopReason stopped = StopReason::kTarget;
-    std::size_t bytes = 0;  // held at most, the mesh included
+    double error_bound = 0;  // no point of either surface is farther than this from the other
+    std::size_t bytes = 0;   // held at most, the mesh included
 };
 
 /// Simplifies in place: large meshes tile by tile on all threads, up to a threshold that leaves a little more than the
@@ -54,8 +55,8 @@ struct SimplifyResult {
 /// docs/tiles.md). Fixed vertices (Vertex::is_fixed) neither move nor go, and no edge that ends in one is collapsed;
 /// everything else may. A target below what topology and quality allow is not reached; `stopped` says why. Renumbers
 /// vertices and faces. Deterministic: the result depends on the mesh and the options, not on `threads`. `max_error`
-/// bounds the distance to the surface as it is at the beginning of each pass, not the sum over passes. Requires that
-/// every vertex that is not fixed has all its faces in the mesh.
+/// bounds the two-sided Hausdorff distance of each interface to the same interface of the mesh as it comes. Requires
+/// that every vertex that is not fixed has all its faces in the mesh.
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options);
 
 }  // namespace regionmesh

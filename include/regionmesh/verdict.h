@@ -7,10 +7,10 @@
 namespace regionmesh {
 
 /// In the order of the tests, cheap ones first; a collapse is refused with the first that fails (docs/decimate.md).
-enum class Verdict { kAccepted, kStrata, kLink, kFold, kQuality, kPinch, kSamples, kIntersect };
+enum class Verdict { kAccepted, kStrata, kLink, kFold, kQuality, kPinch, kError, kSamples, kIntersect };
 
-inline constexpr std::array kVerdictNames{"accepted", "strata", "link",    "fold",
-                                          "quality",  "pinch",  "samples", "intersect"};
+inline constexpr std::array kVerdictNames{"accepted", "strata", "link",    "fold",     "quality",
+                                          "pinch",    "error",  "samples", "intersect"};
 inline constexpr int kVerdictCount = static_cast<int>(kVerdictNames.size());
 
 /// Number of collapses by verdict.

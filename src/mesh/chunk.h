@@ -13,6 +13,7 @@ namespace regionmesh {
 struct ChunkVertex {
     Vec3 position;
     SideSet sides = 0;
+    float error_bound = 0;  // Vertex::error_bound
 };
 static_assert(sizeof(ChunkVertex) == 32);
 
@@ -30,6 +31,7 @@ struct Chunk {
     std::vector<ChunkVertex> vertices;
     std::vector<ChunkFace> faces;
     std::vector<std::uint32_t> active;
+    std::vector<float> carried_bounds;  // that the error bounds of carried vertices rise to; or empty
 
     /// Appends the chunk that follows: its carried vertices are the active ones of this chunk.
     void append(const Chunk& next);
@@ -39,6 +41,7 @@ struct Chunk {
         vertices.clear();
         faces.clear();
         active.clear();
+        carried_bounds.clear();
     }
 };
 

@@ -41,7 +41,7 @@ void count_labels(Mesh& mesh) {
         bool is_interface = vertex.sides == 0 && first[0] != first[1];  // true for most vertices
         for (Corner c = vertex.star; c != kNoCorner && is_interface; c = mesh[FaceId{c >> 2}].next[c & 3])
             is_interface = mesh[FaceId{c >> 2}].labels == first;
-        vertex.label_count = is_interface ? 2 : static_cast<std::uint8_t>(vertex_labels(mesh, VertexId{v}).size());
+        vertex.label_count = is_interface ? 2 : static_cast<std::uint8_t>(vertex_labels(mesh, VertexId{v}).size() & 31);
     }
 }
 

@@ -63,7 +63,8 @@ Rows decimation_rows() {
                            s.reconstruct.reduce = parse_share(flag, text);
                        }),
         option({.name = "max-error",
-                .help = "stop at this rms distance to the planes of the merged faces",
+                .help = "no point of the model is farther than this from the surface before decimation, nor the other way "
+                        "round",
                 .group = kGroup,
                 .commands = kDecimators,
                 .unit = "length"},

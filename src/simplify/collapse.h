@@ -6,6 +6,7 @@
 #include "mesh/face_tree.h"
 #include "regionmesh/lattice.h"
 #include "simplify/edge_star.h"
+#include "simplify/error_bound.h"
 #include "simplify/verdict/intersect_test.h"
 #include "simplify/verdict/shape_bounds.h"
 
@@ -28,14 +29,20 @@ struct Collapse {
     Box limits = kUnbounded;  // a merged vertex that moves stays strictly inside, unless on a side of the box
     bool intersect_check = true;
     const Lattice* samples = nullptr;  // whose samples stay in their regions; none: any may change
+    double max_error = HUGE_VAL;       // of ErrorBound
     EdgeStar star = {};
     Vec3 position = {};         // of the merged vertex
     double worst_quality3 = 0;  // third power of the least quality of a changed face
     IntersectTest intersect = {};
+    ErrorBound error = {};
 };
 
-/// Collapses the edge whose star is given, and moves `stays` to `position`.
-inline void collapse_edge(Mesh& mesh, FaceTree& tree, const EdgeStar& star, Vec3 position) {
+/// Makes the collapse that was accepted: `stays` moves to the position of the merged vertex.
+inline void collapse_edge(Mesh& mesh, FaceTree& tree, Collapse& collapse) {
+    const EdgeStar& star = collapse.star;
+    const Vec3 position = collapse.position;
+    if (collapse.max_error == HUGE_VAL) collapse.error.merged(mesh, star, position);  // else test_error did
+    collapse.error.apply(mesh, star.stays);
     for (FaceId f : star.dead) {
         mesh.remove_face(f);
         tree.remove(f);

@@ -59,7 +59,8 @@ public:
                     .bounds = {.min_quality = options.min_quality},
                     .limits = bounds.limits,
                     .intersect_check = options.intersect_check,
-                    .samples = options.samples ? &*options.samples : nullptr} {}
+                    .samples = options.samples ? &*options.samples : nullptr,
+                    .max_error = options.max_error} {}
 
     CollapseResult run() {
         sweep();
@@ -114,7 +115,7 @@ private:
         ++result_.verdicts[static_cast<int>(verdict)];
         if (verdict == Verdict::kAccepted) {
             placement_->collapse(mesh_, star, collapse_.position);
-            collapse_edge(mesh_, tree_, star, collapse_.position);
+            collapse_edge(mesh_, tree_, collapse_);
             candidates_.update(star.goes, star.stays);
         } else {
             candidates_.refuse();

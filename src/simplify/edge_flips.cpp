@@ -59,6 +59,7 @@ EdgeFlips::EdgeFlips(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const Impr
       tree_(tree),
       drift_(drift),
       options_(options),
+      bound3_(options.min_quality * options.min_quality * options.min_quality),
       collapse_{.mesh = mesh, .tree = tree, .bounds = {.min_quality = 0}} {}
 
 std::optional<Flip> EdgeFlips::try_flip(FaceId f, int place) {
@@ -74,7 +75,9 @@ std::optional<Flip> EdgeFlips::try_flip(FaceId f, int place) {
     if (!after.is_better_than(before)) return {};
     const double step = height(mesh_, *flip);
     const float drift = std::max({drift_.of(flip->u), drift_.of(flip->v), drift_.of(flip->c), drift_.of(flip->d)});
-    if (!drift_.may_move(drift, step) || are_joined(mesh_, flip->c, flip->d) || is_refused(*flip)) return {};
+    if (!drift_.may_move(drift, step, before.worst3 < bound3_) || are_joined(mesh_, flip->c, flip->d) ||
+        is_refused(*flip))
+        return {};
     const auto labels = mesh_[f].labels;
     mesh_.remove_face(flip->f);
     mesh_.remove_face(flip->g);

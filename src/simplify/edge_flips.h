@@ -27,6 +27,7 @@ private:
     FaceTree& tree_;
     SurfaceDrift& drift_;
     const ImproveOptions& options_;
+    double bound3_;  // on quality, to the third power
     Collapse collapse_;
 };
 

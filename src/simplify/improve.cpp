@@ -8,6 +8,7 @@
 #include "base/triangle.h"
 #include "mesh/strata.h"
 #include "simplify/edge_flips.h"
+#include "simplify/short_edges.h"
 #include "simplify/vertex_moves.h"
 
 namespace regionmesh {
@@ -44,15 +45,17 @@ public:
           drift_(mesh.vertex_end(), options.tolerance * options.scale),
           flips_(mesh, tree_, drift_, options),
           moves_(mesh, tree_, drift_, options),
+          short_edges_(mesh, tree_, drift_, options),
           changed_(mesh.vertex_end(), 0) {}
 
     void run(ImproveResult& result) {
         while (result.sweeps < options_.sweeps) {
             now_ = ++result.sweeps;
-            const std::uint64_t before = result.flips + result.moves;
-            result.flips += sweep_flips();
-            result.moves += sweep_moves();
-            if (result.flips + result.moves == before) break;
+            const std::uint64_t flips = sweep_flips(), moves = sweep_moves(), collapses = sweep_short_edges();
+            result.flips += flips;
+            result.moves += moves;
+            result.collapses += collapses;
+            if (flips + moves + collapses == 0) break;
         }
     }
 
@@ -69,13 +72,30 @@ private:
         for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
             report_progress(f);
             for (int place = 0; place < 3 && mesh_.is_alive(FaceId{f}); ++place) {
-                const auto& v = mesh_[FaceId{f}].vertices;
-                if (!is_fresh(v[0]) && !is_fresh(v[1]) && !is_fresh(v[2])) break;
+                if (!is_fresh(FaceId{f})) break;
                 const auto flip = flips_.try_flip(FaceId{f}, place);
                 if (!flip) continue;
                 for (VertexId w : {flip->u, flip->v, flip->c, flip->d}) note(w);
                 ++count;
             }
+        }
+        return count;
+    }
+
+    bool is_fresh(FaceId f) const {
+        const auto& v = mesh_[f].vertices;
+        return is_fresh(v[0]) || is_fresh(v[1]) || is_fresh(v[2]);
+    }
+
+    std::uint64_t sweep_short_edges() {
+        std::uint64_t count = 0;
+        for (std::uint32_t n = 0; n < mesh_.face_end(); ++n) {
+            const FaceId f{n};
+            if (!mesh_.is_alive(f) || !is_fresh(f)) continue;
+            const auto p = mesh_.corners(f);
+            if (face_quality(p[0], p[1], p[2]) >= options_.min_quality || !short_edges_.try_collapse(f)) continue;
+            for (VertexId w : short_edges_.changed()) note(w);
+            ++count;
         }
         return count;
     }
@@ -98,6 +118,7 @@ private:
     SurfaceDrift drift_;
     EdgeFlips flips_;
     VertexMoves moves_;
+    ShortEdges short_edges_;
     std::vector<std::uint32_t> changed_;  // by vertex: the last sweep that changed its star
     std::uint32_t now_ = 0;
 };
@@ -110,6 +131,7 @@ ImproveResult improve(Mesh& mesh, const ImproveOptions& options) {
     mesh.sort_spatially();
     count_labels(mesh);
     ImproveLoop(mesh, options).run(result);
+    if (result.collapses > 0) mesh.compact();
     result.after = shapes_of(mesh, options.min_quality);
     return result;
 }

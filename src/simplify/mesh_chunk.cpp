@@ -10,7 +10,7 @@ Chunk take_chunk(Mesh& mesh) {
         const Vertex& vertex = mesh[VertexId{v}];
         if (!vertex.is_alive) continue;
         numbers[v] = static_cast<std::uint32_t>(chunk.vertices.size());
-        chunk.vertices.push_back({vertex.position, vertex.sides});
+        chunk.vertices.push_back({vertex.position, vertex.sides, vertex.error_bound()});
         if (vertex.is_fixed) chunk.active.push_back(numbers[v]);
     }
     chunk.faces.reserve(mesh.face_count());
@@ -26,7 +26,8 @@ Chunk take_chunk(Mesh& mesh) {
 Mesh mesh_of(const Chunk& chunk) {
     Mesh mesh;
     mesh.reserve(chunk.vertices.size(), chunk.faces.size());
-    for (const ChunkVertex& vertex : chunk.vertices) mesh.add_vertex(vertex.position, vertex.sides);
+    for (const ChunkVertex& vertex : chunk.vertices)
+        mesh[mesh.add_vertex(vertex.position, vertex.sides)].set_error_bound(vertex.error_bound);
     for (const auto& [corners, labels] : chunk.faces)
         mesh.add_face(VertexId{corners[0]}, VertexId{corners[1]}, VertexId{corners[2]}, labels[0], labels[1]);
     for (std::uint32_t v : chunk.active) mesh[VertexId{v}].is_fixed = true;

@@ -127,7 +127,7 @@ Verdict Prepass::test(VertexId target) {
 void Prepass::apply(VertexId target) {
     const EdgeStar& star = collapse_.star;
     placement_.collapse(mesh_, star, star.at_stays);
-    collapse_edge(mesh_, tree_, star, star.at_stays);
+    collapse_edge(mesh_, tree_, collapse_);
     seen_[index(target)] = sweep_;
     for (VertexId v : star.link) seen_[index(v)] = sweep_;
 }

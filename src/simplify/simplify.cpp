@@ -6,6 +6,7 @@
 #include "mesh/extent.h"
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
+#include "simplify/error_bound.h"
 #include "simplify/mesh_chunk.h"
 #include "simplify/threshold_passes.h"
 
@@ -63,6 +64,7 @@ void simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
 
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
     SimplifyResult result;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].set_error_bound(0);
     if (mesh.face_count() > options.target_faces) simplify_by_tiles(mesh, options, result);
     mesh.sort_spatially();
     const std::size_t mesh_bytes = mesh.bytes();
@@ -70,6 +72,7 @@ SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
     add(result.verdicts, done.verdicts);
     result.refreshes = done.refreshes;
     result.stopped = done.stopped;
+    result.error_bound = largest_error_bound(mesh);
     result.bytes = std::max(result.bytes, mesh_bytes + done.bytes);
     return result;
 }

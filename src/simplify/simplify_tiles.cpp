@@ -34,8 +34,11 @@ VerdictCounts simplify_tile(Tile& tile, TiledFaces& faces, std::uint32_t number,
 
 TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
     const Chunk& chunk = faces.chunk();
-    TileResult result{
-        .left = {.carried = chunk.carried, .vertices = faces.locked_vertices(), .faces = {}, .active = {}}};
+    TileResult result{.left = {.carried = chunk.carried,
+                               .vertices = faces.locked_vertices(),
+                               .faces = {},
+                               .active = {},
+                               .carried_bounds = {}}};
     Chunk& left = result.left;
     // Reserved pages that are never written cost no memory.
     left.vertices.reserve(chunk.vertices.size());

@@ -15,11 +15,16 @@ public:
     SurfaceDrift(std::uint32_t vertex_end, double most) : drift_(vertex_end, 0.0f), most_(most) {}
 
     float of(VertexId v) const { return drift_[index(v)]; }
-    /// May the surface move by `step` where it has moved by `before`?
-    bool may_move(float before, double step) const { return before + step <= most_; }
+    /// May the surface move by `step` where it has moved by `before`? Round faces below the quality bound it may move
+    /// farther.
+    bool may_move(float before, double step, bool is_poor) const {
+        return before + step <= (is_poor ? kPoorShare * most_ : most_);
+    }
     void set(VertexId v, float before, double step) { drift_[index(v)] = before + static_cast<float>(step); }
 
 private:
+    static constexpr double kPoorShare = 3;
+
     std::vector<float> drift_;
     double most_;
 };

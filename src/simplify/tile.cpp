@@ -66,6 +66,7 @@ void Tile::put_in(TiledFaces& faces, std::uint32_t f) {
         if (place == kNone) {
             const ChunkVertex& vertex = faces.vertex(local);
             place = index(mesh_.add_vertex(vertex.position, vertex.sides, is_locked));
+            mesh_[VertexId{place}].set_error_bound(vertex.error_bound);
             locals_.push_back(local);
             inside_count_ += !is_locked;
         }
@@ -78,6 +79,7 @@ void Tile::put_in(TiledFaces& faces, std::uint32_t f) {
 void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
     left_vertices_.clear();
     left_faces_.clear();
+    left_bounds_.clear();
     const auto is_locked = [&](std::uint32_t local) { return faces.is_locked(local); };
     for (std::uint32_t f : faces.faces_of(tile)) {
         ChunkFace face = faces.chunk().faces[f];
@@ -88,10 +90,13 @@ void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
     number_.assign(mesh_.vertex_end(), kNone);
     for (std::uint32_t n = 0; n < locals_.size(); ++n) {
         const std::uint32_t local = locals_[n];
-        if (faces.is_locked(local))
-            number_[index(sorted_[n])] = kLocked | faces.locked_number(local);
-        else
+        if (!faces.is_locked(local)) {
             faces.place(local) = kNone;
+            continue;
+        }
+        number_[index(sorted_[n])] = kLocked | faces.locked_number(local);
+        const float bound = mesh_[sorted_[n]].error_bound();
+        if (bound > faces.vertex(local).error_bound) left_bounds_.push_back({faces.locked_number(local), bound});
     }
     for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
         if (!mesh_.is_alive(FaceId{f})) continue;
@@ -102,7 +107,8 @@ void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
             std::uint32_t& number = number_[index(corners[c])];
             if (number == kNone) {
                 number = static_cast<std::uint32_t>(left_vertices_.size());
-                left_vertices_.push_back({mesh_[corners[c]].position, mesh_[corners[c]].sides});
+                const Vertex& vertex = mesh_[corners[c]];
+                left_vertices_.push_back({vertex.position, vertex.sides, vertex.error_bound()});
             }
             face.vertices[c] = number;
             all_locked &= number;
@@ -112,6 +118,12 @@ void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
 }
 
 void Tile::put_back(Chunk& made) const {
+    for (const auto& [number, bound] : left_bounds_) {
+        if (number < made.carried) made.carried_bounds.resize(made.carried);
+        float& all =
+            number < made.carried ? made.carried_bounds[number] : made.vertices[number - made.carried].error_bound;
+        all = std::max(all, bound);
+    }
     const std::uint32_t first = made.carried + static_cast<std::uint32_t>(made.vertices.size());
     made.vertices.insert(made.vertices.end(), left_vertices_.begin(), left_vertices_.end());
     for (const ChunkFace& left : left_faces_) {

@@ -52,7 +52,12 @@ private:
     std::vector<VertexId> sorted_;       // ids of the vertices after the mesh was sorted
     std::vector<std::uint32_t> number_;  // by vertex of the mesh: its number among those left
     std::vector<ChunkVertex> left_vertices_;
-    std::vector<ChunkFace> left_faces_;  // corners: kLocked and a locked number, or a number in left_vertices_
+    struct LockedBound {
+        std::uint32_t number;
+        float bound;
+    };
+    std::vector<LockedBound> left_bounds_;  // error bounds of locked vertices that rose
+    std::vector<ChunkFace> left_faces_;     // corners: kLocked and a locked number, or a number in left_vertices_
 };
 
 }  // namespace regionmesh

@@ -48,6 +48,7 @@ VertexMoves::VertexMoves(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const 
     : mesh_(mesh),
       tree_(tree),
       drift_(drift),
+      bound3_(options.min_quality * options.min_quality * options.min_quality),
       collapse_{.mesh = mesh,
                 .tree = tree,
                 .bounds = {.min_quality = 0},
@@ -90,7 +91,7 @@ FanShape VertexMoves::shape_at(Vec3 p) const {
 }
 
 void VertexMoves::add_candidate(Vec3 p, double step) {
-    if (!drift_.may_move(drift_now_, step)) return;
+    if (!drift_.may_move(drift_now_, step, now_.worst3 < bound3_)) return;
     const FanShape shape = shape_at(p);
     if (shape.is_better_than(now_)) candidates_.push_back({p, shape.energy, step});
 }

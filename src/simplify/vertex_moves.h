@@ -35,6 +35,7 @@ private:
     Mesh& mesh_;
     FaceTree& tree_;
     SurfaceDrift& drift_;
+    double bound3_;  // on quality, to the third power
     Collapse collapse_;
     FanShape now_;
     float drift_now_ = 0;

@@ -1,5 +1,6 @@
 #include "stream/merger.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace regionmesh {
@@ -7,10 +8,16 @@ namespace regionmesh {
 void Merger::add(const Chunk& chunk) {
     assert(chunk.carried == active_.size());
     ids_ = active_;
+    for (std::size_t n = 0; n < chunk.carried_bounds.size(); ++n) {
+        Vertex& vertex = mesh_[active_[n]];
+        vertex.set_error_bound(std::max(vertex.error_bound(), chunk.carried_bounds[n]));
+    }
     const auto is_pinned = [](SideSet sides) { return (sides & kPinned) != 0; };
     for (VertexId v : active_) mesh_[v].is_fixed = is_pinned(mesh_[v].sides);
-    for (const ChunkVertex& vertex : chunk.vertices)
+    for (const ChunkVertex& vertex : chunk.vertices) {
         ids_.push_back(mesh_.add_vertex(vertex.position, vertex.sides, is_pinned(vertex.sides)));
+        mesh_[ids_.back()].set_error_bound(vertex.error_bound);
+    }
     for (const ChunkFace& face : chunk.faces)
         mesh_.add_face(ids_[face.vertices[0]], ids_[face.vertices[1]], ids_[face.vertices[2]], face.labels[0],
                        face.labels[1]);
@@ -27,7 +34,7 @@ Chunk Merger::take_apart() {
         const Vertex& vertex = mesh_[VertexId{v}];
         if (!vertex.is_alive) continue;
         locals[v] = static_cast<std::uint32_t>(chunk.vertices.size());
-        chunk.vertices.push_back({vertex.position, vertex.sides});
+        chunk.vertices.push_back({vertex.position, vertex.sides, vertex.error_bound()});
     }
     chunk.faces.reserve(mesh_.face_count());
     for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {

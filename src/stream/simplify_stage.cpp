@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simplify/collapse_edges.h"
+#include "simplify/error_bound.h"
 #include "simplify/threshold_passes.h"
 #include "stream/stage_options.h"
 #include "stream/tuning.h"
@@ -59,6 +60,7 @@ void SimplifyStage::bring_to_target() {
     mesh_.sort_spatially();
     trim(goal, HUGE_VAL, true);
     log_.report().stopped = to_string(stopped_);
+    log_.report().error_bound = largest_error_bound(mesh_);
 }
 
 /// Brings the mesh near the goal, tile by tile: mesh -> chunk -> tiles -> chunk -> mesh.

@@ -68,6 +68,7 @@ Json shapes_json(const FaceShapes& shapes) {
 Json improved_json(const ImproveResult& done) {
     return {{"flips", done.flips},
             {"moves", done.moves},
+            {"collapses", done.collapses},
             {"sweeps", done.sweeps},
             {"before", shapes_json(done.before)},
             {"after", shapes_json(done.after)}};
@@ -139,6 +140,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     json["refreshes"] = report.refreshes;
     json["samples_in_room"] = report.samples_in_room;
     json["stopped"] = report.stopped;
+    json["error_bound"] = report.error_bound;
     json["smoothing"] = smoothing_json(report);
     json["pinned_vertices"] = report.pinned_vertices;
     json["volumes_preserved"] = {{"rounds", report.preserved.rounds},

@@ -19,6 +19,7 @@ constexpr std::array kRows{
     Row{Verdict::kFold, Step::kShape, test_fold},
     Row{Verdict::kQuality, Step::kShape, test_quality},
     Row{Verdict::kPinch, Step::kShape, test_pinch},
+    Row{Verdict::kError, Step::kSurroundings, test_error},
     Row{Verdict::kSamples, Step::kSurroundings, test_samples},
     Row{Verdict::kIntersect, Step::kSurroundings, test_intersect},
 };

@@ -17,6 +17,7 @@ namespace regionmesh {
 ///   fold       no surviving face turns by more than the bound (P test 1).
 ///   quality    no changed face gets below the bound, unless the star had such faces: then no more, and none worse.
 ///   pinch      no two faces at an edge from the merged vertex come closer than the bound (P test 2).
+///   error      no point gets farther from the surface that decimation was given than Collapse::max_error, either way.
 ///   samples    every sample of Collapse::samples stays in its region.
 ///   intersect  the new faces meet no other face, and the merged vertex stays within the limits (P test 6). Finds the
 ///              faces at the edges of the link, too, and so gives `pinch` where one of them comes too close.
@@ -25,6 +26,7 @@ Verdict test_link(Collapse& collapse);
 Verdict test_fold(Collapse& collapse);
 Verdict test_quality(Collapse& collapse);
 Verdict test_pinch(Collapse& collapse);
+Verdict test_error(Collapse& collapse);
 Verdict test_samples(Collapse& collapse);
 Verdict test_intersect(Collapse& collapse);
 

@@ -51,8 +51,8 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     EXPECT_THAT(keys_of(json["quality"]),
                 testing::ElementsAre("min", "mean", "histogram", "min_angle", "max_angle", "angles"));
     EXPECT_THAT(keys_of(json["regions"][0]), testing::ElementsAre("label", "euler", "components", "volume", "area"));
-    EXPECT_THAT(keys_of(json["verdicts"]),
-                testing::ElementsAre("accepted", "strata", "link", "fold", "quality", "pinch", "samples", "intersect"));
+    EXPECT_THAT(keys_of(json["verdicts"]), testing::ElementsAre("accepted", "strata", "link", "fold", "quality",
+                                                                "pinch", "error", "samples", "intersect"));
     EXPECT_EQ(json["violation_counts"].size(), std::size_t{kViolationKindCount});
 }
 

@@ -1,0 +1,51 @@
+"""Tables of docs/explanation/smoothing-presets.md, from the results."""
+import io
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from tables import Printer  # noqa: E402: that of the other benchmarks
+
+MODELS = {"brain": "AAL, `--reduce 90%`", "grains": "IN100", "mouse": "mouse, 5:1", "wells": "wells"}
+VOLUMES = {"aal96": "AAL, 96 x 96 x 96", "in100": "IN100, 60 x 80 x 100", "head96": "head, 96 x 96 x 96"}
+
+
+def table(rows):
+    file = io.StringIO()
+    Printer(True, file).table(rows)
+    return file.getvalue().rstrip() + "\n"
+
+
+def wrong(case):
+    return "-" if case["samples"] in (None, 0) else str(case["samples_wrong"])
+
+
+def of_presets(results):
+    return table([("Model", "--smooth", "faces", "processor s", "samples wrong", "mean quality", "lowest quality", "turning, degrees", "violations")] + [
+        (text, preset, str(case["final_faces"]), f"{case['seconds']:.1f}", wrong(case), f"{case['quality']:.3f}", f"{case['lowest']:.3f}",
+         "-" if case["turning"] is None else f"{case['turning']:.1f}", str(case["violations"]))
+        for model, text in MODELS.items() if model in results for preset, case in results[model].items()])
+
+
+def of_rooms(results):
+    return table([("--room", "faces from labels", "faces", "samples changed", "of all", "area, mm2", "mean quality", "violations")] + [
+        (str(room), str(case["initial_faces"]), str(case["final_faces"]), str(case["samples_in_room"]),
+         f"{100 * case['samples_in_room'] / case['samples']:.2f} %", f"{case['area']:.0f}", f"{case['quality']:.3f}", str(case["violations"]))
+        for room, case in results["room"].items()])
+
+
+def of_samples(results):
+    rows = [("Volume", "--reduce", "faces kept: share", "with --no-keep-samples", "processor s", "with --no-keep-samples",
+             "samples wrong", "with --no-keep-samples", "Dice")]
+    for key, case in results["samples"].items():
+        name, share, word = key.split()
+        if word == "keep":
+            other = results["samples"][f"{name} {share} nokeep"]
+            faces = [f"{100 * one['final_faces'] / one['initial_faces']:.2f} %" for one in (case, other)]
+            rows.append((VOLUMES[name], f"{share} %", *faces, f"{case['seconds']:.1f}", f"{other['seconds']:.1f}", wrong(case), wrong(other),
+                         f"{other['dice']:.3f}"))
+    return table(rows)
+
+
+def of(results):
+    return {"presets": of_presets(results), "rooms": of_rooms(results), "samples": of_samples(results)}
