@@ -28,7 +28,7 @@ std::optional<std::uint64_t> resident_bytes(int statm) {
     const ::ssize_t size = ::pread(statm, text, sizeof(text), 0);
     if (size <= 0) return std::nullopt;
     const char* end = text + size;
-    const char* second = std::find(text, end, ' ');
+    const char* second = std::find(static_cast<const char*>(text), end, ' ');
     std::uint64_t pages = 0;
     if (second == end || std::from_chars(second + 1, end, pages).ec != std::errc{}) return std::nullopt;
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
