@@ -2,6 +2,7 @@
 // that the program accepts, and the kind of limit. The peak is that of the child process (wait4). A plan may be passed
 // by kTolerance where the program does not say so; a hard limit by nothing: the run ends with exit code 1, one line and
 // no file. Usage: regionmesh_memory [--count N] [--seed S]
+// [--longest SAMPLES]: of an axis of a volume
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -87,24 +88,50 @@ std::string fault(const Ran& ran, double memory, bool is_hard, bool has_output) 
     return has_output ? "an output of a run that was ended" : "";
 }
 
-bool try_one(std::mt19937_64& random, const fs::path& folder) {
+/// What a trial draws.
+struct Draw {
+    Volume volume;
+    Words options;
+    double times;  // the least memory
+    bool is_hard;
+};
+
+Draw draw_trial(std::mt19937_64& random, std::uint32_t longest) {
     const auto draw = [&](std::uint32_t end) { return static_cast<std::uint32_t>(random() % end); };
-    Volume volume{static_cast<Pattern>(draw(kPatterns)), {}, random()};
-    for (std::uint32_t& size : volume.size) size = 24 + draw(41);
-    Words options = kOptions[draw(std::size(kOptions))];
-    options.insert(options.end(), {"--no-background", "--threads", std::to_string(1 + draw(3))});
-    const double times = kBudgets[draw(std::size(kBudgets))];
-    const bool is_hard = draw(2) == 1;
+    Draw drawn{
+        .volume = {static_cast<Pattern>(draw(kPatterns)), {}, random()}, .options = {}, .times = 1, .is_hard = true};
+    for (std::uint32_t& size : drawn.volume.size) size = longest * 3 / 8 + draw(longest * 5 / 8 + 1);
+    drawn.options = kOptions[draw(std::size(kOptions))];
+    drawn.options.insert(drawn.options.end(), {"--no-background", "--threads", std::to_string(1 + draw(3))});
+    drawn.times = kBudgets[draw(std::size(kBudgets))];
+    drawn.is_hard = draw(2) == 1;
+    return drawn;
+}
+
+/// Noise that topology keeps above its target: no plan holds.
+Draw hopeless() {
+    return {.volume = {Pattern::kNoise, {28, 28, 28}, 1},
+            .options = {"--reduce", "99%", "--smooth", "0", "--min-quality", "0.25", "--no-background"},
+            .times = 1,
+            .is_hard = true};
+}
+
+bool try_one(const Draw& drawn, const fs::path& folder) {
+    const auto& [volume, drawn_options, times, is_hard] = drawn;
+    Words options = drawn_options;
     write_npy(volume, folder / "v.npy");
+    fs::remove_all(folder / "out");
+    fs::create_directory(folder / "out");
     const double least = least_megabytes(folder, options);
+    if (least <= 0) {
+        std::printf("FAILED %s: no least memory: %s\n", volume.text().c_str(), text_of(folder / "log").c_str());
+        return false;
+    }
     const auto memory = static_cast<std::uint64_t>(least * times * 1e6);
     options.insert(options.end(), {"--memory", std::to_string(memory)});
     if (is_hard) options.insert(options.end(), {"--memory-limit", "hard"});
-    fs::remove_all(folder / "out");
-    fs::create_directory(folder / "out");
     const Ran ran = run(folder, options);
-    const std::string wrong =
-        least > 0 ? fault(ran, static_cast<double>(memory), is_hard, !fs::is_empty(folder / "out")) : "no least memory";
+    const std::string wrong = fault(ran, static_cast<double>(memory), is_hard, !fs::is_empty(folder / "out"));
     std::string words;
     for (const std::string& word : options) words += " " + word;
     std::printf("%s%s:%s: exit %d, peak %.0f MB of %.0f MB (%.0f %%) %s\n", wrong.empty() ? "" : "FAILED ",
@@ -120,17 +147,19 @@ bool try_one(std::mt19937_64& random, const fs::path& folder) {
 
 int main(int argc, char** argv) {
     using namespace regionmesh::memory;
-    std::uint64_t count = 12, seed = 1;
+    std::uint64_t count = 12, seed = 1, longest = 64;
     for (int n = 1; n + 1 < argc; n += 2) {
         const std::string flag = argv[n];
         if (flag == "--count") count = std::strtoull(argv[n + 1], nullptr, 10);
+        if (flag == "--longest") longest = std::strtoull(argv[n + 1], nullptr, 10);
         if (flag == "--seed") seed = std::strtoull(argv[n + 1], nullptr, 10);
     }
     std::string folder = (fs::temp_directory_path() / "regionmesh-memory-XXXXXX").string();
     if (!::mkdtemp(folder.data())) return 1;
     std::mt19937_64 random(seed);
     std::uint64_t failures = 0;
-    for (std::uint64_t n = 0; n < count; ++n) failures += !try_one(random, folder);
+    for (std::uint64_t n = 0; n < count; ++n)
+        failures += !try_one(n == 0 ? hopeless() : draw_trial(random, static_cast<std::uint32_t>(longest)), folder);
     fs::remove_all(folder);
     std::printf("seed %llu: %llu trials, %llu failures\n", static_cast<unsigned long long>(seed),
                 static_cast<unsigned long long>(count), static_cast<unsigned long long>(failures));
