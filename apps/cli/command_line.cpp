@@ -1,6 +1,9 @@
 #include "command_line.h"
 
 #include <memory>
+#include <string>
+
+#include "regionmesh/error.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -47,6 +50,18 @@ void add_option(CLI::App& command, const OptionSpec& spec, Texts& texts) {
     texts.option->required(spec.is_argument || spec.is_required);
 }
 
+/// Before the first thread of the work starts, so that all are confined.
+void confine(const Settings& settings) {
+    if (settings.needs_sandbox && !settings.sandbox)
+        throw Error(ErrorCode::kUsage, "--require-sandbox: not with --no-sandbox; leave one out");
+    if (!settings.sandbox) return;
+    const SandboxState state = enter_sandbox(sandbox_rules(settings));
+    if (settings.needs_sandbox && !(state.files && state.calls))
+        throw Error(ErrorCode::kInput, std::string("--require-sandbox: this kernel has no ") +
+                                           (state.files ? "seccomp" : "Landlock") +
+                                           "; use another kernel, or leave the option out");
+}
+
 }  // namespace
 
 void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), Action& action) {
@@ -63,6 +78,7 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             Settings settings;
             apply_options(settings, values);
             require_distinct_files(settings);
+            confine(settings);
             return run(settings);
         };
     });

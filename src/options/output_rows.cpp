@@ -117,6 +117,18 @@ Rows run_rows() {
              .group = kGroup,
              .commands = kDecimators | kSmooth | kCheck | kCompare | kView},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
+        inverted_flag(
+            {.name = "no-sandbox",
+             .help = "let the program do all that you may do; otherwise it writes in the folders of its outputs alone, "
+                     "makes no network connections and starts no programs but its own, where the kernel can enforce it",
+             .group = kGroup,
+             .commands = kAllCommands},
+            [](Settings& s) { return &s.sandbox; }),
+        option({.name = "require-sandbox",
+                .help = "end with exit code 1 where the kernel cannot enforce that",
+                .group = kGroup,
+                .commands = kAllCommands},
+               [](Settings& s) { return &s.needs_sandbox; }),
         option({.name = "quiet",
                 .help = "print nothing but errors, and why a target was missed",
                 .group = kGroup,
