@@ -1,9 +1,11 @@
 #include "command_line.h"
 
 #include <memory>
+#include <string>
 
 #include "config_file.h"
 #include "messages.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -56,6 +58,18 @@ void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Text
     texts.option->required((spec.is_argument || spec.is_required) && !has_config);
 }
 
+/// Before the first thread of the work starts, so that all are confined.
+void confine(const Settings& settings) {
+    if (settings.needs_sandbox && !settings.sandbox)
+        throw Error(ErrorCode::kUsage, "--require-sandbox: not with --no-sandbox; leave one out");
+    if (!settings.sandbox) return;
+    const SandboxState state = enter_sandbox(sandbox_rules(settings));
+    if (settings.needs_sandbox && !(state.files && state.calls))
+        throw Error(ErrorCode::kInput, std::string("--require-sandbox: this kernel has no ") +
+                                           (state.files ? "seccomp" : "Landlock") +
+                                           "; use another kernel, or leave the option out");
+}
+
 }  // namespace
 
 void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), bool has_config,
@@ -77,6 +91,7 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             apply_options(settings, values);
             require_distinct_files(settings);
             begin_messages(command.command, settings);
+            confine(settings);
             return run(settings);
         };
     });

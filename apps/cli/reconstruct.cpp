@@ -5,6 +5,7 @@
 #include "advice.h"
 #include "commands.h"
 #include "input.h"
+#include "memory_watch.h"
 #include "messages.h"
 #include "output.h"
 #include "page_output.h"
@@ -107,6 +108,8 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
 
 int run_reconstruct(const Settings& settings) {
     require_outputs(settings);
+    std::optional<MemoryWatch> watch;
+    if (settings.memory_is_hard) watch.emplace(settings.reconstruct.memory);
     ModelNotes notes;
     Reconstruction made = reconstruct_input(settings, notes);
     require_regions(settings, made.report.check);

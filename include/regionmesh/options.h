@@ -15,6 +15,7 @@
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/reconstruct.h"
+#include "regionmesh/sandbox.h"
 
 namespace regionmesh {
 
@@ -43,6 +44,8 @@ struct Settings {
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
     bool per_region = false, list_all = false, quiet = false, verbose = false;
+    bool sandbox = true, needs_sandbox = false;  // confine the program; end where the kernel cannot
+    bool memory_is_hard = false;                 // the program ends rather than exceed reconstruct.memory
 
     OptionValues given;  // set by apply_options()
 };
@@ -130,6 +133,10 @@ void require_consistent(const Settings& settings);
 /// names and links, and with the files that belong to a model. A model may be smoothed or decimated in place. Looks at
 /// the files; changes nothing.
 void require_distinct_files(const Settings& settings);
+
+/// What the process of a command needs to do: read anything, write below the folders of its outputs and in that of
+/// temporary files, start the helper programs. Looks at the files.
+SandboxRules sandbox_rules(const Settings& settings);
 
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);

@@ -100,6 +100,12 @@ void remove_outputs() noexcept {
     for (const auto& [output, part] : formats::parts().paths) ::unlink(part.c_str());
 }
 
+void end_without_outputs(int exit_code) noexcept {
+    formats::parts().mutex.lock();  // for good: no file is made or renamed any more
+    for (const auto& [output, part] : formats::parts().paths) ::unlink(part.c_str());
+    ::_exit(exit_code);
+}
+
 void remove_outputs_on_signals() {
     sigset_t waited;
     ::sigemptyset(&waited);

@@ -131,6 +131,14 @@ Rows run_rows() {
             [](Settings& s, const std::string& flag, const std::string& text) {
                 s.reconstruct.memory = parse_bytes(flag, text);
             }),
+        word_option(
+            {.name = "memory-limit",
+             .help = "what --memory is: plan, the work is laid out for it and may exceed it where faces left by "
+                     "topology or --max-error are not known before; hard, the run ends with exit code 1 and no output "
+                     "rather than exceed it",
+             .group = kGroup,
+             .commands = kReconstruct},
+            {"plan", "hard"}, [](Settings& s, std::size_t word) { s.memory_is_hard = word == 1; }),
         option({.name = "face-budget",
                 .help = "largest number of faces in memory at a time; derived from --memory if not given",
                 .group = kGroup,
@@ -143,6 +151,18 @@ Rows run_rows() {
              .group = kGroup,
              .commands = kDecimators | kSmooth | kCheck | kCompare | kView},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
+        inverted_flag(
+            {.name = "no-sandbox",
+             .help = "let the program do all that you may do; otherwise it writes in the folders of its outputs alone, "
+                     "makes no network connections and starts no programs but its own, where the kernel can enforce it",
+             .group = kGroup,
+             .commands = kAllCommands},
+            [](Settings& s) { return &s.sandbox; }),
+        option({.name = "require-sandbox",
+                .help = "end with exit code 1 where the kernel cannot enforce that",
+                .group = kGroup,
+                .commands = kAllCommands},
+               [](Settings& s) { return &s.needs_sandbox; }),
         option({.name = "quiet",
                 .help = "print nothing but errors, and why a target was missed",
                 .group = kGroup,
