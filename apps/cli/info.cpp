@@ -88,7 +88,8 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     return info_json(info, census);
 }
 
-std::string print_info(const Settings& settings, const std::string& path, MeshFile file) {
+std::string print_info(const Settings& given, const std::string& path, MeshFile file) {
+    const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.crossing = false;
     const CheckReport report = check(file.mesh, options);

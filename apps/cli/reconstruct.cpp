@@ -61,6 +61,7 @@ void print_details(const Report& report) {
 std::string files_text(const Settings& settings) {
     std::string text = printable(settings.output) + (settings.per_region ? " (one file a region)" : "");
     if (!settings.report.empty()) text += ", report " + printable(settings.report);
+    if (!settings.regions.empty()) text += ", table " + printable(settings.regions);
     if (!settings.html.empty()) text += ", page " + printable(settings.html);
     return text;
 }
