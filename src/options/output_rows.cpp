@@ -25,7 +25,7 @@ std::string_view written_help() {
 
 Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
-    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare;
+    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare | kInfo;
     return {
         file_option({.name = "output",
                      .help = output_help(),
@@ -41,10 +41,35 @@ Rows output_rows() {
                      .commands = kWriters | kConvert | kView},
                     [](Settings& s) { return &s.names; }),
         option({.name = "per-region",
-                .help = "one file for each region, MODEL-LABEL: .stl, .obj and .ply",
+                .help = "one file for each region, MODEL-NAME or MODEL-LABEL: .stl, .obj and .ply",
                 .group = kGroup,
                 .commands = kWriters | kConvert},
                [](Settings& s) { return &s.per_region; }),
+        word_option(
+            {.name = "space",
+             .help = "space of the model: keep that of the input, or turn it so that x and y point as in ras or lps",
+             .group = kGroup,
+             .commands = kWriters | kConvert},
+            {"keep", "ras", "lps"},
+            [](Settings& s, std::size_t word) {
+                constexpr Space kSpaces[] = {Space::kUnknown, Space::kRas, Space::kLps};
+                s.volume.space = s.surface.space = kSpaces[word];
+            }),
+        word_option({.name = "units",
+                     .help = "unit of length of the input; .glb files are in metres and are scaled",
+                     .group = kGroup,
+                     .commands = kWriters | kConvert},
+                    {"m", "mm", "um", "nm"},
+                    [](Settings& s, std::size_t word) {
+                        constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
+                        s.metres = kMetres[word];
+                    }),
+        file_option({.name = "regions",
+                     .help = "CSV table to write: volume, area, centroid, box and neighbours of each region",
+                     .group = kGroup,
+                     .commands = kWriters | kConvert | kCheck,
+                     .is_output = true},
+                    [](Settings& s) { return &s.regions; }),
         file_option({.name = "report",
                      .help = "JSON report to write",
                      .group = kGroup,
@@ -63,13 +88,16 @@ Rows output_rows() {
         file_option({.name = "json",
                      .help = "JSON file to write with all findings",
                      .group = kGroup,
-                     .commands = kCheck | kCompare,
+                     .commands = kCheck | kCompare | kInfo,
                      .is_output = true},
                     [](Settings& s) { return &s.json; }),
+        option({.name = "all", .help = "list all labels, not the first 20", .group = kGroup, .commands = kInfo},
+               [](Settings& s) { return &s.list_all; }),
         file_option({.name = "html",
                      .help = "page to write that shows the model and the report in a browser",
                      .group = kGroup,
-                     .commands = kReconstruct | kDecimate | kCheck | kCompare},
+                     .commands = kReconstruct | kDecimate | kCheck | kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.html; }),
         option(
             {.name = "preview-faces",
@@ -85,6 +113,12 @@ Rows run_rows() {
     constexpr std::string_view kGroup = "Run";
     const Settings defaults;  // not made in the braced list: input_rows.cpp says why
     return {
+        file_option({.name = "config",
+                     .help = "options in a file: name = value lines (.toml), or the report of an earlier run (.json). "
+                             "Those on the command line come first",
+                     .group = kGroup,
+                     .commands = kEveryCommand},
+                    [](Settings& s) { return &s.config; }),
         special_option(
             {.name = "memory",
              .help = "memory that the process may use, such as 500MiB; too little is refused before the work starts",
@@ -134,6 +168,17 @@ Rows run_rows() {
                 .group = kGroup,
                 .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),
+        option({.name = "verbose",
+                .help = "print more: what smoothing did, why edges stayed, seconds by stage",
+                .group = kGroup,
+                .commands = kReconstruct},
+               [](Settings& s) { return &s.verbose; }),
+        file_option({.name = "log",
+                     .help = "text file to write during the run: the command, the stages and all messages, with times",
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_output = true},
+                    [](Settings& s) { return &s.log; }),
     };
 }
 
