@@ -60,10 +60,10 @@ void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Text
 
 /// Before the first thread of the work starts, so that all are confined.
 void confine(const Settings& settings) {
-    if (settings.needs_sandbox && !settings.sandbox)
-        throw Error(ErrorCode::kUsage, "--require-sandbox: not with --no-sandbox; leave one out");
     if (!settings.sandbox) return;
     const SandboxState state = enter_sandbox(sandbox_rules(settings));
+    say_more("sandbox: {}, {}", state.files ? "files are restricted" : "this kernel has no Landlock",
+             state.calls ? "system calls are filtered" : "this kernel has no seccomp");
     if (settings.needs_sandbox && !(state.files && state.calls))
         throw Error(ErrorCode::kInput, std::string("--require-sandbox: this kernel has no ") +
                                            (state.files ? "seccomp" : "Landlock") +

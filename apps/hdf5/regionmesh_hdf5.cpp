@@ -127,6 +127,8 @@ void answer(const char* name, std::optional<Catalogue>& file, const Json& reques
 /// The file comes on standard output, whole or not at all.
 int write_dream3d() {
     const std::string bytes = make_dream3d();
+    const std::uint64_t size = bytes.size();
+    if (std::fwrite(&size, sizeof size, 1, stdout) != 1) return kWrongInput;
     return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0 ? kDone
                                                                                                           : kWrongInput;
 }

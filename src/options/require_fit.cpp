@@ -34,6 +34,7 @@ constexpr Contradiction kContradictions[] = {
     {"no-decimate", "target-faces", kNoDecimation},
     {"no-decimate", "max-error", kNoDecimation},
     {"no-background", "background", "either there is a background or there is none"},
+    {"no-sandbox", "require-sandbox", "one gives up what the other insists on"},
     {"quiet", "verbose", "one prints less, the other more"},
 };
 

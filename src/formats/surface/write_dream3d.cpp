@@ -1,7 +1,9 @@
 // DREAM.3D files, which the program regionmesh-hdf5 makes: the HDF5 library crashes where memory runs out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -106,14 +108,19 @@ void write_dream3d(const FileView& view, OutputFile& file) {
     require_labels(view.labels());
     const std::filesystem::path path = find_program(kHdf5Program);
     PipedProgram program(path, {"--write-dream3d"});
-    const bool is_taken = Sender(program, view).send();
+    std::uint64_t left = 0;
+    // The size comes first: an end that is too early is no file, whatever the exit code.
+    bool is_whole =
+        Sender(program, view).send() && program.receive(std::as_writable_bytes(std::span(&left, 1))) == sizeof left;
     std::array<std::byte, kPiece> piece;
-    for (std::size_t count = piece.size(); is_taken && count == piece.size();) {
-        count = program.receive(piece);
-        file.write({reinterpret_cast<const char*>(piece.data()), count});
+    while (is_whole && left > 0) {
+        const std::size_t wanted = std::min<std::uint64_t>(left, piece.size());
+        is_whole = program.receive(std::span(piece).first(wanted)) == wanted;
+        if (is_whole) file.write({reinterpret_cast<const char*>(piece.data()), wanted});
+        left -= wanted;
     }
     const PipedProgram::Ending ending = program.end();
-    if (!is_taken || ending.exit_code != 0) report_end(path, ending);
+    if (!is_whole || ending.exit_code != 0) report_end(path, ending);
 }
 
 }  // namespace regionmesh

@@ -96,6 +96,8 @@ TEST_F(WriterTest, dream3d_of_a_helper_that_crashes_or_is_another_program_is_ref
     };
     EXPECT_THAT(said_with("cat > /dev/null; echo half; kill -SEGV $$\n"), HasSubstr("needs more memory"));
     EXPECT_THAT(said_with("cat > /dev/null; echo half; exit 3\n"), HasSubstr("needs more memory"));
+    EXPECT_THAT(said_with("cat > /dev/null; printf '\\011\\0\\0\\0\\0\\0\\0\\0half'\n"), HasSubstr("needs more memory"))
+        << "four bytes of nine, and exit code 0";
     EXPECT_THAT(said_with("echo 'cannot' >&2; exit 2\n"), HasSubstr("failed with exit code 2 (cannot)"));
     EXPECT_FALSE(std::filesystem::exists(path("m.dream3d")));
 }
