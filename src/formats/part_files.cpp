@@ -64,9 +64,10 @@ std::string part_name(const fs::path& target, int attempt) {
     return name;
 }
 
-void note_part(const OutputFile* output, const fs::path& part) {
+int create_part(const OutputFile* output, const fs::path& part, unsigned mode) {
     const std::lock_guard lock(parts().mutex);
     parts().paths[output] = fs::absolute(part);
+    return ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, static_cast<mode_t>(mode));
 }
 
 void forget_part(const OutputFile* output) noexcept {
