@@ -123,14 +123,34 @@ void LatticeLevel::fill_row(Row& row) const {
     make_samples(row, keys);
     make_fits(row);
     row.runs.shrink_to_fit();
-    row.samples.shrink_to_fit();
+    row.samples.pad();
     row.fits.shrink_to_fit();
+}
+
+void LatticeLevel::Samples::push_back(const Sample& sample) {
+    const float along[3] = {sample.normal.x, sample.normal.y, sample.normal.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        at[axis].push_back(sample.position.at[axis]);
+        normal[axis].push_back(along[axis]);
+    }
+    count.push_back(sample.count);
+    kind.push_back(sample.kind);
+}
+
+void LatticeLevel::Samples::pad() {
+    for (int n = 0; n < 3; ++n) push_back({{}, {}, 0, 1});
+    for (int axis = 0; axis < 3; ++axis) {
+        at[axis].shrink_to_fit();
+        normal[axis].shrink_to_fit();
+    }
+    count.shrink_to_fit();
+    kind.shrink_to_fit();
 }
 
 /// One sample for the sites of a run that have the same key.
 void LatticeLevel::make_samples(Row& row, const std::vector<std::uint64_t>& keys) const {
     for (std::size_t r = 0; r + 1 < row.runs.size(); ++r) {
-        row.runs[r].sample = static_cast<std::uint32_t>(row.samples.size());
+        row.runs[r].sample = row.samples.size();
         const std::uint32_t end = row.runs[r + 1].site;
         for (std::uint32_t first = row.runs[r].site, next; first < end; first = next) {
             const LatticeSite& site = sites_[row.sites[first]];
@@ -142,24 +162,26 @@ void LatticeLevel::make_samples(Row& row, const std::vector<std::uint64_t>& keys
             }
             const auto count = static_cast<float>(next - first);
             row.samples.push_back({site.centroid + (1 / count) * offset, (1 / length(normal)) * normal, count,
-                                   static_cast<std::uint8_t>(site.kind), direction_of(site.normal)});
+                                   static_cast<std::uint8_t>(site.kind)});
         }
     }
-    row.runs.back().sample = static_cast<std::uint32_t>(row.samples.size());
+    row.runs.back().sample = row.samples.size();
 }
 
 /// Samples of a run by direction; a group that faces about the same way as a larger one joins it. Positions are sums of
 /// offsets from the first sample.
 std::vector<LatticeLevel::Group> LatticeLevel::groups_of(const Row& row, const Run& run) const {
     const std::uint32_t end = (&run + 1)->sample;
+    const Samples& samples = row.samples;
     std::vector<Group> groups;
     for (std::uint32_t n = run.sample; n < end; ++n) {
-        const Sample& sample = row.samples[n];
-        if (groups.empty() || groups.back().direction != sample.direction)
-            groups.push_back({{}, {}, 0, sample.direction});
-        groups.back().position += sample.count * (sample.position - row.samples[run.sample].position);
-        groups.back().normal += sample.count * sample.normal;
-        groups.back().count += sample.count;
+        const Float3 normal = samples.normal_of(n);
+        const std::uint8_t direction = direction_of(normal);
+        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.direction == direction; });
+        if (group == groups.end()) group = groups.insert(group, {{}, {}, 0, direction});
+        group->position += samples.count[n] * (samples.position(n) - samples.position(run.sample));
+        group->normal += samples.count[n] * normal;
+        group->count += samples.count[n];
     }
     std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
         return std::tuple(-a.count, a.direction) < std::tuple(-b.count, b.direction);
@@ -184,7 +206,7 @@ void LatticeLevel::make_fits(Row& row) const {
     for (std::size_t r = 0; r + 1 < row.runs.size(); ++r) {
         row.runs[r].fit = static_cast<std::uint32_t>(row.fits.size());
         for (const Group& group : groups_of(row, row.runs[r])) {
-            const LatticePoint centre = row.samples[row.runs[r].sample].position + (1 / group.count) * group.position;
+            const LatticePoint centre = row.samples.position(row.runs[r].sample) + (1 / group.count) * group.position;
             row.fits.push_back({HeightQuadric(centre, (1 / length(group.normal)) * group.normal)});
         }
     }
@@ -269,22 +291,36 @@ void LatticeLevel::fit_run(const RunPlace& at) {
     }
 }
 
-/// The samples of the sheet within kReach, with a weight that falls with distance.
+/// The samples of the sheet within kReach, with a weight that falls with distance. Of four samples side by side either
+/// all are taken, some perhaps with weight 0, or none.
 void LatticeLevel::choose(const RunPlace& at, const HeightQuadric& quadric, HeightSamples& chosen) {
-    std::uint32_t count = 0;
+    constexpr auto kStep = static_cast<float>(LatticePoint::kStep);
+    constexpr Lane4 kLane{0, 1, 2, 3};
+    const Lanes3<Float4> normal = all_four(quadric.normal), u = all_four(quadric.u), v = all_four(quadric.v);
+    const Float3 scale = (1 / kReach) * per_size_;
+    chosen.count = 0;
     for_runs_near(at, [&](std::int64_t, std::int32_t, const Row& near, std::uint32_t run) {
+        const Samples& samples = near.samples;
         const std::uint32_t first = near.runs[run].sample, end = near.runs[run + 1].sample;
-        chosen.make_room(count + end - first);
-        for (std::uint32_t s = first; s < end; ++s) {
-            const Sample& sample = near.samples[s];
-            const Float3 d = sample.position - quadric.centre;
-            const float share = 1 - distance2(d) * (1 / (kReach * kReach));
-            const float along = dot(sample.normal, quadric.normal);
-            chosen.set(count, quadric.along(d), share * share * along * sample.count, sample.kind);
-            count += share > 0 && along > kSameSheet;
+        if (chosen.fours.size() < chosen.count + (end - first) / 4 + 1)
+            chosen.fours.resize(2 * (chosen.count + (end - first) / 4 + 1));
+        const auto offset = [&](int axis, std::uint32_t s) {
+            const Lane4 steps = reinterpret_cast<Lane4>(load<Unsigned4>(&samples.at[axis][s]) - quadric.centre.at[axis]);
+            return kStep * __builtin_convertvector(steps, Float4);
+        };
+        for (std::uint32_t s = first; s < end; s += 4) {
+            const Lanes3<Float4> d{offset(0, s), offset(1, s), offset(2, s)};
+            const Lanes3<Float4> scaled{scale.x * d.x, scale.y * d.y, scale.z * d.z};
+            const Lanes3<Float4> facing{load<Float4>(&samples.normal[0][s]), load<Float4>(&samples.normal[1][s]),
+                                        load<Float4>(&samples.normal[2][s])};
+            const Float4 share = 1 - dot(scaled, scaled), along = dot(facing, normal);
+            const Mask4 counts = share > 0 && along > kSameSheet && kLane < static_cast<std::int32_t>(end - s);
+            if (bits_of(counts) == 0) continue;
+            const Float4 weight = share * share * along * load<Float4>(&samples.count[s]);
+            chosen.fours[chosen.count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{},
+                                            load<std::array<std::uint8_t, 4>>(&samples.kind[s])};
         }
     });
-    chosen.count = count;
 }
 
 /// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
@@ -386,7 +422,7 @@ std::size_t LatticeLevel::bytes() const {
         sum += layer.sites.capacity() * sizeof(std::uint32_t);
         for (const Row& row : layer.rows)
             sum += row.sites.capacity() * sizeof(std::uint32_t) + row.runs.capacity() * sizeof(Run) +
-                   row.samples.capacity() * sizeof(Sample) + row.fits.capacity() * sizeof(Fit);
+                   row.samples.bytes() + row.fits.capacity() * sizeof(Fit);
     }
     return sum;
 }

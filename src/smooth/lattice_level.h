@@ -59,7 +59,21 @@ private:
         LatticePoint position;
         Float3 normal;
         float count;
-        std::uint8_t kind, direction;
+        std::uint8_t kind;
+    };
+    /// Samples of a row, one array for each coordinate, with room for four lanes behind the last.
+    struct Samples {
+        std::array<std::vector<std::uint32_t>, 3> at;
+        std::array<std::vector<float>, 3> normal;
+        std::vector<float> count;  // of sites
+        std::vector<std::uint8_t> kind;
+
+        std::uint32_t size() const { return static_cast<std::uint32_t>(kind.size()); }
+        void push_back(const Sample& sample);
+        LatticePoint position(std::uint32_t n) const { return {{at[0][n], at[1][n], at[2][n]}}; }
+        Float3 normal_of(std::uint32_t n) const { return {normal[0][n], normal[1][n], normal[2][n]}; }
+        void pad();
+        std::size_t bytes() const { return kind.capacity() * (7 * sizeof(float) + 1); }
     };
     struct Fit {
         HeightQuadric quadric;
@@ -75,7 +89,7 @@ private:
     struct Row {
         std::vector<std::uint32_t> sites;  // by run
         std::vector<Run> runs;             // by block, then interface; and one more at the end
-        std::vector<Sample> samples;
+        Samples samples;
         std::vector<Fit> fits;
     };
     struct Layer {

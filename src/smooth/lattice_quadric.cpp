@@ -1,8 +1,9 @@
 #include "smooth/lattice_quadric.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+
 
 namespace regionmesh {
 namespace {
@@ -60,46 +61,73 @@ float extent_of(int kind, const StepHeights& heights) {
     return high - low;
 }
 
-/// Weights of the samples from the extents of their simplices.
-void weigh(const HeightQuadric& quadric, HeightSamples& samples, Float3 spacing, bool is_first) {
-    std::vector<float>& weights = samples.scaled_weight;
-    const auto weight = [](float given, float extent, float slope2) {
-        return given / (extent * extent / slope2 + kFinestExtent * kFinestExtent);
-    };
-    if (is_first) {  // still a plane
+/// Weights of the samples from the extents of their simplices along the normal of a plane.
+class PlaneWeights {
+public:
+    PlaneWeights(const HeightQuadric& quadric, Float3 spacing) {
         const StepHeights heights = step_heights(quadric.normal, spacing);
-        std::array<float, kKindCount> extents{};
-        for (int kind = 1; kind < kKindCount; ++kind) extents[kind] = extent_of(kind, heights);
-        for (std::uint32_t n = 0; n < samples.count; ++n)
-            weights[n] = weight(samples.weight[n], extents[samples.kind[n]], 1);
-        return;
+        for (int kind = 1; kind < kKindCount; ++kind) {
+            const float extent = extent_of(kind, heights);
+            shares_[kind] = 1 / (extent * extent + kFinestExtent * kFinestExtent);
+        }
     }
-    for (std::uint32_t n = 0; n < samples.count; ++n) {
-        const Float3 slope = quadric.gradient({samples.u[n], samples.v[n], 0});
-        weights[n] =
-            weight(samples.weight[n], extent_of(samples.kind[n], step_heights(slope, spacing)), dot(slope, slope));
+    Float4 operator()(const HeightSamples::Four& four) const {
+        const auto& kind = four.kind;
+        return four.weight * Float4{shares_[kind[0]], shares_[kind[1]], shares_[kind[2]], shares_[kind[3]]};
     }
-}
 
-constexpr std::uint32_t kLanes = 4;
-typedef float Lanes __attribute__((vector_size(4 * kLanes)));
+private:
+    std::array<float, kKindCount> shares_{};
+};
 
-Lanes load(const float* from) {
-    Lanes lanes;
-    std::memcpy(&lanes, from, sizeof(lanes));
-    return lanes;
-}
-double total(Lanes lanes) { return (double{lanes[0]} + lanes[1]) + (double{lanes[2]} + lanes[3]); }
+/// The same along the gradient of a quadric at each sample.
+class QuadricWeights {
+public:
+    QuadricWeights(const HeightQuadric& quadric, Float3 spacing) : q_(quadric.q) {
+        for (int step = 1; step < 8; ++step)
+            steps_[step] = quadric.along({step & 1 ? spacing.x : 0, step & 2 ? spacing.y : 0, step & 4 ? spacing.z : 0});
+    }
+    Float4 operator()(const HeightSamples::Four& four) const {
+        const Float4 a = q_[1] + 2 * q_[3] * four.u + q_[4] * four.v, b = q_[2] + q_[4] * four.u + 2 * q_[5] * four.v;
+        const auto height_of = [&](int s0, int s1, int s2, int s3) {
+            const Float3 &e0 = steps_[s0], &e1 = steps_[s1], &e2 = steps_[s2], &e3 = steps_[s3];
+            return Float4{e0.z, e1.z, e2.z, e3.z} - a * Float4{e0.x, e1.x, e2.x, e3.x} -
+                   b * Float4{e0.y, e1.y, e2.y, e3.y};
+        };
+        const auto& kind = four.kind;
+        Float4 extent;
+        if (std::max({kind[0], kind[1], kind[2], kind[3]}) < kFirstTriangle) {  // the kind of an edge is its step
+            extent = height_of(kind[0], kind[1], kind[2], kind[3]);
+        } else {
+            Float4 low{}, high{};
+            for (int n = 1; n < 4; ++n) {
+                const auto step = [&](int lane) { return kKinds[kind[lane]].steps[n]; };
+                const Float4 at = height_of(step(0), step(1), step(2), step(3));
+                low = least(low, at);
+                high = greatest(high, at);
+            }
+            extent = high - low;
+        }
+        const Float4 slope2 = 1 + a * a + b * b;
+        return four.weight * slope2 / (extent * extent + kFinestExtent * kFinestExtent * slope2);
+    }
+
+private:
+    std::array<float, 6> q_;
+    std::array<Float3, 8> steps_;  // along u, v and the normal
+};
+
+double total(Float4 lanes) { return (double{lanes[0]} + lanes[1]) + (double{lanes[2]} + lanes[3]); }
 
 /// Sums of weight times powers of s and t, and of these times height.
-void add_up(const HeightSamples& samples, float scale, Matrix& a, std::array<double, 6>& b) {
-    Lanes m00{}, m10{}, m01{}, m20{}, m11{}, m02{}, m30{}, m21{}, m12{}, m03{}, m40{}, m31{}, m22{}, m13{}, m04{};
-    Lanes b0{}, b1{}, b2{}, b3{}, b4{}, b5{};
-    for (std::uint32_t n = 0; n < samples.count; n += kLanes) {
-        const Lanes w = load(&samples.scaled_weight[n]), s = scale * load(&samples.u[n]),
-                    t = scale * load(&samples.v[n]);
-        const Lanes h = load(&samples.height[n]);
-        const Lanes ss = s * s, st = s * t, tt = t * t, ws = w * s, wt = w * t, wss = w * ss, wtt = w * tt, wh = w * h;
+template <class Weights>
+void add_up(const HeightSamples& samples, const Weights& weights, float scale, Matrix& a, std::array<double, 6>& b) {
+    Float4 m00{}, m10{}, m01{}, m20{}, m11{}, m02{}, m30{}, m21{}, m12{}, m03{}, m40{}, m31{}, m22{}, m13{}, m04{};
+    Float4 b0{}, b1{}, b2{}, b3{}, b4{}, b5{};
+    for (std::uint32_t n = 0; n < samples.count; ++n) {
+        const HeightSamples::Four& four = samples.fours[n];
+        const Float4 w = weights(four), s = scale * four.u, t = scale * four.v, h = four.height;
+        const Float4 ss = s * s, st = s * t, tt = t * t, ws = w * s, wt = w * t, wss = w * ss, wtt = w * tt, wh = w * h;
         m00 += w, m10 += ws, m01 += wt, m20 += wss, m11 += w * st, m02 += wtt;
         m30 += wss * s, m21 += wss * t, m12 += wtt * s, m03 += wtt * t;
         m40 += wss * ss, m31 += wss * st, m22 += wss * tt, m13 += wtt * st, m04 += wtt * tt;
@@ -117,14 +145,6 @@ void add_up(const HeightSamples& samples, float scale, Matrix& a, std::array<dou
 }
 
 }  // namespace
-
-/// With room for lanes behind the last sample.
-void HeightSamples::make_room(std::uint32_t size) {
-    size += kLanes;
-    if (kind.size() >= size) return;
-    for (auto* values : {&u, &v, &height, &weight, &scaled_weight}) values->resize(size + size / 2);
-    kind.resize(size + size / 2);
-}
 
 ExtentAlong extent_along(int kind, Float3 slope, Float3 spacing) {
     const StepHeights heights = step_heights(slope, spacing);
@@ -147,18 +167,18 @@ HeightQuadric::HeightQuadric(LatticePoint at, Float3 unit_normal) : centre(at), 
     v = cross(normal, u);
 }
 
-bool HeightQuadric::fit(HeightSamples& samples, Float3 spacing, float reach, int rounds) {
-    const double few = kFewSamples / static_cast<double>(samples.count);
+bool HeightQuadric::fit(const HeightSamples& samples, Float3 spacing, float reach, int rounds) {
+    double count = 0;
+    for (std::uint32_t n = 0; n < samples.count; ++n) count += std::popcount(bits_of(samples.fours[n].weight > 0));
+    const double few = kFewSamples / count;
     const double curved_ridge = kCurvedRidge + few * few * few * few;
-    for (std::uint32_t n = samples.count; n % kLanes != 0; ++n) {
-        samples.set(n, {}, 0, 1);
-        samples.scaled_weight[n] = 0;
-    }
     for (int round = 0; round < rounds; ++round) {
-        weigh(*this, samples, spacing, round == 0);
         Matrix a{};
         std::array<double, 6> b{};
-        add_up(samples, 1 / reach, a, b);
+        if (round == 0)  // still a plane
+            add_up(samples, PlaneWeights(*this, spacing), 1 / reach, a, b);
+        else
+            add_up(samples, QuadricWeights(*this, spacing), 1 / reach, a, b);
         const double all = a[0][0];
         for (int i = 0; i < 6; ++i) a[i][i] += all * (i < 3 ? kPlaneRidge : curved_ridge);
         if (!solve(a, b)) return false;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lanes.h"
 #include "cells/kuhn.h"
 #include "smooth/lattice_point.h"
 
@@ -17,21 +18,15 @@ struct ExtentAlong {
 };
 ExtentAlong extent_along(int kind, Float3 slope, Float3 spacing);
 
-/// Points of an interface round the centre of a fit, one array for each coordinate.
+/// Points of an interface round the centre of a fit, four at a time. A point of weight 0 does not count.
 struct HeightSamples {
-    std::vector<float> u, v, height;  // in finest spacings
-    std::vector<float> weight, scaled_weight;
-    std::vector<std::uint8_t> kind;  // of the simplex
-    std::uint32_t count = 0;         // of the samples in use
-
-    void make_room(std::uint32_t size);
-    void set(std::uint32_t n, Float3 along_uvn, float weight_, std::uint8_t kind_) {
-        u[n] = along_uvn.x;
-        v[n] = along_uvn.y;
-        height[n] = along_uvn.z;
-        weight[n] = weight_;
-        kind[n] = kind_;
-    }
+    struct Four {
+        Float4 u, v, height;  // in finest spacings
+        Float4 weight;
+        std::array<std::uint8_t, 4> kind;  // of the simplices
+    };
+    std::vector<Four> fours;
+    std::uint32_t count = 0;  // of the fours in use
 };
 
 /// Height over the plane through `centre` square to `normal`: along u and v, q0 + q1 u + q2 v + q3 u^2 + q4 u v + q5
@@ -55,8 +50,8 @@ struct HeightQuadric {
     /// Weighted least squares. The true surface may cross a sample's simplex anywhere, so a sample counts by the
     /// inverse square of the extent of its simplex along the normal, at least `finest_extent`: the steps of a terrace
     /// say where the surface is, its plain does not. Repeated `rounds` times with the slopes found before. `reach`
-    /// scales u and v. Overwrites samples behind the last. False if the sums are degenerate.
-    bool fit(HeightSamples& samples, Float3 spacing, float reach, int rounds);
+    /// scales u and v. False if the sums are degenerate.
+    bool fit(const HeightSamples& samples, Float3 spacing, float reach, int rounds);
 };
 
 }  // namespace regionmesh
