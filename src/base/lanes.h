@@ -58,6 +58,14 @@ inline Double2 square_root(Double2 x) {
 #endif
 }
 
+inline Float4 square_root(Float4 x) {
+#if defined(__SSE2__)
+    return _mm_sqrt_ps(x);
+#else
+    return Float4{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
+}
+
 template <class T>
 T least(T a, T b) {
     return a < b ? a : b;

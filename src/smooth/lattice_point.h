@@ -30,6 +30,10 @@ inline Float3 cross(Float3 a, Float3 b) {
 
 inline Lanes3<Float4> all_four(Float3 p) { return {all_four(p.x), all_four(p.y), all_four(p.z)}; }
 
+inline Lanes3<Float4> side_by_side(Float3 a, Float3 b, Float3 c, Float3 d) {
+    return {Float4{a.x, b.x, c.x, d.x}, Float4{a.y, b.y, c.y, d.y}, Float4{a.z, b.z, c.z, d.z}};
+}
+
 /// A position in whole steps of kStep finest spacings, modulo 2^32: differences of points near each other are exact
 /// however far from the origin they lie, and fit single precision.
 struct LatticePoint {

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 
-
 namespace regionmesh {
 namespace {
 
@@ -43,36 +42,23 @@ bool solve(Matrix& a, std::array<double, 6>& b) {
     return true;
 }
 
-/// slope . step for the eight steps in a cell.
-using StepHeights = std::array<float, 8>;
-StepHeights step_heights(Float3 slope, Float3 spacing) {
-    const float x = slope.x * spacing.x, y = slope.y * spacing.y, z = slope.z * spacing.z;
-    return {0, x, y, x + y, z, x + z, y + z, x + y + z};
-}
-
-float extent_of(int kind, const StepHeights& heights) {
-    const SimplexKind& simplex = kKinds[kind];
-    if (simplex.node_count == 2) return std::abs(heights[simplex.steps[1]]);
-    float low = 0, high = 0;
-    for (int n = 1; n < simplex.node_count; ++n) {
-        low = std::min(low, heights[simplex.steps[n]]);
-        high = std::max(high, heights[simplex.steps[n]]);
-    }
-    return high - low;
-}
-
-/// Weights of the samples from the extents of their simplices along the normal of a plane.
+/// Weights of the samples from the extents of their simplices along the normal of a plane. `steps` are along u, v and
+/// the normal.
 class PlaneWeights {
 public:
-    PlaneWeights(const HeightQuadric& quadric, Float3 spacing) {
-        const StepHeights heights = step_heights(quadric.normal, spacing);
+    explicit PlaneWeights(const StepVectors& steps) {
         for (int kind = 1; kind < kKindCount; ++kind) {
-            const float extent = extent_of(kind, heights);
-            shares_[kind] = 1 / (extent * extent + kFinestExtent * kFinestExtent);
+            float low = 0, high = 0;
+            for (int n = 1; n < kKinds[kind].node_count; ++n) {
+                const float at = steps[kKinds[kind].steps[n]].z;
+                low = std::min(low, at);
+                high = std::max(high, at);
+            }
+            shares_[kind] = 1 / ((high - low) * (high - low) + kFinestExtent * kFinestExtent);
         }
     }
     Float4 operator()(const HeightSamples::Four& four) const {
-        const auto& kind = four.kind;
+        const Kinds4& kind = four.kind;
         return four.weight * Float4{shares_[kind[0]], shares_[kind[1]], shares_[kind[2]], shares_[kind[3]]};
     }
 
@@ -83,38 +69,22 @@ private:
 /// The same along the gradient of a quadric at each sample.
 class QuadricWeights {
 public:
-    QuadricWeights(const HeightQuadric& quadric, Float3 spacing) : q_(quadric.q) {
-        for (int step = 1; step < 8; ++step)
-            steps_[step] = quadric.along({step & 1 ? spacing.x : 0, step & 2 ? spacing.y : 0, step & 4 ? spacing.z : 0});
+    QuadricWeights(const StepVectors& steps, const std::array<double, 6>& q) : steps_(steps) {
+        for (int n = 0; n < 6; ++n) q_[n] = static_cast<float>(q[n]);
     }
     Float4 operator()(const HeightSamples::Four& four) const {
         const Float4 a = q_[1] + 2 * q_[3] * four.u + q_[4] * four.v, b = q_[2] + q_[4] * four.u + 2 * q_[5] * four.v;
-        const auto height_of = [&](int s0, int s1, int s2, int s3) {
-            const Float3 &e0 = steps_[s0], &e1 = steps_[s1], &e2 = steps_[s2], &e3 = steps_[s3];
-            return Float4{e0.z, e1.z, e2.z, e3.z} - a * Float4{e0.x, e1.x, e2.x, e3.x} -
-                   b * Float4{e0.y, e1.y, e2.y, e3.y};
-        };
-        const auto& kind = four.kind;
-        Float4 extent;
-        if (std::max({kind[0], kind[1], kind[2], kind[3]}) < kFirstTriangle) {  // the kind of an edge is its step
-            extent = height_of(kind[0], kind[1], kind[2], kind[3]);
-        } else {
-            Float4 low{}, high{};
-            for (int n = 1; n < 4; ++n) {
-                const auto step = [&](int lane) { return kKinds[kind[lane]].steps[n]; };
-                const Float4 at = height_of(step(0), step(1), step(2), step(3));
-                low = least(low, at);
-                high = greatest(high, at);
-            }
-            extent = high - low;
-        }
-        const Float4 slope2 = 1 + a * a + b * b;
-        return four.weight * slope2 / (extent * extent + kFinestExtent * kFinestExtent * slope2);
+        const Extent4 extent = extent_of(four.kind, [&](int n) {
+            const Lanes3<Float4> step = steps_.to_node(four.kind, n);
+            return step.z - a * step.x - b * step.y;
+        });
+        const Float4 size = extent.high - extent.low, slope2 = 1 + a * a + b * b;
+        return four.weight * slope2 / (size * size + kFinestExtent * kFinestExtent * slope2);
     }
 
 private:
+    const StepVectors& steps_;
     std::array<float, 6> q_;
-    std::array<Float3, 8> steps_;  // along u, v and the normal
 };
 
 double total(Float4 lanes) { return (double{lanes[0]} + lanes[1]) + (double{lanes[2]} + lanes[3]); }
@@ -146,47 +116,56 @@ void add_up(const HeightSamples& samples, const Weights& weights, float scale, M
 
 }  // namespace
 
-ExtentAlong extent_along(int kind, Float3 slope, Float3 spacing) {
-    const StepHeights heights = step_heights(slope, spacing);
-    const SimplexKind& simplex = kKinds[kind];
-    float low = 0, high = 0, sum = 0;
-    for (int n = 1; n < simplex.node_count; ++n) {
-        const float at = heights[simplex.steps[n]];
-        low = std::min(low, at);
-        high = std::max(high, at);
-        sum += at;
-    }
-    const float middle = sum / static_cast<float>(simplex.node_count);
-    return {low - middle, high - middle};
+StepVectors::StepVectors(Float3 spacing) {
+    for (Step step = 0; step < 8; ++step)
+        steps_[step] = {step & 1 ? spacing.x : 0, step & 2 ? spacing.y : 0, step & 4 ? spacing.z : 0};
+    for (int kind = 1; kind < kFirstTriangle; ++kind) edge_[kind] = steps_[kKinds[kind].steps[1]];
 }
 
-HeightQuadric::HeightQuadric(LatticePoint at, Float3 unit_normal) : centre(at), normal(unit_normal) {
+TangentFrame::TangentFrame(Float3 unit_normal) : normal(unit_normal) {
     const Float3 other = std::abs(normal.x) < 0.6f ? Float3{1, 0, 0} : Float3{0, 1, 0};
     u = cross(normal, other);
     u = (1 / length(u)) * u;
     v = cross(normal, u);
 }
 
-bool HeightQuadric::fit(const HeightSamples& samples, Float3 spacing, float reach, int rounds) {
+bool HeightQuadric::fit(const HeightSamples& samples, const TangentFrame& frame, Float3 spacing, float reach,
+                        int rounds) {
     double count = 0;
     for (std::uint32_t n = 0; n < samples.count; ++n) count += std::popcount(bits_of(samples.fours[n].weight > 0));
     const double few = kFewSamples / count;
     const double curved_ridge = kCurvedRidge + few * few * few * few;
+    StepVectors steps(spacing);
+    for (Step step = 0; step < 8; ++step) steps[step] = frame.along(steps[step]);
+    std::array<double, 6> q;
     for (int round = 0; round < rounds; ++round) {
         Matrix a{};
         std::array<double, 6> b{};
         if (round == 0)  // still a plane
-            add_up(samples, PlaneWeights(*this, spacing), 1 / reach, a, b);
+            add_up(samples, PlaneWeights(steps), 1 / reach, a, b);
         else
-            add_up(samples, QuadricWeights(*this, spacing), 1 / reach, a, b);
+            add_up(samples, QuadricWeights(steps, q), 1 / reach, a, b);
         const double all = a[0][0];
         for (int i = 0; i < 6; ++i) a[i][i] += all * (i < 3 ? kPlaneRidge : curved_ridge);
         if (!solve(a, b)) return false;
         const double r = reach;
-        const double found[6] = {b[0], b[1] / r, b[2] / r, b[3] / (r * r), b[4] / (r * r), b[5] / (r * r)};
-        for (int i = 0; i < 6; ++i) q[i] = static_cast<float>(found[i]);
+        q = {b[0], b[1] / r, b[2] / r, b[3] / (r * r), b[4] / (r * r), b[5] / (r * r)};
     }
+    set_heights(q, frame);
     return true;
+}
+
+/// From heights over the plane to heights over the surface.
+void HeightQuadric::set_heights(const std::array<double, 6>& q, const TangentFrame& frame) {
+    std::array<float, 6> f;
+    for (int n = 0; n < 6; ++n) f[n] = static_cast<float>(q[n]);
+    constant = -f[0];
+    gradient = frame.normal - f[1] * frame.u - f[2] * frame.v;
+    const float u[3] = {frame.u.x, frame.u.y, frame.u.z}, v[3] = {frame.v.x, frame.v.y, frame.v.z};
+    const auto second = [&](int i, int j) {
+        return -(2 * f[3] * u[i] * u[j] + f[4] * (u[i] * v[j] + v[i] * u[j]) + 2 * f[5] * v[i] * v[j]);
+    };
+    curvature = {second(0, 0), second(1, 1), second(2, 2), second(0, 1), second(0, 2), second(1, 2)};
 }
 
 }  // namespace regionmesh

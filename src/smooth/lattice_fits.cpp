@@ -1,0 +1,268 @@
+#include "smooth/lattice_fits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regionmesh {
+namespace {
+
+/// Normals count as of one sheet above this cosine; two sides of a thin region face away from each other.
+constexpr float kSameSheet = 0.2f;
+
+/// A quadric may miss a simplex by this share of the spacing along its normal.
+constexpr float kTolerance = 0.3f;
+
+/// Weight of a quadric in the corners of its own block, which may lie beyond kBlend.
+constexpr float kOwnWeight = 1e-6f;
+
+/// Extents of simplices depend on the slope of the quadric: fitted again with the slopes found first, for wide
+/// terraces. On the finest scale once more gains nothing.
+constexpr int kRounds = 2, kFinestRounds = 1;
+
+constexpr Lane4 kLane{0, 1, 2, 3};
+
+using Points4 = std::array<Unsigned4, 3>;
+Lanes3<Float4> offset(const Points4& at, const LatticePoint& from) {
+    const auto along = [&](int axis) {
+        constexpr auto kStep = static_cast<float>(LatticePoint::kStep);
+        return kStep * __builtin_convertvector(reinterpret_cast<Lane4>(at[axis] - from.at[axis]), Float4);
+    };
+    return {along(0), along(1), along(2)};
+}
+
+/// 1 less the square of a length measured in radii.
+struct Share {
+    Float3 per_radius;
+    Float4 operator()(const Lanes3<Float4>& d) const {
+        const Lanes3<Float4> scaled{per_radius.x * d.x, per_radius.y * d.y, per_radius.z * d.z};
+        return 1 - dot(scaled, scaled);
+    }
+};
+
+}  // namespace
+
+/// Four sites; the last one repeated where there are fewer.
+struct LatticeFits::Sites4 {
+    Points4 at;
+    Lanes3<Float4> normal;
+    Kinds4 kind;
+};
+
+/// Sums over fits, or means, of what they say at four sites.
+struct LatticeFits::Blend4 {
+    Float4 all{}, accepted{};  // weights
+    Float4 height{};
+    Lanes3<Float4> slope;
+    std::array<Float4, 6> curvature{};
+};
+
+/// Gaps between the centre of a fit and the blocks near its own: blocks beyond a radius are left out.
+class LatticeFits::Gaps {
+public:
+    Gaps(const LatticeBlocks& blocks, const LatticePoint& own, const LatticePoint& centre) {
+        constexpr double kSlack = 1e-3;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double size = blocks.size_along(axis);
+            const std::int64_t block = blocks.cell_of(own, axis) / LatticeBlocks::kCells;
+            const double place = centre.at[axis] * LatticePoint::kStep / size - static_cast<double>(block);
+            for (int k = -NearRuns::kRings; k <= NearRuns::kRings; ++k) {
+                const double gap = std::max({k - place, place - k - 1, kSlack}) - kSlack;
+                square_[axis][k + NearRuns::kRings] = static_cast<float>(gap * gap);
+            }
+        }
+    }
+    bool is_within(float radius, const NearRun& near) const {
+        float sum = 0;
+        for (int axis = 0; axis < 3; ++axis) sum += square_[axis][near.offset[axis] + NearRuns::kRings];
+        return sum < radius * radius;
+    }
+
+private:
+    float square_[3][2 * NearRuns::kRings + 1];
+};
+
+LatticeFits::LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options)
+    : sites_(sites), blocks_(blocks), options_(options), steps_(blocks.spacing) {}
+
+LatticeFits::Sites4 LatticeFits::gather(const std::uint32_t* numbers, std::uint32_t count) const {
+    const auto site = [&](std::uint32_t lane) -> const LatticeSite& {
+        return sites_[numbers[std::min(lane, count - 1)]];
+    };
+    const LatticeSite &a = site(0), &b = site(1), &c = site(2), &d = site(3);
+    const auto kind = [](const LatticeSite& s) { return static_cast<std::uint8_t>(s.kind); };
+    const auto along = [&](int n) {
+        return Unsigned4{a.centroid.at[n], b.centroid.at[n], c.centroid.at[n], d.centroid.at[n]};
+    };
+    return {{along(0), along(1), along(2)},
+            side_by_side(a.normal, b.normal, c.normal, d.normal),
+            {kind(a), kind(b), kind(c), kind(d)}};
+}
+
+void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near,
+                            const SlidingArray<SiteEstimate>& estimates, std::vector<FitPlace>& found) const {
+    const LatticePoint first = sites_[row.sites[row.runs[run].site]].centroid;
+    Float3 low{HUGE_VALF, HUGE_VALF, HUGE_VALF}, high{-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
+    for (std::uint32_t n = row.runs[run].site; n < row.runs[run + 1].site; ++n) {
+        if (estimates[row.sites[n]].rest == 0) continue;
+        const Float3 d = sites_[row.sites[n]].centroid - first;
+        low = {std::min(low.x, d.x), std::min(low.y, d.y), std::min(low.z, d.z)};
+        high = {std::max(high.x, d.x), std::max(high.y, d.y), std::max(high.z, d.z)};
+    }
+    if (low.x > high.x) return;
+    const auto beyond = [](float at, float low_, float high_) { return std::max({low_ - at, at - high_, 0.0f}); };
+    for (const NearRun& other : near) {
+        const bool is_own = other.row == &row && other.run == run;
+        for (std::uint32_t f = (*other).fit; f < other.next().fit; ++f) {
+            const Float3 d = other.row->fits[f].quadric.centre - first;
+            const Float3 gap{beyond(d.x, low.x, high.x), beyond(d.y, low.y, high.y), beyond(d.z, low.z, high.z)};
+            if (is_own || blocks_.distance2(gap) < kBlend * kBlend) found.push_back({other.row, other.run, f});
+        }
+    }
+}
+
+void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const {
+    thread_local HeightSamples chosen;
+    const LatticePoint& own = sites_[row.sites[row.runs[run].site]].centroid;
+    for (std::uint32_t f = row.runs[run].fit; f < row.runs[run + 1].fit; ++f) {
+        auto& [quadric, accepted] = row.fits[f];
+        const TangentFrame frame(quadric.normal);
+        const Gaps gaps(blocks_, own, quadric.centre);
+        choose(quadric, frame, gaps, near, chosen);
+        if (!quadric.fit(chosen, frame, blocks_.spacing, kReach * static_cast<float>(options_.size),
+                         options_.takes_all ? kFinestRounds : kRounds))
+            accepted = -1;
+        else
+            accepted = options_.takes_all ? 1 : acceptance(quadric, gaps, near);
+    }
+}
+
+/// The samples of the sheet within kReach, with a weight that falls with distance. Of four samples side by side either
+/// all are taken, some perhaps with weight 0, or none.
+void LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
+                         const std::vector<NearRun>& near, HeightSamples& chosen) const {
+    const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
+    const Share share_of{(1 / kReach) * blocks_.per_size};
+    const LatticePoint centre = quadric.centre;
+    std::uint32_t count = 0, most = 0;
+    for (const NearRun& other : near) most += (other.next().sample - (*other).sample) / 4 + 1;
+    if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
+    HeightSamples::Four* const fours = chosen.fours.data();
+    for (const NearRun& other : near) {
+        if (!gaps.is_within(kReach, other)) continue;
+        const LatticeSamples& samples = other.row->samples;
+        const std::uint32_t end = other.next().sample;
+        const std::uint32_t* const at[3] = {samples.at[0].data(), samples.at[1].data(), samples.at[2].data()};
+        const float* const facing[3] = {samples.normal[0].data(), samples.normal[1].data(), samples.normal[2].data()};
+        for (std::uint32_t s = (*other).sample; s < end; s += 4) {
+            const Lanes3<Float4> d =
+                offset({load<Unsigned4>(at[0] + s), load<Unsigned4>(at[1] + s), load<Unsigned4>(at[2] + s)}, centre);
+            const Lanes3<Float4> face{load<Float4>(facing[0] + s), load<Float4>(facing[1] + s),
+                                      load<Float4>(facing[2] + s)};
+            const Float4 share = share_of(d), along = dot(face, normal);
+            const Mask4 counts = share > 0 && along > kSameSheet && kLane < static_cast<std::int32_t>(end - s);
+            if (bits_of(counts) == 0) continue;
+            const Float4 weight = share * share * along * load<Float4>(&samples.count[s]);
+            fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{},
+                              load<Kinds4>(&samples.kind[s])};
+        }
+    }
+    chosen.count = count;
+}
+
+/// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
+float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near) const {
+    const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
+    const float tolerance =
+        kTolerance * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
+    const Share share{(1 / kBlend) * blocks_.per_size};
+    Float4 worst{};
+    for (const NearRun& other : near) {
+        if (!gaps.is_within(kBlend, other)) continue;
+        const std::uint32_t end = other.next().site;
+        for (std::uint32_t n = (*other).site; n < end; n += 4) {
+            const Sites4 sites = gather(&other.row->sites[n], end - n);
+            const Mask4 counts =
+                share(offset(sites.at, quadric.centre)) > 0 && dot(sites.normal, all_four(normal)) > kSameSheet;
+            if (bits_of(counts) == 0) continue;
+            worst = greatest(worst, counts ? misses(quadric, sites) : Float4{});
+            if (bits_of(worst >= tolerance) != 0) return 0;
+        }
+    }
+    const float most = std::max({worst[0], worst[1], worst[2], worst[3]});
+    return std::min(1.0f, 2 - 2 * most / tolerance);
+}
+
+/// By how much a quadric passes a simplex by; below 0 where it passes through.
+Float4 LatticeFits::misses(const HeightQuadric& quadric, const Sites4& sites) const {
+    const auto [height, slope] = quadric.at(offset(sites.at, quadric.centre));
+    const Extent4 extent =
+        extent_of(sites.kind, [&, slope = slope](int n) { return dot(slope, steps_.to_node(sites.kind, n)); });
+    const auto share = [&](int lane) { return 1 / static_cast<float>(kKinds[sites.kind[lane]].node_count); };
+    const Float4 middle = extent.sum * Float4{share(0), share(1), share(2), share(3)};
+    return greatest(height + extent.low - middle, middle - extent.high - height) / square_root(dot(slope, slope));
+}
+
+void LatticeFits::blend(const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits,
+                        SlidingArray<SiteEstimate>& estimates) const {
+    const std::uint32_t end = row.runs[run + 1].site;
+    for (std::uint32_t n = row.runs[run].site; n < end;) {
+        std::uint32_t numbers[4], count = 0;
+        for (; n < end && count < 4; ++n)
+            if (estimates[row.sites[n]].rest > 0) numbers[count++] = row.sites[n];
+        if (count == 0) return;
+        const Blend4 mean = blended(gather(numbers, count), row, run, fits);
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+            if (mean.accepted[lane] == 0) continue;
+            SiteEstimate& estimate = estimates[numbers[lane]];
+            const float share = mean.accepted[lane] / mean.all[lane], portion = estimate.rest * share;
+            estimate.height += portion * mean.height[lane];
+            estimate.slope += portion * Float3{mean.slope.x[lane], mean.slope.y[lane], mean.slope.z[lane]};
+            estimate.rest = mean.accepted[lane] == mean.all[lane] ? 0 : estimate.rest * (1 - share);
+        }
+    }
+}
+
+/// The weighted mean of the accepted fits at each site, linear near it.
+LatticeFits::Blend4 LatticeFits::blended(const Sites4& sites, const LatticeRow& row, std::uint32_t run,
+                                         std::span<const FitPlace> fits) const {
+    const Share share_of{(1 / kBlend) * blocks_.per_size};
+    Blend4 sums;
+    for (const FitPlace& place : fits) {
+        const auto& [quadric, accepted] = place.row->fits[place.fit];
+        if (accepted < 0) continue;
+        const Lanes3<Float4> d = offset(sites.at, quadric.centre);
+        const Float4 share = share_of(d), along = dot(sites.normal, all_four(quadric.normal)) - kSameSheet;
+        Float4 weight = share > 0 && along > 0 ? share * share * along : Float4{};
+        if (place.row == &row && place.run == run) weight += along > -kSameSheet ? all_four(kOwnWeight) : Float4{};
+        sums.all += weight;
+        if (accepted == 0 || bits_of(weight > 0) == 0) continue;
+        weight *= accepted;
+        sums.accepted += weight;
+        const HeightQuadric::At at = quadric.at(d);
+        sums.height += weight * at.height;
+        sums.slope = {sums.slope.x + weight * at.gradient.x, sums.slope.y + weight * at.gradient.y,
+                      sums.slope.z + weight * at.gradient.z};
+        for (int k = 0; k < 6; ++k) sums.curvature[k] += weight * quadric.curvature[k];
+    }
+    make_linear(sums, sites.kind);
+    return sums;
+}
+
+/// From sums to means, linear near the centroid; for an edge where the quadric crosses it, so that it is linear there
+/// and not at the midpoint.
+void LatticeFits::make_linear(Blend4& sums, const Kinds4& kind) const {
+    const Float4 unit = sums.accepted > 0 ? 1 / sums.accepted : Float4{};
+    const auto& k = sums.curvature;
+    const Lanes3<Float4> edge = steps_.edge(kind);
+    const Lanes3<Float4> turn{unit * (k[0] * edge.x + k[3] * edge.y + k[4] * edge.z),
+                              unit * (k[3] * edge.x + k[1] * edge.y + k[5] * edge.z),
+                              unit * (k[4] * edge.x + k[5] * edge.y + k[2] * edge.z)};
+    const Lanes3<Float4> slope{unit * sums.slope.x, unit * sums.slope.y, unit * sums.slope.z};
+    const Float4 height = unit * sums.height, steep = dot(slope, edge);
+    const Float4 crossing = steep != 0 ? -height / steep : Float4{};
+    const Float4 step = least(greatest(crossing, all_four(-0.5f)), all_four(0.5f));
+    sums.slope = {slope.x + step * turn.x, slope.y + step * turn.y, slope.z + step * turn.z};
+    sums.height = height - 0.5f * step * step * dot(turn, edge);
+}
+
+}  // namespace regionmesh
