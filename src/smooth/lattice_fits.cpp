@@ -12,6 +12,11 @@ constexpr float kSameSheet = 0.2f;
 /// A quadric may miss a simplex by this share of the spacing along its normal.
 constexpr float kTolerance = 0.3f;
 
+/// A fit to every fourth four of samples, in one round, that misses a simplex by more than this is not worth a better
+/// fit: most fits to noisy labels end here.
+constexpr float kTrialTolerance = 0.6f;
+constexpr std::uint32_t kTrialStride = 4;
+
 /// Weight of a quadric in the corners of its own block, which may lie beyond kBlend.
 constexpr float kOwnWeight = 1e-6f;
 
@@ -127,19 +132,27 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<Nea
         auto& [quadric, accepted] = row.fits[f];
         const TangentFrame frame(quadric.normal);
         const Gaps gaps(blocks_, own, quadric.centre);
-        choose(quadric, frame, gaps, near, chosen);
-        if (!quadric.fit(chosen, frame, blocks_.spacing, kReach * static_cast<float>(options_.size),
-                         options_.takes_all ? kFinestRounds : kRounds))
+        const float reach = kReach * static_cast<float>(options_.size);
+        if (!options_.takes_all) {
+            HeightQuadric trial = quadric;
+            choose(quadric, frame, gaps, near, kTrialStride, chosen);
+            accepted = trial.fit(chosen, frame, blocks_.spacing, reach, kFinestRounds)
+                           ? acceptance(trial, gaps, near, kTrialTolerance)
+                           : 1;
+            if (accepted == 0) continue;
+        }
+        choose(quadric, frame, gaps, near, 1, chosen);
+        if (!quadric.fit(chosen, frame, blocks_.spacing, reach, options_.takes_all ? kFinestRounds : kRounds))
             accepted = -1;
         else
-            accepted = options_.takes_all ? 1 : acceptance(quadric, gaps, near);
+            accepted = options_.takes_all ? 1 : acceptance(quadric, gaps, near, kTolerance);
     }
 }
 
 /// The samples of the sheet within kReach, with a weight that falls with distance. Of four samples side by side either
 /// all are taken, some perhaps with weight 0, or none.
 void LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                         const std::vector<NearRun>& near, HeightSamples& chosen) const {
+                         const std::vector<NearRun>& near, std::uint32_t stride, HeightSamples& chosen) const {
     const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
     const Share share_of{(1 / kReach) * blocks_.per_size};
     const LatticePoint centre = quadric.centre;
@@ -153,7 +166,7 @@ void LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame
         const std::uint32_t end = other.next().sample;
         const std::uint32_t* const at[3] = {samples.at[0].data(), samples.at[1].data(), samples.at[2].data()};
         const float* const facing[3] = {samples.normal[0].data(), samples.normal[1].data(), samples.normal[2].data()};
-        for (std::uint32_t s = (*other).sample; s < end; s += 4) {
+        for (std::uint32_t s = (*other).sample; s < end; s += 4 * stride) {
             const Lanes3<Float4> d =
                 offset({load<Unsigned4>(at[0] + s), load<Unsigned4>(at[1] + s), load<Unsigned4>(at[2] + s)}, centre);
             const Lanes3<Float4> face{load<Float4>(facing[0] + s), load<Float4>(facing[1] + s),
@@ -170,10 +183,11 @@ void LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame
 }
 
 /// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
-float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near) const {
+float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near,
+                              float most_missed) const {
     const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
     const float tolerance =
-        kTolerance * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
+        most_missed * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
     const Share share{(1 / kBlend) * blocks_.per_size};
     Float4 worst{};
     for (const NearRun& other : near) {
@@ -204,6 +218,8 @@ Float4 LatticeFits::misses(const HeightQuadric& quadric, const Sites4& sites) co
 
 void LatticeFits::blend(const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits,
                         SlidingArray<SiteEstimate>& estimates) const {
+    const auto is_accepted = [](const FitPlace& place) { return place.row->fits[place.fit].accepted > 0; };
+    if (std::none_of(fits.begin(), fits.end(), is_accepted)) return;
     const std::uint32_t end = row.runs[run + 1].site;
     for (std::uint32_t n = row.runs[run].site; n < end;) {
         std::uint32_t numbers[4], count = 0;

@@ -52,8 +52,9 @@ private:
 
     Sites4 gather(const std::uint32_t* numbers, std::uint32_t count) const;
     void choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                const std::vector<NearRun>& near, HeightSamples& chosen) const;
-    float acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near) const;
+                const std::vector<NearRun>& near, std::uint32_t stride, HeightSamples& chosen) const;
+    float acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near,
+                     float most_missed) const;
     Float4 misses(const HeightQuadric& quadric, const Sites4& sites) const;
     Blend4 blended(const Sites4& sites, const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits) const;
     void make_linear(Blend4& sums, const Kinds4& kind) const;
