@@ -69,11 +69,12 @@ Barycentric weights_of(const NearestPoint& nearest) {
 LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites, std::uint32_t vertex) {
     const LatticeFrame& frame = sites.frame();
     const int kind = sites.kind(vertex);
-    const Vec3 middle = centroid(kind);
     LatticeSimplex simplex{{}, static_cast<std::uint8_t>(kind)};
+    // A centroid is more than a tenth of a spacing away from the next node, so that truncation finds the base.
+    const Vec3& at = window.origin[vertex];
     for (int axis = 0; axis < 3; ++axis)
         simplex.base[axis] =
-            std::round((window.origin[vertex][axis] - frame.origin[axis]) / frame.spacing[axis] - middle[axis]);
+            static_cast<double>(static_cast<std::int64_t>((at[axis] - frame.origin[axis]) / frame.spacing[axis] + 0.1));
     return simplex;
 }
 
@@ -106,14 +107,17 @@ void LatticeLines::link(std::uint32_t chunk) {
         if (std::find(node.next.begin(), end, next) == end && node.count < node.next.size())
             node.next[node.count++] = next;
     };
-    for (std::uint32_t f = faces.first; f < faces.end; ++f)
+    for (std::uint32_t f = faces.first; f < faces.end; ++f) {
+        const auto& corners = window_.faces[f].vertices;
+        bool is_on_line[3];
+        for (int n = 0; n < 3; ++n) is_on_line[n] = sites_.kind(corners[n]) >= kFirstTriangle;
         for (int n = 0; n < 3; ++n) {
-            const auto& corners = window_.faces[f].vertices;
-            const std::uint32_t a = corners[n], b = corners[(n + 1) % 3];
-            if (sites_.kind(a) < kFirstTriangle || sites_.kind(b) < kFirstTriangle) continue;
-            join(a, b);
-            join(b, a);
+            const int next = (n + 1) % 3;
+            if (!is_on_line[n] || !is_on_line[next]) continue;
+            join(corners[n], corners[next]);
+            join(corners[next], corners[n]);
         }
+    }
 }
 
 void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads) {
