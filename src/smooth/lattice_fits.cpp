@@ -24,8 +24,6 @@ constexpr float kOwnWeight = 1e-6f;
 /// terraces. On the finest scale once more gains nothing.
 constexpr int kRounds = 2, kFinestRounds = 1;
 
-constexpr Lane4 kLane{0, 1, 2, 3};
-
 using Points4 = std::array<Unsigned4, 3>;
 Lanes3<Float4> offset(const Points4& at, const LatticePoint& from) {
     const auto along = [&](int axis) {
@@ -157,26 +155,19 @@ void LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame
     const Share share_of{(1 / kReach) * blocks_.per_size};
     const LatticePoint centre = quadric.centre;
     std::uint32_t count = 0, most = 0;
-    for (const NearRun& other : near) most += (other.next().sample - (*other).sample) / 4 + 1;
+    for (const NearRun& other : near) most += other.next().samples - (*other).samples;
     if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
     HeightSamples::Four* const fours = chosen.fours.data();
     for (const NearRun& other : near) {
         if (!gaps.is_within(kReach, other)) continue;
-        const LatticeSamples& samples = other.row->samples;
-        const std::uint32_t end = other.next().sample;
-        const std::uint32_t* const at[3] = {samples.at[0].data(), samples.at[1].data(), samples.at[2].data()};
-        const float* const facing[3] = {samples.normal[0].data(), samples.normal[1].data(), samples.normal[2].data()};
-        for (std::uint32_t s = (*other).sample; s < end; s += 4 * stride) {
-            const Lanes3<Float4> d =
-                offset({load<Unsigned4>(at[0] + s), load<Unsigned4>(at[1] + s), load<Unsigned4>(at[2] + s)}, centre);
-            const Lanes3<Float4> face{load<Float4>(facing[0] + s), load<Float4>(facing[1] + s),
-                                      load<Float4>(facing[2] + s)};
-            const Float4 share = share_of(d), along = dot(face, normal);
-            const Mask4 counts = share > 0 && along > kSameSheet && kLane < static_cast<std::int32_t>(end - s);
+        const LatticeSamples* const end = other.row->samples.data() + other.next().samples;
+        for (const LatticeSamples* s = other.row->samples.data() + (*other).samples; s < end; s += stride) {
+            const Lanes3<Float4> d = offset(s->at, centre);
+            const Float4 share = share_of(d), along = dot(s->normal, normal);
+            const Mask4 counts = share > 0 && along > kSameSheet;
             if (bits_of(counts) == 0) continue;
-            const Float4 weight = share * share * along * load<Float4>(&samples.count[s]);
-            fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{},
-                              load<Kinds4>(&samples.kind[s])};
+            const Float4 weight = share * share * along * s->count;
+            fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, s->kind};
         }
     }
     chosen.count = count;

@@ -33,6 +33,9 @@ struct LatticeBlocks {
         const Float3 in_blocks{d.x * per_size.x, d.y * per_size.y, d.z * per_size.z};
         return dot(in_blocks, in_blocks);
     }
+
+private:
+    Vec3 cells_per_length_;
 };
 
 /// The axis along which a normal is longest, and its sign: sites of a block are parted by it.
@@ -43,19 +46,15 @@ inline std::uint8_t direction_of(Float3 normal) {
     return static_cast<std::uint8_t>(2 * axis + (signs[axis] > 0));
 }
 
-/// Samples, one array for each coordinate, with room for four lanes behind the last.
-struct LatticeSamples {
-    std::array<std::vector<std::uint32_t>, 3> at;
-    std::array<std::vector<float>, 3> normal;
-    std::vector<float> count;  // of sites
-    std::vector<std::uint8_t> kind;
+/// Four samples. Lanes without one have no sites.
+struct alignas(16) LatticeSamples {
+    std::array<Unsigned4, 3> at;
+    Lanes3<Float4> normal;
+    Float4 count;  // of sites
+    Kinds4 kind{1, 1, 1, 1};
 
-    std::uint32_t size() const { return static_cast<std::uint32_t>(kind.size()); }
-    void push_back(const LatticePoint& position, Float3 unit_normal, float site_count, int kind_);
-    LatticePoint position(std::uint32_t n) const { return {{at[0][n], at[1][n], at[2][n]}}; }
-    Float3 normal_of(std::uint32_t n) const { return {normal[0][n], normal[1][n], normal[2][n]}; }
-    void end();
-    std::size_t bytes() const { return kind.capacity() * (7 * sizeof(float) + 1); }
+    LatticePoint position(int lane) const { return {{at[0][lane], at[1][lane], at[2][lane]}}; }
+    Float3 normal_of(int lane) const { return {normal.x[lane], normal.y[lane], normal.z[lane]}; }
 };
 
 struct LatticeFit {
@@ -67,7 +66,7 @@ struct LatticeFit {
 struct LatticeRun {
     std::uint32_t interface;
     std::int32_t place;  // of the block along the row
-    std::uint32_t site, sample, fit;
+    std::uint32_t site, samples, fit;
     bool is_wanted = false;  // its fits are made, or will be
 
     friend bool operator<(const LatticeRun& a, const LatticeRun& b) {
@@ -78,7 +77,7 @@ struct LatticeRun {
 struct LatticeRow {
     std::vector<std::uint32_t> sites;  // in order of number, then by run
     std::vector<LatticeRun> runs;      // by interface, then block; and one more at the end
-    LatticeSamples samples;
+    std::vector<LatticeSamples> samples;
     std::vector<LatticeFit> fits;
     std::vector<std::uint32_t> wanted;  // runs whose fits are not made yet
 
@@ -87,7 +86,14 @@ struct LatticeRow {
     std::size_t bytes() const;
 
 private:
-    void make_samples(const LatticeSites& of, const std::vector<std::uint64_t>& keys);
+    struct KeyedSite {
+        std::uint64_t key;  // interface, block, direction, cell in the block, kind
+        std::uint32_t site;
+    };
+
+    void sort_by_key(std::vector<KeyedSite>& keyed);
+    void make_runs(const std::vector<KeyedSite>& keyed);
+    void make_samples(const LatticeSites& of, const std::vector<KeyedSite>& keyed);
     void place_fits();
 };
 
