@@ -36,9 +36,9 @@ public:
 
     LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options);
 
-    /// Appends the fits that sites of the run with an open estimate get shares of. Fits need not be made yet.
+    /// Appends the fits that sites of the run get shares of. Fits need not be made yet.
     void find_near(const LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near,
-                   const SlidingArray<SiteEstimate>& estimates, std::vector<FitPlace>& found) const;
+                   std::vector<FitPlace>& found) const;
     /// Makes the fits of a run.
     void make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const;
     /// Gives the accepted among these fits the rest of the estimates of each site of the run, blended.

@@ -93,7 +93,7 @@ void LatticeLevel::find_open(std::int64_t layer, std::uint32_t row, OpenRow& ope
         const auto is_open = [&](std::uint32_t site) { return estimates_[site].rest > 0; };
         const auto begin = own.sites.begin();
         if (std::none_of(begin + own.runs[run].site, begin + own.runs[run + 1].site, is_open)) continue;
-        fits_.find_near(own, run, near.of(own.runs[run]), estimates_, open.fits);
+        fits_.find_near(own, run, near.of(own.runs[run]), open.fits);
         open.runs.push_back(run);
         open.first_fit.push_back(static_cast<std::uint32_t>(open.fits.size()));
     }

@@ -144,14 +144,17 @@ void LatticeRow::make_samples(const LatticeSites& of, const std::vector<KeyedSit
     for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
         runs[r].samples = static_cast<std::uint32_t>(samples.size());
         const std::uint32_t end = runs[r + 1].site;
+        const LatticePoint& corner = of[sites[runs[r].site]].centroid;
         int lane = 4;
         for (std::uint32_t first = runs[r].site, next; first < end; first = next) {
             const LatticeSite& site = of[sites[first]];
             Float3 offset, normal = site.normal;
+            runs[r].add(site.centroid - corner);
             for (next = first + 1; next < end && keyed[next].key == keyed[first].key; ++next) {
                 const LatticeSite& other = of[sites[next]];
                 offset += other.centroid - site.centroid;
                 normal += other.normal;
+                runs[r].add(other.centroid - corner);
             }
             const auto count = static_cast<float>(next - first);
             if (next > first + 1) normal = (1 / length(normal)) * normal;

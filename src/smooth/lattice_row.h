@@ -68,7 +68,12 @@ struct LatticeRun {
     std::int32_t place;  // of the block along the row
     std::uint32_t site, samples, fit;
     bool is_wanted = false;  // its fits are made, or will be
+    Float3 low{}, high{};    // box of its sites, from the first of them
 
+    void add(Float3 d) {
+        low = {std::min(low.x, d.x), std::min(low.y, d.y), std::min(low.z, d.z)};
+        high = {std::max(high.x, d.x), std::max(high.y, d.y), std::max(high.z, d.z)};
+    }
     friend bool operator<(const LatticeRun& a, const LatticeRun& b) {
         return a.interface != b.interface ? a.interface < b.interface : a.place < b.place;
     }
