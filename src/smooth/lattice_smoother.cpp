@@ -143,7 +143,7 @@ void LatticeSmoother::place(std::uint32_t chunk) {
                 continue;
             }
             const SimplexEdges edges = edges_of(sites_.kind(v), spacing_);
-            const Barycentric weights = weights_of(nearest_to_interfaces(v, edges));
+            const Barycentric weights = weights_of(nearest_to_interfaces(v, edges).solve(), edges.count);
             positions_[v] = position_in(simplex_in(window_, sites_, v),
                                         clamp_inside(weights, edges.count + 1, kLatticeMargin), frame);
         }
