@@ -1,6 +1,7 @@
 # `cmake --install` copies the program (apps/cli), the libraries, the public headers, and the files that
 # find_package(regionmesh) reads. The installed package is tested by building the examples against it.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/regionmesh)
 configure_package_config_file(cmake/regionmesh-config.cmake.in regionmesh-config.cmake INSTALL_DESTINATION ${package_folder})
@@ -19,7 +20,7 @@ install(DIRECTORY include/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FIL
 install(EXPORT regionmesh-targets NAMESPACE regionmesh:: DESTINATION ${package_folder})
 install(FILES ${PROJECT_BINARY_DIR}/regionmesh-config.cmake ${PROJECT_BINARY_DIR}/regionmesh-config-version.cmake
     cmake/exact_numbers.cmake cmake/format_libraries.cmake DESTINATION ${package_folder})
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # A program linked with sanitizers would have to be built with them, too.
 if(REGIONMESH_FORMATS AND REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
@@ -30,6 +31,14 @@ if(REGIONMESH_FORMATS AND REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
             --build-generator ${CMAKE_GENERATOR}
             --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
             --test-command reconstruct ${PROJECT_SOURCE_DIR}/tests/data/npy/uint8.npy ${PROJECT_BINARY_DIR}/examples/model.vtp)
+    set(examples ${PROJECT_BINARY_DIR}/examples)
+    set_tests_properties(installed_package_builds_and_runs_the_example PROPERTIES FIXTURES_SETUP examples)
+    add_test(NAME example_core COMMAND ${examples}/core)
+    add_test(NAME example_computed_sections COMMAND ${examples}/computed_sections ${examples}/gyroid.vtp)
+    add_test(NAME example_regions COMMAND ${examples}/regions ${examples}/gyroid.vtp ${examples}/gyroid.csv)
+    add_test(NAME example_select COMMAND ${examples}/select ${PROJECT_SOURCE_DIR}/tests/data/npy/uint8.npy ${examples}/part.vtp 1 30)
+    set_tests_properties(example_core example_computed_sections example_regions example_select PROPERTIES FIXTURES_REQUIRED examples)
+    set_tests_properties(example_regions PROPERTIES DEPENDS example_computed_sections)
     add_test(NAME installed_headers_are_the_public_ones
         COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D PREFIX=${prefix} -P ${PROJECT_SOURCE_DIR}/tests/package/installed_headers.cmake)
     set_tests_properties(install PROPERTIES FIXTURES_SETUP installed_package)

@@ -158,8 +158,11 @@ TEST(Architecture, nothing_includes_the_whole) {
 }
 
 TEST(Architecture, the_library_and_the_program_under_the_gpl_share_no_code) {
-    for_sources(kRoot / "apps/delaunay",
-                [&](const fs::path& file) { EXPECT_TRUE(includes_of(file).empty()) << file.string(); });
+    for_sources(kRoot / "apps/delaunay", [&](const fs::path& file) {
+        for (const std::string& include : includes_of(file))
+            EXPECT_TRUE(include.find('/') == std::string::npos && fs::exists(file.parent_path() / include))
+                << file.string() << " includes " << include;
+    });
     for_sources(kLibrary, [&](const fs::path& file) {
         std::ifstream stream(file);
         const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -179,7 +182,9 @@ TEST(Architecture, the_library_never_forks_without_exec) {
 TEST(Architecture, the_program_that_reads_hdf5_shares_one_header_with_the_library) {
     for_sources(kRoot / "apps/hdf5", [&](const fs::path& file) {
         for (const std::string& include : includes_of(file))
-            EXPECT_TRUE(include == "catalogue.h" || include == "formats/chunked/hdf5_handle.h") << include;
+            EXPECT_TRUE(include == "catalogue.h" || include == "dream3d_file.h" || include == "regionmesh/sandbox.h" ||
+                        include == "formats/chunked/hdf5_handle.h")
+                << include;
     });
 }
 

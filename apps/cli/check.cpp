@@ -5,6 +5,7 @@
 #include "output.h"
 #include "page_output.h"
 #include "printable.h"
+#include "restore_background.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -26,10 +27,9 @@ LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
 }
 
 void print_findings(const std::string& name, const CheckReport& report) {
-    fmt::print(
-        "{}: {} regions, {} pairs with an interface, {} quadruple points inside, lowest quality {:.3f}, mean {:.3f}\n",
-        printable(name), report.regions.size(), report.region_pairs, report.quadruple_points_inside, report.quality.min,
-        report.quality.mean);
+    fmt::print("{}: {}, {} with an interface, {} inside, lowest quality {:.3f}, mean {:.3f}\n", printable(name),
+               counted(report.regions.size(), "region"), counted(report.region_pairs, "pair"),
+               counted(report.quadruple_points_inside, "quadruple point"), report.quality.min, report.quality.mean);
     print_violations(report, kListed);
     if (report.violation_count() == 0) fmt::print("no violations\n");
     print_orient_hint(report);
@@ -43,6 +43,16 @@ std::optional<SampleAgreement> compare_with_sections(const Settings& settings, M
     return compare_samples(file.mesh, file.labels, options.background, *reader);
 }
 
+/// Is the background of the volume the exterior of the model? So it is in STL files.
+bool lacks_background(const Settings& settings, const MeshFile& file) {
+    if (settings.sections.empty() || kind_of_input(settings.sections) != kVolumeInput) return false;
+    const auto& background = settings.reconstruct.background;
+    if (background.empty() || !file.background || !file.background->empty()) return false;
+    for (Label label = 0; label < file.labels.size(); ++label)
+        if (file.labels.input(label) == background.front()) return false;
+    return true;
+}
+
 void print_samples(const SampleAgreement& samples) {
     if (samples.wrong == 0)
         fmt::print("every one of {} samples keeps its label\n", samples.samples);
@@ -53,11 +63,18 @@ void print_samples(const SampleAgreement& samples) {
 
 }  // namespace
 
-int run_check(const Settings& settings) {
-    require_page(settings.html, settings.writing);
-    const std::string& path = settings.models.front();
-    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
-    MeshFile file = read_mesh(path, settings.surface);
+int run_check(const Settings& given) {
+    require_page(given.html, given.writing);
+    const std::string& path = given.models.front();
+    for (const std::string& file : {given.json, given.regions})
+        if (!file.empty()) require_writable(file, given.writing);
+    MeshFile file = read_mesh(path, given.surface);
+    if (lacks_background(given, file)) {
+        const auto reader =
+            open_sections({given.sections.begin(), given.sections.end()}, settings_for(given, file).volume);
+        restore_background(file, reader->info().lattice, given.reconstruct.background.front());
+    }
+    const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
     if (!settings.sections.empty()) {
@@ -70,6 +87,8 @@ int run_check(const Settings& settings) {
     const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);
     OutputFiles files(settings.writing);
     if (!settings.json.empty()) files.add(settings.json).write(json);
+    if (!settings.regions.empty())
+        files.add(settings.regions).write(regions_csv(file.mesh, file.labels, options.background, file.names));
     if (!settings.html.empty())
         write_page(settings.html, {page_model(path, file.mesh, file.labels, options.background, file.names)},
                    page_options(kCheck, settings, json, options.oracle.has_value()), files);

@@ -1,9 +1,18 @@
 #include "command_line.h"
 
 #include <memory>
+#include <string>
+
+#include "config_file.h"
+#include "messages.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh::cli {
 namespace {
+
+constexpr const char* kUnits =
+    "Lengths are in the unit of the input's spacing or points. Exit codes: 0 good, 1 bad input, 2 usage, 3 violations, "
+    "4 sound but volumes not met.";
 
 /// Where CLI11 puts the texts of one option.
 struct Texts {
@@ -32,7 +41,7 @@ std::string description_of(const OptionSpec& spec) {
     return std::string(spec.help) + notes + (notes.empty() ? "" : ")");
 }
 
-void add_option(CLI::App& command, const OptionSpec& spec, Texts& texts) {
+void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Texts& texts) {
     texts.spec = &spec;
     const std::string flags = spec.letter ? std::string{'-', spec.letter} + ',' + spec.flag() : spec.flag();
     const std::string description = description_of(spec);
@@ -42,27 +51,47 @@ void add_option(CLI::App& command, const OptionSpec& spec, Texts& texts) {
         texts.option = command.add_option(flags, texts.many, description);
     else
         texts.option = command.add_option(flags, texts.one, description);
+    // So that "--background 0 scan.nii.gz" leaves the input alone.
+    if (spec.kind == OptionKind::kLabel) texts.option->allow_extra_args(false);
     if (spec.kind != OptionKind::kFlag) texts.option->type_name(spec.is_argument ? "" : value_name(spec));
     if (!spec.is_argument) texts.option->group(std::string(spec.group));
-    texts.option->required(spec.is_argument || spec.is_required);
+    texts.option->required((spec.is_argument || spec.is_required) && !has_config);
+}
+
+/// Before the first thread of the work starts, so that all are confined.
+void confine(const Settings& settings) {
+    if (!settings.sandbox) return;
+    const SandboxState state = enter_sandbox(sandbox_rules(settings));
+    say_more("sandbox: {}, {}", state.files ? "files are restricted" : "this kernel has no Landlock",
+             state.calls ? "system calls are filtered" : "this kernel has no seccomp");
+    if (settings.needs_sandbox && !(state.files && state.calls))
+        throw Error(ErrorCode::kInput, std::string("--require-sandbox: this kernel has no ") +
+                                           (state.files ? "seccomp" : "Landlock") +
+                                           "; use another kernel, or leave the option out");
 }
 
 }  // namespace
 
-void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), Action& action) {
+void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), bool has_config,
+                 Action& action) {
     const auto all = std::make_shared<std::vector<std::unique_ptr<Texts>>>();
     CLI::App& subcommand = *app.add_subcommand(std::string(command.name), std::string(command.help));
+    subcommand.footer("Example: " + std::string(command.example) + '\n' + kUnits);
     for (const OptionSpec& spec : option_table()) {
         if ((spec.commands & command.command) == 0) continue;
-        add_option(subcommand, spec, *all->emplace_back(std::make_unique<Texts>()));
+        add_option(subcommand, spec, has_config, *all->emplace_back(std::make_unique<Texts>()));
     }
-    subcommand.callback([all, run, &action] {
-        action = [all, run] {
+    subcommand.callback([all, run, &command, &action] {
+        action = [all, run, &command] {
             OptionValues values;
             for (const auto& texts : *all) texts->append_to(values);
+            add_config(values, command);
+            require_complete(values, command);
             Settings settings;
             apply_options(settings, values);
             require_distinct_files(settings);
+            begin_messages(command.command, settings);
+            confine(settings);
             return run(settings);
         };
     });

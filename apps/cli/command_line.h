@@ -12,7 +12,9 @@ namespace regionmesh::cli {
 using Action = std::function<int()>;
 
 /// Adds a command with its arguments and options. Where the command is chosen, `action` becomes the call of `run` with
-/// the settings; that call throws Error(kUsage) for bad values.
-void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), Action& action);
+/// the settings; that call throws Error(kUsage) for bad values. `has_config`: what the command needs may stand in the
+/// file of --config.
+void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Settings&), bool has_config,
+                 Action& action);
 
 }  // namespace regionmesh::cli

@@ -21,12 +21,16 @@ MeshFile read_faces(const std::string& path) {
     return file;
 }
 
-/// Labels as typed: "3", or "3|7|-1".
-std::string name_of(const std::vector<Label>& labels, const LabelTable& table) {
+/// Names, or labels as typed where there is none: "Femur", or "Femur|7|-1".
+std::string name_of(const std::vector<Label>& labels, const LabelTable& table, const LabelNames& names) {
     std::string name;
     for (const Label label : labels) {
         if (!name.empty()) name += '|';
-        name += is_exterior(label) ? std::to_string(table.exterior_label()) : table.text(table.input(label));
+        const auto named = is_exterior(label) ? names.end() : names.find(table.input(label));
+        if (named != names.end())
+            name += printable(named->second);
+        else
+            name += is_exterior(label) ? std::to_string(table.exterior_label()) : table.text(table.input(label));
     }
     return name;
 }
@@ -38,7 +42,8 @@ struct Row {
     const TwoSidedDistance& distance;
 };
 
-std::vector<Row> rows_of(const CompareReport& report, const std::vector<RegionComparison>& regions) {
+std::vector<Row> rows_of(const CompareReport& report, const std::vector<RegionComparison>& regions,
+                         const LabelNames& names) {
     std::vector<Row> rows;
     for (const RegionComparison& region : regions) {
         const auto& [a, b] = region.measures;
@@ -47,19 +52,20 @@ std::vector<Row> rows_of(const CompareReport& report, const std::vector<RegionCo
             measures = fmt::format("{:>12.5g} {:>+10.3g} {:>12.5g} {:>+10.3g} {:>6} {:>+5}", a->volume,
                                    b->volume - a->volume, a->area, b->area - a->area, a->euler, b->euler - a->euler);
         rows.push_back(
-            {name_of({region.label}, report.labels), measures, a.has_value(), b.has_value(), region.distance});
+            {name_of({region.label}, report.labels, names), measures, a.has_value(), b.has_value(), region.distance});
     }
     return rows;
 }
 
-std::vector<Row> rows_of(const CompareReport& report, const std::vector<StratumComparison>& strata) {
+std::vector<Row> rows_of(const CompareReport& report, const std::vector<StratumComparison>& strata,
+                         const LabelNames& names) {
     std::vector<Row> rows;
     for (const StratumComparison& stratum : strata) {
         const auto& [a, b] = stratum.measures;
         std::string measures;
         if (a && b) measures = fmt::format("{:>12.5g} {:>+10.3g}", *a, *b - *a);
         rows.push_back(
-            {name_of(stratum.labels, report.labels), measures, a.has_value(), b.has_value(), stratum.distance});
+            {name_of(stratum.labels, report.labels, names), measures, a.has_value(), b.has_value(), stratum.distance});
     }
     return rows;
 }
@@ -123,7 +129,7 @@ void print_quality(const std::array<QualityReport, 2>& quality) {
     fmt::print("\n");
 }
 
-void print_report(const Settings& settings, const CompareReport& report) {
+void print_report(const Settings& settings, const CompareReport& report, const LabelNames& names) {
     fmt::print("A  {}: {} faces, {} vertices\n", printable(settings.models[0]), report.faces[0], report.vertices[0]);
     fmt::print("B  {}: {} faces, {} vertices\n", printable(settings.models[1]), report.faces[1], report.vertices[1]);
     fmt::print("\n{:<{}}{}\n", "surface", kNameWidth, kDistanceHead);
@@ -131,9 +137,9 @@ void print_report(const Settings& settings, const CompareReport& report) {
     fmt::print("{:<{}}{}\n", "B to A", kNameWidth, text_of(*report.distance.b_to_a));
     fmt::print("{:<{}}{}\n", "both", kNameWidth, text_of(*report.distance.both));
     print_table("regions", "    volume A     change       area A     change  Euler change",
-                rows_of(report, report.regions));
-    print_table("interfaces", "      area A     change", rows_of(report, report.interfaces));
-    print_table("lines", "    length A     change", rows_of(report, report.lines));
+                rows_of(report, report.regions, names));
+    print_table("interfaces", "      area A     change", rows_of(report, report.interfaces, names));
+    print_table("lines", "    length A     change", rows_of(report, report.lines, names));
     print_quality(report.quality);
 }
 
@@ -148,10 +154,12 @@ std::vector<Label> background_of(const Settings& settings, const LabelTable& lab
 
 /// A with the distance of each vertex to B.
 void write_distances(const Settings& settings, const MeshFile& a, const CompareReport& report, OutputFiles& files) {
-    write_mesh(
-        a.mesh, a.labels, settings.distance,
-        {.background = background_of(settings, a.labels), .point_arrays = {{"Distance", report.vertex_distances}}},
-        files);
+    write_mesh(a.mesh, a.labels, settings.distance,
+               {.background = background_of(settings, a.labels),
+                .point_arrays = {{"Distance", report.vertex_distances}},
+                .names = a.names,
+                .space = a.space},
+               files);
 }
 
 /// The distance of each vertex of B to A.
@@ -180,11 +188,12 @@ void write_comparison(const Settings& settings, const MeshFile& a, const MeshFil
 
 }  // namespace
 
-int run_compare(const Settings& settings) {
-    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
-    require_page(settings.html, settings.writing);
-    if (!settings.distance.empty()) require_writable_mesh(settings.distance, {.output = settings.writing}, true);
-    const MeshFile a = read_faces(settings.models[0]), b = read_faces(settings.models[1]);
+int run_compare(const Settings& given) {
+    if (!given.json.empty()) require_writable(given.json, given.writing);
+    require_page(given.html, given.writing);
+    if (!given.distance.empty()) require_writable_mesh(given.distance, {.output = given.writing}, true);
+    const MeshFile a = read_faces(given.models[0]), b = read_faces(given.models[1]);
+    const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
     const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
                                          {.samples = settings.samples,
                                           .background = settings.reconstruct.background,
@@ -195,12 +204,14 @@ int run_compare(const Settings& settings) {
                     fmt::format("{}, {}: one of them has no face of positive area, except faces between background and "
                                 "exterior: there is nothing to compare; see --no-background",
                                 settings.models[0], settings.models[1]));
+    LabelNames names = a.names;
+    names.insert(b.names.begin(), b.names.end());
     OutputFiles files(settings.writing);
-    if (!settings.json.empty()) files.add(settings.json).write(compare_json(report));
+    if (!settings.json.empty()) files.add(settings.json).write(compare_json(report, names));
     if (!settings.distance.empty()) write_distances(settings, a, report, files);
     if (!settings.html.empty()) write_comparison(settings, a, b, report, files);
     files.commit();
-    if (!settings.quiet) print_report(settings, report);
+    if (!settings.quiet) print_report(settings, report, names);
     return kGood;
 }
 

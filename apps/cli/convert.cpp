@@ -7,13 +7,16 @@
 
 namespace regionmesh::cli {
 
-int run_convert(const Settings& settings) {
-    require_outputs(settings);
-    MeshFile file = read_mesh(settings.models.front(), settings.surface);
+int run_convert(const Settings& given) {
+    require_outputs(given);
+    MeshFile file = read_mesh(given.models.front(), given.surface);
+    const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
+    const LabelNames names = names_or(settings, file.names);
     OutputFiles files(settings.writing);
-    write_model(settings, {file.mesh, file.labels, options.background, names_or(settings, file.names)}, files);
+    const auto written = write_model(settings, {file.mesh, file.labels, options.background, names, file.space}, files);
     files.commit();
+    print_region_files(settings, written);
     if (!settings.quiet)
         fmt::print("{}: {} faces, {} vertices\n", printable(settings.output), file.mesh.face_count(),
                    file.mesh.vertex_count());

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
 #include "page_output.h"
 #include "printable.h"
@@ -56,20 +57,21 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving)
 }
 
 void print_summary(const std::string& path, const Report& report) {
-    fmt::print("{}: {} faces (from {}), lowest quality {:.3f}, {} violations\n", printable(path), report.final_faces,
-               report.initial_faces, report.check.quality.min, report.check.violation_count());
+    say("{}: {} faces (from {}), lowest quality {:.3f}, {}", printable(path), report.final_faces, report.initial_faces,
+        report.check.quality.min, counted(report.check.violation_count(), "violation"));
     print_improved(report);
 }
 
 }  // namespace
 
-int run_decimate(const Settings& settings) {
-    const ReconstructOptions& asked = settings.reconstruct;
+int run_decimate(const Settings& given) {
+    const ReconstructOptions& asked = given.reconstruct;
     if (!has_target(asked) && !asked.improve)
         throw Error(ErrorCode::kUsage,
                     "decimate: no target; give --target-faces, --reduce or --max-error, or --improve");
-    require_outputs(settings);
-    MeshFile file = read_mesh(settings.models.front(), settings.surface);
+    require_outputs(given);
+    MeshFile file = read_mesh(given.models.front(), given.surface);
+    const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
@@ -77,18 +79,19 @@ int run_decimate(const Settings& settings) {
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    const Model model{file.mesh, file.labels, options.background, names};
+    const Model model{file.mesh, file.labels, options.background, names, file.space};
     OutputFiles files(settings.writing);
-    write_model(settings, model, files);
-    write_report_file(settings, report, model, files);
+    const auto written = write_model(settings, model, files);
+    write_report_file(settings, report, model, made_by(kDecimate, settings), files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
-                   page_options(kDecimate, settings, report_json(report, file.labels, names), false), files);
+                   page_options(kDecimate, settings,
+                                report_json(report, file.labels, names, made_by(kDecimate, settings)), false),
+                   files);
     files.commit();
-    if (!settings.quiet) {
-        print_summary(settings.output, report);
-        print_fixed_part(fixed, before, report.check);
-    }
+    print_region_files(settings, written);
+    print_summary(settings.output, report);
+    print_fixed_part(fixed, before, report.check);
     print_stop(settings, report);
     return exit_code(report.check);
 }

@@ -1,78 +1,160 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <numeric>
 
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
+#include "output.h"
 #include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
 
-/// `unit` is the thing counted for each label: "samples", "points" or "tetrahedra".
+constexpr std::size_t kShown = 20;  // labels, without --all
+
+/// Prints a row for each of `order`, or for the first only; row(label) gives it. `plural` is what they are.
+template <class Row>
+void print_rows(const Settings& settings, std::size_t count, const char* plural, Row&& row) {
+    fmt::print("{:<10} {}\n", plural, count);
+    const std::size_t shown = settings.list_all ? count : std::min(count, kShown);
+    for (std::size_t n = 0; n < shown; ++n) fmt::print("  {}\n", row(n));
+    if (shown < count) fmt::print("  and {} more; --all lists them\n", count - shown);
+}
+
+std::string name_after(const LabelNames& names, InputLabel label) {
+    const auto name = names.find(label);
+    return name == names.end() ? "" : "  " + printable(name->second);
+}
+
+/// `unit` is the thing counted for each label: "sample", "point" or "tetrahedron".
 template <class AnyCensus>
-void print_labels(const AnyCensus& census, const LabelNames& names, const char* unit) {
+void print_labels(const Settings& settings, const AnyCensus& census, const LabelNames& names, const char* unit) {
     std::vector<Label> order;
     for (Label label = 0; label < census.labels.size(); ++label)
         if (label < census.samples.size() && census.samples[label] > 0) order.push_back(label);
     std::sort(order.begin(), order.end(),
               [&](Label a, Label b) { return census.labels.less(census.labels.input(a), census.labels.input(b)); });
-    fmt::print("labels     {}\n", order.size());
-    constexpr std::size_t kShown = 20;
-    for (std::size_t n = 0; n < std::min(order.size(), kShown); ++n) {
+    print_rows(settings, order.size(), "labels", [&](std::size_t n) {
         const InputLabel label = census.labels.input(order[n]);
-        const auto name = names.find(label);
-        fmt::print("  {:>12}  {} {}{}{}\n", census.labels.text(label), census.samples[order[n]], unit,
-                   name == names.end() ? "" : "  ", name == names.end() ? "" : printable(name->second));
-    }
-    if (order.size() > kShown) fmt::print("  and {} more\n", order.size() - kShown);
+        const std::uint64_t count = census.samples[order[n]];
+        return fmt::format("{:>12}  {} {}{}", census.labels.text(label), count, count == 1 ? unit : plural_of(unit),
+                           name_after(names, label));
+    });
 }
 
-int print_info(TetrahedronReader& reader, const CensusOptions& options) {
+template <class AnyCensus>
+void print_model(const AnyCensus& census) {
+    fmt::print("model      {} faces unsimplified; {} of regions with an interface\n", census.face_count,
+               counted(census.oracle.region_pairs, "pair"));
+}
+
+std::string print_info(const Settings& settings, TetrahedronReader& reader) {
     const TetrahedraInfo& info = reader.info();
-    const TetrahedronCensus census = count_labels(reader, options);
+    const TetrahedronCensus census = count_labels(reader, census_options(settings));
     fmt::print("file       {} ({})\n", printable(info.source), info.format);
     fmt::print("size       {} points, {} tetrahedra\n", census.point_count, census.tetrahedron_count);
     fmt::print("spacing    {:.6g} (mean){}\n", census.spacing, info.scale_z == 1 ? "" : ", z scaled");
     fmt::print("sweep      along {}\n", "xyz"[census.sweep.axes[2]]);
-    print_labels(census, info.names, info.has_cell_labels ? "tetrahedra" : "points");
-    fmt::print("model      {} faces unsimplified; {} pairs of regions with an interface\n", census.face_count,
-               census.oracle.region_pairs);
-    return kGood;
+    print_labels(settings, census, info.names, info.has_cell_labels ? "tetrahedron" : "point");
+    print_model(census);
+    return info_json(info, census);
 }
 
-int print_info(SectionReader& reader, const CensusOptions& options) {
+std::string print_info(const Settings& settings, SectionReader& reader) {
     const VolumeInfo info = reader.info();
     const Lattice& lattice = info.lattice;
-    const Census census = count_labels(reader, options);
+    const Census census = count_labels(reader, census_options(settings));
     fmt::print("file       {} ({})\n", printable(info.source), info.format);
     fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2],
                to_string(info.type));
     fmt::print("spacing    {} x {} x {}\n", lattice.spacing.x, lattice.spacing.y, lattice.spacing.z);
-    fmt::print("origin     {}, {}, {}\n", lattice.origin.x, lattice.origin.y, lattice.origin.z);
+    const Vec3 origin = lattice.origin + Vec3{};  // 0, not -0
+    fmt::print("origin     {}, {}, {}\n", origin.x, origin.y, origin.z);
     if (!lattice.is_axis_aligned()) {
-        const auto& d = lattice.direction;
+        auto d = lattice.direction;
+        for (double& part : d) part += 0.0;  // not -0
         fmt::print("direction  [{:g} {:g} {:g}] [{:g} {:g} {:g}] [{:g} {:g} {:g}]\n", d[0], d[1], d[2], d[3], d[4],
                    d[5], d[6], d[7], d[8]);
     }
     const char axis = std::string("xyz")[info.sweep.axes[2]];
     fmt::print("sweep      along {}, {} sections of {} x {}\n", axis, reader.section_count(), reader.section_width(),
                reader.section_height());
-    print_labels(census, info.names, "samples");
+    print_labels(settings, census, info.names, "sample");
     const auto megabytes = [&](std::uint64_t faces) { return static_cast<double>(expected_bytes(info, faces)) / 1e6; };
-    fmt::print("model      {} faces unsimplified; {} pairs of regions with an interface\n", census.face_count,
-               census.oracle.region_pairs);
+    print_model(census);
     fmt::print("memory     {:.0f} MB to hold the whole model; {:.0f} MB with a budget of a fifth of it\n",
                megabytes(census.face_count), megabytes(census.face_count / 5));
-    return kGood;
+    return info_json(info, census);
+}
+
+std::string print_info(const Settings& given, const std::string& path, MeshFile file) {
+    const Settings settings = settings_for(given, file);
+    CheckOptions options = check_options(settings, file.labels);
+    options.crossing = false;
+    const CheckReport report = check(file.mesh, options);
+    const auto [low, high] = box_of_points(file.mesh);
+    fmt::print("file       {} (surface model)\n", printable(path));
+    fmt::print("size       {}, {}\n", counted(file.mesh.face_count(), "face"),
+               counted(file.mesh.vertex_count(), "vertex"));
+    fmt::print("box        {:g} to {:g}, {:g} to {:g}, {:g} to {:g}\n", low.x, high.x, low.y, high.y, low.z, high.z);
+    std::vector<RegionReport> regions = report.regions;
+    std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
+        return file.labels.less(file.labels.input(a.label), file.labels.input(b.label));
+    });
+    print_rows(settings, regions.size(), "regions", [&](std::size_t n) {
+        const InputLabel label = file.labels.input(regions[n].label);
+        return fmt::format("{:>12}  volume {:.6g}, area {:.6g}{}", file.labels.text(label), regions[n].volume,
+                           regions[n].area, name_after(file.names, label));
+    });
+    fmt::print("interfaces {} of regions; regionmesh check looks for violations\n",
+               counted(report.region_pairs, "pair"));
+    return info_json(path, file, report);
+}
+
+std::string print_input(const Settings& settings) {
+    return with_reader(settings, settings.inputs, [&](auto& reader) {
+        std::string json = print_info(settings, reader);
+        warn_of_grey_scale(settings, reader);
+        return json;
+    });
+}
+
+/// ".vtp" is in ".vtp .vtu .ply".
+bool has_extension(const std::string& path, const std::string& extensions) {
+    const std::string own = std::filesystem::path(path).extension().string();
+    return !own.empty() && (' ' + extensions + ' ').find(' ' + own + ' ') != std::string::npos;
+}
+
+/// An input, or a surface model: some files may be either, and a folder too.
+std::string print_anything(const Settings& settings) {
+    const std::string& path = settings.inputs.front();
+    const auto model = [&] { return print_info(settings, path, read_mesh(path)); };
+    const bool may_be_model = settings.inputs.size() == 1 &&
+                              (has_extension(path, readable_extensions()) || std::filesystem::is_directory(path));
+    if (!may_be_model) return print_input(settings);
+    if (!has_extension(path, volume_extensions() + ' ' + tetrahedron_extensions()) &&
+        !std::filesystem::is_directory(path))
+        return model();
+    try {
+        return print_input(settings);
+    } catch (const Error& no_input) {
+        if (no_input.code() != ErrorCode::kInput) throw;
+        try {
+            return model();
+        } catch (const Error&) {
+        }
+        throw;
+    }
 }
 
 }  // namespace
 
 int run_info(const Settings& settings) {
-    return with_reader(settings, settings.inputs,
-                       [&](auto& reader) { return print_info(reader, census_options(settings)); });
+    if (!settings.json.empty()) require_writable(settings.json, settings.writing);
+    const std::string json = print_anything(settings);
+    if (!settings.json.empty()) write_text(settings.json, json, settings.writing);
+    return kGood;
 }
 
 }  // namespace regionmesh::cli

@@ -1,10 +1,25 @@
 #include "input.h"
 
+#include <algorithm>
+
 namespace regionmesh::cli {
 
 CensusOptions census_options(const Settings& settings) {
     const ReconstructOptions& options = settings.reconstruct;
     return {.cap = options.cap, .background = options.background, .sweep = options.sweep};
+}
+
+Settings settings_for(const Settings& settings, const MeshFile& file) {
+    Settings own = settings;
+    if (own.volume.space == Space::kUnknown) own.volume.space = file.space;
+    const bool is_given = std::ranges::any_of(settings.given, [](const auto& option) {
+        return option.first == "background" || option.first == "no-background";
+    });
+    if (!is_given && file.background) {
+        own.reconstruct.background = *file.background;
+        if (!file.background->empty()) own.volume.select.rest = file.background->front();
+    }
+    return own;
 }
 
 CheckOptions check_options(const Settings& settings, LabelTable& labels) {

@@ -23,6 +23,9 @@ auto with_reader(const Settings& settings, const std::vector<std::string>& input
 /// What count_labels() takes from the settings.
 CensusOptions census_options(const Settings& settings);
 
+/// The settings with what a model's file says where the command line says nothing: its background and its space.
+Settings settings_for(const Settings& settings, const MeshFile& file);
+
 /// What check() takes for a model from a file. Adds the background to `labels`, and refers to them.
 CheckOptions check_options(const Settings& settings, LabelTable& labels);
 

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -10,10 +11,14 @@
 #include <initializer_list>
 #include <iostream>
 #include <new>
+#include <string>
 #include <system_error>
+#include <vector>
 
+#include "arguments.h"
 #include "command_line.h"
 #include "commands.h"
+#include "messages.h"
 #include "printable.h"
 #include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
@@ -25,14 +30,17 @@ namespace {
 const char* advice = "end other programs, or take a part of the input";
 
 /// One line on standard error. Allocates nothing and cannot fail: the exit code says the same where nobody reads it.
-void say(std::initializer_list<const char*> words) {
+void complain(std::initializer_list<const char*> words) {
     std::fputs("regionmesh: ", stderr);
     for (const char* word : words)
         for_printable(word, [](const char* bytes, std::size_t count) { std::fwrite(bytes, 1, count, stderr); });
     std::fputc('\n', stderr);
 }
 
-void say_out_of_memory() { say({"out of memory; ", advice}); }
+void say_out_of_memory() {
+    log_line("out of memory");
+    complain({"out of memory; ", advice});
+}
 
 /// Libraries allocate in destructors, from which no exception can leave: memory that runs out there ends up here.
 [[noreturn]] void end_without_destructors() noexcept {
@@ -55,19 +63,21 @@ int run(const Act& action) {
     try {
         return action();
     } catch (const Error& error) {
-        say({error.what()});
+        log_line(error.what());
+        complain({error.what()});
         return error.code() == ErrorCode::kUsage ? kBadUsage : kBadInput;
     } catch (const std::bad_alloc&) {
         say_out_of_memory();
     } catch (const std::system_error& error) {
         if (std::ferror(stdout)) return kBadInput;
         const bool is_busy = error.code() == std::errc::resource_unavailable_try_again;
-        say({error.what(), is_busy ? ": a thread cannot start; end other programs, or raise the limit of processes "
-                                     "(ulimit -u)"
-                                   : ""});
+        complain({error.what(), is_busy
+                                    ? ": a thread cannot start; end other programs, or raise the limit of processes "
+                                      "(ulimit -u)"
+                                    : ""});
     } catch (const std::exception& error) {
         if (std::ferror(stdout)) return kBadInput;  // a write failed: finish() says so
-        say({error.what()});
+        complain({error.what()});
     }
     return kBadInput;
 }
@@ -78,7 +88,7 @@ int finish(int code) {
     std::cout.flush();
     const bool is_written = std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
     if (is_written) return code;
-    say({"standard output cannot be written", errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno)});
+    complain({"standard output cannot be written", errno == 0 ? "" : ": ", errno == 0 ? "" : std::strerror(errno)});
     return kBadInput;
 }
 
@@ -90,20 +100,34 @@ void hold_standard_streams() {
             (void)!::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-void add_commands(CLI::App& app, Action& action) {
+void add_commands(CLI::App& app, bool has_config, Action& action) {
     // In the order of command_table().
     constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth,   run_check, run_convert,
                                                  run_compare,     run_info,     run_voxelise, run_view};
-    for (std::size_t n = 0; n < command_table().size(); ++n) add_command(app, command_table()[n], kRuns[n], action);
+    for (std::size_t n = 0; n < command_table().size(); ++n)
+        add_command(app, command_table()[n], kRuns[n], has_config, action);
 }
 
-/// A flag that is not in help texts: prints docs/reference/command-line.md and ends.
+/// Options that are not in help texts: each prints docs/reference/command-line.md, the page for man(1), or a script for
+/// completion, and ends.
 void add_page(CLI::App& app) {
     const auto print_page = [] {
         fmt::print("{}", command_line_page());
         throw CLI::Success();
     };
     app.add_flag_callback("--help-markdown", print_page)->group("");
+    const auto print_manual = [] {
+        fmt::print("{}", manual_page());
+        throw CLI::Success();
+    };
+    app.add_flag_callback("--help-man", print_manual)->group("");
+    const auto print_completion = [](const std::string& shell) {
+        fmt::print("{}", completion_script(shell));
+        throw CLI::Success();
+    };
+    app.add_option_function<std::string>("--completion", print_completion)
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+        ->group("");
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -111,15 +135,24 @@ int parse_and_run(int argc, char** argv) {
     app.name("regionmesh");
     app.set_version_flag("--version", REGIONMESH_VERSION);
     app.require_subcommand(1);
+    app.footer("Example: " + std::string(command_table().front().example) +
+               "\nregionmesh COMMAND --help lists the options of a command, with defaults and units.");
     Action action;
-    add_commands(app, action);
+    std::vector<std::string> arguments = arguments_of(argc, argv);
+    const bool has_config = std::ranges::any_of(
+        arguments, [](const std::string& text) { return text == "--config" || text.starts_with("--config="); });
+    add_commands(app, has_config, action);
     add_page(app);
+    const CommandSpec* const command = command_in(arguments);
+    const std::string help = fmt::format("regionmesh{}{} --help", command ? " " : "", command ? command->name : "");
     try {
-        app.parse(argc, argv);
+        std::ranges::reverse(arguments);  // as CLI11 wants them
+        app.parse(arguments);
     } catch (const CLI::Success& asked) {
         return app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        say({error.what(), "; see regionmesh --help"});
+        const std::string unknown = unknown_word(arguments_of(argc, argv));
+        complain({unknown.empty() ? error.what() : unknown.c_str(), "; see ", help.c_str()});
         return kBadUsage;
     }
     if (app.got_subcommand("reconstruct")) advice = "give a smaller --memory, fewer --threads or a lower target";

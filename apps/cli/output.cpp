@@ -5,7 +5,9 @@
 #include <cstdio>
 
 #include "commands.h"
+#include "messages.h"
 #include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -27,7 +29,8 @@ void require_outputs(const Settings& settings) {
         settings.output,
         {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap, .output = settings.writing});
     if (!settings.names.empty()) read_label_names(settings.names);
-    if (!settings.report.empty()) require_writable(settings.report, settings.writing);
+    for (const std::string& file : {settings.report, settings.regions})
+        if (!file.empty()) require_writable(file, settings.writing);
     require_page(settings.html, settings.writing);
 }
 
@@ -35,14 +38,28 @@ LabelNames names_or(const Settings& settings, const LabelNames& found) {
     return settings.names.empty() ? found : read_label_names(settings.names);
 }
 
-void write_model(const Settings& settings, const Model& model, OutputFiles& files) {
-    write_mesh(model.mesh, model.labels, settings.output,
-               {.background = model.background, .names = model.names, .per_region = settings.per_region}, files);
+std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
+    if (!settings.regions.empty())
+        files.add(settings.regions).write(regions_csv(model.mesh, model.labels, model.background, model.names));
+    return write_mesh(model.mesh, model.labels, settings.output,
+                      {.background = model.background,
+                       .names = model.names,
+                       .per_region = settings.per_region,
+                       .space = model.space,
+                       .metres = settings.metres},
+                      files);
 }
 
-void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files) {
+void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written) {
+    if (!settings.per_region) return;
+    for (const auto& file : written) say("{}", printable(file.string()));
+}
+
+void write_report_file(const Settings& settings, Report& report, const Model& model, const MadeBy& made_by,
+                       OutputFiles& files) {
     report.peak_bytes = peak_resident_bytes();
-    if (!settings.report.empty()) files.add(settings.report).write(report_json(report, model.labels, model.names));
+    if (!settings.report.empty())
+        files.add(settings.report).write(report_json(report, model.labels, model.names, made_by));
 }
 
 int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }
@@ -52,19 +69,26 @@ int exit_code(const Report& report) {
     return code == kGood && report.preserved.regions_off > 0 ? kNotMet : code;
 }
 
-/// 7109137 as 7,109,137.
 std::string grouped(std::uint64_t count) {
     std::string digits = std::to_string(count);
     for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, ",");
     return digits;
 }
 
+std::string plural_of(const std::string& noun) {
+    if (noun == "tetrahedron") return "tetrahedra";
+    return noun == "vertex" ? "vertices" : noun + 's';
+}
+
+std::string counted(std::uint64_t count, const std::string& noun) {
+    return grouped(count) + ' ' + (count == 1 ? noun : plural_of(noun));
+}
+
 void print_improved(const Report& report) {
     if (!report.improved) return;
     const FaceShapes &before = report.improved->before, &after = report.improved->after;
-    fmt::print(
-        "improved: lowest quality {:.3f} -> {:.3f}, mean {:.3f} -> {:.3f}, angles {:.1f} to {:.1f} -> {:.1f} to {:.1f} "
-        "degrees, {} -> {} faces below --min-quality\n",
+    say("improved: lowest quality {:.3f} -> {:.3f}, mean {:.3f} -> {:.3f}, angles {:.1f} to {:.1f} -> {:.1f} to {:.1f} "
+        "degrees, {} -> {} faces below --min-quality",
         before.min_quality, after.min_quality, before.mean_quality, after.mean_quality, before.min_angle,
         before.max_angle, after.min_angle, after.max_angle, before.faces_below, after.faces_below);
 }
@@ -72,11 +96,12 @@ void print_improved(const Report& report) {
 void print_violations(const CheckReport& report, int listed) {
     for (int kind = 0; kind < kViolationKindCount; ++kind) {
         if (!report.counts[kind]) continue;
-        fmt::print("violation {}: {}\n", to_string(static_cast<ViolationKind>(kind)), report.counts[kind]);
+        say("violation {}: {}", to_string(static_cast<ViolationKind>(kind)), report.counts[kind]);
         int count = 0;
         for (const Violation& violation : report.violations)
-            if (violation.kind == static_cast<ViolationKind>(kind) && count++ < listed)
-                fmt::print("  {}\n", violation.text);
+            if (violation.kind == static_cast<ViolationKind>(kind) && count++ < listed) say("  {}", violation.text);
+        if (listed > 0 && report.counts[kind] > static_cast<std::uint64_t>(listed))
+            say("  and {} more; --json lists them", grouped(report.counts[kind] - listed));
     }
 }
 
@@ -87,7 +112,7 @@ void print_certificate(const CheckReport& report, const SampleAgreement* samples
                     ? fmt::format("; every one of {} samples keeps its label", grouped(samples->samples))
                     : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}", grouped(samples->wrong),
                                   grouped(samples->samples), samples->dice());
-    fmt::print("checked: {}\n", text);
+    say("checked: {}", text);
 }
 
 void print_stop(const Settings& settings, const Report& report) {
@@ -98,25 +123,26 @@ void print_stop(const Settings& settings, const Report& report) {
     const ReconstructOptions& asked = settings.reconstruct;
     const bool is_missed = asked.target_faces || asked.reduce;
     if (!reason || (settings.quiet && !is_missed)) return;
-    const std::string line = fmt::format("{}: {}\n", is_missed ? "stopped before the target" : "stopped", reason);
+    const std::string line = fmt::format("{}: {}", is_missed ? "stopped before the target" : "stopped", reason);
     // A message that nobody can read is no reason to fail.
-    settings.quiet ? static_cast<void>(std::fputs(("regionmesh: " + line).c_str(), stderr)) : fmt::print("{}", line);
+    if (settings.quiet) std::fputs(("regionmesh: " + line + "\n").c_str(), stderr);
+    say("{}", line);
 }
 
 void print_orient_hint(const CheckReport& report) {
     if (report.counts[static_cast<int>(ViolationKind::kOrientation)] > 0)
-        fmt::print("faces with opposite orientations: --orient turns them\n");
+        say("faces with opposite orientations: --orient turns them");
 }
 
 void print_fixed_part(const LockedPart& fixed, const CheckReport& before, const CheckReport& after) {
     if (before.violation_count() > 0)
-        fmt::print("{} vertices and {} faces not changed, because of violations in the input: {}\n", fixed.vertices,
-                   fixed.faces, counts_text(before));
+        say("{} vertices and {} faces not changed, because of violations in the input: {}", fixed.vertices, fixed.faces,
+            counts_text(before));
     print_orient_hint(before);
     for (int kind = 0; kind < kViolationKindCount; ++kind)
         if (after.counts[kind] > before.counts[kind])
-            fmt::print("more violations than in the input: {} {}, before {}\n",
-                       to_string(static_cast<ViolationKind>(kind)), after.counts[kind], before.counts[kind]);
+            say("more violations than in the input: {} {}, before {}", to_string(static_cast<ViolationKind>(kind)),
+                after.counts[kind], before.counts[kind]);
 }
 
 }  // namespace regionmesh::cli

@@ -1,6 +1,9 @@
 // What the commands write: models, reports, and the lines that several commands print.
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "regionmesh/formats.h"
 #include "regionmesh/options.h"
 #include "regionmesh/regionmesh.h"
@@ -19,13 +22,26 @@ struct Model {
     const LabelTable& labels;
     const std::vector<Label>& background;
     const LabelNames& names;
+    Space space = Space::kUnknown;
 };
 
-/// Writes the model to `settings.output`, one of `files`.
-void write_model(const Settings& settings, const Model& model, OutputFiles& files);
+/// Writes the model to `settings.output` and the table of --regions, as some of `files`. Returns the files of the
+/// model.
+std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files);
+
+/// Prints the files of --per-region, after their commit.
+void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written);
 
 /// Writes the report of the model if --report asks for it, with the memory used until now.
-void write_report_file(const Settings& settings, Report& report, const Model& model, OutputFiles& files);
+void write_report_file(const Settings& settings, Report& report, const Model& model, const MadeBy& made_by,
+                       OutputFiles& files);
+
+/// 7109137 as 7,109,137.
+std::string grouped(std::uint64_t count);
+/// "regions", "vertices", "tetrahedra".
+std::string plural_of(const std::string& noun);
+/// "1 region", "7,109 regions".
+std::string counted(std::uint64_t count, const std::string& noun);
 
 /// kViolations where the report has some, else kGood.
 int exit_code(const CheckReport& report);

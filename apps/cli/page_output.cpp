@@ -22,9 +22,15 @@ const CommandSpec& spec_of(Command command) {
 
 }  // namespace
 
+MadeBy made_by(Command command, const Settings& settings) {
+    MadeBy made_by{.command = std::string(spec_of(command).name), .options = settings.given};
+    std::erase_if(made_by.options, [](const auto& option) { return option.first == "config"; });
+    return made_by;
+}
+
 std::string command_line_of(Command command, const Settings& settings) {
     std::string line = "regionmesh " + std::string(spec_of(command).name);
-    for (const auto& [name, text] : settings.given) {
+    for (const auto& [name, text] : made_by(command, settings).options) {
         const OptionSpec& option = *find_option(name);
         if (option.kind == OptionKind::kFlag && text != "true") continue;
         if (!option.is_argument) line += ' ' + option.flag();

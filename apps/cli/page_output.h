@@ -13,6 +13,9 @@ namespace regionmesh::cli {
 /// The command as typed, with its options in the order of the table.
 std::string command_line_of(Command command, const Settings& settings);
 
+/// For reports: the command, and the options that were given, without --config, whose options they hold.
+MadeBy made_by(Command command, const Settings& settings);
+
 /// Options of a page with the report `report` (JSON text). `has_labels`: it compares the topology with the input.
 PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels);
 

@@ -1,45 +1,35 @@
-// Progress as one line on a terminal; prints nothing into a pipe.
+// Progress as one line on a terminal, and as a line for each stage in the log.
 #pragma once
 
-#include <fmt/core.h>
-#include <unistd.h>
-
 #include <chrono>
-#include <cstdio>
+#include <string>
 
-#include "regionmesh/process.h"
 #include "regionmesh/reconstruct.h"
 
 namespace regionmesh::cli {
 
+/// "decimate: 63 %, about 40 s left; 1.20 M faces in memory, peak 309 MB". The time is left out in the first seconds,
+/// which say little about the rest.
+std::string progress_text(const Progress& progress, double elapsed);
+
+/// "about 40 s", "about 3 min", "about 2 h": of a time in seconds.
+std::string rough_time(double seconds);
+
+/// Prints nothing into a pipe.
 class ProgressLine {
 public:
-    explicit ProgressLine(bool is_quiet) : is_shown_(!is_quiet && isatty(STDERR_FILENO)) {}
+    explicit ProgressLine(bool is_quiet);
     ~ProgressLine() { clear(); }
 
-    void show(const Progress& progress) {
-        if (!is_shown_) return;
-        const auto now = std::chrono::steady_clock::now();
-        if (now - last_ < std::chrono::milliseconds(100)) return;
-        last_ = now;
-        const double elapsed = std::chrono::duration<double>(now - start_).count();
-        put(fmt::format("\r\033[K{}: strip {}/{}, {:.2f} M faces read ({:.0f} k/s), {:.2f} M in memory, peak {} MB",
-                        progress.stage, progress.strips_read, progress.strip_count,
-                        static_cast<double>(progress.faces_read) / 1e6,
-                        static_cast<double>(progress.faces_read) / 1e3 / elapsed,
-                        static_cast<double>(progress.faces_held) / 1e6, peak_resident_bytes() / 1000000)
-                .c_str());
-    }
-    void clear() {
-        if (is_shown_) put("\r\033[K");
-    }
+    void show(const Progress& progress);
+    void clear();
 
 private:
-    /// A terminal that is gone is no reason to stop.
-    static void put(const char* text) { std::fputs(text, stderr); }
+    using Clock = std::chrono::steady_clock;
 
     bool is_shown_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_{};
+    Clock::time_point start_ = Clock::now(), last_{};
+    std::string stage_;
 };
 
 }  // namespace regionmesh::cli

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
+#include "memory_watch.h"
+#include "messages.h"
 #include "output.h"
 #include "page_output.h"
 #include "printable.h"
@@ -14,46 +17,87 @@ namespace {
 
 void print_volumes(const PreserveReport& preserved) {
     if (preserved.rounds == 0) return;
-    fmt::print("largest relative error of a region's volume {:.1e}; before the correction {:.1e}\n", preserved.drift,
-               preserved.drift_before);
+    say_more("largest relative error of a region's volume {:.1e}; before the correction {:.1e}", preserved.drift,
+             preserved.drift_before);
     if (preserved.regions_off > 0)
-        fmt::print("{} regions have a volume error above {:.0e}\n", preserved.regions_off, kVolumeTolerance);
+        say("{} with a volume error above {:.0e}", counted(preserved.regions_off, "region"), kVolumeTolerance);
 }
 
 /// The faces that topology or --max-error leave are not known before the work.
 void print_memory(const ReconstructOptions& options, std::uint64_t peak_bytes) {
     if (options.face_budget || peak_bytes <= options.memory + options.memory / 10) return;
-    fmt::print("used more than --memory: the faces left by topology or --max-error are not known before the work\n");
+    say("used more than --memory, {} MB: the faces left by topology or --max-error are not known before the work",
+        grouped(options.memory / 1000000));
 }
 
+/// For --verbose and the log.
+void print_details(const Report& report) {
+    const CheckReport& check = report.check;
+    const SmoothReport& smoothing = report.smoothing;
+    if (smoothing.vertices > 0)
+        say_more("smoothing: {}, largest displacement {:.3g}", counted(smoothing.vertices, "vertex") + " moved",
+                 smoothing.largest_displacement);
+    say_more("topology: {} with an interface, {} inside", counted(check.region_pairs, "pair"),
+             counted(check.quadruple_points_inside, "quadruple point"));
+    if (report.pinned_vertices > 0)
+        say_more("{} not moved: the mesh touches itself there, or more than four regions meet",
+                 counted(report.pinned_vertices, "vertex"));
+    std::string refused;
+    for (int n = 0; n < kVerdictCount; ++n)
+        if (report.verdicts[n] > 0)
+            refused +=
+                fmt::format("{}{} {}", refused.empty() ? "" : ", ", kVerdictNames[n], grouped(report.verdicts[n]));
+    if (!refused.empty()) say_more("edges tried: {}", refused);
+    std::string stages;
+    for (const auto& [stage, seconds] : report.seconds)
+        if (stage != "total") stages += fmt::format("{}{} {:.2f}", stages.empty() ? "" : ", ", stage, seconds);
+    say_more("seconds: {}", stages);
+    say_more("speed: {:.0f} k faces/s; most faces held {}",
+             static_cast<double>(report.initial_faces) / 1e3 / std::max(report.seconds.at("total"), 1e-9),
+             grouped(report.peak_faces));
+}
+
+/// The files of the run: "m.vtp, report r.json, page p.html".
+std::string files_text(const Settings& settings) {
+    std::string text = printable(settings.output) + (settings.per_region ? " (one file a region)" : "");
+    if (!settings.report.empty()) text += ", report " + printable(settings.report);
+    if (!settings.regions.empty()) text += ", table " + printable(settings.regions);
+    if (!settings.html.empty()) text += ", page " + printable(settings.html);
+    return text;
+}
+
+/// What needs attention first; then three lines: what was made, what was proved, where it lies.
 void print_summary(const Settings& settings, const Report& report) {
     const CheckReport& check = report.check;
-    const double seconds = std::max(report.seconds.at("total"), 1e-9);
-    fmt::print("{}: {} faces, {} vertices (from {} faces)\n", printable(settings.output), report.final_faces,
-               report.final_vertices, report.initial_faces);
-    fmt::print(
-        "quality: lowest {:.3f}, mean {:.3f}; {} regions, {} pairs with an interface, {} quadruple points inside\n",
-        check.quality.min, check.quality.mean, check.regions.size(), check.region_pairs, check.quadruple_points_inside);
+    print_details(report);
     print_improved(report);
     print_stop(settings, report);
-    if (report.pinned_vertices > 0)
-        fmt::print("{} vertices not moved: the mesh touches itself there, or more than four regions meet\n",
-                   report.pinned_vertices);
     print_volumes(report.preserved);
-    fmt::print("{:.2f} s, {:.0f} k faces/s, peak memory {} MB\n", report.seconds.at("total"),
-               static_cast<double>(report.initial_faces) / 1e3 / seconds, report.peak_bytes / 1000000);
     print_memory(settings.reconstruct, report.peak_bytes);
     print_violations(check, 0);
     if (report.samples_in_room > 0)
-        fmt::print("{} samples changed their label within --room\n", report.samples_in_room);
+        say("{} changed the label within --room", counted(report.samples_in_room, "sample"));
+    say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}", counted(check.regions.size(), "region"),
+        counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
+        check.quality.min, check.quality.mean);
     print_certificate(check, report.samples ? &*report.samples : nullptr);
+    say("written: {}; {:.2f} s, {} MB of memory", files_text(settings), report.seconds.at("total"),
+        grouped(report.peak_bytes / 1000000));
 }
 
-/// Reconstructs the input, whichever kind it is of, and sets `names` to those of its labels.
-Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
+/// What the input says besides its samples.
+struct ModelNotes {
+    LabelNames names;
+    Space space = Space::kUnknown;
+};
+
+/// Reconstructs the input, whichever kind it is of, and sets `notes` to what it says about its labels and its space.
+Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
     ProgressLine line(settings.quiet);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
-        names = names_or(settings, reader.info().names);
+        notes.names = names_or(settings, reader.info().names);
+        if constexpr (requires { reader.info().space; }) notes.space = reader.info().space;
+        warn_of_grey_scale(settings, reader);
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& progress) { line.show(progress); });
         line.clear();
@@ -65,24 +109,33 @@ Reconstruction reconstruct_input(const Settings& settings, LabelNames& names) {
 
 int run_reconstruct(const Settings& settings) {
     require_outputs(settings);
-    LabelNames names;
-    Reconstruction made = reconstruct_input(settings, names);
+    std::optional<MemoryWatch> watch;
+    if (settings.memory_is_hard) watch.emplace(settings.reconstruct.memory);
+    ModelNotes notes;
+    Reconstruction made = reconstruct_input(settings, notes);
+    require_regions(settings, made.report.check);
+    warn_of_absent_labels(settings, made.mesh, made.labels);
     Report& report = made.report;
-    const Model model{made.mesh, made.labels, made.background, names};
+    const Model model{made.mesh, made.labels, made.background, notes.names, notes.space};
+    put_line(Audience::kLog, "write");
     OutputFiles files(settings.writing);
+    std::vector<std::filesystem::path> written;
     double writing = 0;
     {
         const Timer timer(writing);
-        write_model(settings, model, files);
+        written = write_model(settings, model, files);
     }
     report.seconds["write"] = writing;
     report.seconds["total"] += writing;
-    write_report_file(settings, report, model, files);
+    write_report_file(settings, report, model, made_by(kReconstruct, settings), files);
     if (!settings.html.empty())
-        write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, names)},
-                   page_options(kReconstruct, settings, report_json(report, made.labels, names), true), files);
+        write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, notes.names)},
+                   page_options(kReconstruct, settings,
+                                report_json(report, made.labels, notes.names, made_by(kReconstruct, settings)), true),
+                   files);
     files.commit();
-    settings.quiet ? print_stop(settings, report) : print_summary(settings, report);
+    print_region_files(settings, written);
+    print_summary(settings, report);
     return exit_code(report);
 }
 

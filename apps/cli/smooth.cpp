@@ -2,7 +2,9 @@
 
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
+#include "page_output.h"
 #include "printable.h"
 
 namespace regionmesh::cli {
@@ -45,33 +47,32 @@ Report smoothed(const Settings& settings, Mesh& mesh, const CheckReport& before)
 }
 
 void print_summary(const std::string& path, const Report& report, const CheckReport& before) {
-    fmt::print(
-        "{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
-        "(before {})\n",
+    say("{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
+        "(before {})",
         printable(path), report.smoothing.vertices, report.smoothing.backtracked, report.smoothing.largest_displacement,
         report.check.quality.min, report.check.violation_count(), before.violation_count());
 }
 
 }  // namespace
 
-int run_smooth(const Settings& settings) {
-    require_outputs(settings);
-    MeshFile file = read_mesh(settings.models.front(), settings.surface);
+int run_smooth(const Settings& given) {
+    require_outputs(given);
+    MeshFile file = read_mesh(given.models.front(), given.surface);
+    const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     Report report = smoothed(settings, file.mesh, before);
     report.check = check(file.mesh, options);
     const LabelNames names = names_or(settings, file.names);
-    const Model model{file.mesh, file.labels, options.background, names};
+    const Model model{file.mesh, file.labels, options.background, names, file.space};
     OutputFiles files(settings.writing);
-    write_model(settings, model, files);
-    write_report_file(settings, report, model, files);
+    const auto written = write_model(settings, model, files);
+    write_report_file(settings, report, model, made_by(kSmooth, settings), files);
     files.commit();
-    if (!settings.quiet) {
-        print_summary(settings.output, report, before);
-        print_fixed_part(fixed, before, report.check);
-    }
+    print_region_files(settings, written);
+    print_summary(settings.output, report, before);
+    print_fixed_part(fixed, before, report.check);
     return exit_code(report);
 }
 

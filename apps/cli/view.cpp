@@ -7,10 +7,11 @@
 
 namespace regionmesh::cli {
 
-int run_view(const Settings& settings) {
-    require_page(settings.output, settings.writing);
-    const std::string& path = settings.models.front();
-    MeshFile file = read_mesh(path, settings.surface);
+int run_view(const Settings& given) {
+    require_page(given.output, given.writing);
+    const std::string& path = given.models.front();
+    MeshFile file = read_mesh(path, given.surface);
+    const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
     const CheckReport report = check(file.mesh, options);
@@ -20,8 +21,8 @@ int run_view(const Settings& settings) {
                page_options(kView, settings, check_json(report, file.labels, names), false), files);
     files.commit();
     if (!settings.quiet) {
-        fmt::print("{}: {} faces, {} regions, {} violations\n", settings.output, file.mesh.face_count(),
-                   report.regions.size(), report.violation_count());
+        fmt::print("{}: {}, {}, {}\n", settings.output, counted(file.mesh.face_count(), "face"),
+                   counted(report.regions.size(), "region"), counted(report.violation_count(), "violation"));
         print_violations(report, 0);
     }
     return kGood;

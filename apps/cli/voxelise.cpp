@@ -6,10 +6,11 @@
 
 namespace regionmesh::cli {
 
-int run_voxelise(const Settings& settings) {
-    const std::string& path = settings.models.front();
-    require_writable(settings.output, settings.writing);
-    MeshFile file = read_mesh(path, settings.surface);
+int run_voxelise(const Settings& given) {
+    const std::string& path = given.models.front();
+    require_writable(given.output, given.writing);
+    MeshFile file = read_mesh(path, given.surface);
+    const Settings settings = settings_for(given, file);
     const VolumeInfo info =
         open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume)->info();
     const Lattice& lattice = info.lattice;

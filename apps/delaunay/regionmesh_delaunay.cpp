@@ -35,6 +35,8 @@
 #include <thread>
 #include <vector>
 
+#include "confine.h"
+
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -214,6 +216,7 @@ int main(int argument_count, char**) {
                   "both binary. regionmesh runs it. GPL-3.0-or-later, without any warranty.");
         return kBadInput;
     }
+    confine();
     try {
         run();
     } catch (const Failure& failure) {

@@ -1,4 +1,4 @@
-// Reads one HDF5 file for another process; README.md describes the protocol.
+// Reads or makes one HDF5 file for another process; README.md describes the protocol.
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -13,10 +13,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 #include <string_view>
 
 #include "catalogue.h"
+#include "dream3d_file.h"
+#include "regionmesh/sandbox.h"
 
 namespace regionmesh::hdf5 {
 namespace {
@@ -55,6 +58,20 @@ void limit_seconds(unsigned seconds) {
     itimerval timer{};
     timer.it_value.tv_sec = static_cast<time_t>(seconds);
     ::setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
+/// To the file, if there is one, and to what the library may load: filters, from the folders where they are installed.
+void confine(const char* name) {
+    SandboxRules rules{.reads_anything = false};
+    if (name == nullptr) {
+        enter_sandbox(rules);
+        return;
+    }
+    rules.readable = {name, "/usr", "/lib", "/lib64", "/opt", "/etc/ld.so.cache"};
+    const char* variable = std::getenv("HDF5_PLUGIN_PATH");
+    std::istringstream folders(variable == nullptr ? "" : variable);
+    for (std::string folder; std::getline(folders, folder, ':');) rules.readable.emplace_back(folder);
+    enter_sandbox(rules);
 }
 
 bool receive(void* bytes, std::size_t count) { return std::fread(bytes, 1, count, stdin) == count; }
@@ -107,6 +124,15 @@ void answer(const char* name, std::optional<Catalogue>& file, const Json& reques
     }
 }
 
+/// The file comes on standard output, whole or not at all.
+int write_dream3d() {
+    const std::string bytes = make_dream3d();
+    const std::uint64_t size = bytes.size();
+    if (std::fwrite(&size, sizeof size, 1, stdout) != 1) return kWrongInput;
+    return std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() && std::fflush(stdout) == 0 ? kDone
+                                                                                                          : kWrongInput;
+}
+
 int serve(const char* name) {
     std::optional<Catalogue> file;
     for (Head head; receive(&head, sizeof head);) {
@@ -128,17 +154,20 @@ int main(int count, char** words) {
     if (count == 2 && std::strcmp(words[1], "--version") == 0)
         return std::puts("regionmesh-hdf5 " REGIONMESH_VERSION), 0;
     if (count != 2) {
-        std::fputs("regionmesh-hdf5 FILE: reads HDF5 for regionmesh, which starts it\n", stderr);
+        std::fputs("regionmesh-hdf5 FILE or --write-dream3d: reads and writes HDF5 for regionmesh, which starts it\n",
+                   stderr);
         return kUsage;
     }
     // An interrupt is for the process that asks; when that ends, so does the input here.
     ::signal(SIGINT, SIG_IGN);
     for (const int number : {SIGPROF, SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) ::signal(number, SIG_DFL);
     limit(RLIMIT_CORE, 0);
-    limit_memory();
+    const bool is_writing = std::strcmp(words[1], "--write-dream3d") == 0;
+    if (!is_writing) limit_memory();
     int code = kWrongInput;
     try {
-        code = serve(words[1]);
+        confine(is_writing ? nullptr : words[1]);
+        code = is_writing ? write_dream3d() : serve(words[1]);
     } catch (const std::bad_alloc&) {
         code = kOutOfMemory;
     } catch (const std::exception& problem) {

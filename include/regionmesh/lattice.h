@@ -19,6 +19,15 @@ struct Lattice {
     bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
 };
 
+/// Which way the axes of the patient's space point: RAS, to the right, the front and the head; LPS, to the left, the
+/// back and the head. A half turn about z leads from one to the other.
+enum class Space { kUnknown, kRas, kLps };
+
+/// "RAS" or "LPS"; empty for kUnknown.
+constexpr const char* space_name(Space space) {
+    return space == Space::kRas ? "RAS" : space == Space::kLps ? "LPS" : "";
+}
+
 /// The order in which a volume is read: section s lies at index s of axis `axes[2]`; inside it, `axes[0]` runs fastest.
 /// The three orders are cyclic, so that none of them mirrors.
 struct Sweep {

@@ -10,6 +10,7 @@
 
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/output_file.h"
 
@@ -25,7 +26,9 @@ struct WriteOptions {
     std::vector<Label> background = {};         // second label of a face, like the exterior
     std::vector<PointArray> point_arrays = {};  // .vtp and .vtu only: Float64
     LabelNames names = {};                      // of regions, in formats that can hold them
-    bool per_region = false;                    // .stl, .obj and .ply: a file for each region, NAME-LABEL.EXTENSION
+    bool per_region = false;                    // .stl, .obj and .ply: a file for each region, MODEL-REGION.EXTENSION
+    Space space = Space::kUnknown;              // of the coordinates, written where 3D Slicer reads it
+    double metres = 1;                          // in a unit of the coordinates; .glb files are in metres
     bool boundary_is_open = false;              // the box is not capped: refused where volumes are needed
     OutputOptions output = {};
 };
@@ -54,13 +57,19 @@ struct WriteOptions {
 /// 4 bytes per vertex where ids are not dense; 8 bytes per face for .obj and .stl, some hundred for the formats of
 /// volume meshers and .dream3d. Throws Error(kOutput) for another extension and for options that the format does not
 /// support, before it writes anything, and where the file cannot be written.
-void write_mesh(const Mesh& mesh, const LabelTable& labels, const std::filesystem::path& path,
-                const WriteOptions& options = {});
+///
+/// .vtp, .vtu, .ply, .obj and .stl say the space, where it is known, as 3D Slicer reads it: SPACE=RAS. .vtp, .vtu, .ply
+/// and .obj say which labels are background. .vtp and .vtu have two arrays to colour by: Region, the first label of a
+/// face, and Neighbour, the second. With per_region a file has the name of its region, or else its label.
+/// Returns the files written.
+std::vector<std::filesystem::path> write_mesh(const Mesh& mesh, const LabelTable& labels,
+                                              const std::filesystem::path& path, const WriteOptions& options = {});
 
 /// The same into files that are committed together with others: a report. Does not commit them; their OutputOptions
 /// hold, not those of `options`.
-void write_mesh(const Mesh& mesh, const LabelTable& labels, const std::filesystem::path& path,
-                const WriteOptions& options, OutputFiles& files);
+std::vector<std::filesystem::path> write_mesh(const Mesh& mesh, const LabelTable& labels,
+                                              const std::filesystem::path& path, const WriteOptions& options,
+                                              OutputFiles& files);
 
 /// Throws the errors of write_mesh for the extension, the options and the folder of `path`: for a check before long
 /// work.
@@ -78,6 +87,10 @@ struct MeshFile {
     Mesh mesh;
     LabelTable labels;
     LabelNames names = {};  // of labels, from the file
+    Space space = Space::kUnknown;
+    /// Labels of empty space; none: the file does not say. Files with a region on one side of each face have no
+    /// background.
+    std::optional<std::vector<InputLabel>> background = {};
 };
 
 struct ReadMeshOptions {
@@ -86,6 +99,8 @@ struct ReadMeshOptions {
     std::optional<double> weld = {};
     /// Orients faces so that neighbours agree on the side of each region.
     bool orient = false;
+    /// Turns the model into this space, if the file says another.
+    Space space = Space::kUnknown;
 };
 
 /// Reads what write_mesh writes into .vtp, .ply, .stl and .obj, and surfaces of other programs:

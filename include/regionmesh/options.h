@@ -15,6 +15,7 @@
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/reconstruct.h"
+#include "regionmesh/sandbox.h"
 
 namespace regionmesh {
 
@@ -37,10 +38,14 @@ struct Settings {
 
     InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
-    std::string output, names, report, json, distance, html;  // files
+    double metres = 1;  // in a unit of length of the input
+
+    std::string output, names, report, json, distance, html, regions, log, config;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
-    bool per_region = false, quiet = false;
+    bool per_region = false, list_all = false, quiet = false, verbose = false;
+    bool sandbox = true, needs_sandbox = false;  // confine the program; end where the kernel cannot
+    bool memory_is_hard = false;                 // the program ends rather than exceed reconstruct.memory
 
     OptionValues given;  // set by apply_options()
 };
@@ -83,6 +88,7 @@ struct OptionSpec {
     std::string_view group;            // heading in help texts
     std::uint32_t commands = 0;        // that take it
     std::string_view unit = {};        // of the value; empty: none
+    std::string_view value = {};       // placeholder in help texts; empty: that of the kind
     std::uint32_t inputs = kAnyInput;  // refused with inputs of other kinds
     bool is_argument = false;          // has no flag; required, in the order of the table
     bool is_required = false;
@@ -104,7 +110,7 @@ struct OptionSpec {
 /// One command of the program.
 struct CommandSpec {
     Command command;
-    std::string_view name, help;
+    std::string_view name, help, example;
 };
 
 /// All commands, in the order of help texts.
@@ -128,14 +134,29 @@ void require_consistent(const Settings& settings);
 /// the files; changes nothing.
 void require_distinct_files(const Settings& settings);
 
+/// What the process of a command needs to do: read anything, write below the folders of its outputs and in that of
+/// temporary files, start the helper programs. Looks at the files.
+SandboxRules sandbox_rules(const Settings& settings);
+
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);
 
 /// Throws Error(kUsage) where an option that was given does not apply to the input, or for two tables or meshes.
 void require_fit(const Settings& settings, const std::vector<std::string>& inputs);
 
+/// The options in a report, which the same command takes again: `options` of report_json(). Throws Error(kInput) for a
+/// file that is no report, and Error(kUsage) for the report of another command.
+OptionValues options_of_report(const std::string& path, const CommandSpec& command);
+
 /// Placeholder of the value in help texts: "COUNT", "auto|x|y|z"; empty for flags.
 std::string value_name(const OptionSpec& option);
+
+/// A page for man(1), in the language of groff.
+std::string manual_page();
+
+/// A script with which the shell "bash", "zsh" or "fish" completes commands, options and words. Throws Error(kUsage)
+/// for another shell.
+std::string completion_script(const std::string& shell);
 
 /// The text of docs/reference/command-line.md.
 std::string command_line_page();

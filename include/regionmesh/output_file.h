@@ -93,4 +93,8 @@ void remove_outputs_on_signals();
 /// Removes the temporary files of all outputs, for a process that is about to end without its destructors.
 void remove_outputs() noexcept;
 
+/// Ends the process from any thread, after the temporary files of all outputs are removed. A commit that has begun is
+/// waited for, and its outputs stay.
+[[noreturn]] void end_without_outputs(int exit_code) noexcept;
+
 }  // namespace regionmesh

@@ -24,9 +24,10 @@ struct ReadOptions {
     std::optional<std::array<std::uint32_t, 3>> raw_size = {};  // raw files: samples along x, y, z
     std::optional<SampleType> raw_type = {};                    // raw files: type of the little-endian samples
     std::optional<std::uint32_t> layer = {};                    // of a file with several layers, counted from 0
-    std::uint64_t max_work = kMostWork;  // refuses volumes of more work, which a tiny file may describe
-    bool external_files = false;         // a header may name files outside its own folder and those below it
-    Selection select = {};                                      // part of the volume, labels, coarser samples
+    Space space = Space::kUnknown;           // turns the volume into this space, if its file says another
+    std::uint64_t max_work = kMostWork;      // refuses volumes of more work, which a tiny file may describe
+    bool external_files = false;             // a header may name files outside its own folder and those below it
+    Selection select = {};                   // part of the volume, labels, coarser samples
     std::filesystem::path merge_table = {};  // adds to select.merge and select.names: read_merge_table()
 };
 

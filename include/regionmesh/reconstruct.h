@@ -21,9 +21,12 @@ namespace regionmesh {
 struct ReconstructOptions {
     std::optional<std::uint64_t> target_faces = {};  // decimate to this number of faces or fewer
     std::optional<double> reduce = {};               // or remove this share of the faces, 0 to 1
-    std::optional<double> max_error = {};            // or up to this rms distance, in the unit of the spacing
+    std::optional<double> max_error = {};  // or no point farther than this from the surface before, nor the other way
+                                           // round, in the unit of the spacing
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
                       // change their label first, for noisy labels (docs/smoothing.md); 0: none changes
+    double scale_z = 1;  // of sections: z is multiplied by the nearest power of two while positions, costs, qualities
+                         // and errors are computed; the model is not scaled. Tetrahedra have their own
     SmoothOptions smooth = {};                          // its scale, quality, tests and threads are set from the run
     double min_quality = 0.1;                           // of every face that smoothing or decimation changes
     double perturbation = 1e-7;                         // of costs: share of scale^4, hashed from the edge (P 4.5)
@@ -47,6 +50,7 @@ struct Progress {
     const char* stage = "";
     std::uint32_t strips_read = 0, strip_count = 0;
     std::uint64_t faces_read = 0, faces_held = 0;
+    double share = 0;  // of the work of all stages, estimated, 0 to 1; begins again where smoothing does
 };
 
 struct Reconstruction {

@@ -24,6 +24,7 @@ struct VolumeInfo {
     bool can_rewind = true;                             // sections can be read again from the start
     std::uint64_t held_bytes = 0;                       // memory for reading ahead; 0: about one section
     std::array<bool, 3> can_sweep{false, false, true};  // axes along which sections can be read
+    Space space = Space::kUnknown;                      // of the lattice
     LabelNames names = {};                              // given by the file, or by a table next to it
 };
 

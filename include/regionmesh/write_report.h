@@ -1,22 +1,35 @@
 // Reports as JSON text.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "regionmesh/census.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/mesh.h"
+#include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/report.h"
 #include "regionmesh/voxelise.h"
 
 namespace regionmesh {
 
+/// The run of the program that made a model.
+struct MadeBy {
+    std::string command;                                       // "reconstruct"; empty: none
+    std::vector<std::pair<std::string, std::string>> options;  // names and texts, as given; several of a name: in order
+};
+
 /// The report of a run: JSON text, indented by two spaces, with a newline at the end; a number that is not finite is
 /// null. docs/report.md lists the keys. `regions[]` are in order of `label`, a number with the signedness of the input;
 /// regions with a name have `name`.
-std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names = {});
+std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names = {},
+                        const MadeBy& made_by = {});
 
 /// The part of a check alone (`check --json`): quality, regions, region_pairs, quadruple_points_inside, violations and
 /// violation_counts. With `samples` also samples, samples_wrong, samples_contradicting, dice and dice_of_regions[].
@@ -26,7 +39,24 @@ std::string check_json(const CheckReport& report, const LabelTable& labels, cons
 /// The report of a comparison, as JSON text like report_json; docs/compare.md lists the keys. Regions, interfaces and
 /// lines are in order of label; the exterior is labels.exterior_label() and last in a list. Measures that only one mesh
 /// has are null for the other, and so are the distances; `only_in_a` and `only_in_b` name them.
-std::string compare_json(const CompareReport& report);
+/// Regions with a name have `name`.
+std::string compare_json(const CompareReport& report, const LabelNames& names = {});
+
+/// What `info --json` writes about a volume, about points or tetrahedra, and about a surface model: JSON text like
+/// report_json(); docs/report.md lists the keys. `report` is the check of the model; its violations are not written.
+std::string info_json(const VolumeInfo& info, const Census& census);
+std::string info_json(const TetrahedraInfo& info, const TetrahedronCensus& census);
+std::string info_json(const std::string& source, const MeshFile& file, const CheckReport& report);
+
+/// The box of all points of a model: low and high corner. Zeros for a model without points.
+std::array<Vec3, 2> box_of_points(const Mesh& mesh);
+
+/// A table of the regions as CSV, in order of label: label, name, faces, volume, area, centroid_x, _y, _z, box_low_x to
+/// box_high_z, equivalent_diameter (of the sphere of the same volume), neighbours (labels, separated by blanks; the
+/// background and the exterior are none) and neighbour_areas. The volume and the centroid of an open region mean
+/// nothing. `background` is dense.
+std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
+                        const LabelNames& names = {});
 
 /// Writes `text` as an OutputFile. Throws Error(kOutput).
 void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options = {});

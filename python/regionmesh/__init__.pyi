@@ -32,6 +32,8 @@ class Mesh:
     @property
     def background(self) -> list[int]: ...
     @property
+    def space(self) -> str | None: ...
+    @property
     def names(self) -> dict[int, str]: ...
     @property
     def bounds(self) -> npt.NDArray[np.float64]: ...
@@ -61,6 +63,7 @@ class Mesh:
         perturbation: float | None = None,
         placement: Literal["quadric", "lindstrom-turk"] | None = None,
         min_quality: float | None = None,
+        improve: bool | None = None,
         intersect_check: bool | None = None,
         threads: int | None = None,
     ) -> Mesh: ...
@@ -98,7 +101,13 @@ class Mesh:
         dtype: npt.DTypeLike | None = None,
         outside: int = 0,
     ) -> npt.NDArray[Any]: ...
-    def save(self, path: _Path, *, per_region: bool = False) -> None: ...
+    def save(
+        self,
+        path: _Path,
+        *,
+        per_region: bool = False,
+        units: Literal["m", "mm", "um", "nm"] = "m",
+    ) -> list[str]: ...
     def to_vtk(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
     def to_meshio(self) -> Any: ...
@@ -117,8 +126,14 @@ def reconstruct(
     progress: _Progress | None = None,
     sweep: Literal["auto", "x", "y", "z"] | None = None,
     layer: int | None = None,
+    max_work: int | None = None,
+    external_files: bool | None = None,
     size: Sequence[int] | None = None,
     type: str | None = None,
+    roi: str | None = None,
+    box: str | None = None,
+    downsample: str | None = None,
+    min_region: int | None = None,
     columns: str | None = None,
     step: float | None = None,
     scale_z: float | None = None,
@@ -135,9 +150,11 @@ def reconstruct(
     smooth: str | int | bool | None = None,
     smooth_filter: Literal["auto", "lattice", "taubin", "laplacian", "nifpms", "none"] | None = None,
     smooth_lambda: float | None = None,
+    room: float | None = None,
     smooth_points: bool | None = None,
     preserve_volume: bool | None = None,
     min_quality: float | None = None,
+    improve: bool | None = None,
     keep_samples: bool | None = None,
     intersect_check: bool | None = None,
     memory: int | str | None = None,
@@ -147,7 +164,7 @@ def reconstruct(
 def load(
     path: _Path,
     *,
-    background: int | Iterable[int] | None = 0,
+    background: int | Iterable[int] | Literal["file"] | None = "file",
     weld: float | None = None,
     orient: bool = False,
     boundary: Literal["cap", "open"] = "cap",

@@ -12,7 +12,7 @@ from ._mesh import Mesh
 def unpickle(points, faces, labels, node_types, state):
     model = _core.from_arrays(
         (points, faces, labels.view(np.int64), node_types),
-        (state["background"], state["order"], state["names"]),
+        (state["background"], state["order"], state["names"], state["space"]),
         state["exterior"], state["is_unsigned"], state["is_open"],
     )  # fmt: skip
     mesh = Mesh(model, state["lattice"])
@@ -20,7 +20,7 @@ def unpickle(points, faces, labels, node_types, state):
     return mesh
 
 
-def load(path, *, background=0, weld=None, orient=False, boundary="cap"):
+def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
     """Read a surface model of regionmesh or of another program.
 
     Parameters
@@ -28,7 +28,7 @@ def load(path, *, background=0, weld=None, orient=False, boundary="cap"):
     path : path
         .vtp .vtu .ply .stl .obj .dream3d, or a folder with a file for each region (docs/files.md).
     background : int or sequence of int, or None
-        Labels of empty space; None: every label is a region.
+        Labels of empty space; None: every label is a region. "file": what the file says, or else 0.
     weld : float, optional
         Join points no farther apart than this, in the unit of the file.
     orient : bool
@@ -57,7 +57,10 @@ def load(path, *, background=0, weld=None, orient=False, boundary="cap"):
     True
     """
     path = os.fspath(path)
-    pairs = _options.pairs("reconstruct", {"background": background, "boundary": boundary}, "load")
+    asked = {"boundary": boundary}
+    if not (isinstance(background, str) and background == "file"):
+        asked["background"] = background
+    pairs = _options.pairs("reconstruct", asked, "load")
     if weld is not None:
         pairs.append(("weld", repr(float(weld))))
     pairs.append(("orient", "true" if orient else "false"))
@@ -122,7 +125,7 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     exterior = np.array([exterior_label]).astype(np.uint64 if exterior_label >= 0 else np.int64).view(np.int64)[0]
     model = _core.from_arrays(
         (points, faces.astype(np.uint32), np.ascontiguousarray(bits), None),
-        ([_bits(label) for label in outside], [], names_of(names) or {}),
+        ([_bits(label) for label in outside], [], names_of(names) or {}, ""),
         int(exterior), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)

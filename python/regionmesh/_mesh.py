@@ -12,8 +12,8 @@ from ._labels import bits
 class Mesh:
     """Triangles that separate two regions and belong to both.
 
-    Made by `reconstruct`, `load` and `from_arrays`. A mesh never changes: `simplify` and `smooth` return a new one. All
-    arrays are read-only, have no copy, and stay valid after the mesh is gone.
+    Made by `reconstruct`, `load` and `from_arrays`. A mesh never changes: `simplify`, `smooth` and `improve` return a
+    new one. All arrays are read-only, have no copy, and stay valid after the mesh is gone.
 
     Examples
     --------
@@ -81,6 +81,11 @@ class Mesh:
     def background(self):
         """Labels of empty space, a list of int."""
         return [self._unsigned(label) for label in self._model.background]
+
+    @property
+    def space(self):
+        """Where x and y point in the patient: "RAS" or "LPS", or None where no file said it. Saved with the model."""
+        return self._model.space or None
 
     def _unsigned(self, label):
         return label + (1 << 64) if self._model.is_unsigned and label < 0 else label
@@ -179,15 +184,19 @@ class Mesh:
 
     # What can be done
 
-    def simplify(self, *, progress=None, **options):
+    def simplify(self, *, keep_samples=True, progress=None, **options):
         """Return a mesh with fewer faces and the same regions.
 
         Parameters
         ----------
+        keep_samples : bool
+            No sample of the volume that the mesh was made from changes its region. Meshes from files and arrays have
+            no samples, nor have those whose lattice is not along the axes.
         progress : bool or callable, optional
             As in `reconstruct`.
         **options
-            The options of `regionmesh decimate`; `reduce`, `target_faces` or `max_error` is needed. See below.
+            The options of `regionmesh decimate`, see below; one of `reduce`, `target_faces`, `max_error` and `improve`
+            is needed.
 
         Returns
         -------
@@ -199,8 +208,54 @@ class Mesh:
             Without a target, and for values out of range.
         """
         pairs = _options.pairs("decimate", options, "simplify")
+        return self._simplified(pairs, keep_samples, progress)
+
+    def improve(self, *, min_quality=0.1, keep_samples=True, threads=0, progress=None):
+        """Return a mesh with better shaped faces, for finite elements: edges are flipped, vertices moved.
+
+        The worst faces get better first. Regions, interfaces and lines stay; the surface moves by no more than a
+        tenth of a typical edge, three tenths round faces below `min_quality`.
+
+        Parameters
+        ----------
+        min_quality : float
+            Edges of faces below this quality may be collapsed, too; 0.26 is that of an equilateral face.
+        keep_samples : bool
+            As in `simplify`.
+        threads : int
+            Of the check; 0: one per core.
+        progress : bool or callable, optional
+            As in `reconstruct`.
+
+        Returns
+        -------
+        Mesh
+            Its `report` has `improved`: qualities and angles before and after.
+
+        Examples
+        --------
+        >>> import numpy as np, regionmesh
+        >>> labels = np.zeros((12, 12, 12), np.uint8)
+        >>> labels[2:6, 2:10, 2:10], labels[6:10, 2:10, 2:10] = 1, 2
+        >>> mesh = regionmesh.reconstruct(labels, reduce=0.5)
+        >>> better = mesh.improve()
+        >>> better.certified, better.report["quality"]["min"] >= mesh.report["quality"]["min"]
+        (True, True)
+        """
+        pairs = _options.pairs("decimate", {"min_quality": min_quality, "threads": threads, "improve": True}, "improve")
+        return self._simplified(pairs, keep_samples, progress)
+
+    def _simplified(self, pairs, keep_samples, progress):
+        samples = self._samples() if keep_samples else None
         with _progress.bar(progress) as report:
-            return self._derived(_core.simplify(self._model, pairs, report))
+            return self._derived(_core.simplify(self._model, pairs, samples, report))
+
+    def _samples(self):
+        """The lattice that the mesh was made from, or None."""
+        own = self._lattice
+        if own is None or tuple(own["direction"]) != _sources.IDENTITY:
+            return None
+        return _sources.frame(own["spacing"], own["origin"], None), own["size"]
 
     def smooth(self, **options):
         """Return a smoother mesh with the same faces.
@@ -320,7 +375,7 @@ class Mesh:
         _core.voxelise(self._model, where, bits(outside), result)
         return result
 
-    def save(self, path, *, per_region=False):
+    def save(self, path, *, per_region=False, units="m"):
         """Write the model; the extension selects the format (docs/files.md).
 
         Parameters
@@ -328,14 +383,22 @@ class Mesh:
         path : path
             .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .dream3d
         per_region : bool
-            .stl, .obj and .ply: a file for each region, NAME-LABEL.EXTENSION.
+            .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
+            name.
+        units : {"m", "mm", "um", "nm"}
+            The unit of length of the model: .glb files are in metres and are scaled.
+
+        Returns
+        -------
+        list of str
+            The files written.
 
         Raises
         ------
         OSError
             For another extension, and where the file cannot be written.
         """
-        _core.save(self._model, os.fspath(path), per_region)
+        return _core.save(self._model, os.fspath(path), per_region, [("units", units)])
 
     # Python
 
@@ -356,6 +419,7 @@ class Mesh:
             "order": self._model.label_order,
             "is_open": self._model.is_open,
             "names": self._model.names,
+            "space": self._model.space,
             "exterior": self._model.exterior_label,
             "is_unsigned": self._model.is_unsigned,
             "lattice": self._lattice,

@@ -6,7 +6,8 @@ import os
 from . import _core
 
 # Options of the command line that are arguments of functions here, or have no meaning; files and output are neither.
-_NOT_HERE = {"quiet", "weld", "orient", "outside"}
+_NOT_HERE = {"quiet", "verbose", "weld", "orient", "outside", "labels"}  # labels_to_keep
+_NOT_HERE |= {"memory-limit", "no-sandbox", "require-sandbox"}  # of the process, which is the interpreter's
 # Options that describe a model when it is made; its methods know them.
 _OF_MODEL = {"background", "no-background", "boundary", "hull"}
 _FALSE_AND_TRUE = {"smooth": ("off", "normal")}

@@ -23,7 +23,7 @@ def _preview(mesh):
     """A coarser model where there are many faces."""
     if len(mesh.faces) <= _MOST_FACES:
         return mesh
-    return mesh.simplify(target_faces=_MOST_FACES, min_quality=0.0, intersect_check=False)
+    return mesh.simplify(target_faces=_MOST_FACES, min_quality=0.0, intersect_check=False, keep_samples=False)
 
 
 def html(mesh):

@@ -6,7 +6,9 @@ from . import _core, _options, _progress, _sources
 from ._labels import bits, names_of
 from ._mesh import Mesh
 
-_OF_FILES = ("size", "type", "layer", "columns", "step", "scale_z", "array", "hull")
+# Options that say how an input is read.
+_OF_SOURCE = {"sweep", "roi", "box", "downsample", "min-region", "background", "no-background"}
+_OF_FILES = ("size", "type", "layer", "columns", "step", "array", "hull", "max_work", "external_files")
 
 
 def _split(options, names):
@@ -114,7 +116,7 @@ def reconstruct(
             if options.get(name) is not None:
                 raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
         pairs = _options.pairs("reconstruct", options)
-        given = _sources.source(labels, (spacing, origin, direction), _split(pairs, {"sweep"}), names or {}, sections)
+        given = _sources.source(labels, (spacing, origin, direction), _split(pairs, _OF_SOURCE), names or {}, sections)
         model = _core.reconstruct_source(given, pairs, kept, names, report)
     return Mesh(model, lattice=given.info)
 

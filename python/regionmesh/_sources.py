@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _core
 
-_IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 _SLAB_BYTES = 64 << 20  # of sections that are read at once from an array in chunks
 
 
@@ -33,7 +33,7 @@ def _vector(name, value, default):
 
 def _direction(value):
     if value is None:
-        return _IDENTITY
+        return IDENTITY
     matrix = np.asarray(value, dtype=float)
     if matrix.size != 9:
         raise ValueError(f"direction: {matrix.size} numbers; give nine: the directions of x, y, z as columns")
@@ -241,9 +241,9 @@ def source(labels, given, options, names, sections=None):
             raise TypeError(f"labels: {type(labels).__name__}; give an array, a path or an iterable of sections")
         data = _iterated(data, sections)
     if not isinstance(data, np.ndarray):
-        return _core.call_source(data, where, names, "labels")
+        return _core.call_source(data, where, options, names, "labels")
     if not data.dtype.isnative and data.dtype.kind in "iu" and data.ndim == 3:
         calls = _ArrayCalls(data)
         call = calls.next, calls.rewind, data.shape[::-1], _type_name(data.dtype.newbyteorder("="))
-        return _core.call_source(call, where, names, "labels")
+        return _core.call_source(call, where, options, names, "labels")
     return _core.array_source(data, where, options, names, "labels")

@@ -10,6 +10,7 @@
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/error.h"
+#include "regionmesh/improve.h"
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/process.h"
@@ -21,8 +22,8 @@ namespace regionmesh::python {
 namespace {
 
 /// Sets the result of a run; frees what the run alone needed.
-Model model_from(Reconstruction made, const LabelNames& names, bool is_open) {
-    Model model{std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open};
+Model model_from(Reconstruction made, const LabelNames& names, bool is_open, Space space = Space::kUnknown) {
+    Model model{std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, space};
     model.report = report_json(made.report, model.labels, names);
     return model;
 }
@@ -64,7 +65,7 @@ void renumber(LabelledMesh& made, const std::vector<InputLabel>& order) {
 }
 
 Model copy_of(const Model& model) {
-    return {copy_of(model.mesh, model.labels), model.labels, model.background, model.names, model.is_open};
+    return {copy_of(model.mesh, model.labels), model.labels, model.background, model.names, model.is_open, model.space};
 }
 
 CheckOptions check_options(const Model& model, std::uint32_t threads) {
@@ -76,8 +77,10 @@ CheckOptions check_options(const Model& model, std::uint32_t threads) {
     return options;
 }
 
+bool has_target(const ReconstructOptions& asked) { return asked.target_faces || asked.reduce || asked.max_error; }
+
 SimplifyOptions simplify_options(const ReconstructOptions& asked, const Mesh& mesh) {
-    SimplifyOptions options;
+    SimplifyOptions options{.target_faces = has_target(asked) ? 0 : mesh.face_count()};
     if (asked.target_faces)
         options.target_faces =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
@@ -161,7 +164,8 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
         WatchedSections sections(kept ? *kept : *source.reader, watch);
         StageProgress progress(watch, options);
         Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
-        model = model_from(std::move(made), run.names.value_or(sections.info().names), !options.cap);
+        model =
+            model_from(std::move(made), run.names.value_or(sections.info().names), !options.cap, sections.info().space);
     });
     return model;
 }
@@ -184,19 +188,30 @@ Model load_model(const std::string& path, const OptionValues& options) {
     const py::gil_scoped_release release;
     MeshFile file = read_mesh(path, settings.surface);
     file.mesh.compact();
+    const bool is_given = std::ranges::any_of(settings.given, [](const auto& option) {
+        return option.first == "background" || option.first == "no-background";
+    });
     std::vector<Label> background;
-    for (const InputLabel label : settings.reconstruct.background) background.push_back(file.labels.dense(label));
-    return {std::move(file.mesh), std::move(file.labels), std::move(background), std::move(file.names),
-            !settings.reconstruct.cap};
+    for (const InputLabel label : !is_given && file.background ? *file.background : settings.reconstruct.background)
+        background.push_back(file.labels.dense(label));
+    return {std::move(file.mesh),  std::move(file.labels),    std::move(background),
+            std::move(file.names), !settings.reconstruct.cap, file.space};
 }
 
-void save_model(const Model& model, const std::string& path, bool per_region) {
+std::vector<std::string> save_model(const Model& model, const std::string& path, bool per_region,
+                                    const OptionValues& options) {
+    const Settings settings = settings_from(options);
     const py::gil_scoped_release release;
-    write_mesh(model.mesh, model.labels, path,
-               {.background = model.background,
-                .names = model.names,
-                .per_region = per_region,
-                .boundary_is_open = model.is_open});
+    std::vector<std::string> paths;
+    for (const auto& file : write_mesh(model.mesh, model.labels, path,
+                                       {.background = model.background,
+                                       .names = model.names,
+                                       .per_region = per_region,
+                                       .space = model.space,
+                                       .metres = settings.metres,
+                                       .boundary_is_open = model.is_open}))
+        paths.push_back(file.string());
+    return paths;
 }
 
 Model model_of(const GivenArrays& given, const GivenLabels& labels) {
@@ -215,20 +230,22 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
     if (!labels.order.empty()) renumber(made, labels.order);
     std::vector<Label> background;
     for (const InputLabel label : labels.background) background.push_back(made.labels.dense(label));
-    return {std::move(made.mesh), std::move(made.labels), std::move(background), labels.names, labels.is_open};
+    return {std::move(made.mesh), std::move(made.labels), std::move(background),
+            labels.names,         labels.is_open,         labels.space};
 }
 
-Model simplified(const Model& model, const OptionValues& options, Watch& watch) {
+Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
     const Settings settings = settings_from(options);
     const ReconstructOptions& asked = settings.reconstruct;
-    if (!asked.target_faces && !asked.reduce && !asked.max_error)
-        throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error");
+    if (!has_target(asked) && !asked.improve)
+        throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error, or improve=True");
     Model made;
     watch.run([&] {
         made = copy_of(model);
         const CheckOptions checks = check_options(made, asked.threads);
         Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
         SimplifyOptions simplify_with = simplify_options(asked, made.mesh);
+        simplify_with.samples = samples;
         const std::uint64_t before = made.mesh.face_count(), gone = before - simplify_with.target_faces;
         simplify_with.on_progress = [&] { watch.note("decimate", before - made.mesh.face_count(), gone); };
         {
@@ -237,8 +254,16 @@ Model simplified(const Model& model, const OptionValues& options, Watch& watch) 
             report.verdicts = done.verdicts;
             report.refreshes = done.refreshes;
             report.stopped = to_string(done.stopped);
+            report.error_bound = done.error_bound;
             report.bytes_per_face =
                 static_cast<double>(done.bytes) / static_cast<double>(std::max<std::uint64_t>(before, 1));
+        }
+        if (asked.improve) {
+            const Timer timer(report.seconds["improve"]);
+            ImproveOptions improve_with{
+                .min_quality = asked.min_quality, .scale = simplify_with.scale, .samples = samples};
+            improve_with.on_progress = [&] { watch.note("improve", 0, std::nullopt); };
+            report.improved = improve(made.mesh, improve_with);
         }
         watch.note("check", 0, std::nullopt);
         end_change(made, report, checks);

@@ -23,6 +23,7 @@ struct Model {
     std::vector<Label> background;
     LabelNames names;
     bool is_open = false;
+    Space space = Space::kUnknown;
     std::string report = {};  // JSON; empty where it was not checked yet
 };
 
@@ -36,8 +37,11 @@ struct RunOptions {
 Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch);
 Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Watch& watch);
 
+/// With the background of the file where the options name none.
 Model load_model(const std::string& path, const OptionValues& options);
-void save_model(const Model& model, const std::string& path, bool per_region);
+/// `options` are those of the files: units. Returns the paths written.
+std::vector<std::string> save_model(const Model& model, const std::string& path, bool per_region,
+                                    const OptionValues& options);
 
 /// points, faces, labels and node types, read-only; the arrays own the memory.
 py::tuple arrays_of(const Model& model);
@@ -55,10 +59,12 @@ struct GivenLabels {
     std::vector<InputLabel> order;  // by dense number, so that a copy of a model is treated alike; may be empty
     LabelNames names;
     bool is_open;
+    Space space;
 };
 Model model_of(const GivenArrays& given, const GivenLabels& labels);
 
-Model simplified(const Model& model, const OptionValues& options, Watch& watch);
+/// As `regionmesh decimate`. No sample of the lattice changes its region, where one is given.
+Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch);
 Model smoothed(const Model& model, const OptionValues& options, Watch& watch);
 
 /// The check as JSON. With a source also against its labels.

@@ -51,15 +51,17 @@ void bind_sources(py::module_& module) {
     py::class_<Frame>(module, "Frame")
         .def(py::init<std::array<double, 3>, std::array<double, 3>, std::array<double, 9>>());
     py::class_<Source>(module, "Source").def_property_readonly("info", info_of);
-    module.def("array_source",
-               [](const py::array& array, const Frame& frame, const OptionValues& options, const LabelNames& names,
-                  const std::string& name) { return array_source(array, frame, array_options(options, names, name)); });
-    module.def("call_source",
-               [](const std::tuple<py::object, py::object, std::array<std::uint32_t, 3>, std::string>& calls,
-                  const Frame& frame, const LabelNames& names, const std::string& name) {
-                   const auto& [next, rewind, size, type] = calls;
-                   return call_source({next, rewind, size, type}, frame, {.names = names, .name = name});
-               });
+    module.def("array_source", [](const py::array& array, const Frame& frame, const OptionValues& options,
+                                  const LabelNames& names, const std::string& name) {
+        return select(array_source(array, frame, array_options(options, names, name)), options);
+    });
+    module.def(
+        "call_source",
+        [](const std::tuple<py::object, py::object, std::array<std::uint32_t, 3>, std::string>& calls,
+           const Frame& frame, const OptionValues& options, const LabelNames& names, const std::string& name) {
+            const auto& [next, rewind, size, type] = calls;
+            return select(call_source({next, rewind, size, type}, frame, {.names = names, .name = name}), options);
+        });
     module.def("file_source", file_source);
 }
 
@@ -78,9 +80,12 @@ void bind_runs(py::module_& module) {
         Watch watch(progress);
         return reconstruct_tetrahedra(path, {options, std::nullopt, names}, watch);
     });
-    module.def("simplify", [](const Model& model, const OptionValues& options, const py::object& progress) {
+    using Samples = std::optional<std::pair<Frame, ArraySize>>;
+    module.def("simplify", [](const Model& model, const OptionValues& options, const Samples& samples,
+                              const py::object& progress) {
         Watch watch(progress);
-        return simplified(model, options, watch);
+        const auto lattice = samples ? std::optional(lattice_of(samples->first, samples->second)) : std::nullopt;
+        return simplified(model, options, lattice, watch);
     });
     module.def("smooth", [](const Model& model, const OptionValues& options) {
         Watch watch(py::none{});
@@ -100,12 +105,19 @@ void bind_runs(py::module_& module) {
     module.def("voxelise", voxelise);
 }
 
+Space space_of(const std::string& name) {
+    for (const Space space : {Space::kRas, Space::kLps})
+        if (name == space_name(space)) return space;
+    return Space::kUnknown;
+}
+
 void bind_model(py::module_& module) {
     py::class_<Model>(module, "Model")
         .def_property_readonly("arrays", arrays_of)
         .def_readonly("report", &Model::report)
         .def_readonly("names", &Model::names)
         .def_readonly("is_open", &Model::is_open)
+        .def_property_readonly("space", [](const Model& model) { return std::string(space_name(model.space)); })
         .def_property_readonly("is_unsigned", [](const Model& model) { return model.labels.is_unsigned(); })
         .def_property_readonly("exterior_label", [](const Model& model) { return model.labels.exterior_label(); })
         .def_property_readonly("vertex_count", [](const Model& model) { return model.mesh.vertex_count(); })
@@ -126,13 +138,14 @@ void bind_model(py::module_& module) {
     module.def("save", save_model);
     using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
                               decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
-    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames>;
-    module.def("from_arrays", [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned,
-                                 bool is_open) {
-        const auto& [points, faces, labels, types] = arrays;
-        const auto& [background, order, names] = about;
-        return model_of({points, faces, labels, types, exterior, is_unsigned}, {background, order, names, is_open});
-    });
+    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, std::string>;
+    module.def("from_arrays",
+               [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned, bool is_open) {
+                   const auto& [points, faces, labels, types] = arrays;
+                   const auto& [background, order, names, space] = about;
+                   return model_of({points, faces, labels, types, exterior, is_unsigned},
+                                   {background, order, names, is_open, space_of(space)});
+               });
 }
 
 }  // namespace

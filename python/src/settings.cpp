@@ -44,6 +44,10 @@ Settings settings_from(const OptionValues& values, const std::vector<std::string
     Settings settings;
     apply_options(settings, values);
     require_fit(settings, inputs);
+    if (settings.needs_sandbox)
+        throw Error(ErrorCode::kUsage, "require_sandbox: the interpreter is not confined; use the program regionmesh");
+    if (settings.memory_is_hard)
+        throw Error(ErrorCode::kUsage, "memory_limit: hard would end the interpreter; use the program regionmesh");
     return settings;
 }
 

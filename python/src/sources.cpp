@@ -6,6 +6,7 @@
 
 #include "regionmesh/error.h"
 #include "regionmesh/read_sections.h"
+#include "regionmesh/select_sections.h"
 #include "settings.h"
 
 namespace regionmesh::python {
@@ -36,11 +37,6 @@ std::uint32_t samples_along(py::ssize_t samples, const std::string& name) {
     if (samples > std::numeric_limits<std::int32_t>::max())
         throw py::value_error(name + ": " + std::to_string(samples) + " samples along an axis; cut the volume");
     return static_cast<std::uint32_t>(samples);
-}
-
-Lattice lattice_of(const Frame& frame, const ArraySize& size) {
-    const auto& [s, o] = std::pair(frame.spacing, frame.origin);
-    return {size, {s[0], s[1], s[2]}, {o[0], o[1], o[2]}, frame.direction};
 }
 
 ArrayOptions placed(const Frame& frame, ArrayOptions rest) {
@@ -131,6 +127,11 @@ private:
 
 }  // namespace
 
+Lattice lattice_of(const Frame& frame, const ArraySize& size) {
+    const auto& [s, o] = std::pair(frame.spacing, frame.origin);
+    return {size, {s[0], s[1], s[2]}, {o[0], o[1], o[2]}, frame.direction};
+}
+
 Source array_source(const py::array& array, const Frame& frame, const ArrayOptions& rest) {
     if (array.ndim() != 3)
         throw py::value_error(rest.name + ": " + std::to_string(array.ndim()) + " axes; give a volume [z, y, x]");
@@ -159,6 +160,13 @@ Source file_source(const std::vector<std::string>& paths, const OptionValues& op
     const Settings settings = settings_from(options, paths);
     const py::gil_scoped_release release;
     return {py::object(), open_sections({paths.begin(), paths.end()}, settings.volume)};
+}
+
+Source select(Source source, const OptionValues& options) {
+    const Selection selection = settings_from(options).volume.select;
+    const py::gil_scoped_release release;
+    source.reader = select_sections(std::move(source.reader), selection);
+    return source;
 }
 
 std::unique_ptr<SectionReader> keep_labels(SectionReader& reader, std::vector<InputLabel> kept, InputLabel other) {

@@ -30,6 +30,8 @@ struct Frame {
     std::array<double, 9> direction;
 };
 
+Lattice lattice_of(const Frame& frame, const ArraySize& size);
+
 /// A view of an array [z, y, x]. Throws TypeError for samples that are no integers in the byte order of the machine.
 Source array_source(const py::array& array, const Frame& frame, const ArrayOptions& rest);
 
@@ -43,6 +45,10 @@ struct SectionCalls {
 Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& rest);
 
 Source file_source(const std::vector<std::string>& paths, const OptionValues& options);
+
+/// The part of a source that the options roi, box, downsample and min-region choose. Sources of files are chosen from
+/// when they are opened.
+Source select(Source source, const OptionValues& options);
 
 /// The labels of a reader; those that are not kept become `other`.
 std::unique_ptr<SectionReader> keep_labels(SectionReader& reader, std::vector<InputLabel> kept, InputLabel other);

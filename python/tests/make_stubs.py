@@ -43,13 +43,14 @@ _OF_NAME = {
     "weld": "float | None", "orient": "bool", "boundary": 'Literal["cap", "open"]', "label": "int", "a": "int",
     "b": "int", "threads": "int", "other": "Mesh", "like": "Any", "shape": "Sequence[int] | None",
     "dtype": "npt.DTypeLike | None", "outside": "int", "per_region": "bool", "labels": "Any",
+    "keep_samples": "bool", "min_quality": "float", "units": 'Literal["m", "mm", "um", "nm"]',
 }  # fmt: skip
 _RETURNS = {
     "reconstruct": "Mesh", "load": "Mesh", "from_arrays": "Mesh", "region": "Surface", "interface": "Surface",
-    "simplify": "Mesh", "smooth": "Mesh", "check": "dict[str, Any]", "compare": "dict[str, Any]",
-    "voxelise": "npt.NDArray[Any]", "save": "None",
+    "simplify": "Mesh", "smooth": "Mesh", "improve": "Mesh", "check": "dict[str, Any]", "compare": "dict[str, Any]",
+    "voxelise": "npt.NDArray[Any]", "save": "list[str]",
     "points": "npt.NDArray[np.float64]", "faces": "npt.NDArray[np.uint32]", "labels": "npt.NDArray[Any]",
-    "node_types": "npt.NDArray[np.uint8]", "exterior_label": "int", "background": "list[int]",
+    "node_types": "npt.NDArray[np.uint8]", "exterior_label": "int", "background": "list[int]", "space": "str | None",
     "names": "dict[int, str]", "bounds": "npt.NDArray[np.float64]", "lines": "npt.NDArray[np.uint32]",
     "quadruple_points": "npt.NDArray[np.int64]", "report": "dict[str, Any]", "violations": "list[dict[str, Any]]",
     "certified": "bool", "regions": "dict[str, npt.NDArray[Any]]", "interfaces": "dict[str, npt.NDArray[Any]]",
@@ -59,6 +60,8 @@ _COMMANDS = {"reconstruct": "reconstruct", "simplify": "decimate", "smooth": "sm
 
 def _type_of(name, parameter, options):
     row = options.get(name)
+    if parameter.default == "file":
+        return 'int | Iterable[int] | Literal["file"] | None'
     if row is None or name in ("spacing", "background", "smooth"):
         return _OF_NAME[name]
     if row["words"]:

@@ -1,6 +1,7 @@
 """What a mesh knows and what can be done with it."""
 
 import copy
+import os
 import pickle
 
 import numpy as np
@@ -130,10 +131,16 @@ def test_simplify_makes_a_new_mesh(filled):
 
 def test_simplify_is_that_of_the_program(filled, tmp_path):
     filled.save(tmp_path / "a.vtp")
-    direct = filled.simplify(target_faces=600)
+    direct = filled.simplify(target_faces=600, keep_samples=False)
     loaded = regionmesh.load(tmp_path / "a.vtp", background=None).simplify(target_faces=600)
     np.testing.assert_array_equal(direct.points, loaded.points)
     np.testing.assert_array_equal(direct.faces, loaded.faces)
+
+
+def test_simplify_can_improve_faces_without_a_target(filled):
+    better = filled.simplify(improve=True)
+    before, after = better.report["improved"]["before"], better.report["improved"]["after"]
+    assert better.certified and after["mean_quality"] > before["mean_quality"]
 
 
 @pytest.mark.parametrize("options", [{"target_faces": 10}, {"max_error": 0.2}, {"reduce": "99%"}])
@@ -148,6 +155,35 @@ def test_simplify_needs_a_target(filled):
         filled.simplify()
     with pytest.raises(TypeError, match="simplify.*memory"):
         filled.simplify(memory=5)
+
+
+def test_simplify_and_improve_keep_samples(grains):
+    mesh = regionmesh.reconstruct(grains, background=None)
+    for changed in (mesh.simplify(reduce=0.95), mesh.improve()):
+        assert changed.certified
+        assert not np.array_equal(changed.points, mesh.points)
+        assert changed.check(grains)["samples_wrong"] == 0
+    without = mesh.simplify(reduce=0.95, keep_samples=False)
+    assert without.report["verdicts"]["samples"] == 0
+    assert mesh.simplify(reduce=0.95).report["verdicts"]["samples"] > 0
+
+
+def test_samples_of_turned_lattices_are_not_known(grains):
+    turn = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+    mesh = regionmesh.reconstruct(grains, background=None, direction=turn)
+    assert mesh.simplify(reduce=0.9).report["verdicts"]["samples"] == 0
+
+
+def test_improve_raises_quality(grains):
+    mesh = regionmesh.reconstruct(grains, background=None, reduce=0.8)
+    better = mesh.improve()
+    assert better.certified
+    assert better.report["quality"]["mean"] > mesh.report["quality"]["mean"]
+    assert better.report["improved"]["after"]["faces_below"] <= better.report["improved"]["before"]["faces_below"]
+    both = mesh.simplify(reduce=0.3, improve=True)
+    assert len(both) < len(mesh) and "improved" in both.report
+    with pytest.raises(ValueError, match="min-quality"):
+        mesh.improve(min_quality=5)
 
 
 def test_simplify_reports_progress(filled):
@@ -235,6 +271,43 @@ def test_voxelise_refuses_a_type_that_is_too_small(two_boxes):
         made.voxelise(dtype=np.uint8)
     with pytest.raises(ValueError, match="no lattice"):
         regionmesh.from_arrays(made.points, made.faces, made.labels).voxelise()
+
+
+def test_a_file_says_which_labels_are_background(filled, tmp_path):
+    filled.save(tmp_path / "none.vtp")
+    assert regionmesh.load(tmp_path / "none.vtp").background == []
+    labels = np.full((8, 8, 8), 9, np.uint8)
+    labels[2:6, 2:6, 2:6] = 4
+    made = regionmesh.reconstruct(labels, background=9)
+    for name in ("nine.vtp", "nine.ply", "nine.obj"):
+        made.save(tmp_path / name)
+        again = regionmesh.load(tmp_path / name)
+        assert again.background == [9] and list(again.regions["label"]) == [4]
+        assert list(regionmesh.load(tmp_path / name, background=None).regions["label"]) == [4, 9]
+
+
+def test_the_space_of_a_volume_goes_into_the_files_of_its_model(two_boxes, tmp_path):
+    header = {"type": "uint8", "dimension": 3, "space": "left-posterior-superior", "sizes": "10 12 14"}
+    lines = [f"{key}: {value}" for key, value in header.items()]
+    lines += ["space directions: (1,0,0) (0,1,0) (0,0,1)", "space origin: (0,0,0)", "encoding: raw"]
+    (tmp_path / "v.nrrd").write_bytes(("NRRD0005\n" + "\n".join(lines) + "\n\n").encode() + two_boxes.tobytes())
+    made = regionmesh.reconstruct(tmp_path / "v.nrrd")
+    assert made.space == "LPS" and regionmesh.reconstruct(two_boxes).space is None
+    for again in (pickle.loads(pickle.dumps(made)), made.smooth(), made.simplify(reduce=0.2)):
+        again.save(tmp_path / "m.ply")
+        assert b"SPACE=LPS" in (tmp_path / "m.ply").read_bytes()
+        assert regionmesh.load(tmp_path / "m.ply").space == "LPS"
+
+
+def test_save_returns_the_files_and_scales_to_metres(two_boxes, tmp_path):
+    made = regionmesh.reconstruct(two_boxes, names={1: "left lung"})
+    files = made.save(tmp_path / "m.stl", per_region=True)
+    assert files == [str(tmp_path / "m-left_lung.stl"), str(tmp_path / "m-2.stl")]
+    assert all(os.path.getsize(file) > 0 for file in files)
+    assert made.save(tmp_path / "m.glb", units="mm") == [str(tmp_path / "m.glb")]
+    assert b'"scale":[0.001,0.001,0.001]' in (tmp_path / "m.glb").read_bytes()
+    with pytest.raises(ValueError, match="--units"):
+        made.save(tmp_path / "m.glb", units="furlong")
 
 
 def test_arrays_in_and_out(filled):

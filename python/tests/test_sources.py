@@ -409,3 +409,31 @@ def test_place_in_space_is_that_of_the_file(tmp_path, two_boxes, option):
 def test_options_of_files_do_not_apply_to_arrays(two_boxes, option):
     with pytest.raises(TypeError, match=f"{option} applies to files"):
         regionmesh.reconstruct(two_boxes, **{option: 1})
+
+
+@pytest.mark.parametrize(
+    "options, same",
+    [
+        ({"roi": "2:9,:,3:"}, lambda v: v[3:, :, 2:9]),
+        ({"box": "0:6,:,:"}, lambda v: v[:, :, :7]),
+        ({"downsample": "1,1,2"}, lambda v: np.stack([np.maximum(a, b) for a, b in zip(v[::2], v[1::2])])),
+    ],
+)
+def test_arrays_and_sections_are_chosen_from_as_files_are(two_boxes, tmp_path, options, same):
+    np.save(tmp_path / "v.npy", two_boxes)
+    direct = regionmesh.reconstruct(two_boxes, **options)
+    for labels in (tmp_path / "v.npy", list(two_boxes), (section for section in two_boxes)):
+        other = regionmesh.reconstruct(labels, **options)
+        np.testing.assert_array_equal(direct.points, other.points)
+    part = same(two_boxes)
+    assert direct.report["regions"] and len(direct.faces) == len(regionmesh.reconstruct(part).faces)
+    np.testing.assert_array_equal(direct.voxelise(), part)
+
+
+def test_small_regions_are_given_away(two_boxes):
+    labels = two_boxes.copy()
+    labels[12, 10, 8] = 9
+    assert 9 in regionmesh.reconstruct(labels).regions["label"]
+    assert 9 not in regionmesh.reconstruct(labels, min_region=2).regions["label"]
+    with pytest.raises(ValueError, match="min-region"):
+        regionmesh.reconstruct((section for section in labels), sections=len(labels), min_region=2)

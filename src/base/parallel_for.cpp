@@ -1,13 +1,10 @@
 #include "base/parallel_for.h"
 
 #include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
 
 #include "base/stop.h"
+#include "base/task_arenas.h"
 #include "base/task_order.h"
 
 namespace regionmesh {
@@ -21,12 +18,9 @@ void parallel_for(std::uint32_t count, std::uint32_t threads, const std::functio
         }
         return;
     }
-    // More threads than cores are no faster, and oneTBB prints a warning about them.
-    const auto cores = static_cast<std::uint32_t>(oneapi::tbb::info::default_concurrency());
-    oneapi::tbb::task_arena arena(static_cast<int>(threads == 0 ? cores : std::min(threads, cores)));
     TaskOrder begun, ended;
     begun.happened();
-    arena.execute([&] {
+    arena_of(threads).execute([&] {
         oneapi::tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t n) {
             begun.comes_first();
             throw_if(stop);

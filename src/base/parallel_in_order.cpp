@@ -1,13 +1,12 @@
 #include "base/parallel_in_order.h"
 
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "base/stop.h"
+#include "base/task_arenas.h"
 #include "base/task_order.h"
 
 namespace regionmesh {
@@ -53,9 +52,7 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
         finished.happened();
         places[n % in_flight].happened();
     });
-    const auto cores = static_cast<std::uint32_t>(tbb::info::default_concurrency());
-    tbb::task_arena arena(static_cast<int>(threads == 0 ? cores : std::min(threads, cores)));
-    arena.execute([&] { tbb::parallel_pipeline(in_flight, begin & work & finish); });
+    arena_of(threads).execute([&] { tbb::parallel_pipeline(in_flight, begin & work & finish); });
     finished.comes_first();
 }
 

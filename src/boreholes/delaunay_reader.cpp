@@ -15,7 +15,6 @@ namespace {
 using Magic = std::array<char, 8>;
 constexpr Magic kPointsMagic{'R', 'M', 'P', 'O', 'I', 'N', 'T', '1'};
 constexpr Magic kTetrahedraMagic{'R', 'M', 'T', 'E', 'T', 'R', 'A', '1'};
-constexpr HelperProgram kDelaunay{.name = "regionmesh-delaunay", .variable = "REGIONMESH_DELAUNAY"};
 constexpr std::size_t kPiece = 4096;  // tetrahedra read at a time
 
 struct Header {
@@ -144,7 +143,7 @@ std::unique_ptr<TetrahedronReader> open_points(PointTable table, const Tetrahedr
     if (count < 4)
         throw Error(ErrorCode::kInput, table.info.source + ": " + std::to_string(count) +
                                            (count == 1 ? " point" : " points") + "; tetrahedra need at least four");
-    return std::make_unique<DelaunayReader>(std::move(table), find_program(kDelaunay, options.delaunay));
+    return std::make_unique<DelaunayReader>(std::move(table), find_program(kDelaunayProgram, options.delaunay));
 }
 
 std::unique_ptr<TetrahedronReader> open_table(const std::filesystem::path& path, const TetrahedraOptions& options) {

@@ -45,7 +45,7 @@ void require_memory(const TetrahedronReader& reader, std::uint64_t points, doubl
     const double meshing = kMeshingBytesPerPoint * count + kActiveBytes * across;
     const auto needed = kLeastBytes + static_cast<std::uint64_t>(std::max(kRankingBytesPerPoint * count, meshing));
     if (needed <= memory) return;
-    throw Error(ErrorCode::kInput, "--memory " + megabytes(memory) + ": " + reader.info().source + " needs at least " +
+    throw Error(ErrorCode::kInput, memory_limit_text(memory) + ": " + reader.info().source + " needs at least " +
                                        megabytes(needed) + " for its " + std::to_string(points) +
                                        " points; raise --memory to that");
 }

@@ -65,4 +65,12 @@ fs::path find_program(const HelperProgram& program, const fs::path& given) {
                                        ", in the install prefix or on PATH; set " + program.variable);
 }
 
+std::vector<fs::path> places_of_program(const HelperProgram& program, const fs::path& given) {
+    const char* variable = std::getenv(program.variable);
+    std::vector<fs::path> places{given, variable == nullptr ? "" : variable};
+    for (const fs::path& folder : folders_to_search(folder_of_this_program())) places.push_back(folder / program.name);
+    std::erase_if(places, [](const fs::path& place) { return !is_program(place); });
+    return places;
+}
+
 }  // namespace regionmesh::formats

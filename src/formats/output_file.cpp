@@ -85,8 +85,7 @@ void OutputFile::open_temporary(mode_t mode) {
     int file = -1;
     for (int attempt = 0; file < 0 && attempt < kMostTemporaries; ++attempt) {
         fs::path temporary = folder_of(target_) / formats::part_name(target_, attempt);
-        formats::note_part(this, temporary);
-        file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, mode);
+        file = formats::create_part(this, temporary, mode);
         if (file >= 0) temporary_ = std::move(temporary);  // allocates nothing: the file would be left behind
         if (file < 0 && errno != EEXIST) break;
     }

@@ -64,9 +64,10 @@ std::string part_name(const fs::path& target, int attempt) {
     return name;
 }
 
-void note_part(const OutputFile* output, const fs::path& part) {
+int create_part(const OutputFile* output, const fs::path& part, unsigned mode) {
     const std::lock_guard lock(parts().mutex);
     parts().paths[output] = fs::absolute(part);
+    return ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, static_cast<mode_t>(mode));
 }
 
 void forget_part(const OutputFile* output) noexcept {
@@ -98,6 +99,12 @@ void remove_outputs() noexcept {
     const std::unique_lock lock(formats::parts().mutex, std::try_to_lock);  // a commit in this thread may hold it
     if (!lock) return;
     for (const auto& [output, part] : formats::parts().paths) ::unlink(part.c_str());
+}
+
+void end_without_outputs(int exit_code) noexcept {
+    formats::parts().mutex.lock();  // for good: no file is made or renamed any more
+    for (const auto& [output, part] : formats::parts().paths) ::unlink(part.c_str());
+    ::_exit(exit_code);
 }
 
 void remove_outputs_on_signals() {

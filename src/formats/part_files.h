@@ -14,8 +14,9 @@ namespace formats {
 /// `.name.part-<pid>`, and `-<attempt>` from the second attempt on.
 std::string part_name(const std::filesystem::path& target, int attempt);
 
-/// The temporary file of one output of this process, until it is forgotten. Thread-safe.
-void note_part(const OutputFile* output, const std::filesystem::path& part);
+/// Creates the temporary file of one output of this process, which signals remove until it is forgotten. No signal ends
+/// the process in between. Returns a descriptor for writing, or -1 with errno. Thread-safe.
+int create_part(const OutputFile* output, const std::filesystem::path& part, unsigned mode);
 void forget_part(const OutputFile* output) noexcept;
 
 /// While it lives, no signal removes temporary files or ends the process.

@@ -8,6 +8,7 @@
 #include "formats/registry.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
+#include "volume/chosen_sections.h"
 
 namespace regionmesh {
 namespace {
@@ -50,17 +51,6 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
     if (format && format->open_sections) return format->open_sections(path, options);
     formats::fail(path, "unknown format '" + formats::extension(path) + "'; regionmesh reads " + volume_extensions() +
                             " and directories of .png or .tif sections");
-}
-
-std::unique_ptr<SectionReader> open_all(const std::vector<fs::path>& inputs, const ReadOptions& options) {
-    if (inputs.empty())
-        throw Error(ErrorCode::kInput, "no input: name a volume file, a directory or a list of sections");
-    if (inputs.size() == 1) return open_one(inputs.front(), options);
-    if (options.raw_size || options.raw_type) {
-        formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
-                                          " are given; give one");
-    }
-    return formats::open_image_list(inputs, options);
 }
 
 }  // namespace
@@ -113,7 +103,7 @@ std::unique_ptr<SectionReader> open_sections(const std::vector<fs::path>& inputs
     auto reader = open_inputs(inputs, options);
     require_lattice(reader->info().source, reader->info().lattice);
     require_work(*reader, options.max_work);
-    return select_sections(std::move(reader), selection);
+    return select_sections(turn_sections(std::move(reader), options.space), selection);
 }
 
 }  // namespace regionmesh

@@ -45,6 +45,10 @@ constexpr auto write_one_in_part() {
         return nullptr;
 }
 
+void write_in_metres(const FileView& view, const WriteOptions& options, OutputFiles& files, const Path& path) {
+    write_glb(view, options.metres, files.add(path));
+}
+
 void write_two(const FileView& view, const WriteOptions&, OutputFiles& files, const Path& path) {
     write_msh(view, files, path);
 }
@@ -147,7 +151,7 @@ constexpr Format kFormats[] = {
      .write_surface = write_one<write_poly>,
      .needs_closed_regions = true},
     {.name = "Abaqus", .extensions = {".inp"}, .write_surface = write_one<write_inp>},
-    {.name = "glTF", .extensions = {".glb"}, .write_surface = write_one<write_glb>},
+    {.name = "glTF", .extensions = {".glb"}, .write_surface = write_in_metres},
     {.name = "DREAM.3D",
      .extensions = {".dream3d"},
      .part = kHdf5,

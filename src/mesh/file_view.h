@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
 
 namespace regionmesh {
@@ -30,6 +32,10 @@ public:
     const LabelTable& labels() const { return labels_; }
     const LabelNames& names() const { return names_; }
     InputLabel exterior_label() const { return exterior_label_; }
+    Space space() const { return space_; }
+    void set_space(Space space) { space_ = space; }
+    /// The labels of background, if there is something to say: readers take 0 for background otherwise.
+    std::optional<std::vector<InputLabel>> background_labels() const;
     FileFace face(FaceId f) const;
     /// Do files have the labels of the face, and hence its vertices, in the opposite order?
     bool is_turned(FaceId f) const { return rank(mesh_[f].labels[0]) > rank(mesh_[f].labels[1]); }
@@ -70,6 +76,7 @@ private:
     const LabelTable& labels_;
     const LabelNames& names_;
     InputLabel exterior_label_;
+    Space space_ = Space::kUnknown;
     std::uint32_t region_ranks_ = 0;      // ranks from here on are background or exterior
     std::vector<std::uint32_t> ranks_;    // by dense label: place in the order of files
     std::vector<std::uint32_t> numbers_;  // by vertex id: number in the file; empty if ids are the numbers

@@ -25,6 +25,10 @@ constexpr std::string_view kConventions = R"(```
 - *Length* is the unit of the spacing of a volume, or of the points of a surface.
 - A share is `90%` or `0.9`. A size in bytes has the unit B, kB, MB, GB, KiB, MiB, GiB, or none.
 - An option is given once; one marked with "..." takes several values, and may be repeated.
+- `--config run.toml` reads options from a file, such as `reduce = "90%"`, `background = [0, 7]`, `quiet = true` and
+  `input = ["scan.nii.gz"]`; a table `[reconstruct]` holds those of that command. `--config report.json` takes the options of
+  the run that wrote the report. Options on the command line replace those of the file. Paths are relative to the current
+  folder.
 - The result depends on the input and the options only, not on the number of threads.
 )";
 
@@ -72,6 +76,7 @@ std::string row_text(const OptionSpec& option) {
 }  // namespace
 
 std::string value_name(const OptionSpec& option) {
+    if (!option.value.empty()) return std::string(option.value);
     switch (option.kind) {
         case OptionKind::kFlag:
             return "";
@@ -104,9 +109,9 @@ std::string command_line_page() {
     std::string page(kHead);
     for (const CommandSpec& command : command_table()) page += usage(command) + '\n';
     page += kConventions;
-    page += "\n## Commands\n\n| command | purpose |\n|---|---|\n";
+    page += "\n## Commands\n\n| command | purpose | example |\n|---|---|---|\n";
     for (const CommandSpec& command : command_table())
-        page += fmt::format("| `{}` | {} |\n", command.name, command.help);
+        page += fmt::format("| `{}` | {} | `{}` |\n", command.name, command.help, command.example);
     std::string_view group;
     for (const OptionSpec& option : option_table()) {
         if (option.group != group)

@@ -98,13 +98,21 @@ bool is_in_place(const NamedFile& written, const NamedFile& read) {
            fs::path(written.path).extension() == fs::path(read.path).extension();
 }
 
-/// Whether `path` is a file that --per-region may write: MODEL-LABEL.EXTENSION.
+/// Whether --per-region may give a region of this name, or this label, to a file. The regions are not known yet.
+bool is_region(std::string text) {
+    const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    const auto is_of_word = [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); };
+    if (text.empty()) return false;
+    if (std::isalpha(static_cast<unsigned char>(text[0]))) return std::ranges::all_of(text, is_of_word);
+    if (text.starts_with('-')) text.erase(0, 1);
+    return !text.empty() && std::ranges::all_of(text, is_digit);
+}
+
+/// Whether `path` is a file that --per-region may write: MODEL-NAME.EXTENSION or MODEL-LABEL.EXTENSION.
 bool is_region_file(const fs::path& path, const fs::path& model) {
     const std::string name = path.stem().string(), start = model.stem().string() + '-';
     if (path.extension() != model.extension() || !name.starts_with(start)) return false;
-    std::string label = name.substr(start.size());
-    if (label.starts_with('-')) label.erase(0, 1);
-    if (label.empty() || !std::ranges::all_of(label, [](unsigned char c) { return std::isdigit(c); })) return false;
+    if (!is_region(name.substr(start.size()))) return false;
     const auto parent = [](const fs::path& file) {
         return file.has_parent_path() ? file.parent_path() : fs::path(".");
     };

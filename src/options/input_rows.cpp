@@ -12,6 +12,7 @@ namespace regionmesh {
 namespace {
 
 constexpr Range kLayers{0, 0x7FFFFFFF}, kPositive{.low = 0, .is_low_included = false};
+constexpr std::uint64_t kMostBackgroundLabels = 65535;
 
 void choose_sweep(Settings& settings, std::size_t word) {
     constexpr SweepChoice kChoices[] = {SweepChoice::kAuto, SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
@@ -30,7 +31,13 @@ void add_background(Settings& settings, const std::string& flag, const std::stri
     std::vector<InputLabel>& background = settings.reconstruct.background;
     const bool is_first = std::ranges::none_of(settings.given, [](const auto& v) { return v.first == "background"; });
     if (is_first) background.clear();  // the default
-    background.push_back(parse_label(flag, text));
+    for (const LabelRange& range : parse_label_ranges(flag, text)) {
+        const auto more = static_cast<std::uint64_t>(range.last) - static_cast<std::uint64_t>(range.first);
+        if (more > kMostBackgroundLabels)
+            refuse_value(flag, text, "a range of at most 65,536 labels, from low to high");
+        for (std::uint64_t n = 0; n <= more; ++n)
+            background.push_back(static_cast<InputLabel>(static_cast<std::uint64_t>(range.first) + n));
+    }
     settings.volume.select.rest = background.front();
 }
 
@@ -45,6 +52,7 @@ Rows selection_rows() {
              .group = kGroup,
              .commands = kLatticeCommands,
              .unit = "samples",
+             .value = "X,Y,Z",
              .inputs = kVolumeInput},
             OptionKind::kText,
             [](Settings& s, const std::string& flag, const std::string& text) {
@@ -55,6 +63,7 @@ Rows selection_rows() {
                         .group = kGroup,
                         .commands = kLatticeCommands,
                         .unit = "length",
+                        .value = "X,Y,Z",
                         .inputs = kVolumeInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
@@ -71,6 +80,7 @@ Rows selection_rows() {
                         .help = "volumes: labels to keep, as 1,5-9; samples with another label become background",
                         .group = kGroup,
                         .commands = kVolumeCommands,
+                        .value = "LABELS",
                         .inputs = kVolumeInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
@@ -82,6 +92,7 @@ Rows selection_rows() {
              .group = kGroup,
              .commands = kLatticeCommands,
              .unit = "samples",
+             .value = "N|X,Y,Z",
              .inputs = kVolumeInput},
             OptionKind::kText,
             [](Settings& s, const std::string& flag, const std::string& text) {
@@ -203,6 +214,7 @@ Rows volume_rows() {
                         .help = "raw files: type of a sample, little endian: int8, uint8, ... int64, uint64",
                         .group = kGroup,
                         .commands = kFileCommands,
+                        .value = "TYPE",
                         .inputs = kVolumeInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
@@ -221,6 +233,7 @@ Rows tetrahedra_rows() {
                 .help = "tables: which columns are which, as X,Y,Z,LABEL or hole=nr,label=lith ...",
                 .group = kGroup,
                 .commands = kVolumeCommands,
+                .value = "COLUMNS",
                 .inputs = kTableInput},
                [](Settings& s) { return &s.tetrahedra.columns; }),
         option(
@@ -231,17 +244,21 @@ Rows tetrahedra_rows() {
              .unit = "length",
              .inputs = kTableInput},
             [](Settings& s) { return &s.tetrahedra.step; }, kPositive),
-        option(
-            {.name = "scale-z",
-             .help = "compute with z times this factor, rounded to a power of two; the model is not scaled",
-             .group = kGroup,
-             .commands = kVolumeCommands,
-             .inputs = kTableInput | kMeshInput},
-            [](Settings& s) { return &s.tetrahedra.scale_z; }, kPositive),
+        special_option({.name = "scale-z",
+                        .help = "compute with z times this factor, rounded to a power of two; the model is not scaled",
+                        .group = kGroup,
+                        .commands = kVolumeCommands,
+                        .range = kPositive.text(),
+                        .default_text = "1"},
+                       OptionKind::kNumber,
+                       [](Settings& s, const std::string& flag, const std::string& text) {
+                           s.reconstruct.scale_z = s.tetrahedra.scale_z = parse_number(flag, text, kPositive);
+                       }),
         option({.name = "array",
                 .help = "meshes: name of the array of labels",
                 .group = kGroup,
                 .commands = kVolumeCommands,
+                .value = "NAME",
                 .inputs = kMeshInput},
                [](Settings& s) { return &s.tetrahedra.array; }),
         option({.name = "hull",
@@ -261,9 +278,10 @@ Rows label_rows() {
     const std::string background = labels_text(defaults.reconstruct.background);
     return {
         special_option({.name = "background",
-                        .help = "label of empty space, whose faces with the exterior are not made",
+                        .help = "labels of empty space, as 0 or 0,5-9; their faces with the exterior are not made",
                         .group = kGroup,
                         .commands = kBoxed | kConvert | kCompare | kVoxelise | kView,
+                        .value = "LABELS",
                         .repeats = true,
                         .default_text = background},
                        OptionKind::kLabel, add_background),

@@ -21,15 +21,22 @@ Rows all_rows() {
 const std::vector<CommandSpec>& command_table() {
     static const std::vector<CommandSpec> commands{
         {kReconstruct, "reconstruct",
-         "make a conforming, simplified, checked surface model of sections, points or tetrahedra"},
-        {kDecimate, "decimate", "reduce the faces of a labelled surface"},
-        {kSmooth, "smooth", "smooth a labelled surface"},
-        {kCheck, "check", "look for cracks, folds, crossing faces and changes of topology"},
-        {kConvert, "convert", "write a labelled surface in another format"},
-        {kCompare, "compare", "measure the distances between two models, and by region, interface and line"},
-        {kInfo, "info", "print size, type, spacing and labels of an input, and the memory that a model needs"},
-        {kVoxelise, "voxelise", "write the label of each sample of a lattice: the inverse of reconstruct"},
-        {kView, "view", "write a page that shows a labelled surface in a browser"},
+         "make a conforming, simplified, checked surface model of sections, points or tetrahedra",
+         "regionmesh reconstruct scan.nii.gz -o model.vtp --reduce 90% --report report.json"},
+        {kDecimate, "decimate", "reduce the faces of a labelled surface",
+         "regionmesh decimate model.vtp -o small.vtp --target-faces 50000"},
+        {kSmooth, "smooth", "smooth a labelled surface", "regionmesh smooth model.vtp -o smooth.vtp --smooth 100"},
+        {kCheck, "check", "look for cracks, folds, crossing faces and changes of topology",
+         "regionmesh check model.vtp --sections scan.nii.gz"},
+        {kConvert, "convert", "write a labelled surface in another format", "regionmesh convert model.vtp model.glb"},
+        {kCompare, "compare", "measure the distances between two models, and by region, interface and line",
+         "regionmesh compare full.vtp model.vtp"},
+        {kInfo, "info", "print size, type, spacing and labels of an input, and the memory that a model needs",
+         "regionmesh info scan.nii.gz"},
+        {kVoxelise, "voxelise", "write the label of each sample of a lattice: the inverse of reconstruct",
+         "regionmesh voxelise model.vtp --like scan.nii.gz -o labels.nii.gz"},
+        {kView, "view", "write a page that shows a labelled surface in a browser",
+         "regionmesh view model.vtp -o model.html"},
     };
     return commands;
 }

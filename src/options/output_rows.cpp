@@ -25,7 +25,7 @@ std::string_view written_help() {
 
 Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
-    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare;
+    constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare | kInfo;
     return {
         file_option({.name = "output",
                      .help = output_help(),
@@ -41,10 +41,35 @@ Rows output_rows() {
                      .commands = kWriters | kConvert | kView},
                     [](Settings& s) { return &s.names; }),
         option({.name = "per-region",
-                .help = "one file for each region, MODEL-LABEL: .stl, .obj and .ply",
+                .help = "one file for each region, MODEL-NAME or MODEL-LABEL: .stl, .obj and .ply",
                 .group = kGroup,
                 .commands = kWriters | kConvert},
                [](Settings& s) { return &s.per_region; }),
+        word_option(
+            {.name = "space",
+             .help = "space of the model: keep that of the input, or turn it so that x and y point as in ras or lps",
+             .group = kGroup,
+             .commands = kWriters | kConvert},
+            {"keep", "ras", "lps"},
+            [](Settings& s, std::size_t word) {
+                constexpr Space kSpaces[] = {Space::kUnknown, Space::kRas, Space::kLps};
+                s.volume.space = s.surface.space = kSpaces[word];
+            }),
+        word_option({.name = "units",
+                     .help = "unit of length of the input; .glb files are in metres and are scaled",
+                     .group = kGroup,
+                     .commands = kWriters | kConvert},
+                    {"m", "mm", "um", "nm"},
+                    [](Settings& s, std::size_t word) {
+                        constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
+                        s.metres = kMetres[word];
+                    }),
+        file_option({.name = "regions",
+                     .help = "CSV table to write: volume, area, centroid, box and neighbours of each region",
+                     .group = kGroup,
+                     .commands = kWriters | kConvert | kCheck,
+                     .is_output = true},
+                    [](Settings& s) { return &s.regions; }),
         file_option({.name = "report",
                      .help = "JSON report to write",
                      .group = kGroup,
@@ -63,13 +88,16 @@ Rows output_rows() {
         file_option({.name = "json",
                      .help = "JSON file to write with all findings",
                      .group = kGroup,
-                     .commands = kCheck | kCompare,
+                     .commands = kCheck | kCompare | kInfo,
                      .is_output = true},
                     [](Settings& s) { return &s.json; }),
+        option({.name = "all", .help = "list all labels, not the first 20", .group = kGroup, .commands = kInfo},
+               [](Settings& s) { return &s.list_all; }),
         file_option({.name = "html",
                      .help = "page to write that shows the model and the report in a browser",
                      .group = kGroup,
-                     .commands = kReconstruct | kDecimate | kCheck | kCompare},
+                     .commands = kReconstruct | kDecimate | kCheck | kCompare,
+                     .is_output = true},
                     [](Settings& s) { return &s.html; }),
         option(
             {.name = "preview-faces",
@@ -85,6 +113,12 @@ Rows run_rows() {
     constexpr std::string_view kGroup = "Run";
     const Settings defaults;  // not made in the braced list: input_rows.cpp says why
     return {
+        file_option({.name = "config",
+                     .help = "options in a file: name = value lines (.toml), or the report of an earlier run (.json). "
+                             "Those on the command line come first",
+                     .group = kGroup,
+                     .commands = kEveryCommand},
+                    [](Settings& s) { return &s.config; }),
         special_option(
             {.name = "memory",
              .help = "memory that the process may use, such as 500MiB; too little is refused before the work starts",
@@ -97,6 +131,14 @@ Rows run_rows() {
             [](Settings& s, const std::string& flag, const std::string& text) {
                 s.reconstruct.memory = parse_bytes(flag, text);
             }),
+        word_option(
+            {.name = "memory-limit",
+             .help = "what --memory is: plan, the work is laid out for it and may exceed it where faces left by "
+                     "topology or --max-error are not known before; hard, the run ends with exit code 1 and no output "
+                     "rather than exceed it",
+             .group = kGroup,
+             .commands = kReconstruct},
+            {"plan", "hard"}, [](Settings& s, std::size_t word) { s.memory_is_hard = word == 1; }),
         option({.name = "face-budget",
                 .help = "largest number of faces in memory at a time; derived from --memory if not given",
                 .group = kGroup,
@@ -109,11 +151,34 @@ Rows run_rows() {
              .group = kGroup,
              .commands = kDecimators | kSmooth | kCheck | kCompare | kView},
             [](Settings& s) { return &s.reconstruct.threads; }, kAnyThreads),
+        inverted_flag(
+            {.name = "no-sandbox",
+             .help = "let the program do all that you may do; otherwise it writes in the folders of its outputs alone, "
+                     "makes no network connections and starts no programs but its own, where the kernel can enforce it",
+             .group = kGroup,
+             .commands = kAllCommands},
+            [](Settings& s) { return &s.sandbox; }),
+        option({.name = "require-sandbox",
+                .help = "end with exit code 1 where the kernel cannot enforce that",
+                .group = kGroup,
+                .commands = kAllCommands},
+               [](Settings& s) { return &s.needs_sandbox; }),
         option({.name = "quiet",
                 .help = "print nothing but errors, and why a target was missed",
                 .group = kGroup,
                 .commands = kWriters | kCheck | kConvert | kCompare | kVoxelise | kView},
                [](Settings& s) { return &s.quiet; }),
+        option({.name = "verbose",
+                .help = "print more: what smoothing did, why edges stayed, seconds by stage",
+                .group = kGroup,
+                .commands = kReconstruct},
+               [](Settings& s) { return &s.verbose; }),
+        file_option({.name = "log",
+                     .help = "text file to write during the run: the command, the stages and all messages, with times",
+                     .group = kGroup,
+                     .commands = kWriters,
+                     .is_output = true},
+                    [](Settings& s) { return &s.log; }),
     };
 }
 

@@ -12,6 +12,45 @@ const char* kind_text(InputKind kind) {
     return kind == kVolumeInput ? "a volume of samples" : kind == kTableInput ? "a table of points" : "a mesh";
 }
 
+/// The text of an option that was given; null where it was not, and for flags that are off.
+const std::string* given(const Settings& settings, std::string_view name) {
+    for (const auto& [other, text] : settings.given)
+        if (other == name && !(find_option(name)->kind == OptionKind::kFlag && text == "false")) return &text;
+    return nullptr;
+}
+
+[[noreturn]] void refuse_both(std::string_view a, std::string_view b, std::string_view why) {
+    throw Error(ErrorCode::kUsage, fmt::format("--{} and --{}: {}; give one of them", a, b, why));
+}
+
+/// Options that cannot both be followed.
+struct Contradiction {
+    std::string_view a, b, why;
+};
+constexpr std::string_view kNoDecimation = "nothing is decimated, so there is no target to reach";
+constexpr Contradiction kContradictions[] = {
+    {"reduce", "target-faces", "both say how many faces are left"},
+    {"no-decimate", "reduce", kNoDecimation},
+    {"no-decimate", "target-faces", kNoDecimation},
+    {"no-decimate", "max-error", kNoDecimation},
+    {"no-background", "background", "either there is a background or there is none"},
+    {"no-sandbox", "require-sandbox", "one gives up what the other insists on"},
+    {"quiet", "verbose", "one prints less, the other more"},
+};
+
+void require_consistent_smoothing(const Settings& settings) {
+    const std::string *const filter = given(settings, "smooth-filter"), *const much = given(settings, "smooth");
+    const bool is_off = much && (*much == "off" || *much == "0"), has_no_filter = filter && *filter == "none";
+    if (has_no_filter && much && !is_off)
+        refuse_both("smooth-filter none", "smooth " + *much, "one smooths, the other does not");
+    if (!is_off && !has_no_filter) return;
+    const std::string off = is_off ? "smooth " + *much : "smooth-filter none";
+    if (is_off && filter && !has_no_filter && *filter != "auto")
+        refuse_both(off, "smooth-filter " + *filter, "one smooths, the other does not");
+    for (const char* name : {"smooth-lambda", "smooth-points"})
+        if (given(settings, name)) refuse_both(off, name, "nothing is smoothed");
+}
+
 }  // namespace
 
 InputKind kind_of_input(const std::vector<std::string>& inputs) {
@@ -35,12 +74,16 @@ void require_fit(const Settings& settings, const std::vector<std::string>& input
 }
 
 void require_consistent(const Settings& settings) {
+    for (const Contradiction& pair : kContradictions)
+        if (given(settings, pair.a) && given(settings, pair.b)) refuse_both(pair.a, pair.b, pair.why);
+    require_consistent_smoothing(settings);
     if (!settings.volume.select.labels.empty() && settings.reconstruct.background.empty())
         throw Error(ErrorCode::kUsage,
                     "--labels: the other labels become background, and --no-background has none; leave out one");
     if (settings.reconstruct.cap) return;
     if (settings.hull)
-        throw Error(ErrorCode::kUsage, "--hull closes the regions that --boundary open leaves open: give one");
+        throw Error(ErrorCode::kUsage,
+                    "--hull and --boundary open: one closes the regions that the other leaves open; give one of them");
     if (settings.reconstruct.preserve_volume)
         throw Error(ErrorCode::kUsage, "--preserve-volume: open regions have no volume; leave out --boundary open");
 }

@@ -62,13 +62,14 @@ Rows decimation_rows() {
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            s.reconstruct.reduce = parse_share(flag, text);
                        }),
-        option({.name = "max-error",
-                .help = "no point of the model is farther than this from the surface before decimation, nor the other way "
-                        "round",
-                .group = kGroup,
-                .commands = kDecimators,
-                .unit = "length"},
-               [](Settings& s) { return &s.reconstruct.max_error; }),
+        option(
+            {.name = "max-error",
+             .help = "no point of the model is farther than this from the surface before decimation, nor the other way "
+                     "round",
+             .group = kGroup,
+             .commands = kDecimators,
+             .unit = "length"},
+            [](Settings& s) { return &s.reconstruct.max_error; }),
         option({.name = "perturbation",
                 .help = "largest cost added to rank edges of equal cost, relative to spacing^4",
                 .group = kGroup,
@@ -81,10 +82,7 @@ Rows decimation_rows() {
                      .commands = kDecimators},
                     {kPlacementNames.begin(), kPlacementNames.end()},
                     [](Settings& s, std::size_t word) { s.reconstruct.placement = static_cast<PlacementKind>(word); }),
-        inverted_flag({.name = "no-decimate",
-                       .help = "do not decimate, whatever the targets",
-                       .group = kGroup,
-                       .commands = kReconstruct},
+        inverted_flag({.name = "no-decimate", .help = "do not decimate", .group = kGroup, .commands = kReconstruct},
                       [](Settings& s) { return &s.reconstruct.decimate; }),
     };
 }
@@ -96,6 +94,7 @@ Rows smoothing_rows() {
                         .help = "how much: off, light, normal, strong, or a number of passes; 0: none",
                         .group = kGroup,
                         .commands = kSmoothers,
+                        .value = "WORD|PASSES",
                         .default_text = "normal"},
                        OptionKind::kText, choose_strength),
         word_option(

@@ -68,14 +68,15 @@ public:
             if (is_at_target()) break;
             result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
             result_.bytes = std::max(result_.bytes, tree_.bytes() + candidates_.bytes() + placement_->bytes());
-            const std::uint64_t before = accepted();
+            const std::uint64_t before = accepted(), over_error = count(Verdict::kError);
             while (!candidates_.empty() && !is_at_target()) {
                 step();
                 pack();
             }
             if (is_at_target()) break;
             if (accepted() == before || !is_refreshing_) {
-                result_.stopped = candidates_.has_edges_over_error() ? StopReason::kMaxError : StopReason::kTopology;
+                const bool is_error = candidates_.has_edges_over_error() || count(Verdict::kError) > over_error;
+                result_.stopped = is_error ? StopReason::kMaxError : StopReason::kTopology;
                 break;
             }
             ++result_.refreshes;
@@ -85,7 +86,8 @@ public:
 
 private:
     bool is_at_target() const { return mesh_.face_count() <= options_.target_faces; }
-    std::uint64_t accepted() const { return result_.verdicts[static_cast<int>(Verdict::kAccepted)]; }
+    std::uint64_t count(Verdict verdict) const { return result_.verdicts[static_cast<int>(verdict)]; }
+    std::uint64_t accepted() const { return count(Verdict::kAccepted); }
 
     /// The prepass, as long as a whole sweep stays above the target.
     void sweep() {

@@ -49,9 +49,10 @@ TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
     const auto work = [&](std::uint32_t n, std::uint32_t place) {
         verdicts[place] = simplify_tile(tiles[place], faces, n, options);
     };
-    const auto finish = [&](std::uint32_t, std::uint32_t place) {
+    const auto finish = [&](std::uint32_t n, std::uint32_t place) {
         tiles[place].put_back(left);
         add(result.verdicts, verdicts[place]);
+        if (options.on_share) options.on_share((n + 1.0) / faces.grid().tile_count());
     };
     parallel_in_order(faces.grid().tile_count(), options.in_flight, options.threads, {work, finish});
     return result;

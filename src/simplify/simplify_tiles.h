@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "mesh/chunk.h"
@@ -12,12 +13,13 @@
 namespace regionmesh {
 
 struct TileOptions {
-    double threshold;                          // in units of scale^4: collapses up to this cost
-    double keep_share;                         // tiles stop at this share of their faces,
-    double free_share = 1;                     // and free collapses at this one where it is less
-    std::uint32_t threads = 1;                 // tiles at work at a time; 0: one per core. The result is the same
-    std::uint32_t in_flight = kTilesInFlight;  // tiles out of the chunk at a time; the result is the same
-    SimplifyOptions simplify;                  // quality, error, perturbation, scale, placement, tests
+    double threshold;                           // in units of scale^4: collapses up to this cost
+    double keep_share;                          // tiles stop at this share of their faces,
+    double free_share = 1;                      // and free collapses at this one where it is less
+    std::uint32_t threads = 1;                  // tiles at work at a time; 0: one per core. The result is the same
+    std::uint32_t in_flight = kTilesInFlight;   // tiles out of the chunk at a time; the result is the same
+    SimplifyOptions simplify;                   // quality, error, perturbation, scale, placement, tests
+    std::function<void(double)> on_share = {};  // share of the tiles that are done: one call at a time, on any thread
 };
 
 struct TileResult {

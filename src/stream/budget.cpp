@@ -109,7 +109,7 @@ Budget plan_budget(std::uint64_t memory, const BudgetDemand& demand) {
 void require_budget(const Budget& budget, const BudgetDemand& demand) {
     if (budget.holds()) return;
     const MemoryNeed& need = budget.least;
-    std::string text = "--memory " + megabytes(budget.memory) + ": " + demand.source + " needs at least " +
+    std::string text = memory_limit_text(budget.memory) + ": " + demand.source + " needs at least " +
                        megabytes(need.sum()) + ": " + megabytes(need.reading) + " for reading, ";
     if (need.window > 0) text += megabytes(need.window) + " for smoothing, ";
     if (need.chunk > 0) text += megabytes(need.chunk) + " for a chunk of strips, ";

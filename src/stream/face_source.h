@@ -31,6 +31,7 @@ struct SourceShape {
     double strip_thickness = 1;       // of the thinnest strip
     std::uint32_t strip_overlap = 0;  // strips that follow and begin before the end of one, at most
     double scale = 1;                 // length of a typical edge
+    double scale_z = 1;               // factor by which z is multiplied until place(), a power of two
     std::uint64_t reading_bytes = 0;  // of the process and the source
 
     int axis() const { return sweep.axes[2]; }

@@ -1,5 +1,7 @@
 #include "stream/finish.h"
 
+#include <cmath>
+
 #include "regionmesh/smooth.h"
 #include "stream/stage_options.h"
 
@@ -10,7 +12,13 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
     const Timer timer = log.time("improve");
     const SimplifyOptions simplify = simplify_options(options, shape);
     ImproveOptions own{.min_quality = simplify.min_quality, .scale = simplify.scale, .samples = simplify.samples};
-    own.on_progress = [&] { log.report_progress("improve"); };
+    // The number of sweeps is not known: the share nears 1 ever more slowly.
+    double calls = 0;
+    const double calls_a_sweep = 1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0;
+    own.on_progress = [&] {
+        log.advance(WorkStage::kImprove, 1 - std::exp2(-++calls / (2 * calls_a_sweep)));
+        log.report_progress("improve");
+    };
     result.report.improved = improve(result.mesh, own);
 }
 
@@ -36,6 +44,7 @@ void check_result(Reconstruction& result, std::optional<LabelOracle> oracle, con
     check_options.threads = options.threads;
     check_options.label_text = [&](Label label) { return result.labels.text(result.labels.input(label)); };
     result.report.check = check(result.mesh, check_options);
+    log.advance(WorkStage::kCheck, 1);
 }
 
 }  // namespace regionmesh

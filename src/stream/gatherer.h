@@ -23,6 +23,8 @@ public:
 
     /// Chunks gathered so far.
     std::uint32_t count() const { return count_; }
+    /// Strips gathered so far.
+    std::uint32_t strip_count() const { return strips_.count(); }
     /// The vertices that the last chunk carries, in its order. They are fixed until their last face is there.
     std::span<const ChunkVertex> carried() const { return carried_; }
     /// Where the faces of the last chunk may change: no faces of other chunks reach into it.

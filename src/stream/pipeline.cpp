@@ -22,6 +22,7 @@
 #include "stream/tetrahedron_faces.h"
 #include "stream/tile_stage.h"
 #include "stream/tuning.h"
+#include "volume/exact_grid.h"
 #include "volume/room_reader.h"
 
 namespace regionmesh {
@@ -34,6 +35,7 @@ std::optional<FaceCount> count_faces(FaceSource& source, RunLog& log) {
     const Timer timer = log.time("count");
     std::optional<FaceCount> counted = source.count();
     log.note_strip_count(source.shape().strip_count);
+    log.advance(WorkStage::kCount, 1);
     return counted;
 }
 
@@ -60,6 +62,15 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
     return strips.stuck_strip();
 }
 
+/// Leaves out of the progress what this run does not do.
+void plan_progress(RunLog& log, const Plan& plan, const ReconstructOptions& options) {
+    if (options.smooth.passes == 0) log.leave_out(WorkStage::kSmooth);
+    if (!plan.is_decimating)
+        for (const WorkStage stage : {WorkStage::kTiles, WorkStage::kPasses, WorkStage::kTrim}) log.leave_out(stage);
+    if (!options.improve) log.leave_out(WorkStage::kImprove);
+    if (!options.preserve_volume) log.leave_out(WorkStage::kVolumes);
+}
+
 /// The result of a run, or the strip at which smoothing was stuck.
 struct Attempt {
     Reconstruction result;
@@ -78,6 +89,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     const ChunkOrder order = strip_order(shape, extra);
     Plan plan = make_plan(shape, std::move(counted), window_strips(smooth, order), options);
 
+    plan_progress(log, plan, options);
     SimplifyStage simplify(result.mesh, plan, options, shape, log);
     {
         Strips strips(source, smooth, order, log);
@@ -89,11 +101,15 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     if (!plan.oracle) plan.oracle = source.oracle();
 
     simplify.bring_to_target();
+    log.advance(WorkStage::kTrim, 1);
     improve_faces(result, options, shape, log);
+    log.advance(WorkStage::kImprove, 1);
     restore_volumes(result, options, shape.scale, log);
+    log.advance(WorkStage::kVolumes, 1);
     give_back_freed_memory();
     result.report.pinned_vertices = simplify.release_all();
     source.place(result.mesh);
+    for (double& volume : result.report.unsmoothed_volumes) volume /= shape.scale_z;
     result.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     check_result(result, std::move(plan.oracle), options, log);
     result.report.final_faces = result.mesh.face_count();
@@ -103,8 +119,11 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
 }
 
 /// Reads the sections once more and counts the samples that lie in another region of the finished mesh.
-void count_samples(Reconstruction& result, SectionFaces& source, const ReconstructOptions& options) {
+void count_samples(Reconstruction& result, SectionFaces& source, const ReconstructOptions& options,
+                   const OnProgress& on_progress) {
     if (!options.cap || !source.rewind()) return;
+    const std::uint32_t strips = source.shape().strip_count;
+    if (on_progress) on_progress({"samples", strips, strips, 0, result.mesh.face_count(), 0.99});
     double& seconds = result.report.seconds["samples"];
     {
         const Timer timer(seconds);
@@ -138,15 +157,23 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
 
 namespace {
 
+/// A power of two: scaling is exact.
+double section_scale(const SectionReader& reader, const ReconstructOptions& options) {
+    if (options.scale_z >= kLeastLength && options.scale_z <= 1 / kLeastLength)
+        return nearest_power_of_two(options.scale_z);
+    throw Error(ErrorCode::kInput,
+                reader.info().source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
+}
+
 Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOptions& options,
                                     const OnProgress& on_progress) {
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
     SectionFaces source(ahead ? *ahead : reader, {.cap = options.cap, .background = options.background},
-                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality);
+                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader, options));
     Reconstruction result = reconstruct(source, options, on_progress);
-    count_samples(result, source, options);
+    count_samples(result, source, options, on_progress);
     return result;
 }
 

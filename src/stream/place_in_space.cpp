@@ -2,6 +2,12 @@
 
 namespace regionmesh {
 
+void unscale_z(Mesh& mesh, double scale_z) {
+    if (scale_z == 1) return;
+    for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n)
+        if (mesh.is_alive(VertexId{n})) mesh[VertexId{n}].position.z /= scale_z;
+}
+
 void place_in_space(Mesh& mesh, const Lattice& lattice) {
     if (lattice.is_axis_aligned()) return;
     const auto& d = lattice.direction;

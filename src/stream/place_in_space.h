@@ -13,6 +13,9 @@ inline Lattice meshing_lattice(const Lattice& lattice) {
     return result;
 }
 
+/// Divides z by the power of two that it was multiplied by.
+void unscale_z(Mesh& mesh, double scale_z);
+
 /// Applies direction and origin of the lattice where the direction is not the identity. Flips the faces if it mirrors.
 void place_in_space(Mesh& mesh, const Lattice& lattice);
 

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <thread>
 
 #include "regionmesh/process.h"
 #include "regionmesh/reconstruct.h"
+#include "stream/progress_shares.h"
 
 namespace regionmesh {
 
@@ -42,20 +44,37 @@ public:
         result_.report.initial_vertices += vertices;
         progress_.strips_read = strips_read;
         progress_.faces_read = result_.report.initial_faces;
+        advance(WorkStage::kMesh, share_of_strips(strips_read));
         report_progress("reconstruct");
     }
 
+    /// Notes strips that went through a stage, and says so.
+    void note_strips_through(WorkStage stage, double strips) {
+        advance(stage, share_of_strips(strips));
+        report_progress("reconstruct");
+    }
+
+    void leave_out(WorkStage stage) { shares_.leave_out(stage); }
+    void advance(WorkStage stage, double share) { shares_.advance(stage, share); }
+
+    /// Only the thread that made the log reports; from others the call does nothing.
     void report_progress(const char* stage) {
-        if (!on_progress_) return;
+        if (!on_progress_ || std::this_thread::get_id() != thread_) return;
         progress_.stage = stage;
-        progress_.faces_held = result_.mesh.face_count();
+        progress_.share = shares_.share();
+        // While tiles are at work the mesh is taken apart, and has none.
+        if (result_.mesh.face_count() > 0) progress_.faces_held = result_.mesh.face_count();
         on_progress_(progress_);
     }
 
 private:
+    double share_of_strips(double strips) const { return strips / std::max(progress_.strip_count, 1u); }
+
     Reconstruction& result_;
     const OnProgress& on_progress_;
     Progress progress_;
+    ProgressShares shares_;
+    std::thread::id thread_ = std::this_thread::get_id();
     std::size_t most_bytes_ = 0;
 };
 

@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regionmesh/limits.h"
 #include "stream/footprint.h"
 #include "stream/place_in_space.h"
 
 namespace regionmesh {
 namespace {
 
-SourceShape shape_of(const VolumeInfo& info) {
-    const Vec3 spacing = info.lattice.spacing;
+SourceShape shape_of(const VolumeInfo& info, double scale_z) {
     SourceShape shape{
         .name = info.source, .has_samples = true, .lattice = meshing_lattice(info.lattice), .sweep = info.sweep};
+    shape.scale_z = scale_z;
+    shape.lattice.spacing.z *= scale_z;
+    shape.lattice.origin.z *= scale_z;
+    require_lattice(info.source + (scale_z == 1 ? "" : ", with z scaled"), shape.lattice);
+    const Vec3 spacing = shape.lattice.spacing;
     shape.strip_count = std::max(info.lattice.size[shape.axis()], 1u) - 1;
     shape.strip_thickness = spacing[shape.axis()];
     shape.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
@@ -22,11 +27,11 @@ SourceShape shape_of(const VolumeInfo& info) {
 
 }  // namespace
 
-SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts)
+SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts, double scale_z)
     : reader_(reader),
       options_(options),
       cuts_(cuts),
-      shape_(shape_of(reader.info())),
+      shape_(shape_of(reader.info(), scale_z)),
       labels_(table_for(reader.info())),
       background_(dense_background(options.background, labels_)) {}
 
@@ -70,6 +75,9 @@ bool SectionFaces::rewind() {
     return true;
 }
 
-void SectionFaces::place(Mesh& mesh) const { place_in_space(mesh, reader_.info().lattice); }
+void SectionFaces::place(Mesh& mesh) const {
+    unscale_z(mesh, shape_.scale_z);
+    place_in_space(mesh, reader_.info().lattice);
+}
 
 }  // namespace regionmesh

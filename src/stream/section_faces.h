@@ -14,7 +14,9 @@ namespace regionmesh {
 /// Meshes the strips between sections as they are read. Sections that can be read twice are counted first.
 class SectionFaces final : public FaceSource {
 public:
-    SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts = QuadCuts::kBestQuality);
+    /// Until place(), z is multiplied by `scale_z`, a power of two.
+    SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts = QuadCuts::kBestQuality,
+                 double scale_z = 1);
 
     std::optional<FaceCount> count() override;
     const SourceShape& shape() const override { return shape_; }

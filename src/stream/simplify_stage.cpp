@@ -54,9 +54,11 @@ void SimplifyStage::bring_to_target() {
         log_.report().stopped = "none asked";
         return;
     }
+    strips_are_done_ = true;
     log_.report_progress("decimate");
     const std::uint64_t goal = plan_.target.of(log_.report().initial_faces);
     raise_threshold(goal, HUGE_VAL);
+    log_.advance(WorkStage::kPasses, 1);
     mesh_.sort_spatially();
     trim(goal, HUGE_VAL, true);
     log_.report().stopped = to_string(stopped_);
@@ -66,11 +68,21 @@ void SimplifyStage::bring_to_target() {
 /// Brings the mesh near the goal, tile by tile: mesh -> chunk -> tiles -> chunk -> mesh.
 void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
     const Timer timer = log_.time("raise level");
+    // The number of passes is not known: each is taken for half of what was left.
+    double passes_done = 0;
+    const auto on_share = [&](double share) {
+        if (!strips_are_done_) return;
+        const double done = passes_done + (1 - passes_done) / 2 * share;
+        if (share == 1) passes_done = done;
+        log_.advance(WorkStage::kPasses, done);
+        log_.report_progress("decimate");
+    };
     const TileOptions tile_options{.threshold = 0,
                                    .keep_share = 0,
                                    .threads = options_.threads,
                                    .in_flight = budget_.in_flight,
-                                   .simplify = simplify_options(options_, shape_)};
+                                   .simplify = simplify_options(options_, shape_),
+                                   .on_share = on_share};
     const std::size_t held = mesh_.face_count(), mesh_bytes = mesh_.bytes();
     Chunk whole = merger_.take_apart();
     log_.note_bytes(held, mesh_bytes + whole.vertices.size() * sizeof(ChunkVertex) + held * sizeof(ChunkFace));
@@ -87,8 +99,12 @@ void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     SimplifyOptions own = simplify_options(options_, shape_);
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
     const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()), .refresh = is_last};
-    own.on_progress = [&] { log_.report_progress(is_last ? "decimate" : "reconstruct"); };
     const std::uint64_t held = mesh_.face_count();
+    own.on_progress = [&] {
+        const auto gone = static_cast<double>(held - mesh_.face_count());
+        if (is_last && held > goal) log_.advance(WorkStage::kTrim, gone / static_cast<double>(held - goal));
+        log_.report_progress(is_last ? "decimate" : "reconstruct");
+    };
     const std::size_t mesh_bytes = mesh_.bytes();
     const CollapseResult done = collapse_edges(mesh_, own, bounds);
     log_.add(done.verdicts);

@@ -38,6 +38,7 @@ private:
     std::uint64_t initial_faces_ = 0;  // of the merged chunks, before any simplification
     std::uint64_t chunk_faces_ = 0;    // of the last chunk, when it was merged
     StopReason stopped_ = StopReason::kTarget;
+    bool strips_are_done_ = false;
 };
 
 }  // namespace regionmesh

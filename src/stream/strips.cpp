@@ -24,6 +24,7 @@ std::optional<std::uint32_t> Strips::stuck_strip() const { return smoother_ ? sm
 bool Strips::next(Chunk& strip) {
     if (!(smoother_ ? smooth_next(strip) : mesh_next(strip))) return false;
     ++count_;
+    log_.note_strips_through(WorkStage::kSmooth, count_);
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
 #include "stream/footprint.h"
+#include "stream/place_in_space.h"
 #include "stream/star_watch.h"
 #include "stream/tuning.h"
 
@@ -46,6 +47,7 @@ TetrahedronFaces::TetrahedronFaces(TetrahedronReader& reader, const TetrahedronO
       background_(dense_background(options.background, labels_)),
       spilled_(sort_bytes(options.memory)) {
     shape_.name = reader.info().source;
+    shape_.scale_z = reader.info().scale_z;
 }
 
 std::optional<FaceCount> TetrahedronFaces::count() {
@@ -129,7 +131,7 @@ void TetrahedronFaces::mesh(RankedTetrahedra& tetrahedra) {
 
 void TetrahedronFaces::require_memory(std::uint64_t held) const {
     if (kProcessBytes + held <= options_.memory) return;
-    throw Error(ErrorCode::kInput, "--memory " + megabytes(options_.memory) + ": " + shape_.name + " needs more than " +
+    throw Error(ErrorCode::kInput, memory_limit_text(options_.memory) + ": " + shape_.name + " needs more than " +
                                        megabytes(kProcessBytes + held) +
                                        " while its faces are made; raise --memory, or change --sweep");
 }
@@ -173,12 +175,7 @@ bool TetrahedronFaces::advance() {
 
 void TetrahedronFaces::make_faces(Chunk& chunk) { spilled_.read(strips_[strips_read_ - 1], chunk); }
 
-void TetrahedronFaces::place(Mesh& mesh) const {
-    const double scale = reader_.info().scale_z;
-    if (scale == 1) return;
-    for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n)
-        if (mesh.is_alive(VertexId{n})) mesh[VertexId{n}].position.z /= scale;
-}
+void TetrahedronFaces::place(Mesh& mesh) const { unscale_z(mesh, shape_.scale_z); }
 
 bool TetrahedronFaces::rewind() {
     strips_read_ = 0;

@@ -20,8 +20,12 @@ TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const 
 
 void TileStage::run(Chunk& chunk, const Gatherer& gatherer) {
     if (!is_on_) return;
+    tile_options_.on_share = [&](double share) {
+        log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gatherer.strip_count() - strips_done_));
+    };
     const Timer timer = log_.time("decimate tiles");
     log_.add(simplify_run(chunk, gatherer.carried(), gatherer.safe(), plan_.tiles, tile_options_));
+    strips_done_ = gatherer.strip_count();
 }
 
 }  // namespace regionmesh

@@ -17,6 +17,7 @@ private:
     const Plan& plan_;
     TileOptions tile_options_;
     RunLog& log_;
+    std::uint32_t strips_done_ = 0;
     bool is_on_;
 };
 

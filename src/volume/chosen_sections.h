@@ -21,6 +21,12 @@ ReaderPointer crop_sections(ReaderPointer reader, const SampleBox& box);
 /// Labels replaced by `new_label(old)`, which is called once for each label.
 ReaderPointer relabel_sections(ReaderPointer reader, std::function<InputLabel(InputLabel)> new_label);
 
+/// The same sections with another description.
+ReaderPointer describe_sections(ReaderPointer reader, VolumeInfo info);
+
+/// The lattice in another space: turned about z where the volume says that it is in the other one.
+ReaderPointer turn_sections(ReaderPointer reader, Space space);
+
 /// Blocks of samples as one sample: see Selection::downsample. Requires factors of 1 or more.
 ReaderPointer downsample_sections(ReaderPointer reader, const std::array<std::uint32_t, 3>& factors, InputLabel rest);
 

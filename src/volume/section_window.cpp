@@ -11,7 +11,8 @@ SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader
         if (info.lattice.size[axis] < 2)
             throw Error(ErrorCode::kInput, info.source + ": " + std::to_string(info.lattice.size[axis]) +
                                                " sample along " + "xyz"[axis] +
-                                               "; a cell needs two: give a volume with at least 2 x 2 x 2 samples");
+                                               "; a cell needs two. Give a volume, or repeat the section: two equal "
+                                               "sections make a plate, one spacing thick");
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
     if (samples > kMostSectionSamples)
         throw Error(ErrorCode::kInput, info.source + ": a section of " + std::to_string(samples) +

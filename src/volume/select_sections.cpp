@@ -108,23 +108,6 @@ ReaderPointer relabelled(ReaderPointer reader, const Selection& selection) {
     });
 }
 
-/// A reader with other names, and a type that has room for the new labels.
-class RenamedSections : public SectionReader {
-public:
-    RenamedSections(ReaderPointer reader, const Selection& selection)
-        : reader_(std::move(reader)), info_(reader_->info()) {
-        if (info_.type != SampleType::kU64 && !selection.merge.empty()) info_.type = SampleType::kI64;
-        for (const auto& [label, name] : selection.names) info_.names[label] = name;
-    }
-    const VolumeInfo& info() const override { return info_; }
-    bool next(std::span<InputLabel> section) override { return reader_->next(section); }
-    void rewind() override { reader_->rewind(); }
-
-private:
-    ReaderPointer reader_;
-    VolumeInfo info_;
-};
-
 }  // namespace
 
 std::unique_ptr<SectionReader> select_sections(std::unique_ptr<SectionReader> reader, const Selection& selection) {
@@ -133,7 +116,10 @@ std::unique_ptr<SectionReader> select_sections(std::unique_ptr<SectionReader> re
         reader = downsample_sections(std::move(reader), selection.downsample, selection.rest);
     if (selection.min_region > 1) reader = merge_small_regions(std::move(reader), selection.min_region);
     if (selection.names.empty() && selection.merge.empty()) return reader;
-    return std::make_unique<RenamedSections>(std::move(reader), selection);
+    VolumeInfo info = reader->info();
+    if (info.type != SampleType::kU64 && !selection.merge.empty()) info.type = SampleType::kI64;  // holds any new label
+    for (const auto& [label, name] : selection.names) info.names[label] = name;
+    return describe_sections(std::move(reader), std::move(info));
 }
 
 }  // namespace regionmesh

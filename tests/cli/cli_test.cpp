@@ -203,7 +203,7 @@ TEST_F(Cli, layer_chooses_among_layers_and_info_prints_names) {
     expect_refusal("info " + layers, 1, "give --layer 0 to --layer 1");
     const Ran ran = run("info " + layers + " --layer 1");
     EXPECT_EQ(ran.code, 0) << ran.error;
-    EXPECT_THAT(ran.out, HasSubstr("101  1 samples  high\n"));
+    EXPECT_THAT(ran.out, HasSubstr("101  1 sample  high\n"));
     EXPECT_THAT(ran.out, Not(HasSubstr("next")));
     expect_refusal("info " + layers + " --layer x", 2, "--layer x");
 }

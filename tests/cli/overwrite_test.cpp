@@ -35,6 +35,7 @@ protected:
 TEST_F(Overwrite, of_an_input_by_a_report_or_a_model_is_refused) {
     expect_no_change("reconstruct " + volume() + "-o " + out("s.vtp") + " --report " + file("v.raw"),
                      "--report " + file("v.raw") + ": is the same file as " + file("v.raw") + ", which this run reads");
+    expect_no_change("reconstruct " + volume() + "-o " + out("s.vtp") + " --regions " + file("v.raw"), "--regions");
     expect_no_change("check " + file("m.vtp") + " --json " + file("m.vtp"), "--json");
     expect_no_change("convert " + file("m.vtp") + " " + file("m.vtp"), "which this run reads");
     expect_no_change("compare " + file("m.vtp") + " " + file("m.vtp") + " --distance " + file("m.vtp"), "--distance");
@@ -45,6 +46,11 @@ TEST_F(Overwrite, by_two_outputs_is_refused) {
     expect_no_change("reconstruct " + volume() + "-o " + out("s.vtp") + " --report " + out("s.vtp"),
                      "which this run writes, too");
     expect_no_change("reconstruct " + volume() + "-o " + out("s.msh") + " --report " + out("s.geo"), "s.geo");
+    for (const std::string other : {"--report ", "--html "})
+        expect_no_change("reconstruct " + volume() + "-o " + out("s.vtp") + " --regions " + out("s.html") + ' ' +
+                             other + out("s.html"),
+                         "which this run writes, too");
+    expect_no_change("check " + file("m.vtp") + " --regions " + out("r.csv") + " --json " + out("r.csv"), "r.csv");
     fs::create_directory_symlink(path("out"), path("link"));
     expect_no_change("reconstruct " + volume() + "-o " + out("s.vtp") + " --report " + file("link/s.vtp"), "--report");
 }
@@ -67,10 +73,14 @@ TEST_F(Overwrite, of_a_file_in_an_input_folder_is_refused) {
 
 TEST_F(Overwrite, by_a_file_of_one_region_is_refused) {
     fs::copy_file(path("m.vtp"), path("p.vtp"));
-    ASSERT_EQ(run("convert " + file("m.vtp") + " " + file("p-1.stl")).code, 0);
-    const std::string before = text_of(path("p-1.stl"));
-    expect_no_change("convert " + file("p-1.stl") + " " + file("p.stl") + " --per-region", "p-1.stl");
-    EXPECT_EQ(text_of(path("p-1.stl")), before);
+    for (const std::string name : {"p-1.stl", "p--1.stl", "p-left_lung2.stl"}) {
+        ASSERT_EQ(run("convert " + file("m.vtp") + " " + file(name)).code, 0);
+        const std::string before = text_of(path(name));
+        expect_no_change("convert " + file(name) + " " + file("p.stl") + " --per-region", name);
+        EXPECT_EQ(text_of(path(name)), before);
+    }
+    ASSERT_EQ(run("convert " + file("m.vtp") + " " + file("p-1.of.stl")).code, 0);
+    EXPECT_EQ(run("convert " + file("p-1.of.stl") + " " + file("p.stl") + " --per-region").code, 0);
 }
 
 TEST_F(Overwrite, two_inputs_may_be_one_file_and_devices_are_no_files) {

@@ -111,7 +111,7 @@ TEST_F(CliPoints, background_is_label_0_unless_told) {
     };
     EXPECT_THAT(regions(""), HasSubstr("2 regions, "));
     EXPECT_THAT(regions(" --no-background"), HasSubstr("3 regions, "));
-    EXPECT_THAT(regions(" --background 1 --background 2"), HasSubstr("1 regions, "));
+    EXPECT_THAT(regions(" --background 1 --background 2"), HasSubstr("1 region, "));
     EXPECT_THAT(regions(" --background 7"), HasSubstr("3 regions, "));
 }
 

@@ -58,7 +58,8 @@ std::vector<Scenario> all_scenarios() {
     return {
         {"model_and_report", reading({"-o", "m.vtp", "--reduce", "50%", "--report", "r.json"}), sections},
         {"mesh_and_script", reading({"-o", "m.msh", "--threads", "2", "--report", "r.json"}), sections},
-        {"regions", reading({"-o", "m.stl", "--per-region", "--smooth", "off", "--threads", "1"}), sections},
+        {"regions", reading({"-o", "m.stl", "--per-region", "--regions", "r.csv", "--smooth", "off", "--threads", "1"}),
+         sections},
         {"hdf5",
          {"reconstruct", "../in/v.h5", "-o", "m.dream3d", "--report", "r.json"},
          {{"v.h5", data("chunked/one.h5")}}},

@@ -38,7 +38,11 @@ std::atomic<std::uint64_t> calls{0}, allocations{0};
 Mode mode = Mode::kNone;
 std::uint64_t fault_at = 0;
 
+int counts = -1;  // descriptor: opened before the program confines itself
+
 void arm() {
+    if (const char* name = std::getenv("REGIONMESH_FAULT_COUNT"))
+        counts = ::open(name, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     const char* word = std::getenv("REGIONMESH_FAULT");
     const char* at = std::getenv("REGIONMESH_FAULT_AT");
     if (word && at) {
@@ -54,13 +58,11 @@ void arm() {
 
 void disarm() {
     if (!is_armed.exchange(false)) return;
-    const char* name = std::getenv("REGIONMESH_FAULT_COUNT");
-    if (!name) return;
-    if (std::FILE* file = std::fopen(name, "w")) {
-        std::fprintf(file, "%llu %llu\n", static_cast<unsigned long long>(calls),
-                     static_cast<unsigned long long>(allocations));
-        std::fclose(file);
-    }
+    if (counts < 0) return;
+    char text[64];
+    const int size = std::snprintf(text, sizeof(text), "%llu %llu\n", static_cast<unsigned long long>(calls),
+                                   static_cast<unsigned long long>(allocations));
+    if (::ftruncate(counts, 0) == 0) (void)!::pwrite(counts, text, static_cast<std::size_t>(size), 0);
 }
 
 /// Whether this call is the one that fails; then errno is `error`.

@@ -81,6 +81,7 @@ TEST(OptionTable, defaults_as_text_are_the_defaults_of_the_structs) {
     EXPECT_EQ(set.reconstruct.smooth.lambda, plain.reconstruct.smooth.lambda);
     EXPECT_EQ(set.volume.sweep, plain.volume.sweep);
     EXPECT_EQ(set.tetrahedra.scale_z, plain.tetrahedra.scale_z);
+    EXPECT_EQ(set.reconstruct.scale_z, plain.reconstruct.scale_z);
     EXPECT_EQ(set.samples, plain.samples);
 }
 

@@ -9,6 +9,7 @@
 #include "cells/strip_mesher.h"
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
+#include "regionmesh/reconstruct.h"
 #include "stream/footprint.h"
 #include "support/digest.h"
 #include "support/runs.h"
@@ -173,6 +174,14 @@ TEST(Memory, twice_and_four_times_the_sections_take_no_more) {
             EXPECT_LE(bytes_held(more), bytes_held(once) * 11 / 10) << times << " times the sections";
         }
     }
+}
+
+TEST(Budget, a_refusal_says_when_the_memory_is_the_default) {
+    const BudgetDemand demand = even_demand(100, 20000);
+    EXPECT_THAT(refusal(20'000'000, demand), testing::Not(HasSubstr("default")));
+    BudgetDemand large = demand;
+    large.reading_bytes = std::uint64_t{3} << 30;
+    EXPECT_THAT(refusal(ReconstructOptions{}.memory, large), HasSubstr("--memory 2148 MB (the default): "));
 }
 
 TEST(Memory, a_target_that_does_not_fit_is_refused_before_reading_for_the_model_begins) {

@@ -10,5 +10,6 @@ std::string source_folder();
 std::string program();
 /// Empty where it was not built.
 std::string delaunay_program();
+std::string hdf5_program();
 
 }  // namespace regionmesh::test

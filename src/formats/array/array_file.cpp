@@ -123,6 +123,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     }
     VolumeInfo info = volume_info(array.source, array.format, array.sample.type, size);
     info.lattice = array.lattice;
+    info.space = array.space;
     info.names = array.names;
     if (array.encoding == Encoding::kRaw && files.size() == 1 && array.components == 1) {
         if (array.can_sweep_all) info.can_sweep = {true, true, true};

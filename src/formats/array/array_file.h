@@ -32,6 +32,7 @@ struct ArrayFile {
     std::uint32_t component = 0;
     std::uint32_t blocks = 1;  // volumes one after another, and the index of the one to read
     std::uint32_t block = 0;
+    Space space = Space::kUnknown;
     LabelNames names = {};
     bool can_sweep_all = true;  // if raw samples in one file; else along z alone
     const char* remedy = "write the samples uncompressed in one file";  // if the user wants another sweep

@@ -141,6 +141,7 @@ std::unique_ptr<SectionReader> open_meta_image(const fs::path& path, const ReadO
     if (dimension < 2 || dimension > 10) fail(path, fmt::format("has {} axes (NDims); a volume has three", dimension));
     array.lattice.size = checked_size(path, volume_size(fields, static_cast<std::size_t>(dimension)));
     place_in_space(fields, static_cast<std::size_t>(dimension), array.lattice);
+    array.space = Space::kLps;  // as ITK, which made the format, reads and writes it
     set_files(header, array);
     array.names = names_beside(path);
     return open_array(array, options);

@@ -209,6 +209,7 @@ std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, con
     array.lattice.size = volume_size(path, header);
     check_unscaled(path, header);
     read_affine(path, header, options, array.lattice);
+    array.space = Space::kRas;
     array.skipped_bytes = data_offset(path, header);
     array.names = names_beside(path);
     return open_array(array, options);

@@ -247,6 +247,13 @@ Vec3 vector3(const fs::path& path, const std::vector<double>& vector, std::size_
     return {vector[0], vector[1], vector.size() > 2 ? vector[2] : 0};
 }
 
+Space named_space(std::string_view name) {
+    const std::string word = lower(trim(name));
+    if (word == "ras" || word == "right-anterior-superior") return Space::kRas;
+    if (word == "lps" || word == "left-posterior-superior") return Space::kLps;
+    return Space::kUnknown;
+}
+
 /// In the space of the header, whichever it is: its numbers are kept.
 void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, Lattice& lattice) {
     const fs::path& path = fields.path();
@@ -351,6 +358,7 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     for (std::size_t i = 0; i < roles.space.size(); ++i) size[i] = roles.space[i].size;
     array.lattice.size = checked_size(path, size);
     place_in_space(text.fields, roles.space, array.lattice);
+    array.space = named_space(text.fields.text({"space"}));
     set_files(text, array);
     const std::uint32_t layer = chosen_layer(path, roles.layers, options);
     (roles.has_layers_first ? array.components : array.blocks) =

@@ -15,7 +15,6 @@ namespace {
 using Json = nlohmann::json;
 using Magic = std::array<char, 8>;
 
-constexpr HelperProgram kProgram{.name = "regionmesh-hdf5", .variable = "REGIONMESH_HDF5_PROGRAM"};
 constexpr Magic kRequest{'R', 'M', 'H', '5', 'A', 'S', 'K', '1'};
 constexpr Magic kAnswer{'R', 'M', 'H', '5', 'A', 'N', 'S', '1'};
 constexpr Magic kRefusal{'R', 'M', 'H', '5', 'N', 'O', '_', '1'};
@@ -69,7 +68,7 @@ Hdf5Entry from_json(const Json& json) {
 }  // namespace
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path)
-    : path_((require_hdf5(path), path)), program_path_(find_program(kProgram)) {
+    : path_((require_hdf5(path), path)), program_path_(find_program(kHdf5Program)) {
     program_.emplace(program_path_, std::vector{path.string()});
 }
 

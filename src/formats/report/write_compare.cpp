@@ -100,7 +100,7 @@ Json only_in(int which, const CompareReport& report, const Labels& name) {
 
 }  // namespace
 
-std::string compare_json(const CompareReport& report) {
+std::string compare_json(const CompareReport& report, const LabelNames& names) {
     const Labels name(report.labels);
     Json json;
     json["faces"] = both_json(report.faces);
@@ -109,7 +109,10 @@ std::string compare_json(const CompareReport& report) {
     json["distance"] = distance_json(report.distance);
     json["only_in_a"] = only_in(0, report, name);
     json["only_in_b"] = only_in(1, report, name);
-    json["regions"] = regions_json(report.regions, name);
+    Json& regions = json["regions"] = regions_json(report.regions, name);
+    for (std::size_t n = 0; n < report.regions.size(); ++n)
+        if (const auto found = names.find(report.labels.input(report.regions[n].label)); found != names.end())
+            regions[n]["name"] = found->second;
     json["interfaces"] = strata_json(report.interfaces, "area", name);
     json["lines"] = strata_json(report.lines, "length", name);
     json["quality"] = {{"a", quality_json(report.quality[0])}, {"b", quality_json(report.quality[1])}};

@@ -124,9 +124,25 @@ void put_samples(Json& json, const SampleAgreement& samples, const LabelTable& l
     }
 }
 
+/// Each option by its name: a text, or a list of texts where it was given several times.
+Json options_json(const std::vector<std::pair<std::string, std::string>>& options) {
+    Json json = Json::object();
+    for (const auto& [name, text] : options) {
+        Json& value = json[name];
+        if (value.is_null())
+            value = text;
+        else if (value.is_array())
+            value.push_back(text);
+        else
+            value = Json::array({value, text});
+    }
+    return json;
+}
+
 }  // namespace
 
-std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names) {
+std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names,
+                        const MadeBy& made_by) {
     Json json{{"initial_faces", report.initial_faces},
               {"initial_vertices", report.initial_vertices},
               {"final_faces", report.final_faces},
@@ -151,6 +167,8 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     if (report.improved) json["improved"] = improved_json(*report.improved);
     put_check(json, report.check, labels, names, &report);
     if (report.samples) put_samples(json, *report.samples, labels);
+    if (!made_by.command.empty()) json["command"] = made_by.command;
+    if (!made_by.command.empty()) json["options"] = options_json(made_by.options);
     return text_of(json);
 }
 

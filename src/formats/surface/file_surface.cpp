@@ -66,11 +66,18 @@ Vec3 take_point(const formats::ByteReader& file, std::string_view& line) {
 }
 
 void read_comment(FileSurface& surface, std::string_view comment) {
+    if (comment.find("SPACE=RAS") != std::string_view::npos) surface.space = Space::kRas;
+    if (comment.find("SPACE=LPS") != std::string_view::npos) surface.space = Space::kLps;
     const std::string_view word = formats::take_word(comment);
     const auto label = formats::parse_label(formats::take_word(comment));
     if (!label) return;
     const std::string name = formats::one_line(comment);
     if (word == "exterior_label") surface.exterior_label = *label;
+    if (word == "no_background") surface.background.emplace();
+    if (word == "background") {
+        if (!surface.background) surface.background.emplace();
+        surface.background->push_back(*label);
+    }
     if (word == "region" && !name.empty()) surface.names.try_emplace(*label, name);
 }
 

@@ -32,7 +32,7 @@ void write_poly(const FileView& view, OutputFile& file);
 /// Writes the faces, and beside them a .geo script with which Gmsh makes volumes.
 void write_msh(const FileView& view, OutputFiles& files, const std::filesystem::path& path);
 void write_inp(const FileView& view, OutputFile& file);
-void write_glb(const FileView& view, OutputFile& file);
+void write_glb(const FileView& view, double metres, OutputFile& file);
 void write_dream3d(const FileView& view, OutputFile& file);
 FileSurface read_vtp(const std::filesystem::path& path);
 FileSurface read_vtu(const std::filesystem::path& path);

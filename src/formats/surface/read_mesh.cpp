@@ -37,7 +37,7 @@ FileSurface read_folder(const std::filesystem::path& folder) {
     std::ranges::sort(paths, [](const auto& a, const auto& b) {
         return formats::natural_less(a.filename().string(), b.filename().string());
     });
-    FileSurface all{.is_by_region = true, .has_shared_points = false};
+    FileSurface all{.background = std::vector<InputLabel>{}, .is_by_region = true, .has_shared_points = false};
     RegionGroups groups;
     for (const auto& path : paths) {
         FileSurface surface = formats::find_format(path)->read_surface(path);
@@ -47,6 +47,7 @@ FileSurface read_folder(const std::filesystem::path& folder) {
         const std::uint32_t group = groups.add(formats::one_line(path.stem().string()), true);
         for (auto& labels : surface.labels) labels = {group, 0};
         surface.names.clear();
+        if (all.space == Space::kUnknown) all.space = surface.space;
         append(all, surface);
         if (all.points.size() > kMostVertices || all.faces.size() > kMostFaces)
             formats::fail(folder, "has more points or faces than a model can hold");
@@ -65,6 +66,14 @@ FileSurface read_surface(const std::filesystem::path& path) {
                                     path.extension().string(), readable_extensions()));
 }
 
+/// Half a turn about z leads from RAS to LPS and back.
+void turn(FileSurface& surface, Space space) {
+    if (space == Space::kUnknown || space == surface.space) return;
+    if (surface.space != Space::kUnknown)
+        for (Vec3& point : surface.points) point = {-point.x, -point.y, point.z};
+    surface.space = space;
+}
+
 MeshFile assemble(FileSurface&& surface) {
     MeshArrays arrays{.points = std::move(surface.points),
                       .faces = std::move(surface.faces),
@@ -72,7 +81,11 @@ MeshFile assemble(FileSurface&& surface) {
                       .exterior_label = surface.exterior_label};
     for (const bool is_on_hull : surface.is_on_hull) arrays.node_types.push_back(is_on_hull ? kFirstHullType : 0);
     auto [mesh, labels] = regionmesh::assemble(arrays);
-    return {.mesh = std::move(mesh), .labels = std::move(labels), .names = std::move(surface.names)};
+    return {.mesh = std::move(mesh),
+            .labels = std::move(labels),
+            .names = std::move(surface.names),
+            .space = surface.space,
+            .background = std::move(surface.background)};
 }
 
 }  // namespace
@@ -84,6 +97,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& opt
     Box box;
     for (const Vec3 p : surface.points) box.add(p);
     if (!surface.faces.empty()) require_extent(path.string(), box);
+    turn(surface, options.space);
     if (options.weld || !surface.has_shared_points) {
         surface.is_on_hull.clear();  // points get other numbers
         weld_points(surface, options.weld.value_or(0));

@@ -30,7 +30,9 @@ void add_face(FileSurface& surface, const std::array<Vec3, 3>& points, std::uint
 }
 
 void read_binary(formats::ByteReader& file, std::uint32_t count, RegionGroups& groups, FileSurface& surface) {
-    file.take(kHeadBytes + 4);
+    const auto head = file.take(kHeadBytes);
+    read_comment(surface, std::string_view(reinterpret_cast<const char*>(head.data()), head.size()));
+    file.take(4);
     const std::uint32_t group = groups.add({}, true);
     for (std::uint32_t f = 0; f < count; ++f) {
         file.take(3 * sizeof(float));  // the normal; it follows from the corners
@@ -53,6 +55,8 @@ void read_text(formats::ByteReader& file, RegionGroups& groups, FileSurface& sur
                 "is no text, and the file has not the size of a binary STL file with as many faces as it says");
         const std::string_view word = formats::take_word(rest);
         if (word == "solid") {
+            read_comment(surface, rest);
+            rest = rest.substr(0, rest.find(" SPACE="));
             group = groups.add(formats::one_line(rest), true);
         } else if (word == "vertex") {
             if (!group) file.fail_line("a vertex comes before the first solid");
@@ -73,7 +77,7 @@ void read_text(formats::ByteReader& file, RegionGroups& groups, FileSurface& sur
 }  // namespace
 
 FileSurface read_stl(const std::filesystem::path& path) {
-    FileSurface surface{.is_by_region = true, .has_shared_points = false};
+    FileSurface surface{.background = std::vector<InputLabel>{}, .is_by_region = true, .has_shared_points = false};
     RegionGroups groups;
     const auto count = faces_of_binary(path);
     formats::ByteReader file(path);

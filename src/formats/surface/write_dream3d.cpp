@@ -1,14 +1,16 @@
-// DREAM.3D files, version 8: a triangle geometry in HDF5.
-// https://www.dream3d.io (the file has groups and arrays as objects, each with an id, a type and its dimensions)
+// DREAM.3D files, which the program regionmesh-hdf5 makes: the HDF5 library crashes where memory runs out.
 #include <fmt/format.h>
 
-#include <initializer_list>
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
-#include <new>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "formats/chunked/hdf5_handle.h"
+#include "formats/find_program.h"
+#include "formats/piped_program.h"
 #include "formats/surface/mesh_formats.h"
 #include "regionmesh/error.h"
 
@@ -17,188 +19,108 @@ namespace {
 
 using namespace formats;
 
-constexpr hsize_t kRows = 1 << 16;        // per write
-constexpr std::size_t kGrowth = 1 << 22;  // of the file in memory
+constexpr std::array<char, 8> kMesh{'R', 'M', 'H', '5', 'M', 'S', 'H', '1'};
+constexpr std::size_t kPiece = 1 << 16;     // numbers sent, or bytes received, at a time
+constexpr int kWrongInput = 1, kUsage = 2;  // exit codes
 
-template <class T>
-struct ArrayType;
-template <>
-struct ArrayType<float> {
-    static constexpr const char* kName = "DataArray<float32>";
-    static hid_t stored() { return H5T_IEEE_F32LE; }
-    static hid_t native() { return H5T_NATIVE_FLOAT; }
-};
-template <>
-struct ArrayType<std::int32_t> {
-    static constexpr const char* kName = "DataArray<int32>";
-    static hid_t stored() { return H5T_STD_I32LE; }
-    static hid_t native() { return H5T_NATIVE_INT32; }
-};
-template <>
-struct ArrayType<std::uint64_t> {
-    static constexpr const char* kName = "DataArray<uint64>";
-    static hid_t stored() { return H5T_STD_U64LE; }
-    static hid_t native() { return H5T_NATIVE_UINT64; }
-};
-template <>
-struct ArrayType<std::int8_t> {
-    static constexpr const char* kName = "DataArray<int8>";
-    static hid_t stored() { return H5T_STD_I8LE; }
-    static hid_t native() { return H5T_NATIVE_INT8; }
-};
+/// The format has signed 32-bit labels; -1 is the exterior.
+void require_labels(const LabelTable& labels) {
+    for (Label label = 0; label < labels.size(); ++label) {
+        const InputLabel input = labels.input(label);
+        if (input < 0 || input > std::numeric_limits<std::int32_t>::max())
+            throw Error(ErrorCode::kOutput, fmt::format("label {}: .dream3d holds labels from 0 to 2147483647: "
+                                                        "write another format",
+                                                        labels.text(input)));
+    }
+}
 
-/// Makes the file in memory and then writes it: the HDF5 library does not recover from a full disk.
-class Dream3dWriter {
+/// Sends a model as apps/hdf5/README.md describes it.
+class Sender {
 public:
-    Dream3dWriter(const FileView& view, OutputFile& file) : view_(view), output_(file) {}
+    Sender(PipedProgram& program, const FileView& view) : program_(program), view_(view) {}
 
-    void write() {
-        require_labels();
-        const Hdf5Properties in_memory(need(H5Pcreate(H5P_FILE_ACCESS)));
-        need_done(H5Pset_fapl_core(in_memory.id(), kGrowth, false));
-        const Hdf5File file(need(H5Fcreate("model.dream3d", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory.id())));
-        put_text(file.id(), "FileVersion", "8.0");
-        {
-            const Hdf5Group structure = group(file.id(), "DataStructure");
-            write_geometry(structure.id());
-            put_numbers(structure.id(), "NextObjectId", {next_id_});
-        }
-        need_done(H5Fflush(file.id(), H5F_SCOPE_GLOBAL));
-        std::string bytes(static_cast<std::size_t>(need(H5Fget_file_image(file.id(), nullptr, 0))), '\0');
-        need(H5Fget_file_image(file.id(), bytes.data(), bytes.size()));
-        output_.write(bytes);
-    }
-
-private:
-    /// The file is in memory, so only lack of memory can fail.
-    template <class Id>
-    static Id need(Id id) {
-        if (id < 0) throw std::bad_alloc();
-        return id;
-    }
-    static void need_done(herr_t status) { need(status); }
-
-    /// The format has signed 32-bit labels; -1 is the exterior.
-    void require_labels() const {
-        const LabelTable& labels = view_.labels();
-        for (Label label = 0; label < labels.size(); ++label) {
-            const InputLabel input = labels.input(label);
-            if (input < 0 || input > std::numeric_limits<std::int32_t>::max())
-                throw Error(ErrorCode::kOutput, fmt::format("label {}: .dream3d holds labels from 0 to 2147483647: "
-                                                            "write another format",
-                                                            labels.text(input)));
-        }
-    }
-
-    void write_geometry(hid_t structure) {
-        const hsize_t vertices = view_.mesh().vertex_count(), faces = view_.mesh().face_count();
-        const Hdf5Group geometry = group(structure, "TriangleDataContainer");
-        put_object(geometry.id(), "TriangleGeom");
-        put_numbers(geometry.id(), "Vertex List ID", {next_id_});
-        put_array<float>(geometry.id(), "SharedVertexList", {vertices, 3}, [&](auto&& put) {
+    /// False where the program has ended.
+    bool send() {
+        const std::array<std::uint64_t, 2> counts{view_.mesh().vertex_count(), view_.mesh().face_count()};
+        put<char>(kMesh);
+        put<std::uint64_t>(counts);
+        send_numbers<float>([&](auto&& put) {
             view_.for_vertices([&](VertexId v) {
                 for (int axis = 0; axis < 3; ++axis) put(static_cast<float>(view_.mesh().position(v)[axis]));
             });
         });
-        put_numbers(geometry.id(), "Face List ID", {next_id_});
-        put_array<std::uint64_t>(geometry.id(), "SharedTriList", {faces, 3}, [&](auto&& put) {
+        send_numbers<std::uint32_t>([&](auto&& put) {
             view_.for_faces([&](FaceId f) {
                 for (const std::uint32_t v : view_.face(f).vertices) put(v);
             });
         });
-        put_numbers(geometry.id(), "Vertex Data ID", {next_id_});
-        const Hdf5Group vertex_data = matrix(geometry.id(), "Vertex Data", vertices);
-        put_array<std::int8_t>(vertex_data.id(), "NodeType", {vertices, 1}, [&](auto&& put) {
+        send_numbers<std::int8_t>([&](auto&& put) {
             view_.for_vertices([&](VertexId v) { put(static_cast<std::int8_t>(view_.node_type(v))); });
         });
-        put_numbers(geometry.id(), "Face Data ID", {next_id_});
-        const Hdf5Group face_data = matrix(geometry.id(), "Face Data", faces);
-        put_array<std::int32_t>(face_data.id(), "FaceLabels", {faces, 2}, [&](auto&& put) {
+        send_numbers<std::int32_t>([&](auto&& put) {
             view_.for_faces([&](FaceId f) {
                 for (const InputLabel label : view_.face(f).labels) put(static_cast<std::int32_t>(label));
             });
         });
+        program_.end_input();
+        return is_taken_;
     }
 
-    Hdf5Group group(hid_t parent, const char* name) const {
-        return Hdf5Group(need(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)));
-    }
-
-    /// A group of arrays with the same number of rows.
-    Hdf5Group matrix(hid_t parent, const char* name, hsize_t rows) {
-        Hdf5Group made = group(parent, name);
-        put_object(made.id(), "AttributeMatrix");
-        put_numbers(made.id(), "TupleDims", {rows});
-        return made;
-    }
-
-    /// Writes the attributes that every object has.
-    void put_object(hid_t object, const char* type) {
-        put_text(object, "ObjectType", type);
-        put_numbers(object, "ObjectId", {next_id_++});
-        const int importable = 1;
-        const Hdf5Space space(need(H5Screate(H5S_SCALAR)));
-        const Hdf5Attribute attribute(
-            need(H5Acreate2(object, "Importable", H5T_STD_I32LE, space.id(), H5P_DEFAULT, H5P_DEFAULT)));
-        need_done(H5Awrite(attribute.id(), H5T_NATIVE_INT, &importable));
-    }
-
-    void put_text(hid_t object, const char* name, const std::string& text) const {
-        const Hdf5Type type(need(H5Tcopy(H5T_C_S1)));
-        need_done(H5Tset_size(type.id(), text.size() + 1));
-        const Hdf5Space space(need(H5Screate(H5S_SCALAR)));
-        const Hdf5Attribute attribute(need(H5Acreate2(object, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT)));
-        need_done(H5Awrite(attribute.id(), type.id(), text.c_str()));
-    }
-
-    void put_numbers(hid_t object, const char* name, std::initializer_list<std::uint64_t> numbers) const {
-        const hsize_t count = numbers.size();
-        const bool is_list = std::string_view(name).ends_with("Dims") || std::string_view(name).ends_with("Dimensions");
-        const Hdf5Space space(need(is_list ? H5Screate_simple(1, &count, nullptr) : H5Screate(H5S_SCALAR)));
-        const Hdf5Attribute attribute(
-            need(H5Acreate2(object, name, H5T_STD_U64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT)));
-        need_done(H5Awrite(attribute.id(), H5T_NATIVE_UINT64, numbers.begin()));
+private:
+    template <class T>
+    void put(std::span<const T> numbers) {
+        is_taken_ = is_taken_ && program_.send(std::as_bytes(numbers));
     }
 
     /// make(put) calls put() with all numbers in order.
     template <class T, class Make>
-    void put_array(hid_t parent, const char* name, std::array<hsize_t, 2> shape, Make&& make) {
-        const Hdf5Space space(need(H5Screate_simple(2, shape.data(), nullptr)));
-        const Hdf5Properties untimed(need(H5Pcreate(H5P_DATASET_CREATE)));
-        need_done(H5Pset_obj_track_times(untimed.id(), false));  // the same model gives the same bytes
-        const Hdf5Dataset array(
-            need(H5Dcreate2(parent, name, ArrayType<T>::stored(), space.id(), H5P_DEFAULT, untimed.id(), H5P_DEFAULT)));
-        put_object(array.id(), ArrayType<T>::kName);
-        put_numbers(array.id(), "TupleDimensions", {shape[0]});
-        put_numbers(array.id(), "ComponentDimensions", {shape[1]});
-        std::vector<T> rows;
-        hsize_t done = 0;
-        const auto flush = [&] {
-            const std::array<hsize_t, 2> start{done, 0}, count{rows.size() / shape[1], shape[1]};
-            if (count[0] == 0) return;
-            need_done(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr));
-            const Hdf5Space here(need(H5Screate_simple(2, count.data(), nullptr)));
-            need_done(H5Dwrite(array.id(), ArrayType<T>::native(), here.id(), space.id(), H5P_DEFAULT, rows.data()));
-            done += count[0];
-            rows.clear();
-        };
+    void send_numbers(Make&& make) {
+        std::vector<T> piece;
+        piece.reserve(kPiece);
         make([&](T number) {
-            rows.push_back(number);
-            if (rows.size() == kRows * shape[1]) flush();
+            piece.push_back(number);
+            if (piece.size() < kPiece) return;
+            put<T>(piece);
+            piece.clear();
         });
-        flush();
+        put<T>(piece);
     }
 
+    PipedProgram& program_;
     const FileView& view_;
-    OutputFile& output_;
-    std::uint64_t next_id_ = 1;
+    bool is_taken_ = true;
 };
+
+[[noreturn]] void report_end(const std::filesystem::path& path, const PipedProgram::Ending& ending) {
+    const int code = ending.exit_code.value_or(0);
+    if (code == kWrongInput || code == kUsage)
+        throw Error(ErrorCode::kOutput, fmt::format("{} failed with exit code {} ({}); is it of another version?",
+                                                    path.string(), code, ending.last_words));
+    throw Error(ErrorCode::kOutput,
+                fmt::format("{} ended before the .dream3d file was complete: the HDF5 library needs more memory; end "
+                            "other programs, set a lower target, or write another format",
+                            path.string()));
+}
 
 }  // namespace
 
 void write_dream3d(const FileView& view, OutputFile& file) {
-    const Hdf5Silence silence;
-    Dream3dWriter(view, file).write();
+    require_labels(view.labels());
+    const std::filesystem::path path = find_program(kHdf5Program);
+    PipedProgram program(path, {"--write-dream3d"});
+    std::uint64_t left = 0;
+    // The size comes first: an end that is too early is no file, whatever the exit code.
+    bool is_whole =
+        Sender(program, view).send() && program.receive(std::as_writable_bytes(std::span(&left, 1))) == sizeof left;
+    std::array<std::byte, kPiece> piece;
+    while (is_whole && left > 0) {
+        const std::size_t wanted = std::min<std::uint64_t>(left, piece.size());
+        is_whole = program.receive(std::span(piece).first(wanted)) == wanted;
+        if (is_whole) file.write({reinterpret_cast<const char*>(piece.data()), wanted});
+        left -= wanted;
+    }
+    const PipedProgram::Ending ending = program.end();
+    if (!is_whole || ending.exit_code != 0) report_end(path, ending);
 }
 
 }  // namespace regionmesh

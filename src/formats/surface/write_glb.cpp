@@ -41,9 +41,10 @@ std::array<double, 4> linear_colour(std::uint32_t colour) {
 
 class GlbWriter {
 public:
-    GlbWriter(const FileView& view, OutputFile& file)
+    GlbWriter(const FileView& view, double metres, OutputFile& file)
         : view_(view),
           file_(file),
+          metres_(metres),
           regions_(view),
           faces_(faces_by_region(view, regions_)),
           colours_(region_colours(view)),
@@ -151,7 +152,8 @@ private:
         json["nodes"] = Json::array({{{"name", "model"}, {"rotation", {-half, 0, 0, half}}}});
         if (regions_.all().empty()) return json.dump();
         // glTF applies the rotation before the translation.
-        json["nodes"][0]["translation"] = {middle_.x, middle_.z, -middle_.y};
+        json["nodes"][0]["translation"] = {metres_ * middle_.x, metres_ * middle_.z, -metres_ * middle_.y};
+        if (metres_ != 1) json["nodes"][0]["scale"] = {metres_, metres_, metres_};
         for (std::size_t n = 0; n < regions_.all().size(); ++n) add_region(n, json);
         json["buffers"] = Json::array({{{"byteLength", bytes_}}});
         return json.dump();
@@ -159,6 +161,7 @@ private:
 
     const FileView& view_;
     OutputFile& file_;
+    double metres_;  // in a unit of the coordinates
     FileRegions regions_;
     GroupedFaces faces_;
     std::vector<std::uint32_t> colours_;  // by place in the order of files
@@ -168,6 +171,6 @@ private:
 
 }  // namespace
 
-void write_glb(const FileView& view, OutputFile& file) { GlbWriter(view, file).write(); }
+void write_glb(const FileView& view, double metres, OutputFile& file) { GlbWriter(view, metres, file).write(); }
 
 }  // namespace regionmesh

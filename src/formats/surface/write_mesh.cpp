@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "formats/registry.h"
 #include "formats/surface/file_regions.h"
@@ -65,36 +66,52 @@ Mesh part_of(const Mesh& mesh, const GroupedFaces& faces, std::size_t group) {
     return part;
 }
 
+/// "model-liver.stl", "model-3.stl".
+Path file_of(const FileView& view, const FileRegion& region, const Path& path) {
+    const std::string own = view.name(region.label).empty() ? view.label_text(region.label) : region.word;
+    return path.parent_path() / fmt::format("{}-{}{}", path.stem().string(), own, path.extension().string());
+}
+
 /// A file for each region: with all other labels as background its normals point outward.
-void write_regions(const FileView& view, const Format& format, OutputFiles& files, const Path& path) {
+std::vector<Path> write_regions(const FileView& view, const Format& format, OutputFiles& files, const Path& path) {
     const FileRegions regions(view);
     const GroupedFaces faces = faces_by_region(view, regions);
+    std::vector<Path> written;
     for (std::size_t n = 0; n < regions.all().size(); ++n) {
         const Label own = regions.all()[n].label;
         std::vector<Label> others = view.ordered_labels();
         std::erase(others, own);
         const Mesh part = part_of(view.mesh(), faces, n);
-        const Path file = path.parent_path() /
-                          fmt::format("{}-{}{}", path.stem().string(), view.label_text(own), path.extension().string());
-        format.write_region(FileView(part, view.labels(), others, view.names()), files.add(file));
+        written.push_back(file_of(view, regions.all()[n], path));
+        FileView part_view(part, view.labels(), others, view.names());
+        part_view.set_space(view.space());
+        format.write_region(part_view, files.add(written.back()));
     }
+    return written;
 }
 
 }  // namespace
 
 std::string writable_extensions() { return formats::extensions_with(&Format::write_surface); }
 
-void write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path, const WriteOptions& options,
-                OutputFiles& files) {
+std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path, const WriteOptions& options,
+                             OutputFiles& files) {
     const Format& format = format_of(path, options, !options.point_arrays.empty());
-    const FileView view(mesh, labels, options.background, options.names);
-    options.per_region ? write_regions(view, format, files, path) : format.write_surface(view, options, files, path);
+    FileView view(mesh, labels, options.background, options.names);
+    view.set_space(options.space);
+    if (options.per_region) return write_regions(view, format, files, path);
+    std::vector<Path> written{path};
+    format.write_surface(view, options, files, path);
+    if (format.companion) written.push_back(Path(path).replace_extension(format.companion));
+    return written;
 }
 
-void write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path, const WriteOptions& options) {
+std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path,
+                             const WriteOptions& options) {
     OutputFiles files(options.output);
-    write_mesh(mesh, labels, path, options, files);
+    auto written = write_mesh(mesh, labels, path, options, files);
     files.commit();
+    return written;
 }
 
 void require_writable_mesh(const Path& path, const WriteOptions& options, bool with_point_arrays) {

@@ -1,4 +1,6 @@
 // Wavefront OBJ: shared vertices, a group for each interface.
+#include <string>
+
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/text_writer.h"
@@ -11,6 +13,10 @@ InputLabel number_of(const FileView& view, Label label) {
     return is_exterior(label) ? view.exterior_label() : view.labels().input(label);
 }
 
+void add_space(const FileView& view, TextWriter& text) {
+    if (view.space() != Space::kUnknown) text.line(std::string("# SPACE=") + space_name(view.space()));
+}
+
 }  // namespace
 
 void write_obj(const FileView& view, OutputFile& file) {
@@ -18,7 +24,12 @@ void write_obj(const FileView& view, OutputFile& file) {
     const auto& interfaces = regions.interfaces();
     TextWriter text(file);
     text.line("# g interface_A_B: faces whose normals point from label A to label B");
+    add_space(view, text);
     text.line("# exterior_label", view.exterior_label());
+    if (const auto background = view.background_labels()) {
+        if (background->empty()) text.line("# no_background 0");
+        for (const InputLabel label : *background) text.line("# background", label);
+    }
     view.for_names([&](Label label, const std::string& name) {
         if (regions.number(label) > 0) text.line("# region", number_of(view, label), name);
     });
@@ -40,6 +51,7 @@ void write_obj(const FileView& view, OutputFile& file) {
 /// The group has no second label: the file has one region, with normals outward.
 void write_region_obj(const FileView& view, OutputFile& file) {
     TextWriter text(file);
+    add_space(view, text);
     text.line("g", FileRegions(view).all().front().title);
     view.for_vertices([&](VertexId v) { text.line("v", view.mesh().position(v)); });
     view.for_faces([&](FaceId f) {

@@ -17,6 +17,11 @@ Vec3 unit_normal(const std::array<Vec3, 3>& p) {
     return size > 0 ? normal / size : Vec3{};
 }
 
+/// " SPACE=RAS": 3D Slicer looks for it in the first line, or in the header of a binary file.
+std::string space_text(const FileView& view) {
+    return view.space() == Space::kUnknown ? std::string() : std::string(" SPACE=") + space_name(view.space());
+}
+
 }  // namespace
 
 void write_stl(const FileView& view, OutputFile& file) {
@@ -25,7 +30,7 @@ void write_stl(const FileView& view, OutputFile& file) {
     const GroupedFaces faces = faces_by_region(view, regions);
     TextWriter text(file);
     for (std::size_t n = 0; n < regions.all().size(); ++n) {
-        text.line("solid", regions.all()[n].title);
+        text.line("solid", regions.all()[n].title + (n == 0 ? space_text(view) : ""));
         faces.for_group(n, [&](FaceId f, std::uint32_t side) {
             std::array<Vec3, 3> p;
             const auto vertices = turned_vertices(mesh, f, side);
@@ -48,7 +53,7 @@ void write_stl(const FileView& view, OutputFile& file) {
 /// Binary, in single precision: one solid.
 void write_region_stl(const FileView& view, OutputFile& file) {
     constexpr std::size_t kHeadBytes = 80;
-    std::string head = "binary STL of regionmesh";  // must not begin with "solid"
+    std::string head = "binary STL of regionmesh" + space_text(view);  // must not begin with "solid"
     head.resize(kHeadBytes);
     file.write(head);
     formats::NumberWriter numbers(file);

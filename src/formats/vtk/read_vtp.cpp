@@ -19,6 +19,7 @@ constexpr const char* kLabelArrays[] = {"BoundaryLabels", "boundary_labels", "Fa
 /// VTK's numbers of cells that are polygons.
 constexpr std::int64_t kTriangle = 5, kPolygon = 7, kQuad = 9;
 
+constexpr std::uint64_t kMostBackgroundLabels = 1 << 20;
 constexpr std::int64_t kMostCorners = 1 << 20;
 
 /// Reads the pieces of a file one after the other into one surface.
@@ -29,6 +30,8 @@ public:
 
 private:
     void read_names(pugi::xml_node fields);
+    void read_background(pugi::xml_node fields);
+    void read_space(pugi::xml_node fields);
     void refuse_other_cells(pugi::xml_node piece) const;
     void read_node_types(pugi::xml_node piece, std::uint64_t count);
     void read_types(pugi::xml_node cells, std::uint64_t count) const;
@@ -68,9 +71,29 @@ void VtkSurfaceReader::read_names(pugi::xml_node fields) {
     numbers.finish();
 }
 
+void VtkSurfaceReader::read_background(pugi::xml_node fields) {
+    const pugi::xml_node array = array_named(fields, "BackgroundLabels");
+    if (!array) return;
+    surface_.background.emplace();
+    const std::uint64_t count = xml_.count(array, "NumberOfTuples", kMostBackgroundLabels);
+    if (count == 0) return;
+    VtkNumbers numbers = integers_of(xml_, array, count);
+    for (std::uint64_t n = 0; n < count; ++n) surface_.background->push_back(numbers.integer());
+    numbers.finish();
+}
+
+/// As 3D Slicer writes it; other arrays of this name are ignored.
+void VtkSurfaceReader::read_space(pugi::xml_node fields) {
+    const pugi::xml_node array = fields.find_child_by_attribute("Array", "Name", "SPACE");
+    if (!array || std::string_view(array.attribute("type").value()) != "String") return;
+    if (const auto texts = read_strings(xml_, array); texts.size() == 1) read_comment(surface_, "SPACE=" + texts[0]);
+}
+
 FileSurface VtkSurfaceReader::read(bool is_grid) {
     const pugi::xml_node fields = xml_.dataset().child("FieldData"), exterior = array_named(fields, "ExteriorLabel");
     read_names(fields);
+    read_background(fields);
+    read_space(fields);
     if (exterior) {
         VtkNumbers number = integers_of(xml_, exterior, 1);
         surface_.exterior_label = number.integer();

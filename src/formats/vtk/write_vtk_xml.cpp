@@ -130,6 +130,22 @@ void write_names(const FileView& view, OutputFile& file) {
                     count, labels, count, codes));
 }
 
+void write_space(Space space, OutputFile& file) {
+    if (space == Space::kUnknown) return;
+    std::string codes;
+    for (const char* c = space_name(space); *c != 0; ++c) codes += fmt::format("{} ", static_cast<int>(*c));
+    file.write(fmt::format("<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">{}0</Array>\n",
+                           codes));
+}
+
+void write_background(const std::vector<InputLabel>& labels, OutputFile& file) {
+    std::string text;
+    for (const InputLabel label : labels) text += fmt::format("{} ", label);
+    file.write(fmt::format(
+        "<DataArray type=\"Int64\" Name=\"BackgroundLabels\" NumberOfTuples=\"{}\" format=\"ascii\">{}</DataArray>\n",
+        labels.size(), text));
+}
+
 void write_head(const FileView& view, DataSet kind, OutputFile& file) {
     const bool is_grid = kind == DataSet::kUnstructuredGrid;
     file.write(
@@ -137,6 +153,8 @@ void write_head(const FileView& view, DataSet kind, OutputFile& file) {
                     "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n<FieldData>\n",
                     is_grid ? "UnstructuredGrid" : "PolyData"));
     if (view.exterior_label() != -1) write_number("ExteriorLabel", view.exterior_label(), file);
+    if (const auto background = view.background_labels()) write_background(*background, file);
+    write_space(view.space(), file);
     write_names(view, file);
     const std::uint64_t vertices = view.mesh().vertex_count(), faces = view.mesh().face_count();
     file.write(fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" ", vertices));
@@ -166,7 +184,12 @@ void write_points(const FileView& view, const std::vector<PointArray>& arrays, O
 }
 
 void write_labels(const FileView& view, OutputFile& file) {
-    file.write("<CellData>\n");
+    file.write("<CellData Scalars=\"Region\">\n");
+    for (const int side : {0, 1}) {
+        ArrayWriter<std::int64_t> region(file, side == 0 ? "Region" : "Neighbour", 1, view.mesh().face_count());
+        view.for_faces([&](FaceId f) { region.put(view.face(f).labels[side]); });
+        region.close();
+    }
     ArrayWriter<std::int64_t> labels(file, "BoundaryLabels", 2, std::uint64_t{2} * view.mesh().face_count());
     view.for_faces([&](FaceId f) {
         for (const InputLabel label : view.face(f).labels) labels.put(label);

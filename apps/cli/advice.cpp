@@ -1,0 +1,113 @@
+#include "advice.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+#include <unordered_set>
+#include <vector>
+
+#include "messages.h"
+
+namespace regionmesh::cli {
+namespace {
+
+// Noise of a few grey values leaves more than half of the samples alone; thin regions leave a few per cent of labels
+// so.
+constexpr double kGreyShare = 0.25;
+constexpr std::size_t kGreyValues = 24;
+constexpr std::uint64_t kGreySamples = 200'000;  // that are not background: enough to judge
+constexpr std::uint32_t kGreySections = 1000;
+
+bool is_given(const Settings& settings, std::string_view name) {
+    return std::ranges::any_of(settings.given, [&](const auto& option) { return option.first == name; });
+}
+
+/// Input labels on the faces: all that the input has, unless one fills it.
+std::set<InputLabel> labels_on(const Mesh& mesh, const LabelTable& labels) {
+    std::vector<bool> is_there(labels.size());
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
+        if (mesh.is_alive(FaceId{f}))
+            for (const Label label : mesh[FaceId{f}].labels)
+                if (!is_exterior(label)) is_there[label] = true;
+    std::set<InputLabel> found;
+    for (Label label = 0; label < labels.size(); ++label)
+        if (is_there[label]) found.insert(labels.input(label));
+    return found;
+}
+
+/// Samples of a section that differ from their neighbours in it.
+struct GreyCount {
+    std::unordered_set<InputLabel> values;
+    std::uint64_t samples = 0, alone = 0;
+
+    void add(const std::vector<InputLabel>& section, std::uint32_t width, const std::vector<InputLabel>& background) {
+        for (std::size_t n = 0; n < section.size(); ++n) {
+            const InputLabel value = section[n];
+            if (std::ranges::find(background, value) != background.end()) continue;
+            const std::size_t column = n % width;
+            const bool has_like = (column > 0 && section[n - 1] == value) ||
+                                  (column + 1 < width && section[n + 1] == value) ||
+                                  (n >= width && section[n - width] == value) ||
+                                  (n + width < section.size() && section[n + width] == value);
+            ++samples;
+            alone += !has_like;
+            if (!has_like) values.insert(value);
+        }
+    }
+    bool is_grey() const {
+        return values.size() >= kGreyValues && static_cast<double>(alone) > kGreyShare * static_cast<double>(samples);
+    }
+};
+
+}  // namespace
+
+void require_regions(const Settings& settings, const CheckReport& report) {
+    if (!report.regions.empty()) return;
+    const ReconstructOptions& options = settings.reconstruct;
+    std::string why = "it has one label only, which has no face with --boundary open; give --boundary cap";
+    if (options.cap) {
+        why = "all of it is background";
+        why += is_given(settings, "labels") ? ": it has none of the --labels; regionmesh info lists those that it has"
+                                            : "; give another --background, or --no-background";
+    }
+    throw Error(ErrorCode::kInput, settings.inputs.front() + ": there is no region to model: " + why);
+}
+
+void warn_of_absent_labels(const Settings& settings, const Mesh& mesh, const LabelTable& labels) {
+    const bool has_background = is_given(settings, "background"), has_labels = is_given(settings, "labels");
+    if (!has_background && !has_labels) return;
+    const std::set<InputLabel> found = labels_on(mesh, labels);
+    const auto warn_of = [&](const char* option, const std::string& label) {
+        warn(fmt::format("--{} {}: {} has no such label; regionmesh info lists those that it has", option, label,
+                         settings.inputs.front()));
+    };
+    if (has_background)
+        for (const InputLabel label : settings.reconstruct.background)
+            if (!found.contains(label)) warn_of("background", labels.text(label));
+    for (const LabelRange& range : settings.volume.select.labels) {
+        const bool occurs = std::ranges::any_of(found, [&](InputLabel label) {
+            return !labels.less(label, range.first) && !labels.less(range.last, label);
+        });
+        const std::string last = range.first == range.last ? "" : '-' + labels.text(range.last);
+        if (!occurs) warn_of("labels", labels.text(range.first) + last);
+    }
+}
+
+void warn_of_grey_scale(const Settings& settings, SectionReader& reader) {
+    if (!reader.info().can_rewind) return;
+    reader.rewind();
+    GreyCount count;
+    std::vector<InputLabel> section(std::size_t{reader.section_width()} * reader.section_height());
+    for (std::uint32_t n = 0; n < kGreySections && count.samples < kGreySamples && reader.next(section); ++n)
+        count.add(section, reader.section_width(), settings.reconstruct.background);
+    reader.rewind();
+    if (!count.is_grey()) return;
+    warn(fmt::format(
+        "{} looks like a grey-scale image, not like labels: {} values and more, and {:.0f} % of the samples "
+        "differ from their neighbours; segment it first, and give the labels",
+        reader.info().source, count.values.size(),
+        100 * static_cast<double>(count.alone) / static_cast<double>(count.samples)));
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,25 @@
+// What a run says about an input that is probably not meant.
+#pragma once
+
+#include <string>
+
+#include "regionmesh/formats.h"
+#include "regionmesh/options.h"
+#include "regionmesh/regionmesh.h"
+
+namespace regionmesh::cli {
+
+/// Throws Error(kInput) where the model has no region, or no face: it says why.
+void require_regions(const Settings& settings, const CheckReport& report);
+
+/// Warns of labels in --background and --labels that the input does not have. `mesh` is the model made of it, with at
+/// least one face.
+void warn_of_absent_labels(const Settings& settings, const Mesh& mesh, const LabelTable& labels);
+
+/// Warns where the sections look like a grey-scale image: many values, and samples that differ from all four neighbours
+/// in their section, which labels have few of. Reads sections until it has seen enough, at most kGreySections, and
+/// rewinds before and after; does nothing where the reader cannot.
+void warn_of_grey_scale(const Settings& settings, SectionReader& reader);
+inline void warn_of_grey_scale(const Settings&, TetrahedronReader&) {}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,100 @@
+#include "config_file.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "arguments.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh::cli {
+namespace {
+
+bool has(const OptionValues& values, std::string_view name) {
+    return std::ranges::any_of(values, [&](const auto& value) { return value.first == name; });
+}
+
+/// CLI11 takes "#" for the start of a comment wherever it is.
+void require_no_number_sign_in_quotes(const std::string& path, const std::string& text) {
+    std::istringstream lines(text);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        char quote = 0;
+        for (const char c : line) {
+            if (quote && c == '#')
+                throw Error(ErrorCode::kInput,
+                            fmt::format("{}: line {}: a value with # cannot be read; give it on the command line", path,
+                                        number));
+            if (quote ? c == quote : c == '"' || c == '\'') quote = quote ? 0 : c;
+            if (!quote && c == '#') break;
+        }
+    }
+}
+
+std::vector<CLI::ConfigItem> items_in(const std::string& path) {
+    std::ifstream stream(path);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    if (!stream || std::filesystem::is_directory(path))
+        throw Error(ErrorCode::kInput, path + ": cannot be read; check the path");
+    require_no_number_sign_in_quotes(path, text.str());
+    std::istringstream again(text.str());
+    try {
+        return CLI::ConfigTOML().from_config(again);
+    } catch (const CLI::Error& error) {
+        throw Error(ErrorCode::kInput, path + ": " + error.what());
+    }
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+    std::string all;
+    for (const std::string& text : texts) all += (all.empty() ? "" : ",") + text;
+    return all;
+}
+
+OptionValues values_in(const std::string& path, const CommandSpec& command) {
+    OptionValues values;
+    for (CLI::ConfigItem& item : items_in(path)) {
+        if (item.name == "++" || item.name == "--") continue;  // start and end of a table
+        const std::string table = item.parents.empty() ? "" : item.parents.front();
+        if (!table.empty() && table != command.name) continue;
+        std::ranges::replace(item.name, '_', '-');
+        const OptionSpec* const option = find_option(item.name);
+        if (option && option->repeats)
+            for (const std::string& text : item.inputs) values.emplace_back(item.name, text);
+        else
+            values.emplace_back(item.name, joined(item.inputs));
+    }
+    return values;
+}
+
+}  // namespace
+
+void add_config(OptionValues& values, const CommandSpec& command) {
+    const auto config = std::ranges::find(values, "config", &OptionValues::value_type::first);
+    if (config == values.end()) return;
+    const std::string path = config->second;
+    const bool is_report = std::filesystem::path(path).extension() == ".json";
+    const OptionValues typed = values;
+    for (auto& [name, text] : is_report ? options_of_report(path, command) : values_in(path, command)) {
+        const OptionSpec* const option = find_option(name);
+        if (!option || !(option->commands & command.command) || name == "config")
+            throw Error(ErrorCode::kUsage, path + ": " + no_such_option(command, name));
+        if (!has(typed, name)) values.emplace_back(name, text);
+    }
+}
+
+void require_complete(const OptionValues& values, const CommandSpec& command) {
+    for (const OptionSpec& option : option_table())
+        if ((option.commands & command.command) && (option.is_argument || option.is_required) &&
+            !has(values, option.name))
+            throw Error(ErrorCode::kUsage,
+                        option.flag() + " is required; see regionmesh " + std::string(command.name) + " --help");
+}
+
+}  // namespace regionmesh::cli

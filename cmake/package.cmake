@@ -1,0 +1,47 @@
+# Debian packages by CPack, one for each component of cmake/install.cmake; script/package runs it.
+set(REGIONMESH_MAINTAINER "regionmesh authors <regionmesh@example.org>" CACHE STRING "Maintainer of the Debian packages")
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME regionmesh)
+set(CPACK_PACKAGE_VENDOR regionmesh)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program dev doc)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${REGIONMESH_MAINTAINER}")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME regionmesh)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "regionmesh reads segmented scans, atlases and stacks of sections, and writes
+one checked triangle mesh in which neighbouring regions share their faces.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libregionmesh-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "zlib1g-dev, libtiff-dev, libpng-dev, libblosc-dev, libzstd-dev, liblz4-dev, libcsv-dev, libpugixml-dev, libfmt-dev, libgmp-dev, libmpfr-dev, libtbb-dev")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "C++ library: static libraries, headers and the files that CMake's find_package reads.")
+
+set(CPACK_DEBIAN_DOC_PACKAGE_NAME regionmesh-doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOC_DESCRIPTION "Documentation: the pages of regionmesh as Markdown, with pictures, and examples in C++.")
+
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc/docs COMPONENT doc)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc COMPONENT doc)
+# Debian's policy wants a changelog in its own form, compressed without a time stamp.
+file(WRITE ${PROJECT_BINARY_DIR}/changelog "regionmesh (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * CHANGELOG.md has the changes.
+
+ -- ${REGIONMESH_MAINTAINER}  Sat, 21 Nov 2026 00:00:00 +0000
+")
+execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/changelog COMMAND_ERROR_IS_FATAL ANY)
+foreach(package_component regionmesh:program libregionmesh-dev:dev regionmesh-doc:doc)
+    string(REPLACE ":" ";" pair ${package_component})
+    list(GET pair 0 package)
+    list(GET pair 1 component)
+    install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright COMPONENT ${component})
+    install(FILES ${PROJECT_BINARY_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
+endforeach()
+include(CPack)

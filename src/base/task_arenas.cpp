@@ -1,0 +1,23 @@
+#include "base/task_arenas.h"
+
+#include <oneapi/tbb/info.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+namespace regionmesh {
+
+oneapi::tbb::task_arena& arena_of(std::uint32_t threads) {
+    struct Arenas {
+        std::mutex mutex;
+        std::map<std::uint32_t, oneapi::tbb::task_arena> by_threads;
+    };
+    static Arenas* const all = new Arenas;  // never destroyed: other threads may outlive main()
+    const auto cores = static_cast<std::uint32_t>(oneapi::tbb::info::default_concurrency());
+    const std::uint32_t count = threads == 0 ? cores : std::min(threads, cores);
+    const std::lock_guard lock(all->mutex);
+    return all->by_threads.try_emplace(count, static_cast<int>(count)).first->second;
+}
+
+}  // namespace regionmesh

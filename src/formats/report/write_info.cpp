@@ -1,0 +1,109 @@
+// What an input holds, as JSON.
+#include <algorithm>
+#include <vector>
+
+#include "formats/report/json_parts.h"
+#include "regionmesh/read_sections.h"
+#include "regionmesh/write_report.h"
+
+namespace regionmesh {
+namespace {
+
+/// The labels that occur, in order. `thing` is what is counted: "samples", "points" or "tetrahedra".
+template <class AnyCensus>
+Json labels_json(const AnyCensus& census, const LabelNames& names, const char* thing) {
+    std::vector<Label> order;
+    for (Label label = 0; label < std::min<std::size_t>(census.labels.size(), census.samples.size()); ++label)
+        if (census.samples[label] > 0) order.push_back(label);
+    std::ranges::sort(
+        order, [&](Label a, Label b) { return census.labels.less(census.labels.input(a), census.labels.input(b)); });
+    Json json = Json::array();
+    for (const Label label : order) {
+        json.push_back({{"label", label_json(census.labels.input(label), census.labels)}});
+        if (const auto name = names.find(census.labels.input(label)); name != names.end())
+            json.back()["name"] = name->second;
+        json.back()[thing] = census.samples[label];
+    }
+    return json;
+}
+
+std::string axis_text(const Sweep& sweep) { return {"xyz"[sweep.axes[2]]}; }
+
+Json three(Vec3 v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+std::string info_json(const VolumeInfo& info, const Census& census) {
+    const Lattice& lattice = info.lattice;
+    const Json json{{"kind", "volume"},
+                    {"file", info.source},
+                    {"format", info.format},
+                    {"type", to_string(info.type)},
+                    {"size", lattice.size},
+                    {"spacing", three(lattice.spacing)},
+                    {"origin", three(lattice.origin)},
+                    {"direction", lattice.direction},
+                    {"sweep", axis_text(info.sweep)},
+                    {"labels", labels_json(census, info.names, "samples")},
+                    {"unsimplified_faces", census.face_count},
+                    {"region_pairs", census.oracle.region_pairs}};
+    return text_of(json);
+}
+
+std::string info_json(const TetrahedraInfo& info, const TetrahedronCensus& census) {
+    const Json json{{"kind", "tetrahedra"},
+                    {"file", info.source},
+                    {"format", info.format},
+                    {"points", census.point_count},
+                    {"tetrahedra", census.tetrahedron_count},
+                    {"mean_spacing", census.spacing},
+                    {"scale_z", info.scale_z},
+                    {"sweep", axis_text(census.sweep)},
+                    {"labels", labels_json(census, info.names, info.has_cell_labels ? "tetrahedra" : "points")},
+                    {"unsimplified_faces", census.face_count},
+                    {"region_pairs", census.oracle.region_pairs}};
+    return text_of(json);
+}
+
+std::string info_json(const std::string& source, const MeshFile& file, const CheckReport& report) {
+    const auto [low, high] = box_of_points(file.mesh);
+    std::vector<RegionReport> regions = report.regions;
+    std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
+        return file.labels.less(file.labels.input(a.label), file.labels.input(b.label));
+    });
+    Json all = Json::array();
+    for (const RegionReport& region : regions) {
+        const InputLabel label = file.labels.input(region.label);
+        all.push_back({{"label", label_json(label, file.labels)}});
+        if (const auto name = file.names.find(label); name != file.names.end()) all.back()["name"] = name->second;
+        all.back()["volume"] = region.volume;
+        all.back()["area"] = region.area;
+        all.back()["components"] = region.components;
+    }
+    const Json json{{"kind", "model"},
+                    {"file", source},
+                    {"faces", file.mesh.face_count()},
+                    {"vertices", file.mesh.vertex_count()},
+                    {"box", {{"low", three(low)}, {"high", three(high)}}},
+                    {"regions", std::move(all)},
+                    {"region_pairs", report.region_pairs}};
+    return text_of(json);
+}
+
+std::array<Vec3, 2> box_of_points(const Mesh& mesh) {
+    std::array<Vec3, 2> box{};
+    bool is_first = true;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+        if (!mesh.is_alive(VertexId{v})) continue;
+        const Vec3 at = mesh.position(VertexId{v});
+        if (is_first) box = {at, at};
+        is_first = false;
+        for (int axis = 0; axis < 3; ++axis) {
+            box[0][axis] = std::min(box[0][axis], at[axis]);
+            box[1][axis] = std::max(box[1][axis], at[axis]);
+        }
+    }
+    return box;
+}
+
+}  // namespace regionmesh

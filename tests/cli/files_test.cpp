@@ -1,0 +1,207 @@
+// What models say about themselves in files: background, space, units, names; and what the shell gets.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "cli/program.h"
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/options.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class CliFiles : public Program {
+protected:
+    /// Four regions round a point, one of them `empty`, in a ball of the label `around`, in the space RAS.
+    std::string volume(int empty = 4, int around = 0, const std::string& space = "right-anterior-superior") const {
+        std::string text = "NRRD0004\ntype: short\ndimension: 3\nsizes: 14 14 14\nspace: " + space +
+                           "\nspace directions: (1,0,0) (0,1,0) (0,0,2)\nspace origin: (5,6,7)\nencoding: ascii\n\n";
+        for (int z = 0; z < 14; ++z)
+            for (int y = 0; y < 14; ++y)
+                for (int x = 0; x < 14; ++x) {
+                    const double dx = x - 6.3, dy = y - 6.6, dz = z - 6.4;
+                    int label = dz > 1 ? 1 : dx > 0 ? 2 : dy > 0 ? 3 : 4;
+                    if (label == 4) label = empty;
+                    if (dx * dx + dy * dy + dz * dz > 30 && z > 3) label = around;
+                    text += std::to_string(label) + (x == 13 ? "\n" : " ");
+                }
+        put_text(path("v.nrrd"), text);
+        return path("v.nrrd").string() + ' ';
+    }
+    void expect_good(const std::string& arguments) const {
+        const Ran ran = run(arguments);
+        EXPECT_EQ(ran.code, 0) << arguments << '\n' << ran.out << ran.error;
+    }
+    std::string read(const std::string& file) const { return text_of(out(file)); }
+};
+
+TEST_F(CliFiles, the_background_is_kept_in_the_model) {
+    const std::string labels = volume(4, 9);
+    for (const std::string name : {"m.vtp", "m.vtu", "m.ply", "m.obj"}) {
+        SCOPED_TRACE(name);
+        expect_good("reconstruct " + labels + "-o " + out(name) + " --background 9");
+        EXPECT_THAT(read_mesh(out(name)).background.value(), ElementsAre(9));
+        expect_good("check " + out(name));
+        expect_good("check " + out(name) + " --sections " + labels);
+        expect_good("convert " + out(name) + ' ' + out("m.stl"));
+        EXPECT_THAT(read("m.stl"), HasSubstr("solid region_4"));
+        EXPECT_THAT(read("m.stl"), Not(HasSubstr("region_9")));
+    }
+    EXPECT_EQ(run("check " + out("m.vtp") + " --background 0").code, 3);  // the command line decides
+}
+
+TEST_F(CliFiles, a_model_without_background_says_so) {
+    const std::string labels = volume();
+    for (const std::string name : {"m.vtp", "m.ply", "m.obj"}) {
+        SCOPED_TRACE(name);
+        expect_good("reconstruct " + labels + "-o " + out(name) + " --no-background");
+        EXPECT_THAT(read_mesh(out(name)).background.value(), ElementsAre());
+        expect_good("convert " + out(name) + ' ' + out("m.stl"));
+        EXPECT_THAT(read("m.stl"), HasSubstr("solid region_0"));
+    }
+}
+
+TEST_F(CliFiles, stl_and_back_agrees_with_the_volume) {
+    const std::string labels = volume(0);  // quadruple points between three regions and the background
+    expect_good("reconstruct " + labels + "-o " + out("m.stl"));
+    const Ran ran = run("check " + out("m.stl") + " --sections " + labels);
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    EXPECT_THAT(ran.out, HasSubstr("every one of 2744 samples keeps its label"));
+}
+
+TEST_F(CliFiles, models_say_their_space_as_slicer_reads_it) {
+    const std::string labels = volume();
+    for (const std::string name : {"m.vtp", "m.vtu", "m.ply", "m.obj", "m.stl"}) {
+        SCOPED_TRACE(name);
+        expect_good("reconstruct " + labels + "-o " + out(name));
+        EXPECT_EQ(read_mesh(out(name)).space, Space::kRas);
+        const bool is_vtk = name == "m.vtp" || name == "m.vtu";
+        EXPECT_THAT(read(name), HasSubstr(is_vtk ? "Name=\"SPACE\"" : "SPACE=RAS"));
+        EXPECT_THAT(read_mesh(out(name)).names, testing::IsEmpty());
+        expect_good("convert " + out(name) + " --space lps " + out("turned.ply"));
+        const MeshFile there = read_mesh(out("turned.ply")), here = read_mesh(out(name));
+        EXPECT_EQ(there.space, Space::kLps);
+        const Vec3 p = here.mesh.position(VertexId{0}), q = there.mesh.position(VertexId{0});
+        EXPECT_EQ(q, (Vec3{-p.x, -p.y, p.z}));
+        if (name != "m.stl") expect_good("check " + out("turned.ply") + " --sections " + labels);
+    }
+    expect_good("reconstruct " + labels + "-o " + out("lps.ply") + " --space lps");
+    expect_good("check " + out("lps.ply") + " --sections " + labels);
+    expect_good("reconstruct " + volume(4, 0, "left-posterior-superior") + "-o " + out("other.ply"));
+    EXPECT_EQ(read_mesh(out("other.ply")).space, Space::kLps);
+}
+
+TEST_F(CliFiles, vtk_colours_by_region) {
+    expect_good("reconstruct " + volume() + "-o " + out("m.vtp"));
+    const std::string text = read("m.vtp");
+    EXPECT_THAT(text, HasSubstr("<CellData Scalars=\"Region\">"));
+    EXPECT_THAT(text, HasSubstr("Name=\"Region\" NumberOfComponents=\"1\""));
+    EXPECT_THAT(text, HasSubstr("Name=\"Neighbour\" NumberOfComponents=\"1\""));
+}
+
+TEST_F(CliFiles, files_of_regions_have_their_names_and_are_listed) {
+    put_text(path("names.csv"), "label,name\n1,Left lung\n2,left lung\n");
+    const Ran ran =
+        run("reconstruct " + volume() + "-o " + out("m.stl") + " --per-region --names " + path("names.csv").string());
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    for (const char* name : {"m-Left_lung.stl", "m-left_lung_2.stl", "m-3.stl", "m-4.stl"}) {
+        EXPECT_TRUE(std::filesystem::exists(out(name))) << name;
+        EXPECT_THAT(ran.out, HasSubstr(out(name) + "\n"));
+    }
+    EXPECT_EQ(files_left(), 4);
+    EXPECT_THAT(read("m-3.stl").substr(0, 80), HasSubstr("SPACE=RAS"));
+}
+
+TEST_F(CliFiles, the_table_of_regions_has_their_measures) {
+    // A box of 2 x 2 x 2 samples in the middle of another region; without smoothing its half-way surface is known.
+    std::string text = "NRRD0004\ntype: short\ndimension: 3\nsizes: 6 6 6\nencoding: ascii\n\n";
+    for (int z = 0; z < 6; ++z)
+        for (int y = 0; y < 6; ++y)
+            for (int x = 0; x < 6; ++x)
+                text += std::max({std::abs(x - 2.5), std::abs(y - 2.5), std::abs(z - 2.5)}) < 1 ? "7 " : "5 ";
+    put_text(path("box.nrrd"), text);
+    put_text(path("names.csv"), "label,name\n5,\"a, b\"\n");
+    expect_good("reconstruct " + path("box.nrrd").string() + " -o " + out("m.vtp") + " --smooth off --regions " +
+                out("r.csv") + " --names " + path("names.csv").string());
+    const std::string table = read("r.csv");
+    EXPECT_THAT(table, HasSubstr("label,name,faces,volume,area,"));
+    EXPECT_THAT(table, HasSubstr("\n5,\"a, b\","));
+    const MeshFile file = read_mesh(out("m.vtp"));
+    double volume = 0;
+    for (std::uint32_t f = 0; f < file.mesh.face_count(); ++f) {
+        const auto& face = file.mesh[FaceId{f}];
+        for (const int side : {0, 1})
+            if (!is_exterior(face.labels[side]) && file.labels.input(face.labels[side]) == 7) {
+                const auto [a, b, c] = file.mesh.corners(FaceId{f});
+                volume += (side == 0 ? 1 : -1) * dot(a, cross(b, c)) / 6;
+            }
+    }
+    const std::string row = table.substr(table.find("\n7,") + 1);
+    std::vector<std::string> fields(1);
+    for (const char c : row.substr(0, row.find('\n')))
+        if (c == ',')
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    ASSERT_EQ(fields.size(), 17u);
+    EXPECT_NEAR(std::stod(fields[3]), volume, 1e-9);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(std::stod(fields[5 + axis]), 2.5, 1e-9);  // centroid
+        EXPECT_NEAR(std::stod(fields[8 + axis]), 1.5, 1e-9);  // box
+        EXPECT_NEAR(std::stod(fields[11 + axis]), 3.5, 1e-9);
+    }
+    EXPECT_NEAR(std::stod(fields[14]), std::cbrt(6 * volume / M_PI), 1e-8);
+    EXPECT_EQ(fields[15], "5");
+    EXPECT_EQ(fields[16], fields[4]);  // its whole surface is the interface
+}
+
+TEST_F(CliFiles, units_scale_glb_to_metres) {
+    expect_good("reconstruct " + volume() + "-o " + out("m.glb") + " --units mm");
+    EXPECT_THAT(read("m.glb"), HasSubstr("\"scale\":[0.001,0.001,0.001]"));
+    expect_good("reconstruct " + volume() + "-o " + out("m.glb"));
+    EXPECT_THAT(read("m.glb"), Not(HasSubstr("\"scale\"")));
+}
+
+TEST_F(CliFiles, a_part_of_a_volume_is_checked_against_the_same_part) {
+    const std::string part = " --roi 2:12,:,3: --labels 1-3 --downsample 2,2,1 --min-region 3";
+    expect_good("reconstruct " + volume() + "-o " + out("m.vtp") + part);
+    expect_good("check " + out("m.vtp") + " --sections " + volume() + part);
+    EXPECT_EQ(run("check " + out("m.vtp") + " --sections " + volume()).code, 3);
+    EXPECT_THAT(run("info " + volume() + part).out, HasSubstr("5 x 7 x 11 samples"));
+    put_text(path("merge.csv"), "old,new,name\n1-3,8,inside\n");
+    EXPECT_THAT(run("info " + volume() + "--merge " + path("merge.csv").string()).out, HasSubstr("inside"));
+    std::filesystem::remove(out("m.vtp"));
+    expect_refusal("reconstruct " + volume() + "-o " + out("m.vtp") + " --roi 0:99,:,:", 1, "is not within the 14");
+    for (const char* bad : {"--roi 1:2", "--roi 5:5,:,:", "--labels 1,,2", "--labels 3-", "--downsample 0",
+                            "--box 3:1,:,:", "--labels 1 --no-background"})
+        expect_refusal("reconstruct " + volume() + "-o " + out("m.vtp") + ' ' + bad, 2, "--");
+}
+
+TEST_F(CliFiles, the_manual_page_and_completions_have_every_option) {
+    const std::string manual = run("--help-man").out;
+    std::string all[] = {run("--completion bash").out, run("--completion zsh").out, run("--completion fish").out};
+    for (const OptionSpec& option : option_table()) {
+        if (option.is_argument) continue;
+        std::string escaped = option.name;
+        for (std::size_t at = 0; (at = escaped.find('-', at)) != std::string::npos; at += 2)
+            escaped.insert(at, 1, '\\');
+        EXPECT_THAT(manual, HasSubstr("\\-\\-" + escaped + "\\fR"));
+        EXPECT_THAT(all[0], HasSubstr(option.flag()));
+        EXPECT_THAT(all[1], HasSubstr(option.flag() + "["));
+        EXPECT_THAT(all[2], HasSubstr("-l " + option.name));
+    }
+    put_text(path("c.bash"), all[0] +
+                                 "COMP_WORDS=(regionmesh check --quie)\nCOMP_CWORD=2\n_regionmesh\n"
+                                 "echo \"${COMPREPLY[*]}\"\nCOMP_WORDS=(regionmesh comp)\nCOMP_CWORD=1\n_regionmesh\n"
+                                 "echo \"${COMPREPLY[*]}\"\n");
+    ASSERT_EQ(std::system(("bash '" + path("c.bash").string() + "' >'" + path("words").string() + "'").c_str()), 0);
+    EXPECT_EQ(text_of(path("words")), "--quiet\ncompare\n");
+    EXPECT_EQ(run("--completion csh").code, 2);
+}
+
+}  // namespace
+}  // namespace regionmesh

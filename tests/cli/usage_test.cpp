@@ -1,0 +1,127 @@
+// What a user gets who typed something else than was meant.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/program.h"
+#include "support/volumes.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Usage : public Program {
+protected:
+    void SetUp() override {
+        Program::SetUp();
+        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
+        put_text(path("ball.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_text(path("empty.raw"), std::string(9 * 9 * 9, '\0'));
+    }
+
+    std::string of(const std::string& file, const std::string& more = "") const {
+        return path(file + ".raw").string() + " --size 9,9,9 --type uint8 " + more;
+    }
+    std::string to_model() const { return " -o " + out("m.vtp"); }
+    std::string ball(const std::string& more = "") const { return "reconstruct " + of("ball", more) + to_model(); }
+};
+
+TEST_F(Usage, options_that_contradict_each_other_are_refused_by_name) {
+    const auto refused = [&](const std::string& options, const std::string& a, const std::string& b) {
+        expect_refusal(ball(options), 2, a + " and " + b + ": ");
+    };
+    refused("--reduce 90% --target-faces 1000", "--reduce", "--target-faces");
+    refused("--no-decimate --reduce 50%", "--no-decimate", "--reduce");
+    refused("--no-decimate --target-faces 50", "--no-decimate", "--target-faces");
+    refused("--no-decimate --max-error 1", "--no-decimate", "--max-error");
+    refused("--no-background --background 3", "--no-background", "--background");
+    refused("--quiet --verbose", "--quiet", "--verbose");
+    refused("--smooth-filter none --smooth 50", "--smooth-filter none", "--smooth 50");
+    refused("--smooth off --smooth-filter taubin", "--smooth off", "--smooth-filter taubin");
+    refused("--smooth 0 --smooth-points", "--smooth 0", "--smooth-points");
+    EXPECT_EQ(run(ball("--smooth off --smooth-filter none --no-decimate")).code, 0);
+}
+
+TEST_F(Usage, background_leaves_the_input_alone_and_takes_several_labels) {
+    const std::string input = path("ball.raw").string() + " --size 9,9,9 --type uint8" + to_model();
+    for (const std::string background : {"--background 0", "--background 0,7", "--background 0 7",
+                                         "--background 0 --background 7", "--background=0"}) {
+        const Ran ran = run("reconstruct " + background + ' ' + input);
+        EXPECT_EQ(ran.code, 0) << background << ran.error;
+        EXPECT_THAT(ran.out, HasSubstr("made: 1 region, ")) << background;
+    }
+    std::filesystem::remove(out("m.vtp"));
+    expect_refusal("reconstruct --background 0-1 " + input, 1, "no region");
+    expect_refusal(ball("--background 0,x"), 2, "--background 0,x: not labels");
+    expect_refusal(ball("--background 5-1"), 2, "--background 5-1: not ");
+}
+
+TEST_F(Usage, a_file_whose_name_is_a_number_is_an_input) {
+    const std::string there = "cd '" + path("").string() + "' && ";
+    put_text(path("7"), text_of(path("ball.raw")));
+    const Ran ran = run("reconstruct --background 0 7 --size 9,9,9 --type uint8" + to_model(), there);
+    EXPECT_THAT(ran.out, HasSubstr("made: 1 region, ")) << ran.error;
+}
+
+TEST_F(Usage, labels_that_do_not_occur_are_a_warning) {
+    EXPECT_EQ(run(ball("--background 0")).error, "");
+    const Ran background = run(ball("--background 0,500"));
+    EXPECT_EQ(background.code, 0);
+    EXPECT_THAT(background.error, AllOf(HasSubstr("warning: --background 500: "), HasSubstr("no such label")));
+    EXPECT_THAT(run(ball("--labels 1,5-9")).error, HasSubstr("warning: --labels 5-9: "));
+    EXPECT_EQ(run(ball("--labels 1 --background 0")).error, "");
+    EXPECT_EQ(run(ball("--quiet --background 0,500")).error, "");
+}
+
+TEST_F(Usage, an_input_without_a_region_is_refused) {
+    expect_refusal("reconstruct " + of("empty") + to_model(), 1,
+                   "there is no region to model: all of it is background");
+    expect_refusal(ball("--labels 4"), 1, "none of the --labels");
+    expect_refusal("reconstruct " + of("empty", "--no-background --boundary open") + to_model(), 1,
+                   "it has one label only");
+}
+
+TEST_F(Usage, one_section_is_refused_with_what_to_do) {
+    expect_refusal("reconstruct " + path("ball.raw").string() + " --size 9,81,1 --type uint8" + to_model(), 1,
+                   "repeat the section");
+}
+
+TEST_F(Usage, unknown_commands_and_options_are_answered_with_the_nearest) {
+    expect_refusal("recnstruct a.npy", 2, "recnstruct: there is no such command; did you mean reconstruct?");
+    expect_refusal("comp a b", 2, "did you mean compare?");
+    expect_refusal("zzz", 2, "there is no such command; give reconstruct, decimate, ");
+    expect_refusal("", 2, "give a command: reconstruct, decimate, ");
+    expect_refusal(ball("--redcue 90%"), 2, "--redcue: reconstruct has no such option; did you mean --reduce?");
+    expect_refusal(ball("--background-label 0"), 2, "regionmesh reconstruct --help");
+    expect_refusal("check m.vtp --reduce 5%", 2, "--reduce: check has no such option");
+}
+
+TEST_F(Usage, a_grey_scale_image_is_noticed) {
+    std::string noise;
+    for (std::uint32_t n = 0, bits = 7; n < 729; ++n)
+        noise += static_cast<char>((bits = bits * 1664525 + 1013904223) >> 26);
+    put_text(path("grey.raw"), noise);
+    for (const std::string& command : {"info " + of("grey"), "reconstruct " + of("grey") + to_model()}) {
+        const Ran ran = run(command);
+        EXPECT_EQ(ran.code, 0);
+        EXPECT_THAT(ran.error, HasSubstr("looks like a grey-scale image"));
+    }
+    EXPECT_EQ(run("info " + of("ball")).error, "");
+}
+
+TEST_F(Usage, one_thing_is_one_thing_and_lists_say_how_many_more) {
+    ASSERT_EQ(run(ball()).code, 0);
+    EXPECT_THAT(run("check " + out("m.vtp")).out, HasSubstr(": 1 region, "));
+    EXPECT_THAT(run("view " + out("m.vtp") + " -o " + out("m.html")).out, HasSubstr(" 1 region, 0 violations"));
+    const std::string facet =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    std::string apart = facet;
+    for (std::size_t at = 0; (at = apart.find("vertex ", at)) != std::string::npos; at += 8) apart.insert(at + 7, "9");
+    put_text(path("open.stl"), "solid a\n" + facet + apart + "endsolid a\n");
+    EXPECT_THAT(run("check " + path("open.stl").string()).out,
+                AllOf(HasSubstr("violation open_edge: 6\n"), HasSubstr("  and 3 more; --json lists them\n")));
+}
+
+}  // namespace
+}  // namespace regionmesh
