@@ -118,7 +118,6 @@ void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, const std:
 }
 
 void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const {
-    thread_local HeightSamples chosen;
     const LatticePoint& own = sites_[row.sites[row.runs[run].site]].centroid;
     for (std::uint32_t f = row.runs[run].fit; f < row.runs[run + 1].fit; ++f) {
         auto& [quadric, accepted] = row.fits[f];
@@ -127,13 +126,13 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<Nea
         const float reach = kReach * static_cast<float>(options_.size);
         if (!options_.takes_all) {
             HeightQuadric trial = quadric;
-            choose(quadric, frame, gaps, near, kTrialStride, chosen);
-            accepted = trial.fit(chosen, frame, blocks_.spacing, reach, kFinestRounds)
+            const HeightSamples& few = choose(quadric, frame, gaps, near, kTrialStride);
+            accepted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds)
                            ? acceptance(trial, gaps, near, kTrialTolerance)
                            : 1;
             if (accepted == 0) continue;
         }
-        choose(quadric, frame, gaps, near, 1, chosen);
+        const HeightSamples& chosen = choose(quadric, frame, gaps, near, 1);
         if (!quadric.fit(chosen, frame, blocks_.spacing, reach, options_.takes_all ? kFinestRounds : kRounds))
             accepted = -1;
         else
@@ -142,9 +141,11 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<Nea
 }
 
 /// The samples of the sheet within kReach, with a weight that falls with distance. Of four samples side by side either
-/// all are taken, some perhaps with weight 0, or none.
-void LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                         const std::vector<NearRun>& near, std::uint32_t stride, HeightSamples& chosen) const {
+/// all are taken, some perhaps with weight 0, or none; of the fours of a run every `stride`th. Valid until the next
+/// call on the same thread.
+const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
+                                         const std::vector<NearRun>& near, std::uint32_t stride) const {
+    thread_local HeightSamples chosen;
     const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
     const Share share_of{(1 / kReach) * blocks_.per_size};
     const LatticePoint centre = quadric.centre;
@@ -165,6 +166,7 @@ void LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame
         }
     }
     chosen.count = count;
+    return chosen;
 }
 
 /// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.

@@ -51,8 +51,8 @@ private:
     class Gaps;
 
     Sites4 gather(const std::uint32_t* numbers, std::uint32_t count) const;
-    void choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                const std::vector<NearRun>& near, std::uint32_t stride, HeightSamples& chosen) const;
+    const HeightSamples& choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
+                                const std::vector<NearRun>& near, std::uint32_t stride) const;
     float acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near,
                      float most_missed) const;
     Float4 misses(const HeightQuadric& quadric, const Sites4& sites) const;
