@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -16,6 +17,17 @@ using Double2 = double __attribute__((vector_size(16)));
 using Float4 = float __attribute__((vector_size(16)));
 using Mask2 = decltype(Double2{} < Double2{});  // result of a comparison: all bits of a lane are set, or none
 using Mask4 = decltype(Float4{} < Float4{});
+
+using Lane4 = std::int32_t __attribute__((vector_size(16)));
+using Unsigned4 = std::uint32_t __attribute__((vector_size(16)));
+
+/// From any address.
+template <class Lanes>
+Lanes load(const void* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof(lanes));
+    return lanes;
+}
 
 inline Double2 both(double x) { return Double2{x, x}; }
 inline Float4 all_four(float x) { return Float4{x, x, x, x}; }
@@ -43,6 +55,14 @@ inline Double2 square_root(Double2 x) {
     return _mm_sqrt_pd(x);
 #else
     return Double2{std::sqrt(x[0]), std::sqrt(x[1])};
+#endif
+}
+
+inline Float4 square_root(Float4 x) {
+#if defined(__SSE2__)
+    return _mm_sqrt_ps(x);
+#else
+    return Float4{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 #endif
 }
 

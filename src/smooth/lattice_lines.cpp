@@ -54,11 +54,20 @@ std::array<double, 3> NearestPoint::solve() const {
     return x;
 }
 
-Barycentric weights_of(const NearestPoint& nearest) {
-    const std::array<double, 3> step = nearest.solve();
-    const double equal = 1.0 / (nearest.count + 1);
+std::array<std::array<double, 3>, 3> NearestPoint::inverse() const {
+    std::array<std::array<double, 3>, 3> columns{};
+    for (int n = 0; n < count; ++n) {
+        NearestPoint unit{count, a, {}};
+        unit.b[n] = 1;
+        columns[n] = unit.solve();
+    }
+    return columns;  // symmetric
+}
+
+Barycentric weights_of(const std::array<double, 3>& step, int count) {
+    const double equal = 1.0 / (count + 1);
     Barycentric weights{equal, 0, 0, 0};
-    for (int n = 0; n < nearest.count; ++n) {
+    for (int n = 0; n < count; ++n) {
         const double bounded = std::clamp(step[n], -kFarthest, kFarthest);
         weights[n + 1] = equal + bounded;
         weights[0] -= bounded;
@@ -69,16 +78,17 @@ Barycentric weights_of(const NearestPoint& nearest) {
 LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites, std::uint32_t vertex) {
     const LatticeFrame& frame = sites.frame();
     const int kind = sites.kind(vertex);
-    const Vec3 middle = centroid(kind);
     LatticeSimplex simplex{{}, static_cast<std::uint8_t>(kind)};
+    // A centroid is more than a tenth of a spacing away from the next node, so that truncation finds the base.
+    const Vec3& at = window.origin[vertex];
     for (int axis = 0; axis < 3; ++axis)
         simplex.base[axis] =
-            std::round((window.origin[vertex][axis] - frame.origin[axis]) / frame.spacing[axis] - middle[axis]);
+            static_cast<double>(static_cast<std::int64_t>((at[axis] - frame.origin[axis]) / frame.spacing[axis] + 0.1));
     return simplex;
 }
 
 void LatticeLines::add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position) {
-    nodes_.push_back({vertex, 0, {}, to_interfaces, {position, position}});
+    nodes_.push_back({vertex, 0, {}, to_interfaces, simplex_in(window_, sites_, vertex), {position, position}});
 }
 
 std::uint32_t LatticeLines::node_of(std::uint32_t vertex) const {
@@ -106,14 +116,25 @@ void LatticeLines::link(std::uint32_t chunk) {
         if (std::find(node.next.begin(), end, next) == end && node.count < node.next.size())
             node.next[node.count++] = next;
     };
-    for (std::uint32_t f = faces.first; f < faces.end; ++f)
+    for (std::uint32_t f = faces.first; f < faces.end; ++f) {
+        const auto& corners = window_.faces[f].vertices;
+        bool is_on_line[3];
+        for (int n = 0; n < 3; ++n) is_on_line[n] = sites_.kind(corners[n]) >= kFirstTriangle;
         for (int n = 0; n < 3; ++n) {
-            const auto& corners = window_.faces[f].vertices;
-            const std::uint32_t a = corners[n], b = corners[(n + 1) % 3];
-            if (sites_.kind(a) < kFirstTriangle || sites_.kind(b) < kFirstTriangle) continue;
-            join(a, b);
-            join(b, a);
+            const int next = (n + 1) % 3;
+            if (!is_on_line[n] || !is_on_line[next]) continue;
+            join(corners[n], corners[next]);
+            join(corners[next], corners[n]);
         }
+    }
+    for (std::uint32_t n = first_node_[chunk]; n < first_node_[chunk + 1]; ++n) end_links(nodes_[n]);
+}
+
+/// The pull of the neighbours has the same matrix in all sweeps.
+void LatticeLines::end_links(Node& node) const {
+    const Vec3 spacing = sites_.frame().spacing / sites_.frame().finest();
+    if (node.count > 0) node.nearest.add({0, 0, 0}, kPull, edges_of(node.simplex.kind, spacing));
+    node.nearest.a = node.nearest.inverse();
 }
 
 void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads) {
@@ -122,18 +143,23 @@ void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_
     const double finest = frame.finest();
     const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1];
     const std::uint32_t from = number % 2, to = 1 - from;
+    std::array<SimplexEdges, kKindCount> edges;
+    for (int kind = kFirstTriangle; kind < kKindCount; ++kind) edges[kind] = edges_of(kind, frame.spacing / finest);
     parallel_for((end - first + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
         const std::uint32_t task_end = std::min(end, first + (task + 1) * kTask);
         for (std::uint32_t n = first + task * kTask; n < task_end; ++n) {
             Node& node = nodes_[n];
             Vec3 sum;
             for (std::uint32_t k = 0; k < node.count; ++k) sum += nodes_[node.next[k]].at[from];
-            NearestPoint nearest = node.nearest;
-            const LatticeSimplex simplex = simplex_in(window_, sites_, node.vertex);
-            if (node.count > 0)
-                nearest.add((sum / node.count - window_.origin[node.vertex]) / finest, kPull,
-                            edges_of(simplex.kind, frame.spacing / finest));
-            node.at[to] = position_in(simplex, clamp_inside(weights_of(nearest), nearest.count + 1, margin_), frame);
+            const int count = node.nearest.count;
+            std::array<double, 3> b = node.nearest.b, step{};
+            if (node.count > 0) {
+                const Vec3 target = (sum / node.count - window_.origin[node.vertex]) / finest;
+                for (int i = 0; i < count; ++i) b[i] += kPull * dot(edges[node.simplex.kind].edges[i], target);
+            }
+            for (int i = 0; i < count; ++i)
+                for (int j = 0; j < count; ++j) step[i] += node.nearest.a[i][j] * b[j];
+            node.at[to] = position_in(node.simplex, clamp_inside(weights_of(step, count), count + 1, margin_), frame);
         }
     });
 }

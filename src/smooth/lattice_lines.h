@@ -23,10 +23,12 @@ struct NearestPoint {
     void add(Vec3 target, double weight, const SimplexEdges& edges);
     /// Coefficients of the edges; zero where there is nothing to go by.
     std::array<double, 3> solve() const;
+    /// solve() is this matrix times b.
+    std::array<std::array<double, 3>, 3> inverse() const;
 };
 
 /// Weights of the nodes at the solution; they may lie outside the simplex.
-Barycentric weights_of(const NearestPoint& nearest);
+Barycentric weights_of(const std::array<double, 3>& coefficients, int count);
 
 /// Vertices of triple lines, and quadruple points, with their neighbours along the lines. Sweeps draw each of them to
 /// the mean of its neighbours.
@@ -61,9 +63,12 @@ private:
     struct Node {
         std::uint32_t vertex, count;
         std::array<std::uint32_t, 4> next;  // numbers of nodes
-        NearestPoint nearest;               // to the interfaces
+        NearestPoint nearest;               // to the interfaces; from link() on `a` is the inverse, with the pull in it
+        LatticeSimplex simplex;
         std::array<Vec3, 2> at;
     };
+
+    void end_links(Node& node) const;
 
     std::uint32_t node_of(std::uint32_t vertex) const;
 

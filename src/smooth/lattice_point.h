@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/lanes.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
@@ -25,6 +26,12 @@ inline float dot(Float3 a, Float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z;
 inline float length(Float3 a) { return std::sqrt(dot(a, a)); }
 inline Float3 cross(Float3 a, Float3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline Lanes3<Float4> all_four(Float3 p) { return {all_four(p.x), all_four(p.y), all_four(p.z)}; }
+
+inline Lanes3<Float4> side_by_side(Float3 a, Float3 b, Float3 c, Float3 d) {
+    return {Float4{a.x, b.x, c.x, d.x}, Float4{a.y, b.y, c.y, d.y}, Float4{a.z, b.z, c.z, d.z}};
 }
 
 /// A position in whole steps of kStep finest spacings, modulo 2^32: differences of points near each other are exact

@@ -1,8 +1,8 @@
 #include "smooth/lattice_quadric.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace regionmesh {
 namespace {
@@ -42,64 +42,62 @@ bool solve(Matrix& a, std::array<double, 6>& b) {
     return true;
 }
 
-/// slope . step for the eight steps in a cell.
-using StepHeights = std::array<float, 8>;
-StepHeights step_heights(Float3 slope, Float3 spacing) {
-    const float x = slope.x * spacing.x, y = slope.y * spacing.y, z = slope.z * spacing.z;
-    return {0, x, y, x + y, z, x + z, y + z, x + y + z};
-}
-
-float extent_of(int kind, const StepHeights& heights) {
-    const SimplexKind& simplex = kKinds[kind];
-    if (simplex.node_count == 2) return std::abs(heights[simplex.steps[1]]);
-    float low = 0, high = 0;
-    for (int n = 1; n < simplex.node_count; ++n) {
-        low = std::min(low, heights[simplex.steps[n]]);
-        high = std::max(high, heights[simplex.steps[n]]);
+/// Weights of the samples from the extents of their simplices along the normal of a plane. `steps` are along u, v and
+/// the normal.
+class PlaneWeights {
+public:
+    explicit PlaneWeights(const StepVectors& steps) {
+        for (int kind = 1; kind < kKindCount; ++kind) {
+            float low = 0, high = 0;
+            for (int n = 1; n < kKinds[kind].node_count; ++n) {
+                const float at = steps[kKinds[kind].steps[n]].z;
+                low = std::min(low, at);
+                high = std::max(high, at);
+            }
+            shares_[kind] = 1 / ((high - low) * (high - low) + kFinestExtent * kFinestExtent);
+        }
     }
-    return high - low;
-}
-
-/// Weights of the samples from the extents of their simplices.
-void weigh(const HeightQuadric& quadric, HeightSamples& samples, Float3 spacing, bool is_first) {
-    std::vector<float>& weights = samples.scaled_weight;
-    const auto weight = [](float given, float extent, float slope2) {
-        return given / (extent * extent / slope2 + kFinestExtent * kFinestExtent);
-    };
-    if (is_first) {  // still a plane
-        const StepHeights heights = step_heights(quadric.normal, spacing);
-        std::array<float, kKindCount> extents{};
-        for (int kind = 1; kind < kKindCount; ++kind) extents[kind] = extent_of(kind, heights);
-        for (std::uint32_t n = 0; n < samples.count; ++n)
-            weights[n] = weight(samples.weight[n], extents[samples.kind[n]], 1);
-        return;
+    Float4 operator()(const HeightSamples::Four& four) const {
+        const Kinds4& kind = four.kind;
+        return four.weight * Float4{shares_[kind[0]], shares_[kind[1]], shares_[kind[2]], shares_[kind[3]]};
     }
-    for (std::uint32_t n = 0; n < samples.count; ++n) {
-        const Float3 slope = quadric.gradient({samples.u[n], samples.v[n], 0});
-        weights[n] =
-            weight(samples.weight[n], extent_of(samples.kind[n], step_heights(slope, spacing)), dot(slope, slope));
+
+private:
+    std::array<float, kKindCount> shares_{};
+};
+
+/// The same along the gradient of a quadric at each sample.
+class QuadricWeights {
+public:
+    QuadricWeights(const StepVectors& steps, const std::array<double, 6>& q) : steps_(steps) {
+        for (int n = 0; n < 6; ++n) q_[n] = static_cast<float>(q[n]);
     }
-}
+    Float4 operator()(const HeightSamples::Four& four) const {
+        const Float4 a = q_[1] + 2 * q_[3] * four.u + q_[4] * four.v, b = q_[2] + q_[4] * four.u + 2 * q_[5] * four.v;
+        const Extent4 extent = extent_of(four.kind, [&](int n) {
+            const Lanes3<Float4> step = steps_.to_node(four.kind, n);
+            return step.z - a * step.x - b * step.y;
+        });
+        const Float4 size = extent.high - extent.low, slope2 = 1 + a * a + b * b;
+        return four.weight * slope2 / (size * size + kFinestExtent * kFinestExtent * slope2);
+    }
 
-constexpr std::uint32_t kLanes = 4;
-typedef float Lanes __attribute__((vector_size(4 * kLanes)));
+private:
+    const StepVectors& steps_;
+    std::array<float, 6> q_;
+};
 
-Lanes load(const float* from) {
-    Lanes lanes;
-    std::memcpy(&lanes, from, sizeof(lanes));
-    return lanes;
-}
-double total(Lanes lanes) { return (double{lanes[0]} + lanes[1]) + (double{lanes[2]} + lanes[3]); }
+double total(Float4 lanes) { return (double{lanes[0]} + lanes[1]) + (double{lanes[2]} + lanes[3]); }
 
 /// Sums of weight times powers of s and t, and of these times height.
-void add_up(const HeightSamples& samples, float scale, Matrix& a, std::array<double, 6>& b) {
-    Lanes m00{}, m10{}, m01{}, m20{}, m11{}, m02{}, m30{}, m21{}, m12{}, m03{}, m40{}, m31{}, m22{}, m13{}, m04{};
-    Lanes b0{}, b1{}, b2{}, b3{}, b4{}, b5{};
-    for (std::uint32_t n = 0; n < samples.count; n += kLanes) {
-        const Lanes w = load(&samples.scaled_weight[n]), s = scale * load(&samples.u[n]),
-                    t = scale * load(&samples.v[n]);
-        const Lanes h = load(&samples.height[n]);
-        const Lanes ss = s * s, st = s * t, tt = t * t, ws = w * s, wt = w * t, wss = w * ss, wtt = w * tt, wh = w * h;
+template <class Weights>
+void add_up(const HeightSamples& samples, const Weights& weights, float scale, Matrix& a, std::array<double, 6>& b) {
+    Float4 m00{}, m10{}, m01{}, m20{}, m11{}, m02{}, m30{}, m21{}, m12{}, m03{}, m40{}, m31{}, m22{}, m13{}, m04{};
+    Float4 b0{}, b1{}, b2{}, b3{}, b4{}, b5{};
+    for (std::uint32_t n = 0; n < samples.count; ++n) {
+        const HeightSamples::Four& four = samples.fours[n];
+        const Float4 w = weights(four), s = scale * four.u, t = scale * four.v, h = four.height;
+        const Float4 ss = s * s, st = s * t, tt = t * t, ws = w * s, wt = w * t, wss = w * ss, wtt = w * tt, wh = w * h;
         m00 += w, m10 += ws, m01 += wt, m20 += wss, m11 += w * st, m02 += wtt;
         m30 += wss * s, m21 += wss * t, m12 += wtt * s, m03 += wtt * t;
         m40 += wss * ss, m31 += wss * st, m22 += wss * tt, m13 += wtt * st, m04 += wtt * tt;
@@ -118,55 +116,56 @@ void add_up(const HeightSamples& samples, float scale, Matrix& a, std::array<dou
 
 }  // namespace
 
-/// With room for lanes behind the last sample.
-void HeightSamples::make_room(std::uint32_t size) {
-    size += kLanes;
-    if (kind.size() >= size) return;
-    for (auto* values : {&u, &v, &height, &weight, &scaled_weight}) values->resize(size + size / 2);
-    kind.resize(size + size / 2);
+StepVectors::StepVectors(Float3 spacing) {
+    for (Step step = 0; step < 8; ++step)
+        steps_[step] = {step & 1 ? spacing.x : 0, step & 2 ? spacing.y : 0, step & 4 ? spacing.z : 0};
+    for (int kind = 1; kind < kFirstTriangle; ++kind) edge_[kind] = steps_[kKinds[kind].steps[1]];
 }
 
-ExtentAlong extent_along(int kind, Float3 slope, Float3 spacing) {
-    const StepHeights heights = step_heights(slope, spacing);
-    const SimplexKind& simplex = kKinds[kind];
-    float low = 0, high = 0, sum = 0;
-    for (int n = 1; n < simplex.node_count; ++n) {
-        const float at = heights[simplex.steps[n]];
-        low = std::min(low, at);
-        high = std::max(high, at);
-        sum += at;
-    }
-    const float middle = sum / static_cast<float>(simplex.node_count);
-    return {low - middle, high - middle};
-}
-
-HeightQuadric::HeightQuadric(LatticePoint at, Float3 unit_normal) : centre(at), normal(unit_normal) {
+TangentFrame::TangentFrame(Float3 unit_normal) : normal(unit_normal) {
     const Float3 other = std::abs(normal.x) < 0.6f ? Float3{1, 0, 0} : Float3{0, 1, 0};
     u = cross(normal, other);
     u = (1 / length(u)) * u;
     v = cross(normal, u);
 }
 
-bool HeightQuadric::fit(HeightSamples& samples, Float3 spacing, float reach, int rounds) {
-    const double few = kFewSamples / static_cast<double>(samples.count);
+bool HeightQuadric::fit(const HeightSamples& samples, const TangentFrame& frame, Float3 spacing, float reach,
+                        int rounds) {
+    double count = 0;
+    for (std::uint32_t n = 0; n < samples.count; ++n) count += std::popcount(bits_of(samples.fours[n].weight > 0));
+    const double few = kFewSamples / count;
     const double curved_ridge = kCurvedRidge + few * few * few * few;
-    for (std::uint32_t n = samples.count; n % kLanes != 0; ++n) {
-        samples.set(n, {}, 0, 1);
-        samples.scaled_weight[n] = 0;
-    }
+    StepVectors steps(spacing);
+    for (Step step = 0; step < 8; ++step) steps[step] = frame.along(steps[step]);
+    std::array<double, 6> q;
     for (int round = 0; round < rounds; ++round) {
-        weigh(*this, samples, spacing, round == 0);
         Matrix a{};
         std::array<double, 6> b{};
-        add_up(samples, 1 / reach, a, b);
+        if (round == 0)  // still a plane
+            add_up(samples, PlaneWeights(steps), 1 / reach, a, b);
+        else
+            add_up(samples, QuadricWeights(steps, q), 1 / reach, a, b);
         const double all = a[0][0];
         for (int i = 0; i < 6; ++i) a[i][i] += all * (i < 3 ? kPlaneRidge : curved_ridge);
         if (!solve(a, b)) return false;
         const double r = reach;
-        const double found[6] = {b[0], b[1] / r, b[2] / r, b[3] / (r * r), b[4] / (r * r), b[5] / (r * r)};
-        for (int i = 0; i < 6; ++i) q[i] = static_cast<float>(found[i]);
+        q = {b[0], b[1] / r, b[2] / r, b[3] / (r * r), b[4] / (r * r), b[5] / (r * r)};
     }
+    set_heights(q, frame);
     return true;
+}
+
+/// From heights over the plane to heights over the surface.
+void HeightQuadric::set_heights(const std::array<double, 6>& q, const TangentFrame& frame) {
+    std::array<float, 6> f;
+    for (int n = 0; n < 6; ++n) f[n] = static_cast<float>(q[n]);
+    constant = -f[0];
+    gradient = frame.normal - f[1] * frame.u - f[2] * frame.v;
+    const float u[3] = {frame.u.x, frame.u.y, frame.u.z}, v[3] = {frame.v.x, frame.v.y, frame.v.z};
+    const auto second = [&](int i, int j) {
+        return -(2 * f[3] * u[i] * u[j] + f[4] * (u[i] * v[j] + v[i] * u[j]) + 2 * f[5] * v[i] * v[j]);
+    };
+    curvature = {second(0, 0), second(1, 1), second(2, 2), second(0, 1), second(0, 2), second(1, 2)};
 }
 
 }  // namespace regionmesh

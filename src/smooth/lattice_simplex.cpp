@@ -13,6 +13,9 @@ namespace {
 /// Positions are rounded: far from the origin of the lattice by more than a unit in the last place.
 constexpr double kFarFromTwelfth = 0.01;
 
+/// In twelfths; no volume is that large.
+constexpr double kFarthest = 1e15;
+
 /// The kind by the twelfths of the spacings from the base node to the centroid, the first axis fastest.
 constexpr std::uint8_t kNoKind = 255;
 constexpr std::array<std::uint8_t, 12 * 12 * 12> kKindOfTwelfths = [] {
@@ -42,11 +45,12 @@ LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame) {
     LatticeSimplex simplex;
     std::array<int, 3> twelfths;
     for (int axis = 0; axis < 3; ++axis) {
-        const double offset = (position[axis] - frame.origin[axis]) / frame.spacing[axis];
-        const double scaled = std::round(offset * 12);
-        if (!(std::abs(offset * 12 - scaled) < kFarFromTwelfth)) refuse(position);
-        simplex.base[axis] = std::floor(scaled / 12);
-        twelfths[axis] = static_cast<int>(scaled - 12 * simplex.base[axis]);
+        const double offset = 12 * ((position[axis] - frame.origin[axis]) / frame.spacing[axis]);
+        if (!(offset > -0.5 && offset < kFarthest)) refuse(position);
+        const auto scaled = static_cast<std::uint64_t>(offset + 0.5);
+        if (!(std::abs(offset - static_cast<double>(scaled)) < kFarFromTwelfth)) refuse(position);
+        simplex.base[axis] = static_cast<double>(scaled / 12);
+        twelfths[axis] = static_cast<int>(scaled % 12);
     }
     const std::uint8_t kind = kKindOfTwelfths[(twelfths[2] * 12 + twelfths[1]) * 12 + twelfths[0]];
     if (kind == kNoKind) refuse(position);
@@ -70,7 +74,7 @@ Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, cons
     // Weights are rounded, not sums of them: axes with the same nodes get the same offset, bit for bit.
     Vec3 offset;
     for (int n = 1; n < kind.node_count; ++n) {
-        const double weight = std::round(weights[n] * kUnit) / kUnit;
+        const double weight = static_cast<double>(static_cast<std::int64_t>(weights[n] * kUnit + 0.5)) / kUnit;
         for (int axis = 0; axis < 3; ++axis)
             if (kind.steps[n] >> axis & 1) offset[axis] += weight;
     }

@@ -1,13 +1,15 @@
 #include "smooth/lattice_sites.h"
 
-#include "base/parallel_for.h"
 #include "regionmesh/error.h"
-#include "smooth/chunk_stars.h"
 
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kTask = 2048;  // vertices
+constexpr std::array<Vec3, kKindCount> kCentroids = [] {
+    std::array<Vec3, kKindCount> centroids{};
+    for (int kind = 0; kind < kKindCount; ++kind) centroids[kind] = centroid(kind);
+    return centroids;
+}();
 
 Float3 unit(Float3 v, Float3 otherwise) {
     const float size = length(v);
@@ -18,10 +20,33 @@ Float3 unit(Float3 v, Float3 otherwise) {
 
 void LatticeSites::add_chunk(std::uint32_t chunk) {
     const NumberRange vertices = window_.vertices_of(chunk), faces = window_.faces_of(chunk);
-    for (std::uint32_t v = vertices.first; v < vertices.end; ++v)
-        kinds_.push_back(simplex_of(window_.origin[v], frame_).kind);
-    for (std::uint32_t f = faces.first; f < faces.end; ++f)
-        interfaces_.push_back(interface_of(window_.faces[f].labels));
+    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) add_vertex(v);
+    for (std::uint32_t f = faces.first; f < faces.end; ++f) corners_.push_back(add_face(window_.faces[f]));
+}
+
+void LatticeSites::add_vertex(std::uint32_t v) {
+    constexpr std::uint32_t kPairs[] = {0, 0, 1, 3, 6};  // by labels
+    const LatticeSimplex simplex = simplex_of(window_.origin[v], frame_);
+    LatticeSite site{{}, {}, kNoInterface, simplex.kind};
+    const Vec3 middle = simplex.base + kCentroids[simplex.kind], scale = frame_.spacing / frame_.finest();
+    for (int axis = 0; axis < 3; ++axis)
+        site.centroid.at[axis] = static_cast<std::uint32_t>(
+            static_cast<std::int64_t>(middle[axis] * scale[axis] * (1 / LatticePoint::kStep) + 0.5));
+    for (std::uint32_t n = 0; n < kPairs[simplex.node_count()]; ++n) sites_.push_back(site);
+    kinds_.push_back(simplex.kind);
+    first_site_.push_back(sites_.end());
+}
+
+LatticeSites::CornerSites LatticeSites::add_face(const ChunkFace& face) {
+    const std::uint32_t interface = interface_of(face.labels);
+    if (interface == kNoInterface) return {kNoSite, kNoSite, kNoSite};
+    const auto& [v, labels] = face;
+    const Vec3 a = window_.origin[v[0]], b = window_.origin[v[1]], c = window_.origin[v[2]];
+    const double per_square = 1 / (frame_.finest() * frame_.finest());
+    const Float3 normal((labels[0] < labels[1] ? per_square : -per_square) * cross(b - a, c - a));
+    const CornerSites sites{site_of(v[0], interface), site_of(v[1], interface), site_of(v[2], interface)};
+    for (std::uint32_t s : sites) sites_[s].normal += normal;
+    return sites;
 }
 
 /// Faces that follow each other are often of one interface.
@@ -38,69 +63,55 @@ std::uint32_t LatticeSites::interface_of(std::array<Label, 2> labels) {
     return last_number_;
 }
 
-std::uint32_t LatticeSites::site_of(std::uint32_t vertex, std::uint32_t interface) const {
-    std::uint32_t s = first_site_[vertex];
-    while (sites_[s].interface != interface) ++s;
-    return s;
-}
-
-void LatticeSites::make(std::uint32_t chunk) {
-    const ChunkStars stars(window_, chunk);
-    const NumberRange vertices = stars.vertices();
-    const double finest = frame_.finest();
-    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) {
-        const Vec3 at = window_.origin[v] - frame_.origin;
-        LatticeSite site{{}, {}, 0, kinds_[v]};
-        for (int axis = 0; axis < 3; ++axis)
-            site.centroid.at[axis] = static_cast<std::uint32_t>(std::llround(at[axis] / finest / LatticePoint::kStep));
-        const std::uint32_t first = sites_.end();
-        for (std::uint32_t corner : stars.of(v)) {
-            const std::uint32_t f = corner >> 2;
-            if (interfaces_[f] == kNoInterface) continue;
-            const auto& [corners, labels] = window_.faces[f];
-            const Vec3 a = window_.origin[corners[0]], b = window_.origin[corners[1]], c = window_.origin[corners[2]];
-            const Vec3 normal =
-                (labels[0] < labels[1] ? 1 / (finest * finest) : -1 / (finest * finest)) * cross(b - a, c - a);
-            std::uint32_t s = first;
-            while (s < sites_.end() && sites_[s].interface != interfaces_[f]) ++s;
-            site.interface = interfaces_[f];
-            if (s == sites_.end()) sites_.push_back(site);
-            sites_[s].normal += Float3(normal);
-        }
-        first_site_.push_back(sites_.end());
+/// The first free site of the vertex if the interface is new to it.
+std::uint32_t LatticeSites::site_of(std::uint32_t vertex, std::uint32_t interface) {
+    const NumberRange own = of_vertex(vertex);
+    for (std::uint32_t s = own.first; s < own.end; ++s) {
+        if (sites_[s].interface == kNoInterface) sites_[s].interface = interface;
+        if (sites_[s].interface == interface) return s;
     }
-    const NumberRange made = of_chunk(chunk);
-    for (std::uint32_t s = made.first; s < made.end; ++s) sites_[s].normal = unit(sites_[s].normal, {0, 0, 1});
+    throw Error(ErrorCode::kInput,
+                "smoothing in the lattice: more regions meet at vertex " + std::to_string(vertex) +
+                    " than its lattice simplex has nodes; only an unsmoothed, undecimated reconstruction of sections "
+                    "can be smoothed so");
 }
 
-void LatticeSites::average_normals(int pass, std::uint32_t chunk, std::uint32_t threads) {
-    const ChunkStars stars(window_, chunk);
-    const NumberRange vertices = stars.vertices();
-    if (pass == 0) averaged_.grow(of_chunk(chunk).end);
-    const auto normal_of = [&](std::uint32_t s) { return pass == 0 ? sites_[s].normal : averaged_[s]; };
-    parallel_for((vertices.size() + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
-        const std::uint32_t first = vertices.first + task * kTask, end = std::min(vertices.end, first + kTask);
-        for (std::uint32_t v = first; v < end; ++v) {
-            std::array<Float3, 6> sums{};
-            const NumberRange own = of_vertex(v);
-            for (std::uint32_t corner : stars.of(v)) {
-                const std::uint32_t f = corner >> 2;
-                if (interfaces_[f] == kNoInterface) continue;
-                Float3& sum = sums[site_of(v, interfaces_[f]) - own.first];
-                for (std::uint32_t other : window_.faces[f].vertices) sum += normal_of(site_of(other, interfaces_[f]));
-            }
-            for (std::uint32_t s = own.first; s < own.end; ++s) {
-                const Float3 normal = unit(sums[s - own.first], normal_of(s));
-                if (pass == 0)
-                    averaged_[s] = normal;
-                else
-                    sites_[s].normal = normal;
-            }
-        }
-    });
+void LatticeSites::end_normals(std::uint32_t chunk) {
+    const NumberRange own = of_chunk(chunk);
+    for (std::uint32_t s = own.first; s < own.end; ++s) sites_[s].normal = unit(sites_[s].normal, {0, 0, 1});
+}
+
+/// Adds the normals at the corners of the faces of a chunk.
+void LatticeSites::add_up(int pass, std::uint32_t chunk) {
+    SlidingArray<Float3>& sums = sums_[pass];
+    sums.grow(of_chunk(chunk).end);
+    const auto normal_of = [&](std::uint32_t s) { return pass == 0 ? sites_[s].normal : sums_[0][s]; };
+    const NumberRange faces = window_.faces_of(chunk);
+    for (std::uint32_t f = faces.first; f < faces.end; ++f) {
+        const auto [a, b, c] = corners_[f];
+        if (a == kNoSite) continue;
+        const Float3 sum = normal_of(a) + normal_of(b) + normal_of(c);
+        sums[a] += sum;
+        sums[b] += sum;
+        sums[c] += sum;
+    }
+}
+
+void LatticeSites::average_normals(int pass, std::uint32_t chunk) {
+    if (chunk == 0) add_up(pass, 0);
+    if (chunk + 1 < window_.chunk_end()) add_up(pass, chunk + 1);
+    const NumberRange own = of_chunk(chunk);
+    SlidingArray<Float3>& sums = sums_[pass];
+    for (std::uint32_t s = own.first; s < own.end; ++s) {
+        sums[s] = unit(sums[s], pass == 0 ? sites_[s].normal : sums_[0][s]);
+        if (pass == 1) sites_[s].normal = sums[s];
+    }
+    if (pass == 0) return;
     // Pass 1 of the chunk that follows reads the normals of this one.
-    if (pass == 1 && chunk > 0) averaged_.drop_before(first_site_[window_.vertices_of(chunk).first]);
-    if (pass == 1 && chunk > 0) interfaces_.drop_before(window_.faces_of(chunk).first);
+    sums_[1].drop_before(own.end);
+    if (chunk == 0) return;
+    sums_[0].drop_before(own.first);
+    corners_.drop_before(window_.faces_of(chunk).first);
 }
 
 void LatticeSites::drop_before(std::uint32_t v) {

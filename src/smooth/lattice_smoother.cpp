@@ -23,7 +23,11 @@ double largest_block(const LatticeFrame& frame, double reach) {
 }  // namespace
 
 LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder& order)
-    : options_(options), order_(order), sites_(window_, order.frame), lines_(window_, sites_, kLatticeMargin) {
+    : options_(options),
+      order_(order),
+      spacing_(order.frame.spacing / order.frame.finest()),
+      sites_(window_, order.frame),
+      lines_(window_, sites_, kLatticeMargin) {
     for (double size = largest_block(order.frame, options.reach); size >= smoothing::kSmallestBlock; size /= 2)
         levels_.emplace_back(sites_, estimates_,
                              LatticeLevel::Options{.size = size,
@@ -62,11 +66,10 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     next_low_.push_back(next_low);
     sites_.add_chunk(number);
 
-    for (; made_ < one_behind(window_.chunk_end()); ++made_) sites_.make(made_);
+    for (; made_ < one_behind(window_.chunk_end()); ++made_) sites_.end_normals(made_);
     std::uint32_t done = made_;
     for (int pass = 0; pass < LatticeSites::kNormalPasses; ++pass) {
-        for (; averaged_[pass] < one_behind(done); ++averaged_[pass])
-            sites_.average_normals(pass, averaged_[pass], options_.threads);
+        for (; averaged_[pass] < one_behind(done); ++averaged_[pass]) sites_.average_normals(pass, averaged_[pass]);
         done = averaged_[pass];
     }
     for (; added_ < done; ++added_) add_to_levels(added_);
@@ -92,7 +95,8 @@ void LatticeSmoother::add_to_levels(std::uint32_t chunk) {
         const double along = (window_.origin[v][order_.axis] - origin) / finest;
         const NumberRange sites = sites_.of_vertex(v);
         for (std::uint32_t s = sites.first; s < sites.end; ++s)
-            for (LatticeLevel& level : levels_) level.add(s, along);
+            if (sites_.is_used(s))
+                for (LatticeLevel& level : levels_) level.add(s, along);
     }
     // No site of the chunk lies beyond.
     last_layer_.push_back(std::isfinite(next_low) ? levels_.back().layer_of(next_low) : 0);
@@ -105,13 +109,23 @@ void LatticeSmoother::refine() {
     for (LatticeLevel& level : levels_) level.refine(is_all);
 }
 
+/// Where the interface crosses the edge of a vertex.
+Vec3 LatticeSmoother::position_on_edge(std::uint32_t v) const {
+    const SiteEstimate& estimate = estimates_[sites_.first_of(v)];
+    const SimplexEdges edges = edges_of(sites_.kind(v), spacing_);
+    const double steep = dot(estimate.slope.wide(), edges.edges[0]);
+    const double step = estimate.rest < 1 && steep != 0 ? -estimate.height / steep : 0;
+    const double weight = std::clamp(0.5 + step, kLatticeMargin, 1 - kLatticeMargin);
+    return position_in(simplex_in(window_, sites_, v), {1 - weight, weight, 0, 0}, order_.frame);
+}
+
 /// Puts the vertices of a chunk nearest to their interfaces.
 void LatticeSmoother::place(std::uint32_t chunk) {
     constexpr std::uint32_t kTask = 4096;  // vertices
     const LatticeFrame& frame = order_.frame;
-    const Vec3 spacing = frame.spacing / frame.finest();
     const NumberRange vertices = window_.vertices_of(chunk);
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v) positions_.push_back(window_.origin[v]);
+    estimates_.grow(std::max(estimates_.end(), sites_.of_chunk(chunk).end));  // sites that are not used are in no level
     const auto nearest_to_interfaces = [&](std::uint32_t v, const SimplexEdges& edges) {
         NearestPoint nearest{edges.count};
         const NumberRange sites = sites_.of_vertex(v);
@@ -123,16 +137,20 @@ void LatticeSmoother::place(std::uint32_t chunk) {
     parallel_for((vertices.size() + kTask - 1) / kTask, options_.threads, [&](std::uint32_t task) {
         const std::uint32_t first = vertices.first + task * kTask, end = std::min(vertices.end, first + kTask);
         for (std::uint32_t v = first; v < end; ++v) {
-            if (sites_.of_vertex(v).size() == 0 || sites_.kind(v) == 0) continue;
-            const SimplexEdges edges = edges_of(sites_.kind(v), spacing);
-            const Barycentric weights = weights_of(nearest_to_interfaces(v, edges));
+            if (sites_.of_vertex(v).size() == 0) continue;
+            if (sites_.kind(v) < kFirstTriangle) {
+                positions_[v] = position_on_edge(v);
+                continue;
+            }
+            const SimplexEdges edges = edges_of(sites_.kind(v), spacing_);
+            const Barycentric weights = weights_of(nearest_to_interfaces(v, edges).solve(), edges.count);
             positions_[v] = position_in(simplex_in(window_, sites_, v),
                                         clamp_inside(weights, edges.count + 1, kLatticeMargin), frame);
         }
     });
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v)
         if (sites_.kind(v) >= kFirstTriangle)
-            lines_.add(v, nearest_to_interfaces(v, edges_of(sites_.kind(v), spacing)), positions_[v]);
+            lines_.add(v, nearest_to_interfaces(v, edges_of(sites_.kind(v), spacing_)), positions_[v]);
     lines_.end_chunk();
 }
 

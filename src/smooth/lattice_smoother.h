@@ -32,6 +32,7 @@ public:
 private:
     void add_to_levels(std::uint32_t chunk);
     void refine();
+    Vec3 position_on_edge(std::uint32_t v) const;
     void place(std::uint32_t chunk);
     void finish(std::uint32_t chunk);
     /// Chunks that a stage may have done when the one before has done `done_before` and must be one chunk ahead.
@@ -40,6 +41,7 @@ private:
 
     SmoothOptions options_;
     ChunkOrder order_;
+    Vec3 spacing_;  // in finest spacings
     SurfaceWindow window_;
     LatticeSites sites_;
     SlidingArray<SiteEstimate> estimates_;  // by site

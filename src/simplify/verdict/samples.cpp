@@ -133,13 +133,12 @@ Verdict test_samples(Collapse& collapse) {
     const EdgeStar& star = collapse.star;
     thread_local std::vector<LabelledTriangle> before, after;
     before.clear();
-    after.clear();
-    for (int n = 0; n < star.face_count(); ++n) {
-        const auto& labels = collapse.mesh[star.faces[n].face].labels;
-        before.push_back({{star.at_apex(n), star.at_a(n), star.at_b(n)}, labels});
-        after.push_back({{collapse.position, star.at_a(n), star.at_b(n)}, labels});
-    }
+    for (int n = 0; n < star.face_count(); ++n)
+        before.push_back({{star.at_apex(n), star.at_a(n), star.at_b(n)}, collapse.mesh[star.faces[n].face].labels});
+    after = before;
     for (FaceId f : star.dead) before.push_back({collapse.mesh.corners(f), collapse.mesh[f].labels});
+    if (sweeps_no_sample(*collapse.samples, before, collapse.position)) return Verdict::kAccepted;
+    for (LabelledTriangle& face : after) face.at[0] = collapse.position;
     return changes_samples(*collapse.samples, before, after) ? Verdict::kSamples : Verdict::kAccepted;
 }
 

@@ -7,13 +7,9 @@
 #include "regionmesh/label.h"
 #include "regionmesh/lattice.h"
 #include "regionmesh/vec3.h"
+#include "simplify/verdict/swept_samples.h"
 
 namespace regionmesh {
-
-struct LabelledTriangle {
-    std::array<Vec3, 3> at;
-    std::array<Label, 2> labels;  // the normal points from the first to the second
-};
 
 /// Faces are replaced by others with the same boundary: does any sample of the lattice change its region, or does a new
 /// face that is no cap come so near to a sample that rounding may take it there? Exact.

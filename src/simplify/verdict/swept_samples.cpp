@@ -1,0 +1,128 @@
+#include "simplify/verdict/swept_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regionmesh {
+namespace {
+
+/// Share of a length within which a sample counts as reached: far above rounding, and above the distance at which new
+/// faces keep from samples (kNear of samples.cpp).
+constexpr double kNear = 4e-6;
+
+/// The planes parallel to a face of a tetrahedron, between that face and the opposite corner, a little widened. The
+/// tetrahedron lies in its four slabs, even if it is flat.
+struct Slab {
+    Vec3 from, normal;
+    double low, high;  // of normal . (p - from)
+
+    Slab(Vec3 a, Vec3 b, Vec3 c, Vec3 opposite) : from(a), normal(cross(b - a, c - a)) {
+        const double height = dot(normal, opposite - a);
+        const double margin = kNear * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z) + std::abs(height));
+        low = std::min(height, 0.0) - margin;
+        high = std::max(height, 0.0) + margin;
+    }
+    bool holds(Vec3 p) const {
+        const double height = dot(normal, p - from);
+        return height >= low && height <= high;
+    }
+};
+
+/// Numbers of samples along an axis.
+struct Range {
+    std::int64_t first, last;
+};
+
+std::int64_t round_up(double x) {
+    const auto n = static_cast<std::int64_t>(x);
+    return n + (static_cast<double>(n) < x);
+}
+
+/// The samples of a lattice in the box of a tetrahedron, in units of the spacing.
+class Reach {
+public:
+    Reach(const Lattice& lattice, const std::array<Vec3, 3>& face, Vec3 p) : face_(face), p_(p) {
+        const Vec3 low = min(min(face[0], face[1]), min(face[2], p)),
+                   high = max(max(face[0], face[1]), max(face[2], p));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double slack = kNear * (1 + high[axis] - low[axis]), end = lattice.size[axis];
+            ranges_[axis] = {round_up(std::clamp(low[axis] - slack, 0.0, end)),
+                             -round_up(-std::clamp(high[axis] + slack, -1.0, end - 1))};
+        }
+    }
+    bool has_samples() const {
+        return ranges_[0].first <= ranges_[0].last && ranges_[1].first <= ranges_[1].last &&
+               ranges_[2].first <= ranges_[2].last;
+    }
+
+    /// Is each of them certainly outside the tetrahedron? Looks at lines along the axis that is steepest on the face:
+    /// few have a sample in its slab.
+    bool is_clear() const {
+        const Slab slab(face_[0], face_[1], face_[2], p_);
+        int axis = 0;
+        for (int other = 1; other < 3; ++other)
+            if (std::abs(slab.normal[other]) > std::abs(slab.normal[axis])) axis = other;
+        if (slab.normal[axis] == 0) return false;
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const double per_step = 1 / slab.normal[axis];
+        const double ends[2] = {slab.from[axis] + slab.low * per_step, slab.from[axis] + slab.high * per_step};
+        const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);
+        const double along_u = slab.normal[u] * per_step, along_v = slab.normal[v] * per_step;
+        for (std::int64_t j = ranges_[v].first; j <= ranges_[v].last; ++j)
+            for (std::int64_t i = ranges_[u].first; i <= ranges_[u].last; ++i) {
+                const double rise = along_u * (static_cast<double>(i) - slab.from[u]) +
+                                    along_v * (static_cast<double>(j) - slab.from[v]);
+                const double end = std::min(high - rise, static_cast<double>(ranges_[axis].last));
+                double n =
+                    static_cast<double>(round_up(std::max(low - rise, static_cast<double>(ranges_[axis].first))));
+                for (; n <= end; ++n) {
+                    Vec3 sample;
+                    sample[axis] = n, sample[u] = static_cast<double>(i), sample[v] = static_cast<double>(j);
+                    if (is_between_sides(sample)) return false;
+                }
+            }
+        return true;
+    }
+
+private:
+    /// In the slabs of the faces that meet in p.
+    bool is_between_sides(Vec3 sample) const {
+        for (int n = 0; n < 3; ++n)
+            if (!Slab(face_[n], face_[(n + 1) % 3], p_, face_[(n + 2) % 3]).holds(sample)) return false;
+        return true;
+    }
+
+    const std::array<Vec3, 3>& face_;
+    Vec3 p_;
+    std::array<Range, 3> ranges_;
+};
+
+/// A cap that stays in its side of the box sweeps nothing.
+bool is_flat_cap(const LabelledTriangle& face, Vec3 p) {
+    if (!is_exterior(face.labels[0]) && !is_exterior(face.labels[1])) return false;
+    const auto& [a, b, c] = face.at;
+    for (int axis = 0; axis < 3; ++axis)
+        if (a[axis] == p[axis] && b[axis] == p[axis] && c[axis] == p[axis]) return true;
+    return false;
+}
+
+}  // namespace
+
+bool sweeps_no_sample(const Lattice& lattice, std::span<const LabelledTriangle> before, Vec3 position) {
+    const Vec3 per_spacing{1 / lattice.spacing.x, 1 / lattice.spacing.y, 1 / lattice.spacing.z};
+    const auto in_spacings = [&](Vec3 p) {
+        const Vec3 from_origin = p - lattice.origin;
+        return Vec3{from_origin.x * per_spacing.x, from_origin.y * per_spacing.y, from_origin.z * per_spacing.z};
+    };
+    const Vec3 p = in_spacings(position);
+    for (const LabelledTriangle& face : before) {
+        const auto& [a, b, c] = face.at;
+        if (a == position || b == position || c == position || is_flat_cap(face, position)) continue;
+        const std::array<Vec3, 3> corners{in_spacings(a), in_spacings(b), in_spacings(c)};
+        const Reach reach(lattice, corners, p);
+        if (reach.has_samples() && !reach.is_clear()) return false;
+    }
+    return true;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,273 @@
+#include "smooth/lattice_fits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace regionmesh {
+namespace {
+
+/// Normals count as of one sheet above this cosine; two sides of a thin region face away from each other.
+constexpr float kSameSheet = 0.2f;
+
+/// A quadric may miss a simplex by this share of the spacing along its normal.
+constexpr float kTolerance = 0.3f;
+
+/// A fit to every fourth four of samples, in one round, that misses a simplex by more than this is not worth a better
+/// fit: most fits to noisy labels end here.
+constexpr float kTrialTolerance = 0.6f;
+constexpr std::uint32_t kTrialStride = 4;
+
+/// Weight of a quadric in the corners of its own block, which may lie beyond kBlend.
+constexpr float kOwnWeight = 1e-6f;
+
+/// Extents of simplices depend on the slope of the quadric: fitted again with the slopes found first, for wide
+/// terraces. On the finest scale once more gains nothing.
+constexpr int kRounds = 2, kFinestRounds = 1;
+
+using Points4 = std::array<Unsigned4, 3>;
+Lanes3<Float4> offset(const Points4& at, const LatticePoint& from) {
+    const auto along = [&](int axis) {
+        constexpr auto kStep = static_cast<float>(LatticePoint::kStep);
+        return kStep * __builtin_convertvector(reinterpret_cast<Lane4>(at[axis] - from.at[axis]), Float4);
+    };
+    return {along(0), along(1), along(2)};
+}
+
+/// 1 less the square of a length measured in radii.
+struct Share {
+    Float3 per_radius;
+    Float4 operator()(const Lanes3<Float4>& d) const {
+        const Lanes3<Float4> scaled{per_radius.x * d.x, per_radius.y * d.y, per_radius.z * d.z};
+        return 1 - dot(scaled, scaled);
+    }
+};
+
+}  // namespace
+
+/// Four sites; the last one repeated where there are fewer.
+struct LatticeFits::Sites4 {
+    Points4 at;
+    Lanes3<Float4> normal;
+    Kinds4 kind;
+};
+
+/// Sums over fits, or means, of what they say at four sites.
+struct LatticeFits::Blend4 {
+    Float4 all{}, accepted{};  // weights
+    Float4 height{};
+    Lanes3<Float4> slope;
+    std::array<Float4, 6> curvature{};
+};
+
+/// Gaps between the centre of a fit and the blocks near its own: blocks beyond a radius are left out.
+class LatticeFits::Gaps {
+public:
+    Gaps(const LatticeBlocks& blocks, const LatticePoint& own, const LatticePoint& centre) {
+        constexpr double kSlack = 1e-3;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double size = blocks.size_along(axis);
+            const std::int64_t block = blocks.cell_of(own, axis) / LatticeBlocks::kCells;
+            const double place = centre.at[axis] * LatticePoint::kStep / size - static_cast<double>(block);
+            for (int k = -NearRuns::kRings; k <= NearRuns::kRings; ++k) {
+                const double gap = std::max({k - place, place - k - 1, kSlack}) - kSlack;
+                square_[axis][k + NearRuns::kRings] = static_cast<float>(gap * gap);
+            }
+        }
+    }
+    bool is_within(float radius, const NearRun& near) const {
+        float sum = 0;
+        for (int axis = 0; axis < 3; ++axis) sum += square_[axis][near.offset[axis] + NearRuns::kRings];
+        return sum < radius * radius;
+    }
+
+private:
+    float square_[3][2 * NearRuns::kRings + 1];
+};
+
+LatticeFits::LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options)
+    : sites_(sites), blocks_(blocks), options_(options), steps_(blocks.spacing) {}
+
+LatticeFits::Sites4 LatticeFits::gather(const std::uint32_t* numbers, std::uint32_t count) const {
+    const auto site = [&](std::uint32_t lane) -> const LatticeSite& {
+        return sites_[numbers[std::min(lane, count - 1)]];
+    };
+    const LatticeSite &a = site(0), &b = site(1), &c = site(2), &d = site(3);
+    const auto kind = [](const LatticeSite& s) { return static_cast<std::uint8_t>(s.kind); };
+    const auto along = [&](int n) {
+        return Unsigned4{a.centroid.at[n], b.centroid.at[n], c.centroid.at[n], d.centroid.at[n]};
+    };
+    return {{along(0), along(1), along(2)},
+            side_by_side(a.normal, b.normal, c.normal, d.normal),
+            {kind(a), kind(b), kind(c), kind(d)}};
+}
+
+void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near,
+                            std::vector<FitPlace>& found) const {
+    const LatticePoint first = sites_[row.sites[row.runs[run].site]].centroid;
+    const auto& [low, high] = std::tie(row.runs[run].low, row.runs[run].high);
+    const auto beyond = [](float at, float low_, float high_) { return std::max({low_ - at, at - high_, 0.0f}); };
+    for (const NearRun& other : near) {
+        const bool is_own = other.row == &row && other.run == run;
+        for (std::uint32_t f = (*other).fit; f < other.next().fit; ++f) {
+            const Float3 d = other.row->fits[f].quadric.centre - first;
+            const Float3 gap{beyond(d.x, low.x, high.x), beyond(d.y, low.y, high.y), beyond(d.z, low.z, high.z)};
+            if (is_own || blocks_.distance2(gap) < kBlend * kBlend) found.push_back({other.row, other.run, f});
+        }
+    }
+}
+
+void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const {
+    const LatticePoint& own = sites_[row.sites[row.runs[run].site]].centroid;
+    for (std::uint32_t f = row.runs[run].fit; f < row.runs[run + 1].fit; ++f) {
+        auto& [quadric, accepted] = row.fits[f];
+        const TangentFrame frame(quadric.normal);
+        const Gaps gaps(blocks_, own, quadric.centre);
+        const float reach = kReach * static_cast<float>(options_.size);
+        if (!options_.takes_all) {
+            HeightQuadric trial = quadric;
+            const HeightSamples& few = choose(quadric, frame, gaps, near, kTrialStride);
+            accepted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds)
+                           ? acceptance(trial, gaps, near, kTrialTolerance)
+                           : 1;
+            if (accepted == 0) continue;
+        }
+        const HeightSamples& chosen = choose(quadric, frame, gaps, near, 1);
+        if (!quadric.fit(chosen, frame, blocks_.spacing, reach, options_.takes_all ? kFinestRounds : kRounds))
+            accepted = -1;
+        else
+            accepted = options_.takes_all ? 1 : acceptance(quadric, gaps, near, kTolerance);
+    }
+}
+
+/// The samples of the sheet within kReach, with a weight that falls with distance. Of four samples side by side either
+/// all are taken, some perhaps with weight 0, or none; of the fours of a run every `stride`th. Valid until the next
+/// call on the same thread.
+const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
+                                         const std::vector<NearRun>& near, std::uint32_t stride) const {
+    thread_local HeightSamples chosen;
+    const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
+    const Share share_of{(1 / kReach) * blocks_.per_size};
+    const LatticePoint centre = quadric.centre;
+    std::uint32_t count = 0, most = 0;
+    for (const NearRun& other : near) most += other.next().samples - (*other).samples;
+    if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
+    HeightSamples::Four* const fours = chosen.fours.data();
+    for (const NearRun& other : near) {
+        if (!gaps.is_within(kReach, other)) continue;
+        const LatticeSamples* const end = other.row->samples.data() + other.next().samples;
+        for (const LatticeSamples* s = other.row->samples.data() + (*other).samples; s < end; s += stride) {
+            const Lanes3<Float4> d = offset(s->at, centre);
+            const Float4 share = share_of(d), along = dot(s->normal, normal);
+            const Mask4 counts = share > 0 && along > kSameSheet;
+            if (bits_of(counts) == 0) continue;
+            const Float4 weight = share * share * along * s->count;
+            fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, s->kind};
+        }
+    }
+    chosen.count = count;
+    return chosen;
+}
+
+/// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
+float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near,
+                              float most_missed) const {
+    const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
+    const float tolerance =
+        most_missed * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
+    const Share share{(1 / kBlend) * blocks_.per_size};
+    Float4 worst{};
+    // Every fourth four first: where a quadric misses one simplex it misses others beside it.
+    for (std::uint32_t start = 0; start < 16; start += 4)
+        for (const NearRun& other : near) {
+            if (!gaps.is_within(kBlend, other)) continue;
+            const std::uint32_t end = other.next().site;
+            for (std::uint32_t n = (*other).site + start; n < end; n += 16) {
+                const Sites4 sites = gather(&other.row->sites[n], end - n);
+                const Mask4 counts =
+                    share(offset(sites.at, quadric.centre)) > 0 && dot(sites.normal, all_four(normal)) > kSameSheet;
+                if (bits_of(counts) == 0) continue;
+                worst = greatest(worst, counts ? misses(quadric, sites) : Float4{});
+                if (bits_of(worst >= tolerance) != 0) return 0;
+            }
+        }
+    const float most = std::max({worst[0], worst[1], worst[2], worst[3]});
+    return std::min(1.0f, 2 - 2 * most / tolerance);
+}
+
+/// By how much a quadric passes a simplex by; below 0 where it passes through.
+Float4 LatticeFits::misses(const HeightQuadric& quadric, const Sites4& sites) const {
+    const auto [height, slope] = quadric.at(offset(sites.at, quadric.centre));
+    const Extent4 extent =
+        extent_of(sites.kind, [&, slope = slope](int n) { return dot(slope, steps_.to_node(sites.kind, n)); });
+    const auto share = [&](int lane) { return 1 / static_cast<float>(kKinds[sites.kind[lane]].node_count); };
+    const Float4 middle = extent.sum * Float4{share(0), share(1), share(2), share(3)};
+    return greatest(height + extent.low - middle, middle - extent.high - height) / square_root(dot(slope, slope));
+}
+
+void LatticeFits::blend(const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits,
+                        SlidingArray<SiteEstimate>& estimates) const {
+    const auto is_accepted = [](const FitPlace& place) { return place.row->fits[place.fit].accepted > 0; };
+    if (std::none_of(fits.begin(), fits.end(), is_accepted)) return;
+    const std::uint32_t end = row.runs[run + 1].site;
+    for (std::uint32_t n = row.runs[run].site; n < end;) {
+        std::uint32_t numbers[4], count = 0;
+        for (; n < end && count < 4; ++n)
+            if (estimates[row.sites[n]].rest > 0) numbers[count++] = row.sites[n];
+        if (count == 0) return;
+        const Blend4 mean = blended(gather(numbers, count), row, run, fits);
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+            if (mean.accepted[lane] == 0) continue;
+            SiteEstimate& estimate = estimates[numbers[lane]];
+            const float share = mean.accepted[lane] / mean.all[lane], portion = estimate.rest * share;
+            estimate.height += portion * mean.height[lane];
+            estimate.slope += portion * Float3{mean.slope.x[lane], mean.slope.y[lane], mean.slope.z[lane]};
+            estimate.rest = mean.accepted[lane] == mean.all[lane] ? 0 : estimate.rest * (1 - share);
+        }
+    }
+}
+
+/// The weighted mean of the accepted fits at each site, linear near it.
+LatticeFits::Blend4 LatticeFits::blended(const Sites4& sites, const LatticeRow& row, std::uint32_t run,
+                                         std::span<const FitPlace> fits) const {
+    const Share share_of{(1 / kBlend) * blocks_.per_size};
+    Blend4 sums;
+    for (const FitPlace& place : fits) {
+        const auto& [quadric, accepted] = place.row->fits[place.fit];
+        if (accepted < 0) continue;
+        const Lanes3<Float4> d = offset(sites.at, quadric.centre);
+        const Float4 share = share_of(d), along = dot(sites.normal, all_four(quadric.normal)) - kSameSheet;
+        Float4 weight = share > 0 && along > 0 ? share * share * along : Float4{};
+        if (place.row == &row && place.run == run) weight += along > -kSameSheet ? all_four(kOwnWeight) : Float4{};
+        sums.all += weight;
+        if (accepted == 0 || bits_of(weight > 0) == 0) continue;
+        weight *= accepted;
+        sums.accepted += weight;
+        const HeightQuadric::At at = quadric.at(d);
+        sums.height += weight * at.height;
+        sums.slope = {sums.slope.x + weight * at.gradient.x, sums.slope.y + weight * at.gradient.y,
+                      sums.slope.z + weight * at.gradient.z};
+        for (int k = 0; k < 6; ++k) sums.curvature[k] += weight * quadric.curvature[k];
+    }
+    make_linear(sums, sites.kind);
+    return sums;
+}
+
+/// From sums to means, linear near the centroid; for an edge where the quadric crosses it, so that it is linear there
+/// and not at the midpoint.
+void LatticeFits::make_linear(Blend4& sums, const Kinds4& kind) const {
+    const Float4 unit = sums.accepted > 0 ? 1 / sums.accepted : Float4{};
+    const auto& k = sums.curvature;
+    const Lanes3<Float4> edge = steps_.edge(kind);
+    const Lanes3<Float4> turn{unit * (k[0] * edge.x + k[3] * edge.y + k[4] * edge.z),
+                              unit * (k[3] * edge.x + k[1] * edge.y + k[5] * edge.z),
+                              unit * (k[4] * edge.x + k[5] * edge.y + k[2] * edge.z)};
+    const Lanes3<Float4> slope{unit * sums.slope.x, unit * sums.slope.y, unit * sums.slope.z};
+    const Float4 height = unit * sums.height, steep = dot(slope, edge);
+    const Float4 crossing = steep != 0 ? -height / steep : Float4{};
+    const Float4 step = least(greatest(crossing, all_four(-0.5f)), all_four(0.5f));
+    sums.slope = {slope.x + step * turn.x, slope.y + step * turn.y, slope.z + step * turn.z};
+    sums.height = height - 0.5f * step * step * dot(turn, edge);
+}
+
+}  // namespace regionmesh
