@@ -1,6 +1,7 @@
 #include "command_line.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "config_file.h"
@@ -58,16 +59,21 @@ void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Text
     texts.option->required((spec.is_argument || spec.is_required) && !has_config);
 }
 
-/// Before the first thread of the work starts, so that all are confined.
-void confine(const Settings& settings) {
-    if (!settings.sandbox) return;
+/// Before the first thread of the work starts, so that all are confined. Returns what the kernel enforces.
+std::optional<SandboxState> confine(const Settings& settings) {
+    if (!settings.sandbox) return std::nullopt;
     const SandboxState state = enter_sandbox(sandbox_rules(settings));
-    say_more("sandbox: {}, {}", state.files ? "files are restricted" : "this kernel has no Landlock",
-             state.calls ? "system calls are filtered" : "this kernel has no seccomp");
     if (settings.needs_sandbox && !(state.files && state.calls))
         throw Error(ErrorCode::kInput, std::string("--require-sandbox: this kernel has no ") +
                                            (state.files ? "seccomp" : "Landlock") +
                                            "; use another kernel, or leave the option out");
+    return state;
+}
+
+void say_confined(const std::optional<SandboxState>& state) {
+    if (!state) return;
+    say_more("sandbox: {}, {}", state->files ? "files are restricted" : "this kernel has no Landlock",
+             state->calls ? "system calls are filtered" : "this kernel has no seccomp");
 }
 
 }  // namespace
@@ -91,8 +97,10 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             apply_options(settings, values);
             require_distinct_files(settings);
             begin_messages(command.command, settings);
-            confine(settings);
-            return run(settings);
+            const std::optional<SandboxState> confined = confine(settings);
+            const int code = run(settings);
+            say_confined(confined);
+            return code;
         };
     });
 }

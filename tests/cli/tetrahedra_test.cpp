@@ -183,7 +183,7 @@ TEST_F(CliTetrahedra, options_of_the_other_kind_of_input_are_refused) {
         expect_refusal("reconstruct " + input + " " + table + to, 2, "points.csv: one table or mesh at a time");
         expect_refusal("info " + input + " --spacing 1", 2, "--spacing");
     }
-    for (const std::string option : {"--columns 1,2,3,4", "--step 1", "--scale-z 2", "--array label", "--hull"})
+    for (const std::string option : {"--columns 1,2,3,4", "--step 1", "--array label", "--hull"})
         expect_refusal("reconstruct " + volume + to + " " + option, 2, option.substr(0, option.find(' ')));
     expect_refusal("reconstruct " + volume + " " + table + to, 2, "one");
 }
