@@ -55,7 +55,7 @@ def main():
             "report.json", "--quiet")
     expected = report_volumes("report.json")
 
-    run("tetgen", "-pqAT1e-12", "model.smesh")  # facets nearly in a plane are not merged
+    run("tetgen", "-pqAT1e-14", "model.smesh")  # facets nearly in a plane are not merged
     check_volumes("tetgen", tetgen_volumes("model", "model.smesh"), expected)
 
     run("gmsh", "-3", "model.geo", "-setnumber", "Mesh.SaveGroupsOfNodes", "1", "-o", "mesh.inp")
