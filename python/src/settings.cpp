@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "regionmesh/error.h"
+
 namespace regionmesh::python {
 namespace {
 

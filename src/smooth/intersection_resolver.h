@@ -15,8 +15,8 @@ namespace regionmesh {
 
 /// Takes in the chunks one after the other. After each, all faces so far are valid: no face is turned over or of too
 /// low quality, no face crosses another, no separate part of the surface has changed sides of another, and, where the
-/// surface is wholly in core, no shell is turned inside out. Where one would, its vertices backtrack, and this repeats until all faces are valid. Terminates: the unsmoothed surface is
-/// valid. Vertices of released chunks do not move.
+/// surface is wholly in core, no shell is turned inside out. Where one would, its vertices backtrack, and this repeats
+/// until all faces are valid. Terminates: the unsmoothed surface is valid. Vertices of released chunks do not move.
 class IntersectionResolver {
 public:
     IntersectionResolver(const SurfaceWindow& window, StepLengths& steps, const SmoothOptions& options)
