@@ -21,8 +21,8 @@ mesh = regionmesh.reconstruct(
     reduce=0.9,
 )
 arguments.folder.mkdir(exist_ok=True)
-mesh.save(arguments.folder / "organ.stl", per_region=True)
+for path in mesh.save(arguments.folder / "organ.stl", per_region=True):
+    print(path)
 regions = mesh.regions
 for label, name, volume in zip(regions["label"], regions["name"], regions["volume"]):
-    path = (arguments.folder / f"organ-{label}.stl").rename(arguments.folder / f"{name or label}.stl")
-    print(f"{path.name}: {volume / 1000:.1f} ml")
+    print(f"{name or label}: {volume / 1000:.1f} ml")

@@ -56,6 +56,7 @@ class Mesh:
     def simplify(
         self,
         *,
+        keep_samples: bool = True,
         progress: _Progress | None = None,
         target_faces: int | None = None,
         reduce: float | str | None = None,
@@ -66,6 +67,14 @@ class Mesh:
         improve: bool | None = None,
         intersect_check: bool | None = None,
         threads: int | None = None,
+    ) -> Mesh: ...
+    def improve(
+        self,
+        *,
+        min_quality: float = 0.1,
+        keep_samples: bool = True,
+        threads: int = 0,
+        progress: _Progress | None = None,
     ) -> Mesh: ...
     def smooth(
         self,

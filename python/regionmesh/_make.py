@@ -53,6 +53,7 @@ def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
     >>> labels = np.zeros((6, 6, 6), np.uint8)
     >>> labels[2:4, 2:4, 2:4] = 3
     >>> regionmesh.reconstruct(labels).save("cube.vtp")
+    ['cube.vtp']
     >>> regionmesh.load("cube.vtp").certified
     True
     """

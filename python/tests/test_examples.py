@@ -72,9 +72,9 @@ def test_slices_to_stl(two_boxes, tmp_path):
         write_png(tmp_path / "slices" / f"s{number}.png", section)
     (tmp_path / "names.csv").write_text("label,name\n1,liver\n")
     printed = run("slices_to_stl.py", tmp_path / "slices", tmp_path / "out", "--names", tmp_path / "names.csv")
-    assert "liver.stl: 0.2 ml" in printed
-    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["2.stl", "liver.stl"]
-    assert regionmesh.load(tmp_path / "out" / "liver.stl").certified
+    assert "organ-liver.stl\n" in printed and "liver: 0.2 ml" in printed
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["organ-2.stl", "organ-liver.stl"]
+    assert regionmesh.load(tmp_path / "out" / "organ-liver.stl").certified
 
 
 def test_connectome(grains, tmp_path):

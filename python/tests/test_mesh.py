@@ -273,8 +273,8 @@ def test_voxelise_refuses_a_type_that_is_too_small(two_boxes):
         regionmesh.from_arrays(made.points, made.faces, made.labels).voxelise()
 
 
-def test_a_file_says_which_labels_are_background(filled, tmp_path):
-    filled.save(tmp_path / "none.vtp")
+def test_a_file_says_which_labels_are_background(two_boxes, tmp_path):
+    regionmesh.reconstruct(two_boxes, background=None).save(tmp_path / "none.vtp")
     assert regionmesh.load(tmp_path / "none.vtp").background == []
     labels = np.full((8, 8, 8), 9, np.uint8)
     labels[2:6, 2:6, 2:6] = 4

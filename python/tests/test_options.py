@@ -141,7 +141,8 @@ def test_the_signature_lists_every_option_of_the_program():
     for row in _core.option_rows("reconstruct"):
         name = row["name"].removeprefix("no-").replace("-", "_")
         is_here = not row["is_argument"] and row["group"] != "Output" and row["kind"] != "file"
-        is_here = is_here and name not in ("quiet", "verbose")
+        of_process = ("quiet", "verbose", "memory_limit", "sandbox", "require_sandbox")
+        is_here = is_here and name not in of_process
         assert (name in parameters) == (is_here or name == "names"), name
 
 
