@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,19 @@ template <class Integer>
 bool parse_whole(const std::string& text, Integer& value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// Of "A:B,A:B,A:B" along x, y and z, as typed; either end may be empty. None for a text of another form.
+std::optional<std::array<std::pair<std::string, std::string>, 3>> ends_of_ranges(const std::string& text) {
+    const std::vector<std::string> parts = split(text);
+    if (parts.size() != 3) return std::nullopt;
+    std::array<std::pair<std::string, std::string>, 3> ends;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t colon = parts[axis].find(':');
+        if (colon == std::string::npos) return std::nullopt;
+        ends[axis] = {parts[axis].substr(0, colon), parts[axis].substr(colon + 1)};
+    }
+    return ends;
 }
 
 }  // namespace
@@ -134,14 +149,11 @@ std::vector<LabelRange> parse_label_ranges(const std::string& flag, const std::s
 
 std::array<SampleRange, 3> parse_sample_ranges(const std::string& flag, const std::string& text) {
     const auto refuse = [&] { refuse_value(flag, text, "samples along x, y and z, such as 10:50,:,20:"); };
-    const std::vector<std::string> parts = split(text);
-    if (parts.size() != 3) refuse();
+    const auto ends = ends_of_ranges(text);
+    if (!ends) refuse();
     std::array<SampleRange, 3> ranges;
     for (int axis = 0; axis < 3; ++axis) {
-        const std::string& part = parts[axis];
-        const std::size_t colon = part.find(':');
-        if (colon == std::string::npos) refuse();
-        const std::string first = part.substr(0, colon), end = part.substr(colon + 1);
+        const auto& [first, end] = (*ends)[axis];
         if (!first.empty() && !parse_whole(first, ranges[axis].first)) refuse();
         if (!end.empty() && (!parse_whole(end, ranges[axis].end) || ranges[axis].end <= ranges[axis].first)) refuse();
     }
@@ -150,14 +162,11 @@ std::array<SampleRange, 3> parse_sample_ranges(const std::string& flag, const st
 
 std::array<LengthRange, 3> parse_length_ranges(const std::string& flag, const std::string& text) {
     const auto refuse = [&] { refuse_value(flag, text, "coordinates along x, y and z, such as 0:120.5,:,-20:35"); };
-    const std::vector<std::string> parts = split(text);
-    if (parts.size() != 3) refuse();
+    const auto ends = ends_of_ranges(text);
+    if (!ends) refuse();
     std::array<LengthRange, 3> ranges;
     for (int axis = 0; axis < 3; ++axis) {
-        const std::string& part = parts[axis];
-        const std::size_t colon = part.find(':');
-        if (colon == std::string::npos) refuse();
-        const std::string low = part.substr(0, colon), high = part.substr(colon + 1);
+        const auto& [low, high] = (*ends)[axis];
         std::string unit;
         if (!low.empty() && (!parse_leading(low, ranges[axis].low, unit) || !unit.empty())) refuse();
         if (!high.empty() && (!parse_leading(high, ranges[axis].high, unit) || !unit.empty())) refuse();

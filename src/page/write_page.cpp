@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <new>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/codec/base64.h"
 #include "formats/report/json_parts.h"
@@ -20,38 +24,26 @@ namespace {
 
 constexpr std::string_view kTitlePlace = "<!--TITLE-->", kDataPlace = "<!--DATA-->";
 
-std::string escaped_html(std::string_view text) {
-    std::string escaped;
+std::string escaped(std::string_view text, std::initializer_list<std::pair<char, std::string_view>> escapes) {
+    std::string all;
     for (const char letter : text) {
-        if (letter == '&')
-            escaped += "&amp;";
-        else if (letter == '<')
-            escaped += "&lt;";
-        else if (letter == '>')
-            escaped += "&gt;";
-        else if (letter == '"')
-            escaped += "&quot;";
+        const auto escape = std::ranges::find(escapes, letter, &std::pair<char, std::string_view>::first);
+        if (escape == escapes.end())
+            all += letter;
         else
-            escaped += letter;
+            all += escape->second;
     }
-    return escaped;
+    return all;
+}
+
+std::string escaped_html(std::string_view text) {
+    return escaped(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}});
 }
 
 /// JSON in which no character can end or open an element of HTML.
 std::string script_json(const Json& json) {
-    const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
-    std::string escaped;
-    for (const char letter : text) {
-        if (letter == '<')
-            escaped += "\\u003c";
-        else if (letter == '>')
-            escaped += "\\u003e";
-        else if (letter == '&')
-            escaped += "\\u0026";
-        else
-            escaped += letter;
-    }
-    return escaped;
+    return escaped(json.dump(-1, ' ', true, Json::error_handler_t::replace),
+                   {{'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}});
 }
 
 std::string deflated(const std::vector<std::uint8_t>& bytes) {

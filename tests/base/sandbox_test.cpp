@@ -14,25 +14,10 @@
 #include <thread>
 
 #include "formats/temporary_folder.h"
+#include "support/sandbox_state.h"
 
 namespace regionmesh {
 namespace {
-
-/// What a kernel without the feature, or a build without the sandbox, cannot be tested for.
-SandboxState state_of_child() {
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const SandboxState state = enter_sandbox({});
-        ::_exit((state.files ? 1 : 0) + (state.calls ? 2 : 0));
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
-    return {.files = (code & 1) != 0, .calls = (code & 2) != 0};
-}
-
-#define SKIP_WITHOUT(feature, name) \
-    if (!state_of_child().feature) GTEST_SKIP() << "this kernel, or this build, has no " name
 
 class Sandbox : public TemporaryFolder {
 protected:

@@ -26,17 +26,11 @@ class Cli : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        put_text(path("volume.raw"), raw_text());
+        put_ball("volume.raw");
     }
 
     /// Arguments that read the volume of this test, a ball of 1 in 0.
-    std::string volume() const { return path("volume.raw").string() + " --size 9,9,9 --type uint8 "; }
-
-private:
-    static std::string raw_text() {
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        return {ball.labels().begin(), ball.labels().end()};
-    }
+    std::string volume() const { return ball("volume.raw"); }
 };
 
 TEST_F(Cli, reconstruct_writes_a_model_and_a_report) {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
-#include "support/volumes.h"
 
 namespace regionmesh {
 namespace {
@@ -16,8 +15,7 @@ class Config : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        put_text(path("ball.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_ball("ball.raw");
     }
 
     std::string input() const { return path("ball.raw").string(); }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "cli/program.h"
-#include "support/volumes.h"
 
 namespace regionmesh {
 namespace {
@@ -16,13 +15,11 @@ class Messages : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        put_text(path("volume.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_ball("volume.raw");
     }
 
     std::string command(const std::string& more = "") const {
-        return "reconstruct " + path("volume.raw").string() + " --size 9,9,9 --type uint8 -o " + out("m.vtp") +
-               " --reduce 10% " + more;
+        return "reconstruct " + ball("volume.raw") + "-o " + out("m.vtp") + " --reduce 10% " + more;
     }
 };
 

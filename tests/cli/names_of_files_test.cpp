@@ -1,7 +1,6 @@
 // Names of files that would command a terminal, or another program.
 #include "cli/program.h"
 #include "regionmesh/formats.h"
-#include "support/volumes.h"
 
 namespace regionmesh {
 namespace {
@@ -13,11 +12,10 @@ class NamesOfFiles : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        put_text(path("v.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_ball("v.raw");
     }
 
-    std::string volume() const { return path("v.raw").string() + " --size 9,9,9 --type uint8 "; }
+    std::string volume() const { return ball("v.raw"); }
     void put_header(const std::string& data_file) const {
         std::filesystem::create_directory(path("in"));
         put_text(path("in/v.mhd"),

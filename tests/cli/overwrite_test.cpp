@@ -2,7 +2,6 @@
 #include <filesystem>
 
 #include "cli/program.h"
-#include "support/volumes.h"
 
 namespace regionmesh {
 namespace {
@@ -14,13 +13,12 @@ class Overwrite : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        put_text(path("v.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_ball("v.raw");
         ASSERT_EQ(run("reconstruct " + volume() + "-o " + file("m.vtp")).code, 0);
     }
 
     std::string file(const std::string& name) const { return path(name).string(); }
-    std::string volume() const { return file("v.raw") + " --size 9,9,9 --type uint8 "; }
+    std::string volume() const { return ball("v.raw"); }
 
     /// The run ends with exit code 2 and one line, and changes no file.
     void expect_no_change(const std::string& arguments, const std::string& said) const {

@@ -11,6 +11,7 @@
 
 #include "formats/temporary_folder.h"
 #include "support/paths.h"
+#include "support/volumes.h"
 
 namespace regionmesh {
 
@@ -36,6 +37,14 @@ protected:
     std::ptrdiff_t files_left() const {
         return std::distance(std::filesystem::directory_iterator(path("out")), std::filesystem::directory_iterator());
     }
+
+    /// Writes a volume: a ball of label 1 in 0.
+    void put_ball(const std::string& name) const {
+        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
+        put_text(path(name), {ball.labels().begin(), ball.labels().end()});
+    }
+    /// Arguments that read it.
+    std::string ball(const std::string& name) const { return path(name).string() + " --size 9,9,9 --type uint8 "; }
 
     void expect_refusal(const std::string& arguments, int code, const std::string& said,
                         const std::string& before = "") const {

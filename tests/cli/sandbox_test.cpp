@@ -11,41 +11,29 @@
 #include <thread>
 
 #include "cli/program.h"
-#include "support/volumes.h"
+#include "support/sandbox_state.h"
 
 namespace regionmesh {
 namespace {
 
 using testing::HasSubstr;
 
-SandboxState state_of_kernel() {
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const SandboxState state = enter_sandbox({});
-        ::_exit((state.files ? 1 : 0) + (state.calls ? 2 : 0));
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return {.files = (WEXITSTATUS(status) & 1) != 0, .calls = (WEXITSTATUS(status) & 2) != 0};
-}
-
 class SandboxedProgram : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        put_text(path("v.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_ball("v.raw");
         // A helper that writes a file, as one that a damaged input has taken over might.
         put_text(path("helper"), "#!/bin/sh\necho taken > '" + path("taken").string() + "'\nexit 1\n");
         std::filesystem::permissions(path("helper"), std::filesystem::perms::owner_all);
         put_text(path("v.h5"), std::string("\x89HDF\r\n\x1a\n", 8) + std::string(100, '\0'));
     }
-    std::string volume() const { return path("v.raw").string() + " --size 9,9,9 --type uint8 "; }
+    std::string volume() const { return ball("v.raw"); }
     std::string helper() const { return "REGIONMESH_HDF5_PROGRAM='" + path("helper").string() + "'"; }
 };
 
 TEST_F(SandboxedProgram, models_and_reports_are_written_inside_it) {
-    if (!state_of_kernel().files) GTEST_SKIP() << "this kernel, or this build, has no Landlock";
+    SKIP_WITHOUT(files, "Landlock");
     const std::string files =
         "-o " + out("m.obj") + " --report " + out("r.json") + " --html " + path("p.html").string();
     const Ran ran = run("reconstruct --require-sandbox " + volume() + files);
@@ -57,7 +45,7 @@ TEST_F(SandboxedProgram, models_and_reports_are_written_inside_it) {
 }
 
 TEST_F(SandboxedProgram, no_program_but_the_helpers_is_started) {
-    if (!state_of_kernel().files) GTEST_SKIP() << "this kernel, or this build, has no Landlock";
+    SKIP_WITHOUT(files, "Landlock");
     const Ran ran = run("info " + path("v.h5").string(), helper());
     EXPECT_EQ(ran.code, 1);
     EXPECT_THAT(ran.error, HasSubstr("cannot be started")) << "a script needs a shell";
@@ -98,7 +86,7 @@ std::string status_of(const std::string& program, const std::vector<std::string>
 }
 
 TEST_F(SandboxedProgram, helpers_filter_their_calls_before_they_read) {
-    if (!state_of_kernel().calls) GTEST_SKIP() << "this kernel, or this build, has no seccomp";
+    SKIP_WITHOUT(calls, "seccomp");
     for (const std::string& program : {test::hdf5_program(), test::delaunay_program()}) {
         if (program.empty()) continue;  // not built
         SCOPED_TRACE(program);

@@ -1,6 +1,5 @@
 // Standard streams that are full or closed: an exit code of 1, never an abort.
 #include "cli/program.h"
-#include "support/volumes.h"
 
 namespace regionmesh {
 namespace {
@@ -11,11 +10,10 @@ class Streams : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        put_text(path("v.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_ball("v.raw");
     }
 
-    std::string volume() const { return path("v.raw").string() + " --size 9,9,9 --type uint8 "; }
+    std::string volume() const { return ball("v.raw"); }
 
     /// Runs the program with its streams as `streams` says. A signal gives 128 and its number.
     int code_of(const std::string& arguments, const std::string& streams) const {

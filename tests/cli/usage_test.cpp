@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "cli/program.h"
-#include "support/volumes.h"
 
 namespace regionmesh {
 namespace {
@@ -15,8 +14,7 @@ class Usage : public Program {
 protected:
     void SetUp() override {
         Program::SetUp();
-        const test::ArrayVolume ball = test::ball_volume({9, 9, 9}, 3);
-        put_text(path("ball.raw"), {ball.labels().begin(), ball.labels().end()});
+        put_ball("ball.raw");
         put_text(path("empty.raw"), std::string(9 * 9 * 9, '\0'));
     }
 
@@ -24,12 +22,14 @@ protected:
         return path(file + ".raw").string() + " --size 9,9,9 --type uint8 " + more;
     }
     std::string to_model() const { return " -o " + out("m.vtp"); }
-    std::string ball(const std::string& more = "") const { return "reconstruct " + of("ball", more) + to_model(); }
+    std::string reconstruct_ball(const std::string& more = "") const {
+        return "reconstruct " + of("ball", more) + to_model();
+    }
 };
 
 TEST_F(Usage, options_that_contradict_each_other_are_refused_by_name) {
     const auto refused = [&](const std::string& options, const std::string& a, const std::string& b) {
-        expect_refusal(ball(options), 2, a + " and " + b + ": ");
+        expect_refusal(reconstruct_ball(options), 2, a + " and " + b + ": ");
     };
     refused("--reduce 90% --target-faces 1000", "--reduce", "--target-faces");
     refused("--no-decimate --reduce 50%", "--no-decimate", "--reduce");
@@ -40,7 +40,7 @@ TEST_F(Usage, options_that_contradict_each_other_are_refused_by_name) {
     refused("--smooth-filter none --smooth 50", "--smooth-filter none", "--smooth 50");
     refused("--smooth off --smooth-filter taubin", "--smooth off", "--smooth-filter taubin");
     refused("--smooth 0 --smooth-points", "--smooth 0", "--smooth-points");
-    EXPECT_EQ(run(ball("--smooth off --smooth-filter none --no-decimate")).code, 0);
+    EXPECT_EQ(run(reconstruct_ball("--smooth off --smooth-filter none --no-decimate")).code, 0);
 }
 
 TEST_F(Usage, background_leaves_the_input_alone_and_takes_several_labels) {
@@ -53,8 +53,8 @@ TEST_F(Usage, background_leaves_the_input_alone_and_takes_several_labels) {
     }
     std::filesystem::remove(out("m.vtp"));
     expect_refusal("reconstruct --background 0-1 " + input, 1, "no region");
-    expect_refusal(ball("--background 0,x"), 2, "--background 0,x: not labels");
-    expect_refusal(ball("--background 5-1"), 2, "--background 5-1: not ");
+    expect_refusal(reconstruct_ball("--background 0,x"), 2, "--background 0,x: not labels");
+    expect_refusal(reconstruct_ball("--background 5-1"), 2, "--background 5-1: not ");
 }
 
 TEST_F(Usage, a_file_whose_name_is_a_number_is_an_input) {
@@ -65,19 +65,19 @@ TEST_F(Usage, a_file_whose_name_is_a_number_is_an_input) {
 }
 
 TEST_F(Usage, labels_that_do_not_occur_are_a_warning) {
-    EXPECT_EQ(run(ball("--background 0")).error, "");
-    const Ran background = run(ball("--background 0,500"));
+    EXPECT_EQ(run(reconstruct_ball("--background 0")).error, "");
+    const Ran background = run(reconstruct_ball("--background 0,500"));
     EXPECT_EQ(background.code, 0);
     EXPECT_THAT(background.error, AllOf(HasSubstr("warning: --background 500: "), HasSubstr("no such label")));
-    EXPECT_THAT(run(ball("--labels 1,5-9")).error, HasSubstr("warning: --labels 5-9: "));
-    EXPECT_EQ(run(ball("--labels 1 --background 0")).error, "");
-    EXPECT_EQ(run(ball("--quiet --background 0,500")).error, "");
+    EXPECT_THAT(run(reconstruct_ball("--labels 1,5-9")).error, HasSubstr("warning: --labels 5-9: "));
+    EXPECT_EQ(run(reconstruct_ball("--labels 1 --background 0")).error, "");
+    EXPECT_EQ(run(reconstruct_ball("--quiet --background 0,500")).error, "");
 }
 
 TEST_F(Usage, an_input_without_a_region_is_refused) {
     expect_refusal("reconstruct " + of("empty") + to_model(), 1,
                    "there is no region to model: all of it is background");
-    expect_refusal(ball("--labels 4"), 1, "none of the --labels");
+    expect_refusal(reconstruct_ball("--labels 4"), 1, "none of the --labels");
     expect_refusal("reconstruct " + of("empty", "--no-background --boundary open") + to_model(), 1,
                    "it has one label only");
 }
@@ -92,8 +92,9 @@ TEST_F(Usage, unknown_commands_and_options_are_answered_with_the_nearest) {
     expect_refusal("comp a b", 2, "did you mean compare?");
     expect_refusal("zzz", 2, "there is no such command; give reconstruct, decimate, ");
     expect_refusal("", 2, "give a command: reconstruct, decimate, ");
-    expect_refusal(ball("--redcue 90%"), 2, "--redcue: reconstruct has no such option; did you mean --reduce?");
-    expect_refusal(ball("--background-label 0"), 2, "regionmesh reconstruct --help");
+    expect_refusal(reconstruct_ball("--redcue 90%"), 2,
+                   "--redcue: reconstruct has no such option; did you mean --reduce?");
+    expect_refusal(reconstruct_ball("--background-label 0"), 2, "regionmesh reconstruct --help");
     expect_refusal("check m.vtp --reduce 5%", 2, "--reduce: check has no such option");
 }
 
@@ -111,7 +112,7 @@ TEST_F(Usage, a_grey_scale_image_is_noticed) {
 }
 
 TEST_F(Usage, one_thing_is_one_thing_and_lists_say_how_many_more) {
-    ASSERT_EQ(run(ball()).code, 0);
+    ASSERT_EQ(run(reconstruct_ball()).code, 0);
     EXPECT_THAT(run("check " + out("m.vtp")).out, HasSubstr(": 1 region, "));
     EXPECT_THAT(run("view " + out("m.vtp") + " -o " + out("m.html")).out, HasSubstr(" 1 region, 0 violations"));
     const std::string facet =

@@ -138,25 +138,20 @@ FAULT(int, posix_spawn,
        char* const* words, char* const* environment),
       (process, program, files, how, words, environment), EAGAIN, EAGAIN)
 
+#define FAULTY_OPEN(name)                                                                           \
+    extern "C" int name(const char* path, int flags, ...) {                                         \
+        static const auto next = real(static_cast<int (*)(const char*, int, ...)>(nullptr), #name); \
+        std::va_list list;                                                                          \
+        va_start(list, flags);                                                                      \
+        const mode_t bits = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(list, mode_t) : 0;        \
+        va_end(list);                                                                               \
+        return fails(EMFILE) ? -1 : next(path, flags, bits);                                        \
+    }
+
+FAULTY_OPEN(open)
+FAULTY_OPEN(open64)
+
 extern "C" {
-
-int open(const char* name, int flags, ...) {
-    static const auto next = real(static_cast<int (*)(const char*, int, ...)>(nullptr), "open");
-    std::va_list list;
-    va_start(list, flags);
-    const mode_t bits = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(list, mode_t) : 0;
-    va_end(list);
-    return fails(EMFILE) ? -1 : next(name, flags, bits);
-}
-
-int open64(const char* name, int flags, ...) {
-    static const auto next = real(static_cast<int (*)(const char*, int, ...)>(nullptr), "open64");
-    std::va_list list;
-    va_start(list, flags);
-    const mode_t bits = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(list, mode_t) : 0;
-    va_end(list);
-    return fails(EMFILE) ? -1 : next(name, flags, bits);
-}
 
 /// Closes the file, as the system does, and reports an error.
 int fclose(FILE* file) {
