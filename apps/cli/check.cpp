@@ -90,7 +90,8 @@ int run_check(const Settings& given) {
     if (!settings.regions.empty())
         files.add(settings.regions).write(regions_csv(file.mesh, file.labels, options.background, file.names));
     if (!settings.html.empty())
-        write_page(settings.html, {page_model(path, file.mesh, file.labels, options.background, file.names)},
+        write_page(settings.html,
+                   {page_model(path, {file.mesh, file.labels, options.background, file.names, file.colours})},
                    page_options(kCheck, settings, json, options.oracle.has_value()), files);
     files.commit();
     if (!settings.quiet) {

@@ -158,6 +158,7 @@ void write_distances(const Settings& settings, const MeshFile& a, const CompareR
                {.background = background_of(settings, a.labels),
                 .point_arrays = {{"Distance", report.vertex_distances}},
                 .names = a.names,
+                .colours = a.colours,
                 .space = a.space},
                files);
 }
@@ -179,8 +180,8 @@ void write_comparison(const Settings& settings, const MeshFile& a, const MeshFil
     const std::vector<double> back = distances_back(settings, a, b);
     std::vector<PageModel> models;
     for (const auto& [path, file] : {std::pair(&settings.models[0], &a), std::pair(&settings.models[1], &b)})
-        models.push_back(
-            page_model(*path, file->mesh, file->labels, background_of(settings, file->labels), file->names));
+        models.push_back(page_model(
+            *path, {file->mesh, file->labels, background_of(settings, file->labels), file->names, file->colours}));
     models[0].distances = report.vertex_distances;
     models[1].distances = back;
     write_page(settings.html, models, page_options(kCompare, settings, compare_json(report), false), files);

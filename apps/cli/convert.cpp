@@ -12,9 +12,10 @@ int run_convert(const Settings& given) {
     MeshFile file = read_mesh(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
-    const LabelNames names = names_or(settings, file.names);
+    const auto [names, colours] = describe(settings, file.names, file.colours);
     OutputFiles files(settings.writing);
-    const auto written = write_model(settings, {file.mesh, file.labels, options.background, names, file.space}, files);
+    const auto written =
+        write_model(settings, {file.mesh, file.labels, options.background, names, colours, file.space}, files);
     files.commit();
     print_region_files(settings, written);
     if (!settings.quiet)

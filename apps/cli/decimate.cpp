@@ -78,13 +78,13 @@ int run_decimate(const Settings& given) {
     Report report = simplified(file.mesh, to_options(settings, file.mesh), asked.improve);
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
-    const LabelNames names = names_or(settings, file.names);
-    const Model model{file.mesh, file.labels, options.background, names, file.space};
+    const auto [names, colours] = describe(settings, file.names, file.colours);
+    const Model model{file.mesh, file.labels, options.background, names, colours, file.space};
     OutputFiles files(settings.writing);
     const auto written = write_model(settings, model, files);
     write_report_file(settings, report, model, made_by(kDecimate, settings), files);
     if (!settings.html.empty())
-        write_page(settings.html, {page_model(settings.output, file.mesh, file.labels, options.background, names)},
+        write_page(settings.html, {page_model(settings.output, model)},
                    page_options(kDecimate, settings,
                                 report_json(report, file.labels, names, made_by(kDecimate, settings)), false),
                    files);

@@ -34,8 +34,11 @@ void require_outputs(const Settings& settings) {
     require_page(settings.html, settings.writing);
 }
 
-LabelNames names_or(const Settings& settings, const LabelNames& found) {
-    return settings.names.empty() ? found : read_label_names(settings.names);
+Described describe(const Settings& settings, const LabelNames& names, const LabelColours& colours) {
+    if (settings.names.empty()) return {names, colours};
+    Described described{read_label_names(settings.names), read_label_colours(settings.names)};
+    if (described.colours.empty()) described.colours = colours;
+    return described;
 }
 
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
@@ -44,6 +47,7 @@ std::vector<std::filesystem::path> write_model(const Settings& settings, const M
     return write_mesh(model.mesh, model.labels, settings.output,
                       {.background = model.background,
                        .names = model.names,
+                       .colours = model.colours,
                        .per_region = settings.per_region,
                        .space = model.space,
                        .metres = settings.metres},

@@ -13,8 +13,14 @@ namespace regionmesh::cli {
 /// Throws Error where the model, the table of names or the report could not be written or read: before the work.
 void require_outputs(const Settings& settings);
 
-/// The names from --names, or else those found with the input.
-LabelNames names_or(const Settings& settings, const LabelNames& found);
+/// What the input says about its labels.
+struct Described {
+    LabelNames names;
+    LabelColours colours;
+};
+
+/// Names and colours from --names, or else, each for itself, those found with the input.
+Described describe(const Settings& settings, const LabelNames& names, const LabelColours& colours);
 
 /// What is written of a model. `background` is dense.
 struct Model {
@@ -22,6 +28,7 @@ struct Model {
     const LabelTable& labels;
     const std::vector<Label>& background;
     const LabelNames& names;
+    const LabelColours& colours;
     Space space = Space::kUnknown;
 };
 

@@ -66,9 +66,13 @@ std::string title_of(const std::string& path) {
     return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
 
-PageModel page_model(const std::string& path, const Mesh& mesh, const LabelTable& labels,
-                     const std::vector<Label>& background, const LabelNames& names) {
-    return {.mesh = mesh, .labels = labels, .title = title_of(path), .background = background, .names = names};
+PageModel page_model(const std::string& path, const Model& model) {
+    return {.mesh = model.mesh,
+            .labels = model.labels,
+            .title = title_of(path),
+            .background = model.background,
+            .names = model.names,
+            .colours = model.colours};
 }
 
 }  // namespace regionmesh::cli

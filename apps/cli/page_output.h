@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "output.h"
 #include "regionmesh/formats.h"
 #include "regionmesh/options.h"
 
@@ -25,8 +26,7 @@ void require_page(const std::string& path, const OutputOptions& options);
 /// The name of a file without its folder.
 std::string title_of(const std::string& path);
 
-/// A model for a page. `background` is dense.
-PageModel page_model(const std::string& path, const Mesh& mesh, const LabelTable& labels,
-                     const std::vector<Label>& background, const LabelNames& names);
+/// A model for a page.
+PageModel page_model(const std::string& path, const Model& model);
 
 }  // namespace regionmesh::cli

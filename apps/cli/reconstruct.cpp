@@ -87,7 +87,7 @@ void print_summary(const Settings& settings, const Report& report) {
 
 /// What the input says besides its samples.
 struct ModelNotes {
-    LabelNames names;
+    Described labels;
     Space space = Space::kUnknown;
 };
 
@@ -95,7 +95,9 @@ struct ModelNotes {
 Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
     ProgressLine line(settings.quiet);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
-        notes.names = names_or(settings, reader.info().names);
+        LabelColours colours;
+        if constexpr (requires { reader.info().colours; }) colours = reader.info().colours;
+        notes.labels = describe(settings, reader.info().names, colours);
         if constexpr (requires { reader.info().space; }) notes.space = reader.info().space;
         warn_of_grey_scale(settings, reader);
         Reconstruction made =
@@ -116,7 +118,8 @@ int run_reconstruct(const Settings& settings) {
     require_regions(settings, made.report.check);
     warn_of_absent_labels(settings, made.mesh, made.labels);
     Report& report = made.report;
-    const Model model{made.mesh, made.labels, made.background, notes.names, notes.space};
+    const auto& [names, colours] = notes.labels;
+    const Model model{made.mesh, made.labels, made.background, names, colours, notes.space};
     put_line(Audience::kLog, "write");
     OutputFiles files(settings.writing);
     std::vector<std::filesystem::path> written;
@@ -129,9 +132,9 @@ int run_reconstruct(const Settings& settings) {
     report.seconds["total"] += writing;
     write_report_file(settings, report, model, made_by(kReconstruct, settings), files);
     if (!settings.html.empty())
-        write_page(settings.html, {page_model(settings.output, made.mesh, made.labels, made.background, notes.names)},
+        write_page(settings.html, {page_model(settings.output, model)},
                    page_options(kReconstruct, settings,
-                                report_json(report, made.labels, notes.names, made_by(kReconstruct, settings)), true),
+                                report_json(report, made.labels, names, made_by(kReconstruct, settings)), true),
                    files);
     files.commit();
     print_region_files(settings, written);

@@ -64,8 +64,8 @@ int run_smooth(const Settings& given) {
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     Report report = smoothed(settings, file.mesh, before);
     report.check = check(file.mesh, options);
-    const LabelNames names = names_or(settings, file.names);
-    const Model model{file.mesh, file.labels, options.background, names, file.space};
+    const auto [names, colours] = describe(settings, file.names, file.colours);
+    const Model model{file.mesh, file.labels, options.background, names, colours, file.space};
     OutputFiles files(settings.writing);
     const auto written = write_model(settings, model, files);
     write_report_file(settings, report, model, made_by(kSmooth, settings), files);

@@ -15,9 +15,9 @@ int run_view(const Settings& given) {
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
     const CheckReport report = check(file.mesh, options);
-    const LabelNames names = names_or(settings, file.names);
+    const auto [names, colours] = describe(settings, file.names, file.colours);
     OutputFiles files(settings.writing);
-    write_page(settings.output, {page_model(path, file.mesh, file.labels, options.background, names)},
+    write_page(settings.output, {page_model(path, {file.mesh, file.labels, options.background, names, colours})},
                page_options(kView, settings, check_json(report, file.labels, names), false), files);
     files.commit();
     if (!settings.quiet) {

@@ -1,4 +1,4 @@
-// Tables with the names of labels.
+// Tables with the names and the colours of labels.
 #pragma once
 
 #include <filesystem>
@@ -19,11 +19,25 @@ namespace regionmesh {
 /// label, or no names.
 LabelNames read_label_names(const std::filesystem::path& path);
 
+/// Reads the colours in such a table:
+///   with a header     a column color, colour, hex or rgb (#RRGGBB, as in BIDS), or columns r, g, b (0 to 255; 3D
+///                     Slicer's Color_R, Color_G, Color_B)
+///   ITK-SNAP          idx r g b a vis mesh "name"
+///   label name r g b a   FreeSurfer and 3D Slicer; only if every row has four numbers from 0 to 255 at its end
+/// A row without a label or without a whole colour has none; of two rows with one label the first one counts. Throws
+/// Error(kInput) where the file cannot be read, never because of its contents.
+LabelColours read_label_colours(const std::filesystem::path& path);
+
 namespace formats {
 
-/// The names from a table beside a volume: for atlas.nii.gz atlas.nii.txt or atlas.txt, then likewise .xml, .tsv, .csv,
-/// .label and .ctbl. Ignores files of these names that are no tables of labels.
-LabelNames names_beside(const std::filesystem::path& volume);
+struct NamesAndColours {
+    LabelNames names;
+    LabelColours colours;
+};
+
+/// From a table beside a volume: for atlas.nii.gz atlas.nii.txt or atlas.txt, then likewise .xml, .tsv, .csv, .label
+/// and .ctbl. Ignores files of these names that are no tables of labels.
+NamesAndColours table_beside(const std::filesystem::path& volume);
 
 }  // namespace formats
 }  // namespace regionmesh

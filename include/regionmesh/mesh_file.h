@@ -26,6 +26,7 @@ struct WriteOptions {
     std::vector<Label> background = {};         // second label of a face, like the exterior
     std::vector<PointArray> point_arrays = {};  // .vtp and .vtu only: Float64
     LabelNames names = {};                      // of regions, in formats that can hold them
+    LabelColours colours = {};                  // of some regions; the others get those of a palette
     bool per_region = false;                    // .stl, .obj and .ply: a file for each region, MODEL-REGION.EXTENSION
     Space space = Space::kUnknown;              // of the coordinates, written where 3D Slicer reads it
     double metres = 1;                          // in a unit of the coordinates; .glb files are in metres
@@ -39,14 +40,16 @@ struct WriteOptions {
 /// smaller label first, background after other labels, the exterior last.
 ///   .vtp    VTK PolyData, inline base64 with zlib, UInt64 header. Points Float64; cell array BoundaryLabels (Int64,
 ///           2 components; unsigned labels keep their bits); point array NodeType (Int8: 2, 3 or 4 labels, where each
-///           side of the box counts as one; +10 on the box); field data ExteriorLabel where it is not -1, RegionLabels
-///           and RegionNames where there are names.
+///           side of the box counts as one; +10 on the box); cell array RGB (UInt8, 3 components); field data
+///           ExteriorLabel where it is not -1, RegionLabels and RegionNames where there are names, ColourLabels and
+///           RegionColours where colours were given.
 ///   .vtu    the same as VTK UnstructuredGrid.
 ///   .ply    binary little endian: double x, y, z, uchar node_type; faces with vertex_indices (uint) and int
 ///           label_first, label_second; where a label needs more than 32 bits all are uint words label_first_low,
-///           label_first_high, label_second_low, label_second_high. Header lines `comment exterior_label` and `comment
-///           region LABEL NAME`; background is not named.
-///   .obj    a group interface_A_B for each pair of labels.
+///           label_first_high, label_second_low, label_second_high; then uchar red, green, blue. Header
+///           lines `comment exterior_label` and `comment region LABEL NAME`; background is not named.
+///   .obj    an object and a material for each first label, a group interface_A_B for each pair of labels; a .mtl file
+///           beside it has the colours, which are those of the first labels in all formats.
 ///   .stl    text, a solid for each region (not the background), its normals outward. Per region: binary.
 ///   .msh    MSH 4.1, text: a surface for each interface of two solid parts; a .geo file beside it makes volumes.
 ///   .smesh .poly  for TetGen: faces with a marker for each interface, points in holes and regions.
@@ -86,7 +89,8 @@ std::string readable_extensions();
 struct MeshFile {
     Mesh mesh;
     LabelTable labels;
-    LabelNames names = {};  // of labels, from the file
+    LabelNames names = {};      // of labels, from the file
+    LabelColours colours = {};  // likewise: those that the input gave, not those of the palette
     Space space = Space::kUnknown;
     /// Labels of empty space; none: the file does not say. Files with a region on one side of each face have no
     /// background.

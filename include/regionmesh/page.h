@@ -22,6 +22,7 @@ struct PageModel {
     std::string title;                   // the name of its file
     std::vector<Label> background = {};  // not shown as regions
     LabelNames names = {};
+    LabelColours colours = {};               // of some regions; the others get those of a palette
     std::span<const double> distances = {};  // by vertex id, to the other model; may be empty
 };
 

@@ -26,6 +26,7 @@ struct VolumeInfo {
     std::array<bool, 3> can_sweep{false, false, true};  // axes along which sections can be read
     Space space = Space::kUnknown;                      // of the lattice
     LabelNames names = {};                              // given by the file, or by a table next to it
+    LabelColours colours = {};                          // likewise
 };
 
 /// Pull interface of every volume. A reader of files holds a bounded number of sections, never the whole volume.

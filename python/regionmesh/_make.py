@@ -12,7 +12,7 @@ from ._mesh import Mesh
 def unpickle(points, faces, labels, node_types, state):
     model = _core.from_arrays(
         (points, faces, labels.view(np.int64), node_types),
-        (state["background"], state["order"], state["names"], state["space"]),
+        (state["background"], state["order"], state["names"], state.get("colours", {}), state["space"]),
         state["exterior"], state["is_unsigned"], state["is_open"],
     )  # fmt: skip
     mesh = Mesh(model, state["lattice"])
@@ -126,7 +126,7 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     exterior = np.array([exterior_label]).astype(np.uint64 if exterior_label >= 0 else np.int64).view(np.int64)[0]
     model = _core.from_arrays(
         (points, faces.astype(np.uint32), np.ascontiguousarray(bits), None),
-        ([_bits(label) for label in outside], [], names_of(names) or {}, ""),
+        ([_bits(label) for label in outside], [], names_of(names) or {}, {}, ""),
         int(exterior), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)

@@ -419,6 +419,7 @@ class Mesh:
             "order": self._model.label_order,
             "is_open": self._model.is_open,
             "names": self._model.names,
+            "colours": self._model.colours,
             "space": self._model.space,
             "exterior": self._model.exterior_label,
             "is_unsigned": self._model.is_unsigned,

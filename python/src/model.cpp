@@ -22,8 +22,10 @@ namespace regionmesh::python {
 namespace {
 
 /// Sets the result of a run; frees what the run alone needed.
-Model model_from(Reconstruction made, const LabelNames& names, bool is_open, Space space = Space::kUnknown) {
-    Model model{std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, space};
+Model model_from(Reconstruction made, const LabelNames& names, bool is_open, Space space = Space::kUnknown,
+                 const LabelColours& colours = {}) {
+    Model model{
+        std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, space, colours};
     model.report = report_json(made.report, model.labels, names);
     return model;
 }
@@ -65,7 +67,13 @@ void renumber(LabelledMesh& made, const std::vector<InputLabel>& order) {
 }
 
 Model copy_of(const Model& model) {
-    return {copy_of(model.mesh, model.labels), model.labels, model.background, model.names, model.is_open, model.space};
+    return {copy_of(model.mesh, model.labels),
+            model.labels,
+            model.background,
+            model.names,
+            model.is_open,
+            model.space,
+            model.colours};
 }
 
 CheckOptions check_options(const Model& model, std::uint32_t threads) {
@@ -164,8 +172,8 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
         WatchedSections sections(kept ? *kept : *source.reader, watch);
         StageProgress progress(watch, options);
         Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
-        model =
-            model_from(std::move(made), run.names.value_or(sections.info().names), !options.cap, sections.info().space);
+        const VolumeInfo& info = sections.info();
+        model = model_from(std::move(made), run.names.value_or(info.names), !options.cap, info.space, info.colours);
     });
     return model;
 }
@@ -194,8 +202,9 @@ Model load_model(const std::string& path, const OptionValues& options) {
     std::vector<Label> background;
     for (const InputLabel label : !is_given && file.background ? *file.background : settings.reconstruct.background)
         background.push_back(file.labels.dense(label));
-    return {std::move(file.mesh),  std::move(file.labels),    std::move(background),
-            std::move(file.names), !settings.reconstruct.cap, file.space};
+    return {std::move(file.mesh),   std::move(file.labels),    std::move(background),
+            std::move(file.names),  !settings.reconstruct.cap, file.space,
+            std::move(file.colours)};
 }
 
 std::vector<std::string> save_model(const Model& model, const std::string& path, bool per_region,
@@ -206,6 +215,7 @@ std::vector<std::string> save_model(const Model& model, const std::string& path,
     for (const auto& file : write_mesh(model.mesh, model.labels, path,
                                        {.background = model.background,
                                        .names = model.names,
+                                       .colours = model.colours,
                                        .per_region = per_region,
                                        .space = model.space,
                                        .metres = settings.metres,
@@ -230,8 +240,8 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
     if (!labels.order.empty()) renumber(made, labels.order);
     std::vector<Label> background;
     for (const InputLabel label : labels.background) background.push_back(made.labels.dense(label));
-    return {std::move(made.mesh), std::move(made.labels), std::move(background),
-            labels.names,         labels.is_open,         labels.space};
+    return {std::move(made.mesh), std::move(made.labels), std::move(background), labels.names,
+            labels.is_open,       labels.space,           labels.colours};
 }
 
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {

@@ -24,7 +24,8 @@ struct Model {
     LabelNames names;
     bool is_open = false;
     Space space = Space::kUnknown;
-    std::string report = {};  // JSON; empty where it was not checked yet
+    LabelColours colours = {};  // of some regions, given by the input
+    std::string report = {};    // JSON; empty where it was not checked yet
 };
 
 /// What a reconstruction takes besides its labels.
@@ -60,6 +61,7 @@ struct GivenLabels {
     LabelNames names;
     bool is_open;
     Space space;
+    LabelColours colours;
 };
 Model model_of(const GivenArrays& given, const GivenLabels& labels);
 

@@ -116,6 +116,7 @@ void bind_model(py::module_& module) {
         .def_property_readonly("arrays", arrays_of)
         .def_readonly("report", &Model::report)
         .def_readonly("names", &Model::names)
+        .def_readonly("colours", &Model::colours)
         .def_readonly("is_open", &Model::is_open)
         .def_property_readonly("space", [](const Model& model) { return std::string(space_name(model.space)); })
         .def_property_readonly("is_unsigned", [](const Model& model) { return model.labels.is_unsigned(); })
@@ -138,13 +139,13 @@ void bind_model(py::module_& module) {
     module.def("save", save_model);
     using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
                               decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
-    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, std::string>;
+    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, LabelColours, std::string>;
     module.def("from_arrays",
                [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned, bool is_open) {
                    const auto& [points, faces, labels, types] = arrays;
-                   const auto& [background, order, names, space] = about;
+                   const auto& [background, order, names, colours, space] = about;
                    return model_of({points, faces, labels, types, exterior, is_unsigned},
-                                   {background, order, names, is_open, space_of(space)});
+                                   {background, order, names, is_open, space_of(space), colours});
                });
 }
 

@@ -238,7 +238,7 @@ LabelNames read_label_names(const fs::path& path) {
     return names;
 }
 
-LabelNames formats::names_beside(const fs::path& volume) {
+formats::NamesAndColours formats::table_beside(const fs::path& volume) {
     fs::path stem = volume;
     if (stem.extension() == ".gz" || stem.extension() == ".GZ") stem.replace_extension();
     const fs::path short_stem = fs::path(stem).replace_extension();
@@ -248,7 +248,7 @@ LabelNames formats::names_beside(const fs::path& volume) {
             std::error_code ignored;
             if (beside == volume || !fs::is_regular_file(beside, ignored)) continue;
             try {
-                return read_label_names(beside);
+                return {read_label_names(beside), read_label_colours(beside)};
             } catch (const Error&) {
                 // A file of that name for another purpose: the volume is read without names.
             }

@@ -49,8 +49,9 @@ void write_in_metres(const FileView& view, const WriteOptions& options, OutputFi
     write_glb(view, options.metres, files.add(path));
 }
 
+template <void (*kWrite)(const FileView&, OutputFiles&, const Path&)>
 void write_two(const FileView& view, const WriteOptions&, OutputFiles& files, const Path& path) {
-    write_msh(view, files, path);
+    kWrite(view, files, path);
 }
 
 constexpr const char* kStoreInFile =
@@ -133,15 +134,17 @@ constexpr Format kFormats[] = {
     {.name = "OBJ",
      .extensions = {".obj"},
      .read_surface = read_obj,
-     .write_surface = write_one<write_obj>,
-     .write_region = write_region_obj},
+     .write_surface = write_two<write_obj>,
+     .write_region = write_region_obj,
+     .companion = ".mtl",
+     .forbidden_in_name = "\\"},
     {.name = "Gmsh",
      .extensions = {".msh"},
      .open_tetrahedra = open_msh,
-     .write_surface = write_two,
+     .write_surface = write_two<write_msh>,
      .needs_closed_regions = true,
      .companion = ".geo",
-     .is_named_in_companion = true},
+     .forbidden_in_name = "\"'\\"},
     {.name = "TetGen .smesh",
      .extensions = {".smesh"},
      .write_surface = write_one<write_smesh>,

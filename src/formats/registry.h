@@ -52,11 +52,11 @@ struct Format {
     bool holds_surface = false;  // only set where the functions may be left out
     FileSurface (*read_surface)(const Path&) = nullptr;
     void (*write_surface)(const FileView&, const WriteOptions&, OutputFiles&, const Path&) = nullptr;
-    void (*write_region)(const FileView&, OutputFile&) = nullptr;  // one region as a file
+    void (*write_region)(const FileView&, std::uint32_t colour, OutputFile&) = nullptr;  // one region as a file
     bool has_point_arrays = false;
     bool needs_closed_regions = false;
-    const char* companion = nullptr;     // extension of a second file
-    bool is_named_in_companion = false;  // the second file has the name of the first between quotes
+    const char* companion = nullptr;          // extension of a second file
+    const char* forbidden_in_name = nullptr;  // characters, where one of the two files names the other
 };
 
 std::span<const Format> all_formats();

@@ -7,6 +7,7 @@ namespace regionmesh {
 namespace {
 
 const LabelNames kNoNames;
+const LabelColours kNoColours;
 
 }  // namespace
 
@@ -15,7 +16,12 @@ FileView::FileView(const Mesh& mesh, const LabelTable& labels, const std::vector
 
 FileView::FileView(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                    const LabelNames& names)
-    : mesh_(mesh), labels_(labels), names_(names), exterior_label_(labels.exterior_label()), ranks_(labels.size()) {
+    : mesh_(mesh),
+      labels_(labels),
+      names_(names),
+      colours_(&kNoColours),
+      exterior_label_(labels.exterior_label()),
+      ranks_(labels.size()) {
     std::vector<Label> order(labels.size());
     std::iota(order.begin(), order.end(), Label{0});
     std::ranges::sort(order, [&](Label a, Label b) { return labels.less(labels.input(a), labels.input(b)); });

@@ -31,6 +31,10 @@ public:
     const Mesh& mesh() const { return mesh_; }
     const LabelTable& labels() const { return labels_; }
     const LabelNames& names() const { return names_; }
+    /// Colours given for some of the labels; none by default.
+    const LabelColours& given_colours() const { return *colours_; }
+    /// `colours` must live as long as the view.
+    void set_given_colours(const LabelColours& colours) { colours_ = &colours; }
     InputLabel exterior_label() const { return exterior_label_; }
     Space space() const { return space_; }
     void set_space(Space space) { space_ = space; }
@@ -56,6 +60,14 @@ public:
         for (const Label label : ordered_labels())
             if (const std::string text = name(label); !text.empty()) visit(label, text);
     }
+    /// Calls visit(label, colour) for each label of the table to which a colour was given, in the order of files.
+    template <class Visit>
+    void for_given_colours(Visit&& visit) const {
+        if (colours_->empty()) return;
+        for (const Label label : ordered_labels())
+            if (const auto found = colours_->find(labels_.input(label)); found != colours_->end())
+                visit(label, found->second);
+    }
     /// The number of labels around the vertex, 2, 3 or 4, each side of the box that it lies on included; +10 on the
     /// box.
     std::uint8_t node_type(VertexId v) const;
@@ -75,6 +87,7 @@ private:
     const Mesh& mesh_;
     const LabelTable& labels_;
     const LabelNames& names_;
+    const LabelColours* colours_;
     InputLabel exterior_label_;
     Space space_ = Space::kUnknown;
     std::uint32_t region_ranks_ = 0;      // ranks from here on are background or exterior

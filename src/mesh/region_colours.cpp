@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <string_view>
 
 namespace regionmesh {
 namespace {
@@ -53,31 +55,49 @@ Colour lab(const Colour& rgb) {
     return {116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])};
 }
 
-using Distances = std::array<std::array<double, kPalette.size()>, kPalette.size()>;
+using Views = std::array<Colour, kEyes.size()>;  // of one colour, for all kinds of eyes, in L*a*b*
+
+Views views_of(std::uint32_t colour) {
+    Views views;
+    for (std::size_t eye = 0; eye < kEyes.size(); ++eye) views[eye] = lab(product(kEyes[eye], linear_rgb(colour)));
+    return views;
+}
 
 /// The smallest distance in L*a*b* over all kinds of eyes.
+double difference(const Views& a, const Views& b) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t eye = 0; eye < kEyes.size(); ++eye)
+        least = std::min(least, std::hypot(a[eye][0] - b[eye][0], a[eye][1] - b[eye][1], a[eye][2] - b[eye][2]));
+    return least;
+}
+
+using Distances = std::array<std::array<double, kPalette.size()>, kPalette.size()>;
+
 Distances palette_distances() {
     Distances distances;
     for (std::size_t a = 0; a < kPalette.size(); ++a)
-        for (std::size_t b = 0; b < kPalette.size(); ++b) {
-            double least = 1e9;
-            for (const Matrix& eye : kEyes) {
-                const Colour p = lab(product(eye, linear_rgb(kPalette[a])));
-                const Colour q = lab(product(eye, linear_rgb(kPalette[b])));
-                least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
-            }
-            distances[a][b] = least;
-        }
+        for (std::size_t b = 0; b < kPalette.size(); ++b)
+            distances[a][b] = difference(views_of(kPalette[a]), views_of(kPalette[b]));
     return distances;
+}
+
+/// The place of the colour in the palette that looks most like this one.
+std::size_t nearest_in_palette(std::uint32_t colour) {
+    const Views views = views_of(colour);
+    std::array<double, kPalette.size()> distances;
+    for (std::size_t n = 0; n < kPalette.size(); ++n) distances[n] = difference(views, views_of(kPalette[n]));
+    return static_cast<std::size_t>(std::ranges::min_element(distances) - distances.begin());
 }
 
 /// By place, the places of the regions with a common interface; no background.
 std::vector<std::set<std::uint32_t>> neighbours_of(const FileView& view) {
     std::vector<std::set<std::uint32_t>> neighbours(view.labels().size());
     const auto is_region = [&](Label label) { return !is_exterior(label) && !view.is_background(label); };
+    std::array<Label, 2> last{exterior(0), exterior(0)};  // most faces have the labels of the face before
     view.for_faces([&](FaceId f) {
         const auto [a, b] = view.mesh()[f].labels;
-        if (!is_region(a) || !is_region(b)) return;
+        if (last == view.mesh()[f].labels || !is_region(a) || !is_region(b)) return;
+        last = {a, b};
         neighbours[view.rank(a)].insert(view.rank(b));
         neighbours[view.rank(b)].insert(view.rank(a));
     });
@@ -108,20 +128,47 @@ std::size_t best_colour(const std::vector<std::size_t>& taken, const std::array<
 std::vector<std::uint32_t> region_colours(const FileView& view) {
     static const Distances kDistances = palette_distances();
     const auto neighbours = neighbours_of(view);
+    std::vector<std::size_t> chosen(neighbours.size(), kNoColour);
+    std::array<std::size_t, kPalette.size()> uses{};
+    std::vector<std::optional<std::uint32_t>> given;
+    for (const Label label : view.ordered_labels()) {
+        const auto found = view.given_colours().find(view.labels().input(label));
+        given.push_back(found == view.given_colours().end() ? std::nullopt : std::optional(found->second));
+        // Neighbours keep away from the colour of the palette that looks like the given one.
+        if (given.back()) ++uses[chosen[given.size() - 1] = nearest_in_palette(*given.back())];
+    }
     std::vector<std::uint32_t> order(neighbours.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, std::greater{}, [&](std::uint32_t place) { return neighbours[place].size(); });
-    std::vector<std::size_t> chosen(neighbours.size(), kNoColour);
-    std::array<std::size_t, kPalette.size()> uses{};
     for (const std::uint32_t place : order) {
+        if (given[place]) continue;
         std::vector<std::size_t> taken;
         for (const std::uint32_t other : neighbours[place])
             if (chosen[other] != kNoColour) taken.push_back(chosen[other]);
         ++uses[chosen[place] = best_colour(taken, uses, kDistances)];
     }
     std::vector<std::uint32_t> colours;
-    for (const std::size_t colour : chosen) colours.push_back(kPalette[colour]);
+    for (std::size_t place = 0; place < chosen.size(); ++place)
+        colours.push_back(given[place].value_or(kPalette[chosen[place]]));
     return colours;
+}
+
+std::array<std::uint8_t, 3> rgb_of(std::uint32_t colour) {
+    return {static_cast<std::uint8_t>(colour >> 16), static_cast<std::uint8_t>(colour >> 8),
+            static_cast<std::uint8_t>(colour)};
+}
+
+std::string hex_of(std::uint32_t colour) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string text = "#";
+    for (int shift = 20; shift >= 0; shift -= 4) text += kDigits[colour >> shift & 0xF];
+    return text;
+}
+
+std::array<std::uint8_t, 3> FaceColours::operator()(FaceId f) const {
+    const std::uint32_t rank = std::min(view_.rank(view_.mesh()[f].labels[0]), view_.rank(view_.mesh()[f].labels[1]));
+    constexpr std::uint32_t kGrey = 0x808080;  // between two sides of the box
+    return rgb_of(rank < colours_.size() ? colours_[rank] : kGrey);
 }
 
 }  // namespace regionmesh

@@ -36,7 +36,7 @@ Rows output_rows() {
                      .letter = 'o'},
                     [](Settings& s) { return &s.output; }),
         file_option({.name = "names",
-                     .help = "table of labels and names (.csv .tsv .txt .xml), instead of the names in the input",
+                     .help = "table of labels, names and colours (.csv .tsv .txt .xml), instead of those in the input",
                      .group = kGroup,
                      .commands = kWriters | kConvert | kView},
                     [](Settings& s) { return &s.names; }),

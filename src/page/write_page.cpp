@@ -63,7 +63,7 @@ Json labels_json(const FileView& view) {
     Json all = Json::array();
     std::size_t place = 0;
     for (const Label label : view.ordered_labels()) {
-        Json json{{"label", view.label_text(label)}, {"colour", fmt::format("#{:06x}", colours[place++])}};
+        Json json{{"label", view.label_text(label)}, {"colour", hex_of(colours[place++])}};
         if (const std::string name = view.name(label); !name.empty()) json["name"] = name;
         if (view.is_background(label)) json["background"] = true;
         all.push_back(std::move(json));
@@ -100,7 +100,8 @@ struct PageData {
 };
 
 PageData model_data(const PageModel& model, const PageOptions& options) {
-    const FileView view(model.mesh, model.labels, model.background, model.names);
+    FileView view(model.mesh, model.labels, model.background, model.names);
+    view.set_given_colours(model.colours);
     PageData data{{{"title", model.title},
                    {"faces", model.mesh.face_count()},
                    {"vertices", model.mesh.vertex_count()},

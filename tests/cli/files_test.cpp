@@ -203,5 +203,24 @@ TEST_F(CliFiles, the_manual_page_and_completions_have_every_option) {
     EXPECT_EQ(run("--completion csh").code, 2);
 }
 
+TEST_F(CliFiles, colours_of_a_table_go_into_models_and_on) {
+    const std::string labels = volume(4);
+    put_text(path("v.ctbl"), "0 background 0 0 0 0\n4 the_fourth 255 128 0 255\n");  // beside v.nrrd
+    for (const std::string name : {"m.vtp", "m.ply", "m.obj"}) {
+        SCOPED_TRACE(name);
+        expect_good("reconstruct " + labels + "-o " + out(name));
+        EXPECT_EQ(read_mesh(out(name)).colours.at(4), 0xFF8000u);
+        expect_good("convert " + out(name) + ' ' + out("n.vtu"));
+        EXPECT_EQ(read_mesh(out("n.vtu")).colours.at(4), 0xFF8000u);
+        put_text(path("other.csv"), "label,name,color\n4,x,#0000ff\n");
+        expect_good("convert " + out(name) + ' ' + out("n.obj") + " --names " + path("other.csv").string());
+        EXPECT_THAT(read("n.mtl"), HasSubstr("newmtl x\nKd 0 0 1\n"));
+    }
+    expect_good("view " + out("m.vtp") + " -o " + path("p.html").string());
+    EXPECT_THAT(text_of(path("p.html")), HasSubstr("#ff8000"));
+    expect_good("smooth " + out("m.vtp") + " -o " + out("s.vtp"));
+    EXPECT_EQ(read_mesh(out("s.vtp")).colours.at(4), 0xFF8000u);
+}
+
 }  // namespace
 }  // namespace regionmesh

@@ -119,15 +119,15 @@ TEST_F(LabelNamesFile, errors_name_the_row) {
 }
 
 TEST_F(LabelNamesFile, table_beside_a_volume_is_found_and_another_file_passed_over) {
-    EXPECT_THAT(formats::names_beside(path("atlas.nii.gz")), IsEmpty());
+    EXPECT_THAT(formats::table_beside(path("atlas.nii.gz")).names, IsEmpty());
     put_text(path("atlas.nii.txt"), "this is a note on the atlas\n");
-    EXPECT_THAT(formats::names_beside(path("atlas.nii.gz")), IsEmpty());
+    EXPECT_THAT(formats::table_beside(path("atlas.nii.gz")).names, IsEmpty());
     put_text(path("atlas.txt"), "1 one\n");
-    EXPECT_THAT(formats::names_beside(path("atlas.nii.gz")), ElementsAre(Pair(1, "one")));
-    EXPECT_THAT(formats::names_beside(path("atlas.nii")), ElementsAre(Pair(1, "one")));
+    EXPECT_THAT(formats::table_beside(path("atlas.nii.gz")).names, ElementsAre(Pair(1, "one")));
+    EXPECT_THAT(formats::table_beside(path("atlas.nii")).names, ElementsAre(Pair(1, "one")));
     put_text(path("atlas.nii.txt"), "1 first\n");
-    EXPECT_THAT(formats::names_beside(path("atlas.nii.gz")), ElementsAre(Pair(1, "first")));
-    EXPECT_THAT(formats::names_beside(path("other.nii.gz")), IsEmpty());
+    EXPECT_THAT(formats::table_beside(path("atlas.nii.gz")).names, ElementsAre(Pair(1, "first")));
+    EXPECT_THAT(formats::table_beside(path("other.nii.gz")).names, IsEmpty());
 }
 
 }  // namespace

@@ -164,5 +164,23 @@ TEST(RegionColours, of_neighbours_differ) {
     EXPECT_GT(pairs, 100);
 }
 
+TEST(RegionColours, given_ones_stay_and_neighbours_differ_from_them) {
+    const Reconstruction made = grains();
+    FileView view(made.mesh, made.labels, made.background);
+    const std::vector<std::uint32_t> palette = region_colours(view);
+    const Label first = view.ordered_labels()[0];
+    for (const std::uint32_t given : {0x123456u, palette[1], palette[2]}) {
+        const LabelColours colours{{made.labels.input(first), given}, {-77, 0xFFFFFF}};
+        view.set_given_colours(colours);
+        const std::vector<std::uint32_t> chosen = region_colours(view);
+        EXPECT_EQ(chosen[0], given);
+        view.for_faces([&](FaceId f) {
+            const auto [a, b] = made.mesh[f].labels;
+            if (is_exterior(a) || is_exterior(b)) return;
+            EXPECT_NE(chosen[view.rank(a)], chosen[view.rank(b)]);
+        });
+    }
+}
+
 }  // namespace
 }  // namespace regionmesh

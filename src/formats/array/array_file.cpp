@@ -14,6 +14,7 @@
 #include "formats/codec/deflate_stream.h"
 #include "formats/text/ascii_stream.h"
 #include "formats/text/header_text.h"
+#include "regionmesh/label_names_file.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -106,6 +107,12 @@ void require_files_within(const ArrayFile& array) {
 
 }  // namespace
 
+void take_table_beside(ArrayFile& array) {
+    NamesAndColours table = table_beside(array.source);
+    array.names = std::move(table.names);
+    array.colours = std::move(table.colours);
+}
+
 std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options) {
     const std::vector<fs::path> files = array.files.empty() ? std::vector{array.source} : array.files;
     if (!options.external_files) require_files_within(array);
@@ -125,6 +132,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     info.lattice = array.lattice;
     info.space = array.space;
     info.names = array.names;
+    info.colours = array.colours;
     if (array.encoding == Encoding::kRaw && files.size() == 1 && array.components == 1) {
         if (array.can_sweep_all) info.can_sweep = {true, true, true};
         InputFile file(files[0]);

@@ -34,6 +34,7 @@ struct ArrayFile {
     std::uint32_t block = 0;
     Space space = Space::kUnknown;
     LabelNames names = {};
+    LabelColours colours = {};
     bool can_sweep_all = true;  // if raw samples in one file; else along z alone
     const char* remedy = "write the samples uncompressed in one file";  // if the user wants another sweep
 };
@@ -46,6 +47,9 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
 
 /// The bytes of a file from its start, inflated if it is gzipped, whatever its name. `encoding` becomes kDeflated then.
 std::unique_ptr<ByteStream> open_inflated(const std::filesystem::path& path, Encoding& encoding);
+
+/// Sets the names and colours of labels from a table beside the file, if there is one.
+void take_table_beside(ArrayFile& array);
 
 /// The path of a file that a header names: in the folder of the header, if the name is relative.
 std::filesystem::path file_beside(const std::filesystem::path& header, std::string_view name);

@@ -90,7 +90,7 @@ std::unique_ptr<SectionReader> open_inr(const fs::path& path, const ReadOptions&
     array.skipped_bytes = static_cast<std::int64_t>(text.size());
     array.sample = sample_format(fields);
     array.lattice = parse_lattice(fields);
-    array.names = names_beside(path);
+    take_table_beside(array);
     return open_array(array, options);
 }
 

@@ -143,7 +143,7 @@ std::unique_ptr<SectionReader> open_meta_image(const fs::path& path, const ReadO
     place_in_space(fields, static_cast<std::size_t>(dimension), array.lattice);
     array.space = Space::kLps;  // as ITK, which made the format, reads and writes it
     set_files(header, array);
-    array.names = names_beside(path);
+    take_table_beside(array);
     return open_array(array, options);
 }
 

@@ -211,7 +211,7 @@ std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, con
     read_affine(path, header, options, array.lattice);
     array.space = Space::kRas;
     array.skipped_bytes = data_offset(path, header);
-    array.names = names_beside(path);
+    take_table_beside(array);
     return open_array(array, options);
 }
 

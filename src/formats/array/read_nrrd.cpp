@@ -14,6 +14,7 @@
 #include "formats/array/affine.h"
 #include "formats/array/array_file.h"
 #include "formats/array/header_fields.h"
+#include "formats/array/nrrd_segments.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
 #include "formats/text/header_text.h"
@@ -284,25 +285,6 @@ void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, L
     set_affine(path, "map to space", kRemedy, columns, origin, lattice);
 }
 
-/// Names of the segments in a layer, as 3D Slicer writes them. Segments of versions that wrote no label values are
-/// layers of their own, with label 1.
-LabelNames segment_names(const HeaderFields& values, std::uint32_t in_layer) {
-    constexpr std::string_view kFirst = "Segment", kLast = "_Name";
-    LabelNames names;
-    const auto number_of = [&](const std::string& key) { return parse_integer(values.text({key})); };
-    for (const auto& [key, value] : values.all()) {
-        if (!key.starts_with(kFirst) || !key.ends_with(kLast)) continue;
-        const std::string segment = key.substr(0, key.size() - kLast.size());
-        const auto index = parse_size(std::string_view(segment).substr(kFirst.size()));
-        const std::string name = one_line(value);
-        if (!index || *index >= kMostLayers * kMostLayers || name.empty()) continue;
-        const auto label = number_of(segment + "_LabelValue"), layer = number_of(segment + "_Layer");
-        if (static_cast<std::uint32_t>(layer ? *layer : label ? 0 : *index) == in_layer)
-            names.emplace(label.value_or(1), name);
-    }
-    return names;
-}
-
 void set_files(const NrrdText& text, ArrayFile& array) {
     const std::string_view data = text.field("datafile");
     if (data.empty()) {
@@ -364,8 +346,8 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     (roles.has_layers_first ? array.components : array.blocks) =
         static_cast<std::uint32_t>(roles.layers ? roles.layers->size : 1);
     (roles.has_layers_first ? array.component : array.block) = layer;
-    array.names = segment_names(text.values, layer);
-    if (array.names.empty()) array.names = names_beside(path);
+    take_segments(text.values, layer, array);
+    if (array.names.empty()) take_table_beside(array);
     ReadOptions rest = options;
     rest.layer.reset();
     return open_array(array, rest);

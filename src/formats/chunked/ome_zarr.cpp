@@ -92,4 +92,24 @@ LabelNames ome_label_names(const Json& attributes) {
     return names;
 }
 
+LabelColours ome_label_colours(const Json& attributes) {
+    const Json& ome = ome_part(attributes);
+    LabelColours colours;
+    if (!ome.is_object() || !ome.contains("image-label")) return colours;
+    const Json& all = ome.at("image-label").value("colors", Json::array());
+    for (const Json& entry : all) {
+        if (!entry.is_object() || !entry.value("label-value", Json()).is_number_integer()) continue;
+        const Json rgba = entry.value("rgba", Json());
+        if (!rgba.is_array() || rgba.size() < 3) continue;
+        std::uint32_t colour = 0;
+        const bool is_whole = std::all_of(rgba.begin(), rgba.begin() + 3, [&](const Json& part) {
+            if (!part.is_number_unsigned() || part.get<std::uint64_t>() > 255) return false;
+            colour = colour << 8 | part.get<std::uint32_t>();
+            return true;
+        });
+        if (is_whole) colours[entry.at("label-value").get<InputLabel>()] = colour;
+    }
+    return colours;
+}
+
 }  // namespace regionmesh::formats

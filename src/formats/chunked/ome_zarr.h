@@ -24,4 +24,7 @@ std::vector<OmeLevel> ome_levels(const std::filesystem::path& group, const nlohm
 /// The names of labels in `image-label`: the properties `name`, `label` or `class`.
 LabelNames ome_label_names(const nlohmann::json& attributes);
 
+/// The colours of labels in `image-label`: `rgba`, 0 to 255. Ignores entries of another form.
+LabelColours ome_label_colours(const nlohmann::json& attributes);
+
 }  // namespace regionmesh::formats

@@ -20,10 +20,12 @@ struct Found {
     fs::path folder;
     std::optional<OmeLevel> level = {};
     LabelNames names = {};
+    LabelColours colours = {};
 };
 
 Found from_image(const fs::path& group, const OmeLevel& level, const Json& attributes) {
-    return {level.folder, level, reading(group, [&] { return ome_label_names(attributes); })};
+    return {level.folder, level, reading(group, [&] { return ome_label_names(attributes); }),
+            reading(group, [&] { return ome_label_colours(attributes); })};
 }
 
 /// Searches the folders above for the image that has the array as one of its resolutions.
@@ -100,7 +102,10 @@ std::unique_ptr<SectionReader> open_zarr(const fs::path& path, const ReadOptions
     auto array = read_zarr_array(found.folder);
     if (!array) fail(found.folder, "the image names this array, which is not there; fetch the store again");
     add_axis_names(*array);
-    StoreVolume volume{.format = "zarr", .source = path.string(), .names = std::move(found.names)};
+    StoreVolume volume{.format = "zarr",
+                       .source = path.string(),
+                       .names = std::move(found.names),
+                       .colours = std::move(found.colours)};
     const std::size_t axis_count = array->shape.size();
     if (found.level) {
         if (found.level->axes.size() != axis_count)

@@ -315,6 +315,7 @@ std::unique_ptr<SectionReader> open_store_array(StoreArray array, StoreVolume vo
     VolumeInfo info = volume_info(volume.source, volume.format, array.format.type, size);
     place(info, volume.placement, options);
     info.names = std::move(volume.names);
+    info.colours = std::move(volume.colours);
     const BlockLayout layout{.format = array.format,
                              .chunk = volume.axes.along(array.chunk),
                              .source_bytes = 2 * product(array.chunk) * sample_bytes(array.format.type),

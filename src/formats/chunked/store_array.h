@@ -46,6 +46,7 @@ struct StoreVolume {
     ArrayAxes axes = {};
     Placement placement = {};
     LabelNames names = {};
+    LabelColours colours = {};
 };
 
 /// Throws if lists have different lengths or a chunk is larger than a GiB. `metadata` is the file named in errors.

@@ -78,6 +78,8 @@ void read_comment(FileSurface& surface, std::string_view comment) {
         if (!surface.background) surface.background.emplace();
         surface.background->push_back(*label);
     }
+    if (word == "colour")
+        if (const auto colour = formats::parse_colour(name)) surface.colours.try_emplace(*label, *colour);
     if (word == "region" && !name.empty()) surface.names.try_emplace(*label, name);
 }
 

@@ -30,6 +30,7 @@ struct FileSurface {
     std::vector<bool> is_on_hull = {};  // by point, from node types: on the box or another hull; empty: unknown
     InputLabel exterior_label = -1;
     LabelNames names = {};
+    LabelColours colours = {};
     Space space = Space::kUnknown;
     std::optional<std::vector<InputLabel>> background = {};  // none: the file does not say
     bool is_by_region = false;      // each face has a region on one side and the exterior on the other
@@ -50,8 +51,8 @@ void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, c
 /// Takes three coordinates off the front of a line of text. Throws Error(kInput) that names the line.
 Vec3 take_point(const formats::ByteReader& file, std::string_view& line);
 
-/// Evaluates a comment of our own files, "exterior_label -1", "background 2" or "region 3 liver", and "SPACE=RAS" as 3D
-/// Slicer writes it; ignores others.
+/// Evaluates a comment of our own files, "exterior_label -1", "background 2" or "region 3 liver", "colour 3 #ff8000",
+/// and "SPACE=RAS" as 3D Slicer writes it; ignores others.
 void read_comment(FileSurface& surface, std::string_view comment);
 
 /// Appends the points and the labelled faces of `other`.

@@ -20,11 +20,12 @@ namespace regionmesh {
 void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
 void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
 void write_ply(const FileView& view, OutputFile& file);
-void write_obj(const FileView& view, OutputFile& file);
+/// Writes the faces, and beside them a .mtl file with a colour for each region.
+void write_obj(const FileView& view, OutputFiles& files, const std::filesystem::path& path);
 /// Files of one region, the first in the order of files, with normals outward.
-void write_region_ply(const FileView& view, OutputFile& file);
-void write_region_obj(const FileView& view, OutputFile& file);
-void write_region_stl(const FileView& view, OutputFile& file);
+void write_region_ply(const FileView& view, std::uint32_t colour, OutputFile& file);
+void write_region_obj(const FileView& view, std::uint32_t colour, OutputFile& file);
+void write_region_stl(const FileView& view, std::uint32_t colour, OutputFile& file);
 /// Text with a solid for each region.
 void write_stl(const FileView& view, OutputFile& file);
 void write_smesh(const FileView& view, OutputFile& file);

@@ -47,6 +47,7 @@ FileSurface read_folder(const std::filesystem::path& folder) {
         const std::uint32_t group = groups.add(formats::one_line(path.stem().string()), true);
         for (auto& labels : surface.labels) labels = {group, 0};
         surface.names.clear();
+        surface.colours.clear();
         if (all.space == Space::kUnknown) all.space = surface.space;
         append(all, surface);
         if (all.points.size() > kMostVertices || all.faces.size() > kMostFaces)
@@ -84,6 +85,7 @@ MeshFile assemble(FileSurface&& surface) {
     return {.mesh = std::move(mesh),
             .labels = std::move(labels),
             .names = std::move(surface.names),
+            .colours = std::move(surface.colours),
             .space = surface.space,
             .background = std::move(surface.background)};
 }

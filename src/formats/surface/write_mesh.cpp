@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/registry.h"
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
+#include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/mesh_file.h"
 
@@ -18,10 +20,12 @@ using Path = std::filesystem::path;
 
 using formats::Format;
 
-/// Whether a script that has the name between quotes means the file and nothing else.
-bool is_plain(const std::string& name) {
-    return std::ranges::none_of(
-        name, [](unsigned char c) { return c < ' ' || c == 0x7F || c == '"' || c == '\\' || c == '\''; });
+/// Whether the other file can name this one: its readers take the name as it is.
+bool is_plain(const std::string& name, std::string_view forbidden) {
+    return std::ranges::none_of(name, [&](char letter) {
+        const auto c = static_cast<unsigned char>(letter);
+        return c < ' ' || c == 0x7F || forbidden.find(letter) != std::string_view::npos;
+    });
 }
 
 /// The format of `path`, if it can hold what the options ask for.
@@ -40,9 +44,9 @@ const Format& format_of(const Path& path, const WriteOptions& options, bool has_
         refuse("a file for each region is written as " + formats::extensions_with(&Format::write_region));
     if (options.boundary_is_open && found->needs_closed_regions)
         refuse("holds closed regions only: leave out --boundary open");
-    if (found->is_named_in_companion && !is_plain(path.filename().string()))
-        refuse(fmt::format("the {} file names it: a name without quotes, backslashes and control characters is needed",
-                           found->companion));
+    if (found->forbidden_in_name && !is_plain(path.filename().string(), found->forbidden_in_name))
+        refuse(fmt::format("names, or is named in, the {} file: a name without control characters and {} is needed",
+                           found->companion, found->forbidden_in_name));
     return *found;
 }
 
@@ -76,6 +80,7 @@ Path file_of(const FileView& view, const FileRegion& region, const Path& path) {
 std::vector<Path> write_regions(const FileView& view, const Format& format, OutputFiles& files, const Path& path) {
     const FileRegions regions(view);
     const GroupedFaces faces = faces_by_region(view, regions);
+    const std::vector<std::uint32_t> colours = region_colours(view);
     std::vector<Path> written;
     for (std::size_t n = 0; n < regions.all().size(); ++n) {
         const Label own = regions.all()[n].label;
@@ -85,7 +90,8 @@ std::vector<Path> write_regions(const FileView& view, const Format& format, Outp
         written.push_back(file_of(view, regions.all()[n], path));
         FileView part_view(part, view.labels(), others, view.names());
         part_view.set_space(view.space());
-        format.write_region(part_view, files.add(written.back()));
+        part_view.set_given_colours(view.given_colours());
+        format.write_region(part_view, colours[view.rank(own)], files.add(written.back()));
     }
     return written;
 }
@@ -99,6 +105,7 @@ std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const P
     const Format& format = format_of(path, options, !options.point_arrays.empty());
     FileView view(mesh, labels, options.background, options.names);
     view.set_space(options.space);
+    view.set_given_colours(options.colours);
     if (options.per_region) return write_regions(view, format, files, path);
     std::vector<Path> written{path};
     format.write_surface(view, options, files, path);
@@ -117,7 +124,8 @@ std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const P
 void require_writable_mesh(const Path& path, const WriteOptions& options, bool with_point_arrays) {
     const Format& format = format_of(path, options, with_point_arrays || !options.point_arrays.empty());
     require_writable(path, options.output, options.per_region);
-    if (format.companion) require_writable(Path(path).replace_extension(format.companion), options.output);
+    if (format.companion && !options.per_region)
+        require_writable(Path(path).replace_extension(format.companion), options.output);
 }
 
 }  // namespace regionmesh

@@ -5,6 +5,7 @@
 
 #include "formats/codec/number_writer.h"
 #include "formats/surface/mesh_formats.h"
+#include "mesh/region_colours.h"
 
 namespace regionmesh {
 namespace {
@@ -19,6 +20,8 @@ constexpr std::string_view kWideLabels =
     "property uint label_first_low\nproperty uint label_first_high\nproperty uint label_second_low\nproperty uint "
     "label_second_high\n";
 
+constexpr std::string_view kColour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+
 bool all_labels_fit_32_bits(const FileView& view) {
     const auto fits = [](InputLabel label) { return label == static_cast<std::int32_t>(label); };
     const LabelTable& labels = view.labels();
@@ -30,7 +33,9 @@ bool all_labels_fit_32_bits(const FileView& view) {
 /// Which labels a face has.
 enum class FaceLabels { kBoth, kNone };
 
-void write(const FileView& view, FaceLabels face_labels, OutputFile& file) {
+/// colour_of(FaceId) is red, green and blue.
+template <class ColourOf>
+void write(const FileView& view, FaceLabels face_labels, const ColourOf& colour_of, OutputFile& file) {
     const Mesh& mesh = view.mesh();
     const bool is_wide = !all_labels_fit_32_bits(view);
     std::string comments = fmt::format("comment exterior_label {}\n", view.exterior_label());
@@ -42,12 +47,16 @@ void write(const FileView& view, FaceLabels face_labels, OutputFile& file) {
     view.for_names([&](Label label, const std::string& name) {
         comments += fmt::format("comment region {} {}\n", view.labels().input(label), name);
     });
+    view.for_given_colours([&](Label label, std::uint32_t colour) {
+        comments += fmt::format("comment colour {} {}\n", view.labels().input(label), hex_of(colour));
+    });
     file.write(
-        fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\n{}element face {}\n{}{}end_header\n",
+        fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\n{}element face {}\n{}{}{}end_header\n",
                     comments, mesh.vertex_count(), kVertex, mesh.face_count(), kFace,
                     face_labels == FaceLabels::kNone ? ""
                     : is_wide                        ? kWideLabels
-                                                     : kLabels));
+                                                     : kLabels,
+                    kColour));
     formats::NumberWriter numbers(file);
     view.for_vertices([&](VertexId v) {
         const Vec3 position = mesh.position(v);
@@ -58,17 +67,21 @@ void write(const FileView& view, FaceLabels face_labels, OutputFile& file) {
         const FileFace face = view.face(f);
         numbers.put(std::uint8_t{3});
         for (const std::uint32_t v : face.vertices) numbers.put(v);
-        if (face_labels == FaceLabels::kNone) return;
-        for (const InputLabel label : face.labels)  // two words of 32 bits, the lower first, are one of 64
-            is_wide ? numbers.put(label) : numbers.put(static_cast<std::int32_t>(label));
+        if (face_labels == FaceLabels::kBoth)
+            for (const InputLabel label : face.labels)  // two words of 32 bits, the lower first, are one of 64
+                is_wide ? numbers.put(label) : numbers.put(static_cast<std::int32_t>(label));
+        for (const std::uint8_t part : colour_of(f)) numbers.put(part);
     });
     numbers.flush();
 }
 
 }  // namespace
 
-void write_ply(const FileView& view, OutputFile& file) { write(view, FaceLabels::kBoth, file); }
+void write_ply(const FileView& view, OutputFile& file) { write(view, FaceLabels::kBoth, FaceColours(view), file); }
 
-void write_region_ply(const FileView& view, OutputFile& file) { write(view, FaceLabels::kNone, file); }
+void write_region_ply(const FileView& view, std::uint32_t colour, OutputFile& file) {
+    write(
+        view, FaceLabels::kNone, [&](FaceId) { return rgb_of(colour); }, file);
+}
 
 }  // namespace regionmesh

@@ -1,6 +1,7 @@
 #include "formats/text/header_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -91,6 +92,17 @@ std::optional<std::int64_t> parse_label(std::string_view text) {
     if (const auto number = parse_integer(text)) return number;
     const auto bits = parse_size(text);
     return bits ? std::optional(static_cast<std::int64_t>(*bits)) : std::nullopt;
+}
+
+std::optional<std::uint32_t> parse_colour(std::string_view text) {
+    if (text.starts_with('#')) text.remove_prefix(1);
+    if (text.size() != 6) return {};
+    std::uint32_t colour = 0;
+    for (const char letter : text) {
+        if (!std::isxdigit(static_cast<unsigned char>(letter))) return {};
+        colour = colour << 4 | static_cast<std::uint32_t>(letter <= '9' ? letter - '0' : (letter | 32) - 'a' + 10);
+    }
+    return colour;
 }
 
 std::optional<std::int64_t> parse_table_label(std::string_view text) {

@@ -28,6 +28,8 @@ std::optional<std::uint64_t> parse_size(std::string_view text);
 std::optional<double> parse_finite(std::string_view text);
 /// A whole number; above 2^63 - 1 the bits of an unsigned one.
 std::optional<std::int64_t> parse_label(std::string_view text);
+/// "#RRGGBB", with or without '#'.
+std::optional<std::uint32_t> parse_colour(std::string_view text);
 /// A label in a table: programs without missing integers write "3.0".
 std::optional<std::int64_t> parse_table_label(std::string_view text);
 

@@ -106,7 +106,9 @@ std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const
     const SampleFormat format{header.type, xml.encoding().is_big_endian};
     VolumeInfo info = volume_info(path, "vti", header.type, header.lattice.size);
     info.lattice = header.lattice;
-    info.names = names_beside(path);
+    NamesAndColours table = table_beside(path);
+    info.names = std::move(table.names);
+    info.colours = std::move(table.colours);
     const std::uint64_t needed = volume_bytes(path, info.lattice.size, sample_bytes(header.type));
     const VtkArrayPlace place = xml.place_of(header.array);
     const std::uint64_t present = place.end - place.begin;

@@ -19,7 +19,7 @@ constexpr const char* kLabelArrays[] = {"BoundaryLabels", "boundary_labels", "Fa
 /// VTK's numbers of cells that are polygons.
 constexpr std::int64_t kTriangle = 5, kPolygon = 7, kQuad = 9;
 
-constexpr std::uint64_t kMostBackgroundLabels = 1 << 20;
+constexpr std::uint64_t kMostBackgroundLabels = 1 << 20, kMostColours = 1 << 24;
 constexpr std::int64_t kMostCorners = 1 << 20;
 
 /// Reads the pieces of a file one after the other into one surface.
@@ -30,6 +30,7 @@ public:
 
 private:
     void read_names(pugi::xml_node fields);
+    void read_colours(pugi::xml_node fields);
     void read_background(pugi::xml_node fields);
     void read_space(pugi::xml_node fields);
     void refuse_other_cells(pugi::xml_node piece) const;
@@ -71,6 +72,23 @@ void VtkSurfaceReader::read_names(pugi::xml_node fields) {
     numbers.finish();
 }
 
+/// Two arrays of equal length, labels and their red, green and blue; other arrays with these names are ignored.
+void VtkSurfaceReader::read_colours(pugi::xml_node fields) {
+    const pugi::xml_node labels = array_named(fields, "ColourLabels"), array = array_named(fields, "RegionColours");
+    if (!labels || !array || components(labels) != 1 || components(array) != 3) return;
+    const std::uint64_t count = xml_.count(labels, "NumberOfTuples", kMostColours);
+    if (count == 0 || xml_.count(array, "NumberOfTuples", UINT64_MAX) != count) return;
+    VtkNumbers numbers = integers_of(xml_, labels, count), parts = integers_of(xml_, array, 3 * count);
+    for (std::uint64_t n = 0; n < count; ++n) {
+        std::uint32_t colour = 0;
+        for (int part = 0; part < 3; ++part)
+            colour = colour << 8 | (static_cast<std::uint32_t>(parts.integer()) & 0xFF);
+        surface_.colours[numbers.integer()] = colour;
+    }
+    numbers.finish();
+    parts.finish();
+}
+
 void VtkSurfaceReader::read_background(pugi::xml_node fields) {
     const pugi::xml_node array = array_named(fields, "BackgroundLabels");
     if (!array) return;
@@ -92,6 +110,7 @@ void VtkSurfaceReader::read_space(pugi::xml_node fields) {
 FileSurface VtkSurfaceReader::read(bool is_grid) {
     const pugi::xml_node fields = xml_.dataset().child("FieldData"), exterior = array_named(fields, "ExteriorLabel");
     read_names(fields);
+    read_colours(fields);
     read_background(fields);
     read_space(fields);
     if (exterior) {

@@ -16,6 +16,7 @@
 
 #include "formats/codec/base64.h"
 #include "formats/surface/mesh_formats.h"
+#include "mesh/region_colours.h"
 #include "regionmesh/output_file.h"
 
 namespace regionmesh {
@@ -130,6 +131,23 @@ void write_names(const FileView& view, OutputFile& file) {
                     count, labels, count, codes));
 }
 
+void write_given_colours(const FileView& view, OutputFile& file) {
+    std::string labels, colours;
+    int count = 0;
+    view.for_given_colours([&](Label label, std::uint32_t colour) {
+        ++count;
+        labels += fmt::format("{}\n", view.labels().input(label));
+        const auto [red, green, blue] = rgb_of(colour);
+        colours += fmt::format("{} {} {}\n", red, green, blue);
+    });
+    if (count == 0) return;
+    file.write(
+        fmt::format("<DataArray type=\"Int64\" Name=\"ColourLabels\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}"
+                    "</DataArray>\n<DataArray type=\"UInt8\" Name=\"RegionColours\" NumberOfComponents=\"3\" "
+                    "NumberOfTuples=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
+                    count, labels, count, colours));
+}
+
 void write_space(Space space, OutputFile& file) {
     if (space == Space::kUnknown) return;
     std::string codes;
@@ -156,6 +174,7 @@ void write_head(const FileView& view, DataSet kind, OutputFile& file) {
     if (const auto background = view.background_labels()) write_background(*background, file);
     write_space(view.space(), file);
     write_names(view, file);
+    write_given_colours(view, file);
     const std::uint64_t vertices = view.mesh().vertex_count(), faces = view.mesh().face_count();
     file.write(fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" ", vertices));
     if (!is_grid) file.write("NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" ");
@@ -195,6 +214,12 @@ void write_labels(const FileView& view, OutputFile& file) {
         for (const InputLabel label : view.face(f).labels) labels.put(label);
     });
     labels.close();
+    const FaceColours colours(view);
+    ArrayWriter<std::uint8_t> rgb(file, "RGB", 3, std::uint64_t{3} * view.mesh().face_count());
+    view.for_faces([&](FaceId f) {
+        for (const std::uint8_t part : colours(f)) rgb.put(part);
+    });
+    rgb.close();
     file.write("</CellData>\n");
 }
 

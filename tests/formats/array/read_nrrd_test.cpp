@@ -99,9 +99,19 @@ TEST_F(ReadNrrdTest, segments_without_label_values_are_layers_with_label_1) {
         ElementsAre(Pair(1, "bone \xC3\xA9")));
 }
 
+TEST_F(ReadNrrdTest, segments_have_colours) {
+    const auto colours_of = [&](const std::string& rest) { return info_of(nrrd("", rest)).colours; };
+    const std::string segment = "Segment0_Name:=bone\nSegment0_LabelValue:=7\nSegment0_Layer:=0\nSegment0_Color:=";
+    EXPECT_THAT(colours_of(segment + "1 0.5 0"), ElementsAre(Pair(7, 0xFF8000u)));
+    for (const char* bad : {"1 0.5", "1 0.5 0 1", "1 0.5 1.1", "1 0.5 -0.1", "a b c", "nan 0 0", ""})
+        EXPECT_TRUE(colours_of(segment + bad).empty()) << bad;
+}
+
 TEST_F(ReadNrrdTest, table_beside_the_file_names_labels_where_no_segments_do) {
     put_text(path("a.txt"), "3 three\n");
     EXPECT_THAT(info_of(nrrd()).names, ElementsAre(Pair(3, "three")));
+    put_text(path("a.txt"), "3 three 1 2 3 0\n");
+    EXPECT_THAT(info_of(nrrd()).colours, ElementsAre(Pair(3, 0x010203u)));
     EXPECT_THAT(info_of(nrrd("", "Segment0_Name:=bone")).names, ElementsAre(Pair(1, "bone")));
 }
 

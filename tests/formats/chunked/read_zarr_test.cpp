@@ -120,6 +120,7 @@ TEST_F(ReadZarrTest, labels_of_an_image_bring_names) {
             const auto reader =
                 open_sections({data("chunked/ome/image_" + std::string(version) + ".zarr/labels/cells" + level)});
             EXPECT_EQ(reader->info().names, (LabelNames{{1, "nucleus"}, {2, "membrane"}})) << version << level;
+            EXPECT_EQ(reader->info().colours, (LabelColours{{1, 0xFF0000}})) << version << level;
         }
     }
 }

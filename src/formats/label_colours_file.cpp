@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/input_file.h"
+#include "formats/text/header_text.h"
+#include "regionmesh/label_names_file.h"
+
+namespace regionmesh {
+namespace {
+
+using Fields = std::vector<std::string>;
+using formats::trim;
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;  // as read_label_names()
+
+/// The fields of a line; quoted ones may hold the separator. Several blanks separate once.
+Fields split(std::string_view line, char separator) {
+    const bool is_blank = separator == ' ';
+    Fields fields;
+    std::string field;
+    bool is_quoted = false, was_quoted = false;
+    const auto end_field = [&] {
+        if (!is_blank || !field.empty() || was_quoted) fields.emplace_back(was_quoted ? field : trim(field));
+        field.clear();
+        was_quoted = false;
+    };
+    for (const char letter : line) {
+        const bool ends = letter == separator || (is_blank && letter == '\t');
+        if (letter == '"')
+            is_quoted = !is_quoted, was_quoted = true;
+        else if (ends && !is_quoted)
+            end_field();
+        else
+            field += letter;
+    }
+    end_field();
+    return fields;
+}
+
+std::optional<std::uint32_t> part_of(std::string_view text) {
+    const auto number = formats::parse_integer(text);
+    if (!number || *number < 0 || *number > 255) return {};
+    return static_cast<std::uint32_t>(*number);
+}
+
+using Places = std::array<std::size_t, 3>;  // of red, green and blue
+
+std::optional<std::uint32_t> colour_at(const Fields& fields, const Places& places) {
+    std::uint32_t colour = 0;
+    for (const std::size_t place : places) {
+        const auto part = place < fields.size() ? part_of(fields[place]) : std::nullopt;
+        if (!part) return {};
+        colour = colour << 8 | *part;
+    }
+    return colour;
+}
+
+/// The first column called one of `words`, capitals and signs aside.
+std::optional<std::size_t> column_of(const Fields& header, std::initializer_list<std::string_view> words) {
+    for (const std::string_view word : words)
+        for (std::size_t column = 0; column < header.size(); ++column) {
+            std::string name = formats::lower(header[column]);
+            std::erase_if(name, [](unsigned char c) { return !std::isalnum(c); });
+            if (name == word) return column;
+        }
+    return {};
+}
+
+/// Where a table with a header has labels and colours.
+struct Columns {
+    std::size_t label = 0;
+    std::optional<std::size_t> hex;
+    std::optional<Places> parts;
+
+    std::optional<std::uint32_t> colour(const Fields& fields) const {
+        if (hex && *hex < fields.size()) return formats::parse_colour(fields[*hex]);
+        return parts ? colour_at(fields, *parts) : std::nullopt;
+    }
+};
+
+Columns columns_of(const Fields& header) {
+    Columns columns{.label = column_of(header, {"label", "labelvalue", "labelid", "index", "value", "id", "key",
+                                                "number", "roi", "no"})
+                                 .value_or(0),
+                    .hex = column_of(header, {"color", "colour", "hex", "rgb"}),
+                    .parts = {}};
+    const auto red = column_of(header, {"r", "red", "colorr"}), green = column_of(header, {"g", "green", "colorg"}),
+               blue = column_of(header, {"b", "blue", "colorb"});
+    if (red && green && blue) columns.parts = Places{*red, *green, *blue};
+    return columns;
+}
+
+/// Without a header: `label r g b a visible mesh "name"` (ITK-SNAP), or `label name r g b a` (FreeSurfer, 3D Slicer).
+std::optional<std::uint32_t> colour_by_place(const Fields& fields) {
+    constexpr std::size_t kItkSnap = 8, kFreeSurfer = 6;
+    const std::size_t count = fields.size();
+    if (count >= kItkSnap && !part_of(fields.back()))
+        if (const auto colour = colour_at(fields, {1, 2, 3})) return colour;
+    if (count < kFreeSurfer || !part_of(fields.back()) || part_of(fields[1])) return {};
+    return colour_at(fields, {count - 4, count - 3, count - 2});
+}
+
+char separator_of(std::string_view line) {
+    for (const char separator : {'\t', ';', ','})
+        if (line.find(separator) != std::string_view::npos) return separator;
+    return ' ';
+}
+
+bool is_comment(std::string_view line) {
+    return line.empty() || line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+}
+
+std::vector<Fields> rows_of(std::string_view text) {
+    std::vector<Fields> rows;
+    while (!text.empty())
+        if (const std::string_view line = trim(formats::take_line(text)); !is_comment(line))
+            rows.push_back(split(line, separator_of(line)));
+    return rows;
+}
+
+}  // namespace
+
+LabelColours read_label_colours(const std::filesystem::path& path) {
+    const formats::InputFile file(path);
+    if (file.size() > kMostBytes) return {};
+    std::string text(file.size(), '\0');
+    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark
+    std::vector<Fields> rows = rows_of(text);
+    if (rows.empty()) return {};
+    const auto label_at = [](const Fields& row, std::size_t place) {
+        return place < row.size() ? formats::parse_table_label(row[place]) : std::nullopt;
+    };
+    Columns columns;
+    const bool has_header = std::ranges::none_of(
+        rows[0], [](const std::string& field) { return formats::parse_table_label(field).has_value(); });
+    if (has_header) {
+        columns = columns_of(rows[0]);
+        rows.erase(rows.begin());
+    }
+    const bool is_by_place = !columns.hex && !columns.parts;
+    LabelColours colours;
+    for (const Fields& row : rows) {
+        const auto label = label_at(row, columns.label);
+        const auto colour = is_by_place ? colour_by_place(row) : columns.colour(row);
+        if (is_by_place && !colour) return {};  // numbers of another kind
+        if (label && colour) colours.emplace(*label, *colour);
+    }
+    return colours;
+}
+
+}  // namespace regionmesh
