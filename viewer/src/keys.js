@@ -15,6 +15,7 @@ function tableOf({ stage, regions, tools, act }) {
         ["I", ["i"], "isolate the selected region, or show all again", selected((region) => regions.isolate(region))],
         ["H", ["h"], "hide the selected region", selected((region) => regions.setState([region], "hidden"))],
         ["G", ["g"], "see through the selected region", selected((region) => regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))],
+        ["O", ["o"], "look at the selected region", selected((region) => tools.lookAt(region))],
         ["A", ["a"], "show all regions", press("show-all")],
         ["X Y Z", ["x", "y", "z"], "section across an axis; again: none", (key) => tools.setSection(byId("section-axis").value === key ? "none" : key)],
         ["E", ["e"], "edges of faces", press("show-edges")],

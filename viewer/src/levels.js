@@ -14,12 +14,12 @@ export class Level {
         this.full.setIndex(new three.BufferAttribute(corners, 1));
         this.outer = new three.BufferGeometry();
         this.outer.attributes = this.full.attributes;
-        this.room = new Uint32Array(corners.length);
+        this.outer.setIndex(new three.BufferAttribute(new Uint32Array(corners.length), 1));
     }
 
     /** `isSolid` by label: a face with a solid region on its other side is not seen from outside. */
     setOuter(isSolid) {
-        const { corners, labels, room } = this;
+        const { corners, labels } = this, index = this.outer.getIndex(), room = index.array;
         let used = 0;
         for (let n = 0; n < corners.length; n += 3) {
             if (isSolid[labels[2 * corners[n] + 1]]) continue;
@@ -27,8 +27,11 @@ export class Level {
             room[used++] = corners[n + 1];
             room[used++] = corners[n + 2];
         }
-        this.outer.dispose();
-        this.outer.setIndex(new three.BufferAttribute(room.slice(0, used), 1));
+        // dispose() would free the buffers that `full` shares.
+        index.clearUpdateRanges();
+        index.addUpdateRange(0, used);
+        index.needsUpdate = true;
+        this.outer.setDrawRange(0, used);
     }
 }
 

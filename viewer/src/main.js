@@ -79,7 +79,7 @@ function showModels(data, models, regions) {
     };
     const list = new RegionList(regions, lookAt);
     const act = actions(stage, regions, models[0].title);
-    const tools = new Tools({ stage, regions, models, fit: act.fit, violations: data.report?.violations ?? [] });
+    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [] });
     const update = () => {
         stage.drawn.forEach((drawn, which) => {
             drawn.show(regions.drawnStates(which));
@@ -113,7 +113,13 @@ async function start() {
         addTheme(() => {});
     }
     showProof(data);
-    showTable(data, regions);
+    showTable(data, regions, page.list && ((region) => {
+        page.list.choose(region);
+        page.list.reveal(region);
+        page.list.lookAt(region);
+        byId("model").scrollIntoView();
+        byId("canvas").focus({ preventScroll: true });
+    }));
     page.stage?.renderNow();
     window.regionmesh = { ...page, data, models, readyAfter: performance.now() };
     document.documentElement.dataset.ready = "true";

@@ -48,7 +48,7 @@ function qualityFloor({ min_quality: bound }, { quality }) {
 }
 
 function errorBound({ max_error: bound }, { stopped }) {
-    const meaning = "The rms distance to the planes of the faces that a vertex stands for, since the last start of decimation.";
+    const meaning = "No point of the model is farther than this from the surface before decimation, and no point of that surface is farther from the model.";
     if (bound === null) return { name: "Error bound", verdict: "none", said: "none was asked", meaning };
     return { name: "Error bound", verdict: "good", said: `at most ${short(bound)}${stopped === "max_error" ? "; decimation ended there" : ""}`, meaning };
 }
@@ -80,7 +80,7 @@ function card(title, ...children) {
 
 const kVerdictTexts = {
     accepted: "collapsed", strata: "would change topology (strata)", link: "would change topology (link)", fold: "would fold a face",
-    quality: "would make a face of low quality", pinch: "would pinch a region", samples: "would lose a sample", intersect: "would make faces cross",
+    quality: "would make a face of low quality", pinch: "would pinch a region", samples: "would lose a sample", error: "would exceed the error bound", intersect: "would make faces cross",
 };
 
 function verdictCard({ verdicts, stopped, refreshes }) {

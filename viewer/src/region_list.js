@@ -20,6 +20,7 @@ export class RegionList {
         this.search = byId("region-search");
         this.order = byId("region-order");
         this.search.addEventListener("input", () => this.refilter());
+        this.search.addEventListener("keydown", (event) => this.leaveSearch(event));
         this.order.addEventListener("change", () => this.refilter());
         this.box.addEventListener("scroll", () => this.draw());
         this.box.addEventListener("keydown", (event) => this.moveFocus(event));
@@ -52,6 +53,28 @@ export class RegionList {
         this.draw();
     }
 
+    /** From the field into the list: the arrow goes to the first row, Enter selects it, too. */
+    leaveSearch(event) {
+        if (!["ArrowDown", "Enter"].includes(event.key) || this.found.length === 0) return;
+        event.preventDefault();
+        if (event.key === "Enter") this.choose(this.found[0]);
+        this.space.querySelector('[aria-posinset="1"] .row-name')?.focus();
+    }
+
+    /** Selects a region, and shows it if it is hidden. */
+    choose(region) {
+        this.regions.select(region);
+        if (region.state === "hidden") this.regions.setState([region], "solid");
+    }
+
+    countText() {
+        const { all } = this.regions, hidden = all.filter((region) => region.state === "hidden").length;
+        let text = `${grouped(this.found.length)} of ${grouped(all.length)} regions` + (hidden ? `, ${grouped(hidden)} hidden` : "");
+        if (this.found.length === 0 && all.every(({ name }) => !name))
+            text += ". These regions have labels only: the option --names TABLE gives them names.";
+        return text;
+    }
+
     /** Scrolls to a region, if it is in the list. */
     reveal(region) {
         const row = this.found.indexOf(region);
@@ -62,9 +85,7 @@ export class RegionList {
     }
 
     draw() {
-        const hidden = this.regions.all.filter((region) => region.state === "hidden").length;
-        byId("region-count").textContent =
-            `${grouped(this.found.length)} of ${grouped(this.regions.all.length)} regions` + (hidden ? `, ${grouped(hidden)} hidden` : "");
+        byId("region-count").textContent = this.countText();
         const first = Math.max(0, Math.floor(this.box.scrollTop / kRowHeight) - 4);
         const last = Math.min(this.found.length, Math.ceil((this.box.scrollTop + (this.box.clientHeight || 600)) / kRowHeight) + 4);
         this.space.style.height = `${this.found.length * kRowHeight}px`;
@@ -84,10 +105,7 @@ export class RegionList {
             }, text);
         const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
         swatch.style.background = region.colour;
-        const name = button("name", "Select", region.title, regions.selected === region, () => {
-            regions.select(region);
-            if (region.state === "hidden") regions.setState([region], "solid");
-        });
+        const name = button("name", "Select", region.title, regions.selected === region, () => this.choose(region));
         name.addEventListener("dblclick", () => this.lookAt(region));
         const row = element("div", {
             class: `row ${region.state}${regions.selected === region ? " selected" : ""}`, role: "listitem",

@@ -51,6 +51,13 @@ export class Regions extends EventTarget {
         this.changed();
     }
 
+    /** Hides all regions but those with these labels of a model. */
+    showOnly(which, places) {
+        const wanted = new Set([...places].map((place) => this.at(which, place)));
+        for (const region of this.all) region.state = wanted.has(region) ? "solid" : "hidden";
+        this.changed();
+    }
+
     select(region) {
         this.selected = region;
         this.changed();

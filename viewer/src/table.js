@@ -63,7 +63,8 @@ function jsonOf(columns, rows) {
 
 const compare = (a, b) => (a === undefined || a === null) - (b === undefined || b === null) || (a < b ? -1 : a > b ? 1 : 0);
 
-export function showTable(data, regions) {
+/** `goTo(region)` shows it in the picture; none where there is no picture. */
+export function showTable(data, regions, goTo) {
     if (!data.report) return;
     const all = rowsOf(data, regions), columns = (data.models.length > 1 ? kCompareColumns : kColumns)
         .filter(([, , value]) => all.some((row) => value(row) !== undefined && value(row) !== null && value(row) !== ""));
@@ -77,7 +78,7 @@ export function showTable(data, regions) {
         element("th", { scope: "col", "data-column": name }, element("button", { type: "button", onclick: () => sortBy(n) }, title)));
     const draw = () => {
         const sorted = [...all].sort((a, b) => sign * compare(keyOf(a), keyOf(b)));
-        body.replaceChildren(...sorted.slice(0, shown).map((row) => tableRow(row, columns, regions)));
+        body.replaceChildren(...sorted.slice(0, shown).map((row) => tableRow(row, columns, regions, goTo)));
         heads.forEach((head, n) => head.setAttribute("aria-sort", n !== order ? "none" : sign > 0 ? "ascending" : "descending"));
         more.hidden = shown >= all.length;
         more.textContent = `Show all ${grouped(all.length)} rows`;
@@ -102,7 +103,7 @@ export function showTable(data, regions) {
     draw();
 }
 
-function tableRow(row, columns, regions) {
+function tableRow(row, columns, regions, goTo) {
     const region = regions.byLabel.get(row.label);
     const cells = columns.map(([name, , value, text]) => {
         const found = value(row);
@@ -110,9 +111,9 @@ function tableRow(row, columns, regions) {
         if (name !== "label" || !region) return element("td", { "data-column": name }, shown);
         const swatch = element("span", { class: "swatch" });
         swatch.style.background = region.colour;
-        return element("td", {}, swatch, shown);
+        if (!goTo) return element("td", {}, swatch, shown);
+        const label = `Show ${region.title} in the picture`;
+        return element("td", {}, element("button", { type: "button", class: "go", title: label, "aria-label": label, onclick: () => goTo(region) }, swatch, shown));
     });
-    const made = element("tr", {}, ...cells);
-    if (region) made.addEventListener("click", () => regions.select(region));
-    return made;
+    return element("tr", {}, ...cells);
 }

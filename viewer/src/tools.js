@@ -1,6 +1,7 @@
 // The panel on the right: the selected region or face, colours, section, exploded view, lines, violations.
 import { byId, element, grouped, short } from "./dom.js";
 import { faceQuality, interfaceMeasures } from "./measures.js";
+import { farthestVertex, labelsAround, nearestVertex } from "./places.js";
 import { kRamps } from "./ramps.js";
 
 function group(title, ...children) {
@@ -29,7 +30,10 @@ export class Tools {
         this.info = element("div", { id: "info", role: "status", "aria-live": "polite" });
         byId("tools").append(
             group("Selected", this.info), this.colourGroup(), this.sectionGroup(), this.shapeGroup(), this.lineGroup());
-        if (this.violations.length > 0) byId("tools").append(this.violationGroup());
+        if (this.violations.length > 0) {
+            byId("tools").append(this.violationGroup());
+            byId("violation-alone").checked = true;
+        }
         this.describe(null);
         this.regions.addEventListener("change", () => {
             if (this.described !== this.regions.selected) this.describe(this.regions.selected);
@@ -39,18 +43,40 @@ export class Tools {
     colourGroup() {
         const options = [["region", "Region"], ["interface", "Interface"], ["quality", "Quality"], ["curvature", "Curvature"]];
         if (this.models.some((model) => model.has_distances)) options.push(["distance", "Distance"]);
-        return group("Colour", choice("colour-by", "By ", options, (what) => this.colourBy(what)));
+        return group("Colour", choice("colour-by", "By ", options, (what) => this.colourBy(what)),
+            element("div", { id: "farthest", hidden: true },
+                element("button", { type: "button", id: "go-farthest", onclick: () => this.goFarthest() }, "Go to the largest distance"),
+                element("p", { id: "farthest-text", class: "hint", role: "status" })));
     }
 
     colourBy(what) {
         byId("colour-by").value = what;
         const found = this.stage.colourBy(what);
         byId("legend").hidden = !found;
+        byId("farthest").hidden = what !== "distance";
         if (!found) return;
         byId("legend-title").textContent = found.title;
         byId("legend-low").textContent = short(found.low, 3);
         byId("legend-high").textContent = short(found.high, 3);
         byId("legend-bar").style.background = `linear-gradient(to right, ${kRamps[found.ramp].join(", ")})`;
+    }
+
+    /** Shows the vertex that is farthest from the other model, with the regions around it alone. */
+    goFarthest() {
+        const found = this.models.flatMap((model, which) => {
+            if (!model.has_distances) return [];
+            const vertex = farthestVertex(model);
+            return [{ which, vertex, distance: model.distances[vertex] }];
+        });
+        const { which, vertex, distance } = found.reduce((a, b) => (b.distance > a.distance ? b : a));
+        const model = this.models[which], at = [...model.positions.subarray(3 * vertex, 3 * vertex + 3)];
+        const labels = labelsAround(model, vertex), place = at.map((x, axis) => x + model.centre[axis]);
+        this.regions.showOnly(which, labels);
+        this.stage.drawn[which].showMarkers([place]);
+        this.stage.lookAt(at, this.stage.radius / 5);
+        const names = [...labels].map((label) => this.regions.titleAt(which, label)).join(", ");
+        byId("farthest-text").textContent =
+            `${short(distance)} at a vertex of ${"AB"[which]}, ${place.map((x) => short(x)).join(", ")}. Only ${names} shown; the key A shows all.`;
     }
 
     sectionGroup() {
@@ -132,9 +158,7 @@ export class Tools {
             this.violation = ((this.violation ?? (by > 0 ? -1 : 0)) + by + count) % count;
             const found = violations[this.violation];
             text.textContent = `${this.violation + 1} of ${count}: ${found.text}`;
-            if (!found.at) return;
-            const [drawn] = this.stage.drawn;
-            this.stage.lookAt(found.at.map((x, axis) => x - drawn.model.centre[axis]), this.stage.radius / 8);
+            if (found.at) this.goToViolation(found.at);
         };
         this.stepViolation = step;
         this.stage.drawn[0].showMarkers(this.violations.filter(({ at }) => at).map(({ at }) => at));
@@ -142,7 +166,15 @@ export class Tools {
             element("div", { class: "buttons" },
                 element("button", { type: "button", id: "violation-back", onclick: () => step(-1) }, "Previous"),
                 element("button", { type: "button", id: "violation-next", onclick: () => step(1) }, "Next (V)")),
-            text);
+            toggle("violation-alone", "Only the regions at its place", (isOn) => !isOn && this.regions.setState(this.regions.all, "solid")), text);
+    }
+
+    /** Other regions would hide it, and without edges a missing face is hard to see. */
+    goToViolation(at) {
+        const [{ model }] = this.stage.drawn, place = at.map((x, axis) => x - model.centre[axis]);
+        if (byId("violation-alone").checked) this.regions.showOnly(0, labelsAround(model, nearestVertex(model, place)));
+        if (!byId("show-edges").checked) byId("show-edges").click();
+        this.stage.lookAt(place, this.stage.radius / 8);
     }
 
     /** Shows a region, or the face of a hit. */
@@ -163,6 +195,7 @@ export class Tools {
         const act = (text, run) => element("button", { type: "button", onclick: run }, text);
         this.info.replaceChildren(list, element("div", { class: "buttons" },
             act("Isolate (I)", () => this.regions.isolate(region)), act("Hide (H)", () => this.regions.setState([region], "hidden")),
+            act("Look at it (O)", () => this.lookAt(region)),
             act("See through (G)", () => this.regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))));
     }
 
