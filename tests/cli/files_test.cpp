@@ -73,6 +73,18 @@ TEST_F(CliFiles, stl_and_back_agrees_with_the_volume) {
     EXPECT_THAT(ran.out, HasSubstr("every one of 2744 samples keeps its label"));
 }
 
+TEST_F(CliFiles, stl_of_a_region_with_the_label_of_the_exterior_agrees_with_the_volume) {
+    for (const int label : {-1, -3}) {
+        const std::string labels = volume(label);
+        expect_good("reconstruct " + labels + "-o " + out("m.stl"));
+        EXPECT_THAT(read("m.stl"), HasSubstr("solid region_" + std::to_string(label)));
+        expect_good("check " + out("m.stl"));
+        const Ran ran = run("check " + out("m.stl") + " --sections " + labels);
+        EXPECT_EQ(ran.code, 0) << ran.out << ran.error;
+        EXPECT_THAT(ran.out, HasSubstr("every one of 2744 samples keeps its label"));
+    }
+}
+
 TEST_F(CliFiles, models_say_their_space_as_slicer_reads_it) {
     const std::string labels = volume();
     for (const std::string name : {"m.vtp", "m.vtu", "m.ply", "m.obj", "m.stl"}) {

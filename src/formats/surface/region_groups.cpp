@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -15,6 +16,28 @@ struct NamedLabels {
     Labels labels;
     std::string name;
 };
+
+/// The label in "region_3" or "region_3 liver".
+std::optional<InputLabel> region_in(std::string_view name) {
+    std::string_view word = formats::take_word(name);
+    if (!word.starts_with("region_")) return std::nullopt;
+    word.remove_prefix(7);
+    return formats::parse_label(word);
+}
+
+/// The exterior of a file that does not name it. A region may have the usual label: then it is one below the smallest
+/// label, as in the model that was written.
+InputLabel exterior_of(const std::vector<std::string>& names, InputLabel exterior) {
+    InputLabel smallest = exterior;
+    bool is_taken = false;
+    for (const std::string& name : names) {
+        const auto label = region_in(name);
+        if (!label) continue;
+        is_taken = is_taken || *label == exterior;
+        smallest = std::min(smallest, *label);
+    }
+    return is_taken && smallest > std::numeric_limits<InputLabel>::min() ? smallest - 1 : exterior;
+}
 
 std::optional<NamedLabels> labels_in(std::string_view name, InputLabel exterior) {
     std::string_view rest = name;
@@ -46,6 +69,7 @@ std::uint32_t RegionGroups::add(const std::string& name, bool is_apart) {
 }
 
 void RegionGroups::put_labels(FileSurface& surface) const {
+    surface.exterior_label = exterior_of(names_, surface.exterior_label);
     std::vector<Labels> labels(names_.size());
     std::vector<bool> is_used(names_.size()), is_told(names_.size());
     for (const Labels& face : surface.labels) is_used[static_cast<std::size_t>(face[0])] = true;
