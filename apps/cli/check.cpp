@@ -66,7 +66,7 @@ void print_samples(const SampleAgreement& samples) {
 int run_check(const Settings& given) {
     require_page(given.html, given.writing);
     const std::string& path = given.models.front();
-    for (const std::string& file : {given.json, given.regions})
+    for (const std::string& file : {given.json, given.regions, given.interfaces, given.lines})
         if (!file.empty()) require_writable(file, given.writing);
     MeshFile file = read_mesh(path, given.surface);
     if (lacks_background(given, file)) {
@@ -87,11 +87,10 @@ int run_check(const Settings& given) {
     const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);
     OutputFiles files(settings.writing);
     if (!settings.json.empty()) files.add(settings.json).write(json);
-    if (!settings.regions.empty())
-        files.add(settings.regions).write(regions_csv(file.mesh, file.labels, options.background, file.names));
+    const Model model{file.mesh, file.labels, options.background, file.names, file.colours};
+    write_tables(settings, model, files);
     if (!settings.html.empty())
-        write_page(settings.html,
-                   {page_model(path, {file.mesh, file.labels, options.background, file.names, file.colours})},
+        write_page(settings.html, {page_model(path, model)},
                    page_options(kCheck, settings, json, options.oracle.has_value()), files);
     files.commit();
     if (!settings.quiet) {

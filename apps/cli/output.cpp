@@ -29,7 +29,7 @@ void require_outputs(const Settings& settings) {
         settings.output,
         {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap, .output = settings.writing});
     if (!settings.names.empty()) read_label_names(settings.names);
-    for (const std::string& file : {settings.report, settings.regions})
+    for (const std::string& file : {settings.report, settings.regions, settings.interfaces, settings.lines})
         if (!file.empty()) require_writable(file, settings.writing);
     require_page(settings.html, settings.writing);
 }
@@ -41,9 +41,15 @@ Described describe(const Settings& settings, const LabelNames& names, const Labe
     return described;
 }
 
+void write_tables(const Settings& settings, const Model& model, OutputFiles& files) {
+    for (const auto& [path, make] :
+         {std::pair(&settings.regions, &regions_csv), std::pair(&settings.interfaces, &interfaces_csv),
+          std::pair(&settings.lines, &lines_csv)})
+        if (!path->empty()) files.add(*path).write(make(model.mesh, model.labels, model.background, model.names));
+}
+
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
-    if (!settings.regions.empty())
-        files.add(settings.regions).write(regions_csv(model.mesh, model.labels, model.background, model.names));
+    write_tables(settings, model, files);
     return write_mesh(model.mesh, model.labels, settings.output,
                       {.background = model.background,
                        .names = model.names,

@@ -32,8 +32,10 @@ struct Model {
     Space space = Space::kUnknown;
 };
 
-/// Writes the model to `settings.output` and the table of --regions, as some of `files`. Returns the files of the
-/// model.
+/// Writes the tables of --regions, --interfaces and --lines as some of `files`.
+void write_tables(const Settings& settings, const Model& model, OutputFiles& files);
+
+/// Writes the model to `settings.output`, and the tables, as some of `files`. Returns the files of the model.
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files);
 
 /// Prints the files of --per-region, after their commit.

@@ -40,7 +40,7 @@ struct Settings {
 
     double metres = 1;  // in a unit of length of the input
 
-    std::string output, names, report, json, distance, html, regions, log, config;  // files
+    std::string output, names, report, json, distance, html, regions, interfaces, lines, log, config;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
     bool per_region = false, list_all = false, quiet = false, verbose = false;

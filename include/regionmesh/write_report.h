@@ -53,10 +53,23 @@ std::array<Vec3, 2> box_of_points(const Mesh& mesh);
 
 /// A table of the regions as CSV, in order of label: label, name, faces, volume, area, centroid_x, _y, _z, box_low_x to
 /// box_high_z, equivalent_diameter (of the sphere of the same volume), neighbours (labels, separated by blanks; the
-/// background and the exterior are none) and neighbour_areas. The volume and the centroid of an open region mean
-/// nothing. `background` is dense.
+/// background and the exterior are none), neighbour_areas, mean_curvature (1 / length, positive where the region is
+/// convex; of interfaces with regions and background, empty if it has none) and triple_line_length (of lines that are
+/// not on the exterior). The volume and the centroid of an open region mean nothing. `background` is dense.
 std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                         const LabelNames& names = {});
+
+/// A table of the interfaces, of regions with each other, the background and the exterior: label, neighbour, name,
+/// neighbour_name, faces, area, centroid_x, _y, _z, mean_curvature (positive where `label` is convex; empty on the
+/// exterior) and line_length, of the lines that bound it.
+std::string interfaces_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
+                           const LabelNames& names = {});
+
+/// A table of the lines, which are edges with three labels or more; the exterior counts as one: labels (separated by
+/// blanks), names (by semicolons), label_count, edges, length and angles, the mean dihedral angle of each label in
+/// degrees; "-" for the exterior, and where a label has not two faces at any of the edges.
+std::string lines_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
+                      const LabelNames& names = {});
 
 /// Writes `text` as an OutputFile. Throws Error(kOutput).
 void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options = {});

@@ -37,14 +37,6 @@ void write_with_arrays(const FileView& view, const WriteOptions& options, Output
     kWrite(view, options.point_arrays, files.add(path));
 }
 
-template <const Part& kPart, auto kWrite>
-constexpr auto write_one_in_part() {
-    if constexpr (kPart.is_built)
-        return write_one<kWrite>;
-    else
-        return nullptr;
-}
-
 void write_in_metres(const FileView& view, const WriteOptions& options, OutputFiles& files, const Path& path) {
     write_glb(view, options.metres, files.add(path));
 }
@@ -52,6 +44,14 @@ void write_in_metres(const FileView& view, const WriteOptions& options, OutputFi
 template <void (*kWrite)(const FileView&, OutputFiles&, const Path&)>
 void write_two(const FileView& view, const WriteOptions&, OutputFiles& files, const Path& path) {
     kWrite(view, files, path);
+}
+
+template <const Part& kPart, auto kWrite>
+constexpr auto write_two_in_part() {
+    if constexpr (kPart.is_built)
+        return write_two<kWrite>;
+    else
+        return nullptr;
 }
 
 constexpr const char* kStoreInFile =
@@ -66,6 +66,7 @@ constexpr Format kFormats[] = {
     {.name = "MetaImage", .extensions = {".mha", ".mhd"}, .open_sections = open_meta_image},
     {.name = "VTI", .extensions = {".vti"}, .open_sections = open_vti},
     {.name = "INR", .extensions = {".inr", ".inr.gz"}, .open_sections = open_inr},
+    {.name = "FreeSurfer", .extensions = {".mgz", ".mgh"}, .open_sections = open_mgh},
     {.name = "TIFF",
      .extensions = {".tif", ".tiff"},
      .part = kTiff,
@@ -162,7 +163,9 @@ constexpr Format kFormats[] = {
      .has_datasets = true,
      .holds_surface = true,
      .read_surface = in_part<kHdf5, read_dream3d>(),
-     .write_surface = write_one_in_part<kHdf5, write_dream3d>()},
+     .write_surface = write_two_in_part<kHdf5, write_dream3d>(),
+     .companion = ".xdmf",
+     .forbidden_in_name = "\":<>&"},
 };
 
 }  // namespace

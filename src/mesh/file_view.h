@@ -49,6 +49,8 @@ public:
     std::uint32_t rank(Label label) const { return is_exterior(label) ? kFirstExterior : ranks_[label]; }
     /// Labels in the order of files, background last.
     std::vector<Label> ordered_labels() const;
+    /// The number of places that regions have; those of background follow.
+    std::uint32_t region_ranks() const { return region_ranks_; }
     bool is_background(Label label) const { return rank(label) >= region_ranks_; }
     /// Text of the input label, with its signedness.
     std::string label_text(Label label) const;

@@ -159,7 +159,7 @@ TEST_F(CliFiles, the_table_of_regions_has_their_measures) {
             fields.emplace_back();
         else
             fields.back() += c;
-    ASSERT_EQ(fields.size(), 17u);
+    ASSERT_EQ(fields.size(), 19u);
     EXPECT_NEAR(std::stod(fields[3]), volume, 1e-9);
     for (int axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(std::stod(fields[5 + axis]), 2.5, 1e-9);  // centroid
@@ -213,6 +213,19 @@ TEST_F(CliFiles, the_manual_page_and_completions_have_every_option) {
     ASSERT_EQ(std::system(("bash '" + path("c.bash").string() + "' >'" + path("words").string() + "'").c_str()), 0);
     EXPECT_EQ(text_of(path("words")), "--quiet\ncompare\n");
     EXPECT_EQ(run("--completion csh").code, 2);
+}
+
+TEST_F(CliFiles, tables_of_interfaces_and_lines_are_written_with_the_model_or_the_check) {
+    const std::string labels = volume();
+    expect_good("reconstruct " + labels + "-o " + out("m.vtp") + " --interfaces " + out("i.csv") + " --lines " +
+                out("l.csv"));
+    EXPECT_THAT(read("i.csv"), HasSubstr("\n1,2,"));
+    EXPECT_THAT(read("l.csv"), HasSubstr("\n1 2 3,"));
+    expect_good("check " + out("m.vtp") + " --interfaces " + out("j.csv") + " --lines " + out("k.csv"));
+    EXPECT_EQ(read("i.csv"), read("j.csv"));
+    EXPECT_EQ(read("l.csv"), read("k.csv"));
+    EXPECT_EQ(run("check " + out("m.vtp") + " --interfaces " + out("same.csv") + " --lines " + out("same.csv")).code,
+              2);
 }
 
 TEST_F(CliFiles, colours_of_a_table_go_into_models_and_on) {

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
-"""Writes the NRRD, MetaImage, VTK and INR volumes beside this file that the readers are tested on.
+"""Writes the NRRD, MetaImage, VTK, INR and MGH volumes beside this file that the readers are tested on.
 
 Debian: python3-numpy python3-vtk9 teem-apps plastimatch. NRRDs are written by teem's unu, MetaImages by VTK and, through
-plastimatch, by ITK, image data by VTK; INR files, for which no such program is packaged, and files that only their
+plastimatch, by ITK, image data by VTK; INR and MGH files, for which no such program is packaged, and files that only their
 formats' pages describe are made by hand. Samples are those of make_data.py: v = x + 5 y + 20 z.
 """
 import gzip
 import itertools
 import os
 import shutil
+import struct
 import subprocess
 import tempfile
 import zlib
@@ -238,8 +239,32 @@ def inr():
     write("bad/scaled.inr", samples("uint8"), "unsigned fixed", extra="SCALE=2**-3\n")
 
 
+def mgh():
+    """By the format's page; nibabel reads the same samples, and the same places where the header has one."""
+    codes = {"uint8": 0, "int32": 1, "float32": 3, "int16": 4, "uint16": 10}
+
+    def write(name, array, directions=None, frames=1):
+        z, y, x = array.shape
+        head = struct.pack(">7i", 1, x, y, z, frames, codes[array.dtype.name], 0)
+        if directions is None:
+            head += struct.pack(">h15f", 0, *[0] * 15)
+        else:
+            centre = ORIGIN + (directions * SPACING) @ (numpy.array([x, y, z]) / 2)
+            head += struct.pack(">h15f", 1, *SPACING, *directions.T.ravel(), *centre)
+        whole = head.ljust(284, b"\0") + array.astype(array.dtype.newbyteorder(">")).tobytes() * frames
+        write_bytes(place("mgh", name), gzip.compress(whole, mtime=0) if name.endswith("z") else whole)
+
+    turned = numpy.array([[-1, 0, 0], [0, 0, 1], [0, -1, 0]])
+    for name in ("uint8", "int16", "uint16", "int32"):
+        write(f"{name}.mgh", samples(name))
+        write(f"turned_{name}.mgz", samples(name), turned)
+    write("bad/float32.mgz", samples("float32"), turned)
+    write("bad/frames.mgz", samples("uint8"), turned, 2)
+
+
 if __name__ == "__main__":
     nrrd()
     meta()
     vti()
     inr()
+    mgh()

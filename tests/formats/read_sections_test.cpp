@@ -19,7 +19,7 @@ TEST_F(ReadSectionsTest, nothing_to_read_is_refused) { EXPECT_THAT(refusal({}), 
 
 TEST_F(ReadSectionsTest, missing_files_of_every_format_are_refused) {
     for (const char* name : {"a.npy", "a.nii", "a.nii.gz", "a.tif", "a.png", "a.raw", "a.xyz", "a", "a.nrrd", "a.nhdr",
-                             "a.mha", "a.mhd", "a.vti", "a.inr", "a.inr.gz"}) {
+                             "a.mha", "a.mhd", "a.vti", "a.inr", "a.inr.gz", "a.mgz", "a.mgh"}) {
         EXPECT_THAT(refusal({path(name)}), HasSubstr(path(name).string() + ": no such file")) << name;
     }
 }

@@ -112,7 +112,10 @@ void tetrahedra(const fs::path& path, Random& random) {
     if (count > 0) reader->name_of_tetrahedron(count - 1);
 }
 
-void names(const fs::path& path, Random&) { read_label_names(path); }
+void names(const fs::path& path, Random&) {
+    read_label_colours(path);  // takes any text
+    read_label_names(path);
+}
 
 #if REGIONMESH_WITH_TABLES
 /// Drill holes are cut by a step that makes few points of them.
@@ -147,7 +150,7 @@ std::span<const Format> formats() {
             Format{"tiff", "tiff", {".tif"}, volume}, Format{"png", "png", {".png"}, volume},
             Format{"raw", "nrrd", {".raw"}, raw}, Format{"nrrd", "nrrd", {".nrrd", ".nhdr"}, volume},
             Format{"meta", "meta", {".mha", ".mhd"}, volume}, Format{"vti", "vti", {".vti"}, volume},
-            Format{"inr", "inr", {".inr", ".gz"}, volume},
+            Format{"inr", "inr", {".inr", ".gz"}, volume}, Format{"mgh", "mgh", {".mgh", ".mgz"}, volume},
             Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
 #if REGIONMESH_WITH_TABLES
             Format{"points", "points", {".csv", ".tsv"}, points},

@@ -13,7 +13,7 @@ namespace regionmesh::formats {
 /// Throws Error(kInput) that names the file, and the section if it is known.
 using Opener = std::unique_ptr<SectionReader>(const std::filesystem::path& path, const ReadOptions& options);
 
-Opener open_npy, open_nifti, open_nrrd, open_meta_image, open_vti, open_inr;
+Opener open_npy, open_nifti, open_nrrd, open_meta_image, open_vti, open_inr, open_mgh;
 Opener open_raw;   // requires options.raw_size and options.raw_type
 Opener open_tiff;  // pages are sections
 Opener open_hdf5;  // a file, or "FILE:/PATH" of a dataset or group

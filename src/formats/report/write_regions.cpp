@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "formats/report/csv_cell.h"
+#include "formats/report/edge_measures.h"
 #include "mesh/file_view.h"
 #include "regionmesh/write_report.h"
 
@@ -51,11 +53,27 @@ std::vector<RegionSums> sums_of(const FileView& view, Vec3 middle) {
     return sums;
 }
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\n;") == std::string::npos) return text;
-    std::string all = "\"";
-    for (const char c : text) all += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return all + '"';
+/// By place in the order of files: the mean curvature of what is not on the exterior, and the length of triple lines.
+struct EdgeSums {
+    double curvature = 0, area = 0, line_length = 0;
+};
+
+std::vector<EdgeSums> edge_sums_of(const FileView& view) {
+    std::vector<EdgeSums> sums(view.region_ranks());
+    const EdgeMeasures measures = measure_edges(view);
+    for (const auto& [key, interface] : measures.interfaces) {
+        if (is_exterior(key[1])) continue;
+        for (const std::size_t side : {0u, 1u}) {
+            if (key[side] >= sums.size()) continue;
+            sums[key[side]].curvature += side == 0 ? interface.curvature : -interface.curvature;
+            sums[key[side]].area += interface.area;
+        }
+    }
+    for (const auto& [ranks, line] : measures.lines)
+        if (!is_exterior(ranks.back()))
+            for (const std::uint32_t rank : ranks)
+                if (rank < sums.size()) sums[rank].line_length += line.length;
+    return sums;
 }
 
 }  // namespace
@@ -67,16 +85,18 @@ std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::v
     view.for_vertices([&](VertexId v) { box.add(mesh.position(v)); });
     const Vec3 middle = box.is_empty() ? Vec3{} : 0.5 * (box.low + box.high);
     const std::vector<RegionSums> all = sums_of(view, middle);
+    const std::vector<EdgeSums> edges = edge_sums_of(view);
     const std::vector<Label> order = view.ordered_labels();
     std::string text =
         "label,name,faces,volume,area,centroid_x,centroid_y,centroid_z,box_low_x,box_low_y,box_low_z,box_high_x,"
-        "box_high_y,box_high_z,equivalent_diameter,neighbours,neighbour_areas\n";
+        "box_high_y,box_high_z,equivalent_diameter,neighbours,neighbour_areas,"
+        "mean_curvature,triple_line_length\n";
     for (const Label label : order) {
         const RegionSums& sums = all[label];
         if (sums.faces == 0 || view.is_background(label)) continue;
         const Vec3 centroid = sums.volume != 0 ? middle + sums.moment / sums.volume : middle;
         const double diameter = std::cbrt(6 * std::abs(sums.volume) / std::numbers::pi);
-        text += fmt::format("{},{},{},{:.10g},{:.10g}", view.label_text(label), quoted(view.name(label)), sums.faces,
+        text += fmt::format("{},{},{},{:.10g},{:.10g}", view.label_text(label), csv_cell(view.name(label)), sums.faces,
                             sums.volume, sums.area);
         for (const Vec3& place : {centroid, sums.box.low, sums.box.high})
             text += fmt::format(",{:.10g},{:.10g},{:.10g}", place.x, place.y, place.z);
@@ -86,7 +106,10 @@ std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::v
             neighbours += gap + view.label_text(order[rank]);
             areas += fmt::format("{}{:.10g}", gap, area);
         }
-        text += fmt::format(",{:.10g},{},{}\n", diameter, neighbours, areas);
+        const EdgeSums& at_edges = edges[view.rank(label)];
+        text += fmt::format(",{:.10g},{},{},{},{:.10g}\n", diameter, neighbours, areas,
+                            at_edges.area > 0 ? fmt::format("{:.10g}", at_edges.curvature / at_edges.area) : "",
+                            at_edges.line_length);
     }
     return text;
 }

@@ -34,7 +34,8 @@ void write_poly(const FileView& view, OutputFile& file);
 void write_msh(const FileView& view, OutputFiles& files, const std::filesystem::path& path);
 void write_inp(const FileView& view, OutputFile& file);
 void write_glb(const FileView& view, double metres, OutputFile& file);
-void write_dream3d(const FileView& view, OutputFile& file);
+/// Writes the model, and beside it a .xdmf file with which ParaView reads it.
+void write_dream3d(const FileView& view, OutputFiles& files, const std::filesystem::path& path);
 FileSurface read_vtp(const std::filesystem::path& path);
 FileSurface read_vtu(const std::filesystem::path& path);
 FileSurface read_ply(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/find_program.h"
@@ -102,10 +103,7 @@ private:
                             path.string()));
 }
 
-}  // namespace
-
-void write_dream3d(const FileView& view, OutputFile& file) {
-    require_labels(view.labels());
+void write_model(const FileView& view, OutputFile& file) {
     const std::filesystem::path path = find_program(kHdf5Program);
     PipedProgram program(path, {"--write-dream3d"});
     std::uint64_t left = 0;
@@ -121,6 +119,43 @@ void write_dream3d(const FileView& view, OutputFile& file) {
     }
     const PipedProgram::Ending ending = program.end();
     if (!is_whole || ending.exit_code != 0) report_end(path, ending);
+}
+
+/// A part of the .dream3d file for the .xdmf file.
+struct XdmfItem {
+    const char* array;
+    std::string_view type;  // NumberType and Precision
+    std::uint64_t rows;
+    int columns;
+};
+
+/// XDMF 2: which arrays of the .dream3d file are points, faces and their values, for ParaView.
+void write_xdmf(const FileView& view, const std::string& name, OutputFile& file) {
+    const std::uint64_t vertices = view.mesh().vertex_count(), faces = view.mesh().face_count();
+    const auto item = [&](const XdmfItem& part) {
+        return fmt::format(
+            "<DataItem Format=\"HDF\" {} Dimensions=\"{} {}\">{}:/DataStructure/TriangleDataContainer/{}</DataItem>\n",
+            part.type, part.rows, part.columns, name, part.array);
+    };
+    file.write(fmt::format(
+        "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.2\">\n<Domain>\n<Grid Name=\"TriangleDataContainer\" "
+        "GridType=\"Uniform\">\n<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">\n{}</Topology>\n"
+        "<Geometry GeometryType=\"XYZ\">\n{}</Geometry>\n"
+        "<Attribute Name=\"NodeType\" AttributeType=\"Scalar\" Center=\"Node\">\n{}</Attribute>\n"
+        "<Attribute Name=\"FaceLabels\" AttributeType=\"Vector\" Center=\"Cell\">\n{}</Attribute>\n"
+        "</Grid>\n</Domain>\n</Xdmf>\n",
+        faces, item({"SharedTriList", "NumberType=\"UInt\" Precision=\"8\"", faces, 3}),
+        item({"SharedVertexList", "NumberType=\"Float\" Precision=\"4\"", vertices, 3}),
+        item({"Vertex Data/NodeType", "NumberType=\"Char\" Precision=\"1\"", vertices, 1}),
+        item({"Face Data/FaceLabels", "NumberType=\"Int\" Precision=\"4\"", faces, 2})));
+}
+
+}  // namespace
+
+void write_dream3d(const FileView& view, OutputFiles& files, const std::filesystem::path& path) {
+    require_labels(view.labels());
+    write_model(view, files.add(path));
+    write_xdmf(view, path.filename().string(), files.add(std::filesystem::path(path).replace_extension(".xdmf")));
 }
 
 }  // namespace regionmesh

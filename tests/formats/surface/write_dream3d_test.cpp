@@ -26,6 +26,18 @@ TEST_F(WriterTest, dream3d_file_comes_back_in_single_precision) {
         EXPECT_NEAR(volume_of(file, grains().labels.input(region.label)), region.volume, 1e-4);
 }
 
+TEST_F(WriterTest, dream3d_stands_beside_an_xdmf_that_names_its_arrays) {
+    const auto written = write_mesh(grains().mesh, grains().labels, path("m.dream3d"));
+    ASSERT_EQ(written.size(), 2u);
+    const std::string text = text_of(path("m.xdmf")), faces = std::to_string(grains().mesh.face_count());
+    EXPECT_THAT(text, HasSubstr("Dimensions=\"" + faces +
+                                " 3\">m.dream3d:/DataStructure/TriangleDataContainer/SharedTriList<"));
+    EXPECT_THAT(text, HasSubstr("m.dream3d:/DataStructure/TriangleDataContainer/Face Data/FaceLabels<"));
+    EXPECT_ANY_THROW(require_writable_mesh(path("a<b.dream3d")));
+    EXPECT_ANY_THROW(require_writable_mesh(path("a:b.dream3d")));
+    EXPECT_NO_THROW(require_writable_mesh(path("a model's.dream3d")));
+}
+
 TEST_F(WriterTest, dream3d_file_has_the_same_bytes_a_second_later) {
     write_mesh(grains().mesh, grains().labels, path("a.dream3d"));
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // times in HDF5 are whole seconds

@@ -1,0 +1,147 @@
+#include "formats/report/edge_measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+
+namespace regionmesh {
+namespace {
+
+/// A face at an edge from v to w.
+struct FaceAtEdge {
+    VertexId w;
+    FaceId face;
+    int place;  // of v in the face
+};
+
+class Measurer {
+public:
+    explicit Measurer(const FileView& view) : view_(view), mesh_(view.mesh()) {}
+
+    EdgeMeasures measure() {
+        view_.for_faces([&](FaceId f) { add_face(f); });
+        std::vector<FaceAtEdge> around;
+        view_.for_vertices([&](VertexId v) {
+            around.clear();
+            mesh_.for_star(v, [&](FaceId f, int place) {
+                for (const int step : {1, 2})
+                    if (const VertexId w = mesh_[f].vertices[(place + step) % 3]; v < w)
+                        around.push_back({w, f, place});
+            });
+            std::ranges::sort(around, [](const FaceAtEdge& a, const FaceAtEdge& b) {
+                return std::pair(a.w, a.face) < std::pair(b.w, b.face);
+            });
+            for (auto begin = around.begin(); begin != around.end();) {
+                const auto end =
+                    std::find_if(begin, around.end(), [&](const auto& other) { return other.w != begin->w; });
+                add_edge(v, std::span(begin, end));
+                begin = end;
+            }
+        });
+        return std::move(measures_);
+    }
+
+private:
+    using Key = std::array<std::uint32_t, 2>;
+
+    Key key_of(FaceId f) const {
+        const auto [a, b] = mesh_[f].labels;
+        return {std::min(view_.rank(a), view_.rank(b)), std::max(view_.rank(a), view_.rank(b))};
+    }
+    /// No region: background or exterior.
+    bool is_empty(std::uint32_t rank) const { return rank >= view_.region_ranks(); }
+
+    void add_face(FaceId f) {
+        const Key key = key_of(f);
+        if (is_empty(key[0])) return;
+        InterfaceMeasures& sums = measures_.interfaces[key];
+        const auto [a, b, c] = mesh_.corners(f);
+        const double area = 0.5 * length(cross(b - a, c - a));
+        ++sums.faces;
+        sums.area += area;
+        sums.moment += (area / 3) * (a + b + c);
+    }
+
+    void add_edge(VertexId v, std::span<const FaceAtEdge> faces) {
+        ranks_.clear();
+        for (const FaceAtEdge& at : faces)
+            for (const std::uint32_t rank : key_of(at.face)) ranks_.push_back(rank);
+        std::ranges::sort(ranks_);
+        ranks_.erase(std::unique(ranks_.begin(), ranks_.end()), ranks_.end());
+        if (is_empty(ranks_[0])) return;
+        const Vec3 along = mesh_.position(faces[0].w) - mesh_.position(v);
+        const double edge = length(along);
+        if (ranks_.size() < 3) {
+            if (ranks_.size() == 2 && ranks_[1] < kFirstExterior)
+                if (const auto angle = angle_inside(v, along, faces, ranks_[0]))
+                    measures_.interfaces[{ranks_[0], ranks_[1]}].curvature += 0.5 * edge * (std::numbers::pi - *angle);
+            return;
+        }
+        add_line(v, along, faces);
+    }
+
+    void add_line(VertexId v, Vec3 along, std::span<const FaceAtEdge> faces) {
+        const double edge = length(along);
+        LineMeasures& line = measures_.lines[ranks_];
+        ++line.edges;
+        line.length += edge;
+        line.angles.resize(ranks_.size());
+        line.angle_length.resize(ranks_.size());
+        for (std::size_t n = 0; n < ranks_.size(); ++n) {
+            const auto angle = ranks_[n] < kFirstExterior ? angle_inside(v, along, faces, ranks_[n]) : std::nullopt;
+            if (!angle) continue;
+            line.angles[n] += edge * *angle;
+            line.angle_length[n] += edge;
+        }
+        keys_.clear();
+        for (const FaceAtEdge& at : faces) keys_.push_back(key_of(at.face));
+        std::ranges::sort(keys_);
+        keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+        for (const Key& key : keys_)
+            if (!is_empty(key[0])) measures_.interfaces[key].line_length += edge;
+    }
+
+    /// The dihedral angle of a label at the edge, from 0 to a full turn. None where it has not two faces there, or they
+    /// have no area.
+    std::optional<double> angle_inside(VertexId v, Vec3 along, std::span<const FaceAtEdge> faces,
+                                       std::uint32_t rank) const {
+        std::array<Vec3, 2> away;  // from the edge, in the face and across the edge
+        Vec3 normal{};             // of the first face, out of the label
+        int count = 0;
+        for (const FaceAtEdge& at : faces) {
+            const Face& face = mesh_[at.face];
+            const bool is_first = view_.rank(face.labels[0]) == rank;
+            if (!is_first && view_.rank(face.labels[1]) != rank) continue;
+            if (count == 2 || (is_first && view_.rank(face.labels[1]) == rank)) return std::nullopt;
+            const VertexId other = face.vertices[(at.place + 1) % 3] == at.w ? face.vertices[(at.place + 2) % 3]
+                                                                             : face.vertices[(at.place + 1) % 3];
+            const Vec3 side = mesh_.position(other) - mesh_.position(v);
+            away[count] = side - (dot(side, along) / dot(along, along)) * along;
+            if (count++ == 0) {
+                const auto [a, b, c] = mesh_.corners(at.face);
+                normal = (is_first ? 1.0 : -1.0) * cross(b - a, c - a);
+            }
+        }
+        if (count != 2) return std::nullopt;
+        const double size = length(normal);
+        const double x = dot(away[0], away[1]), y = -dot(normal, away[1]) * length(away[0]) / size;
+        if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0)) return std::nullopt;
+        const double angle = std::atan2(y, x);
+        return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+    }
+
+    const FileView& view_;
+    const Mesh& mesh_;
+    EdgeMeasures measures_;
+    std::vector<std::uint32_t> ranks_;  // of the labels at the edge
+    std::vector<Key> keys_;             // of its interfaces
+};
+
+}  // namespace
+
+EdgeMeasures measure_edges(const FileView& view) { return Measurer(view).measure(); }
+
+}  // namespace regionmesh

@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "formats/surface/written_meshes.h"
+#include "regionmesh/write_report.h"
+
+namespace regionmesh {
+namespace {
+
+using testing::DoubleNear;
+using testing::HasSubstr;
+
+/// Rows as cells by title. No cell of these tests has a comma.
+std::vector<std::map<std::string, std::string>> table_of(const std::string& text) {
+    std::istringstream lines(text);
+    std::vector<std::string> titles;
+    std::vector<std::map<std::string, std::string>> rows;
+    for (std::string line; std::getline(lines, line);) {
+        std::vector<std::string> cells{""};
+        for (const char letter : line)
+            if (letter == ',')
+                cells.emplace_back();
+            else
+                cells.back() += letter;
+        if (titles.empty()) {
+            titles = cells;
+            continue;
+        }
+        EXPECT_EQ(cells.size(), titles.size()) << line;
+        std::map<std::string, std::string> row;
+        for (std::size_t n = 0; n < std::min(cells.size(), titles.size()); ++n) row[titles[n]] = cells[n];
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+double number_in(const std::map<std::string, std::string>& row, const std::string& title) {
+    return std::stod(row.at(title));
+}
+
+TEST(InterfaceTable, has_area_centroid_and_curvature) {
+    const auto rows = table_of(interfaces_csv(nested(), nested_labels(), {2}, {{7, "core"}}));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].at("label") + ' ' + rows[0].at("neighbour") + ' ' + rows[0].at("neighbour_name"), "5 7 core");
+    EXPECT_EQ(rows[1].at("label") + ' ' + rows[1].at("neighbour"), "5 0");
+    // An octahedron with corners at distance r: 12 edges of length sqrt(2) r, which turn by acos(1/3).
+    const double area = 4 * std::sqrt(3.0), turn = 0.5 * 12 * std::numbers::sqrt2 * std::acos(1 / 3.0);
+    EXPECT_THAT(number_in(rows[0], "area"), DoubleNear(4 * area, 1e-6));
+    EXPECT_THAT(number_in(rows[0], "mean_curvature"), DoubleNear(-2 * turn / (4 * area), 1e-9)) << "5 is concave there";
+    EXPECT_THAT(number_in(rows[1], "area"), DoubleNear(17 * area, 1e-6));
+    EXPECT_THAT(number_in(rows[1], "mean_curvature"), DoubleNear((4 + 1) * turn / (17 * area), 1e-9));
+    EXPECT_THAT(number_in(rows[1], "centroid_x"), DoubleNear(8 / 17.0, 1e-9));
+    EXPECT_EQ(number_in(rows[1], "line_length"), 0);
+}
+
+TEST(InterfaceTable, regions_have_the_sums) {
+    const auto regions = table_of(regions_csv(nested(), nested_labels(), {2}, {}));
+    const double area = 4 * std::sqrt(3.0), turn = 0.5 * 12 * std::numbers::sqrt2 * std::acos(1 / 3.0);
+    EXPECT_THAT(number_in(regions[0], "mean_curvature"), DoubleNear((4 + 1 - 2) * turn / (21 * area), 1e-9));
+    EXPECT_THAT(number_in(regions[1], "mean_curvature"), DoubleNear(2 * turn / (4 * area), 1e-9));
+    EXPECT_EQ(number_in(regions[1], "triple_line_length"), 0);
+}
+
+TEST(LineTable, dihedral_angles_are_a_full_turn_and_lengths_those_of_the_report) {
+    const Reconstruction& made = grains();
+    double inside = 0, of_regions = 0, expected = 0;
+    for (const auto& row : table_of(lines_csv(made.mesh, made.labels, made.background))) {
+        if (row.at("names").find("exterior") != std::string::npos) continue;
+        inside += number_in(row, "length");
+        expected += number_in(row, "label_count") * number_in(row, "length");
+        std::istringstream angles(row.at("angles"));
+        double sum = 0, angle;
+        while (angles >> angle) sum += angle;
+        if (row.at("label_count") == "3") EXPECT_THAT(sum, DoubleNear(360, 0.01)) << row.at("labels");
+    }
+    EXPECT_THAT(inside, DoubleNear(made.report.check.lines.length, 1e-6 * inside));
+    EXPECT_GT(inside, 10);
+    for (const auto& row : table_of(regions_csv(made.mesh, made.labels, made.background)))
+        of_regions += number_in(row, "triple_line_length");
+    double of_background = 0;
+    for (const auto& row : table_of(lines_csv(made.mesh, made.labels, made.background)))
+        if (row.at("names").find("exterior") == std::string::npos && !made.background.empty() &&
+            (' ' + row.at("labels") + ' ').find(" 0 ") != std::string::npos)
+            of_background += number_in(row, "length");
+    EXPECT_THAT(of_regions + of_background, DoubleNear(expected, 1e-6 * expected));
+}
+
+TEST(LineTable, of_the_box_has_the_exterior_as_one_label) {
+    const Reconstruction& made = grains();
+    const std::string text = lines_csv(made.mesh, made.labels, made.background);
+    EXPECT_THAT(text, HasSubstr("; exterior"));
+    for (const auto& row : table_of(interfaces_csv(made.mesh, made.labels, made.background))) {
+        if (row.at("neighbour_name") == "exterior") EXPECT_EQ(row.at("mean_curvature"), "");
+        EXPECT_GT(number_in(row, "line_length"), 0);
+    }
+}
+
+TEST(LineTable, of_a_model_with_holes_leaves_angles_out) {
+    Mesh mesh;  // three faces at one edge, and nothing else
+    for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{0, 0, 2}, Vec3{1, 0, 0}, Vec3{-1, 1, 0}, Vec3{-1, -1, 0}})
+        mesh.add_vertex(p);
+    for (std::uint32_t n = 0; n < 3; ++n) mesh.add_face(VertexId{0}, VertexId{1}, VertexId{2 + n}, n, (n + 1) % 3);
+    const auto whole = table_of(lines_csv(mesh, labels_from({1, 2, 3}), {}));
+    ASSERT_EQ(whole.size(), 1u);
+    EXPECT_EQ(whole[0].at("labels"), "1 2 3");
+    EXPECT_EQ(number_in(whole[0], "length"), 2);
+    mesh.add_face(VertexId{1}, VertexId{0}, VertexId{2}, 0, 3);
+    const auto more = table_of(lines_csv(mesh, labels_from({1, 2, 3, 4}), {}));
+    ASSERT_EQ(more.size(), 2u);
+    EXPECT_EQ(more[0].at("labels"), "1 2 3 4");
+    EXPECT_THAT(more[0].at("angles"), testing::StartsWith("- ")) << "label 1 has three faces there";
+}
+
+}  // namespace
+}  // namespace regionmesh
