@@ -286,6 +286,20 @@ def test_a_file_says_which_labels_are_background(two_boxes, tmp_path):
         assert list(regionmesh.load(tmp_path / name, background=None).regions["label"]) == [4, 9]
 
 
+def test_colours_of_the_input_go_into_the_files_of_its_model(two_boxes, tmp_path):
+    header = {"type": "uint8", "dimension": 3, "sizes": "10 12 14", "encoding": "raw"}
+    lines = [f"{key}: {value}" for key, value in header.items()]
+    lines += ["Segment0_Name:=box", "Segment0_LabelValue:=1", "Segment0_Layer:=0", "Segment0_Color:=1 0.5 0"]
+    (tmp_path / "v.seg.nrrd").write_bytes(("NRRD0005\n" + "\n".join(lines) + "\n\n").encode() + two_boxes.tobytes())
+    made = regionmesh.reconstruct(tmp_path / "v.seg.nrrd")
+    for again in (made, pickle.loads(pickle.dumps(made)), made.smooth(), made.simplify(reduce=0.2)):
+        again.save(tmp_path / "m.ply")
+        assert b"comment colour 1 #ff8000" in (tmp_path / "m.ply").read_bytes()
+        files = again.save(tmp_path / "m.obj")
+        assert files == [str(tmp_path / "m.obj"), str(tmp_path / "m.mtl")]
+        assert "newmtl box\nKd 1 0.502 0\n" in (tmp_path / "m.mtl").read_text()
+
+
 def test_the_space_of_a_volume_goes_into_the_files_of_its_model(two_boxes, tmp_path):
     header = {"type": "uint8", "dimension": 3, "space": "left-posterior-superior", "sizes": "10 12 14"}
     lines = [f"{key}: {value}" for key, value in header.items()]

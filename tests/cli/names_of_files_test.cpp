@@ -27,7 +27,13 @@ protected:
 
 TEST_F(NamesOfFiles, that_a_script_would_run_are_refused_before_the_work) {
     for (const std::string name : {R"(m"; SystemCall "true"; ".msh)", R"(m\.msh)", "m\nq.msh"})
-        expect_refusal("reconstruct " + volume() + "-o '" + out(name) + "'", 1, "without quotes, backslashes");
+        expect_refusal("reconstruct " + volume() + "-o '" + out(name) + "'", 1,
+                       "without quotes, backslashes and control");
+    for (const std::string name : {"m\nusemtl x.obj", R"(m\.obj)"})
+        expect_refusal("reconstruct " + volume() + "-o '" + out(name) + "'", 1, "without backslashes and control");
+    for (const std::string name : {"m<!--.dream3d", "m:.dream3d"})
+        expect_refusal("reconstruct " + volume() + "-o '" + out(name) + "'", 1,
+                       "without quotes, colons, '<', '>', '&' and control");
 }
 
 TEST_F(NamesOfFiles, are_printed_without_their_control_characters) {

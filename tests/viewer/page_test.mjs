@@ -79,8 +79,11 @@ async function keys_and_focus_reach_everything(browser) {
     await page.focus("#canvas");
     await page.keyboard.press("ArrowLeft");
     assert.notEqual((await picture(page)).sum, before.sum, "an arrow key turns the picture");
+    const stops = () => page.$$eval("#region-rows [role=listitem] button", (found) => found.filter((e) => e.tabIndex === 0).length);
+    assert.equal(await stops(), 1, "Tab does not stop at every row");
     await page.focus("#region-rows .row-name");
     await page.keyboard.press("ArrowDown");
+    assert.equal(await stops(), 1);
     await page.keyboard.press("Enter");
     assert.equal(await page.evaluate("regionmesh.regions.selected === regionmesh.list.found[1]"), true);
     await page.keyboard.press("i");
@@ -190,6 +193,22 @@ async function tables_equal_the_report(browser) {
     await page.close();
 }
 
+async function a_picture_is_saved(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const [type, head, size] = await page.evaluate(() => new Promise((done) => {
+        const make = URL.createObjectURL;
+        URL.createObjectURL = (blob) => {
+            blob.arrayBuffer().then((bytes) => done([blob.type, [...new Uint8Array(bytes, 1, 3)], blob.size]));
+            return make.call(URL, blob);
+        };
+        document.querySelector('[data-act="screenshot"]').click();
+    }));
+    assert.deepEqual([type, String.fromCharCode(...head)], ["image/png", "PNG"]);
+    assert.ok(size > 5000, `${size} bytes`);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 /** The text of the file that a button saves. */
 async function downloaded(page, id) {
     return page.evaluate(async (button) => {
@@ -295,7 +314,7 @@ async function hostile_names_are_text(browser) {
 const browser = await launch(repository);
 try {
     for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
-        large_models_are_shown_as_a_preview, a_click_names_the_region, tables_equal_the_report,
+        large_models_are_shown_as_a_preview, a_picture_is_saved, a_click_names_the_region, tables_equal_the_report,
         a_planted_violation_is_found, two_models_share_a_camera, hostile_names_are_text]) {
         await test(browser);
         console.log(`ok ${test.name}`);

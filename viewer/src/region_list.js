@@ -23,6 +23,10 @@ export class RegionList {
         this.search.addEventListener("keydown", (event) => this.leaveSearch(event));
         this.order.addEventListener("change", () => this.refilter());
         this.box.addEventListener("scroll", () => this.draw());
+        this.box.addEventListener("focusin", ({ target }) => {
+            const row = target.closest(".row");
+            if (row) this.active = this.found[Number(row.getAttribute("aria-posinset")) - 1];
+        });
         this.box.addEventListener("keydown", (event) => this.moveFocus(event));
         new ResizeObserver(() => this.draw()).observe(this.box);
         regions.addEventListener("change", () => this.draw());
@@ -91,17 +95,20 @@ export class RegionList {
         this.space.style.height = `${this.found.length * kRowHeight}px`;
         const focused = document.activeElement?.dataset?.focus;
         this.space.replaceChildren();
-        for (let n = first; n < last; ++n) this.space.append(this.row(n));
+        const active = this.found.indexOf(this.active), inView = Math.min(Math.ceil(this.box.scrollTop / kRowHeight), last - 1);
+        const stop = first <= active && active < last ? active : inView;
+        for (let n = first; n < last; ++n) this.space.append(this.row(n, n === stop));
         if (focused) this.space.querySelector(`[data-focus="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
     }
 
-    row(n) {
+    /** Tab stops at one row, `isStop`: behind the list the picture is one step away. */
+    row(n, isStop) {
         const region = this.found[n], { regions } = this;
         const button = (kind, label, text, isPressed, act) =>
             element("button", {
                 type: "button", class: `row-${kind}`, title: label, "aria-label": `${label}: ${region.title}`,
                 "aria-pressed": isPressed === null ? null : String(isPressed), "data-focus": `${kind} ${region.label}`,
-                tabindex: kind === "name" ? null : "-1", onclick: act,
+                tabindex: kind === "name" && isStop ? null : "-1", onclick: act,
             }, text);
         const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
         swatch.style.background = region.colour;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/registry.h"
@@ -28,6 +29,16 @@ bool is_plain(const std::string& name, std::string_view forbidden) {
     });
 }
 
+/// "quotes, backslashes and ".
+std::string words_of(std::string_view forbidden) {
+    constexpr std::pair<char, const char*> kWords[] = {
+        {'"', "quotes"}, {'\\', "backslashes"}, {':', "colons"}, {'<', "'<', '>', '&'"}};
+    std::string words;
+    for (const auto& [letter, word] : kWords)
+        if (forbidden.find(letter) != std::string_view::npos) words += (words.empty() ? "" : ", ") + std::string(word);
+    return words.empty() ? words : words + " and ";
+}
+
 /// The format of `path`, if it can hold what the options ask for.
 const Format& format_of(const Path& path, const WriteOptions& options, bool has_point_arrays) {
     const auto refuse = [&](const std::string& text) {
@@ -45,8 +56,8 @@ const Format& format_of(const Path& path, const WriteOptions& options, bool has_
     if (options.boundary_is_open && found->needs_closed_regions)
         refuse("holds closed regions only: leave out --boundary open");
     if (found->forbidden_in_name && !is_plain(path.filename().string(), found->forbidden_in_name))
-        refuse(fmt::format("names, or is named in, the {} file: a name without control characters and {} is needed",
-                           found->companion, found->forbidden_in_name));
+        refuse(fmt::format("one of it and its {} file names the other: a name without {}control characters is needed",
+                           found->companion, words_of(found->forbidden_in_name)));
     return *found;
 }
 
