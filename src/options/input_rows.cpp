@@ -287,7 +287,7 @@ Rows tetrahedra_rows() {
                         .value = "auto|NUMBER",
                         .range = kPositive.text(),
                         .default_text = "1"},
-                       OptionKind::kText,
+                       OptionKind::kNumber,
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            const double scale = text == "auto" ? kAutoScale : parse_number(flag, text, kPositive);
                            s.reconstruct.scale_z = s.tetrahedra.scale_z = scale;

@@ -61,9 +61,9 @@ void require_layers(const Settings& settings, InputKind kind) {
         return;
     }
     for (const char* name : {"spacing", "box", "terrain"})
-        if (given(settings, name))
+        if (const std::string* text = given(settings, name))
             throw Error(ErrorCode::kUsage,
-                        fmt::format("--{}: of a table it is the lattice of layers; give --layers auto, too", name));
+                        fmt::format("--{} {}: applies to drill holes as layers; give --layers auto, too", name, *text));
 }
 
 }  // namespace
