@@ -10,7 +10,7 @@ set(part_of_hdf5 "/formats/[a-z]+/[a-z0-9_]*(hdf5|dream3d)[a-z0-9_]*\\.cpp$")
 set(part_of_zarr "/formats/[a-z]+/[a-z0-9_]*(zarr|n5|store_|chunk_codec)[a-z0-9_]*\\.cpp$")
 set(part_of_tiff "/formats/[a-z]+/[a-z0-9_]*(tiff|images_test)[a-z0-9_]*\\.cpp$")
 set(part_of_png "/formats/[a-z]+/[a-z0-9_]*(png|images_test)[a-z0-9_]*\\.cpp$")
-set(part_of_tables "/(boreholes/[a-z0-9_]*|cli/tetrahedra_test)\\.cpp$")
+set(part_of_tables "/(boreholes/[a-z0-9_]*|cli/(tetrahedra|tutorials)_test)\\.cpp$")
 
 # Takes the files of the parts that are off out of a list.
 function(leave_out_parts list)

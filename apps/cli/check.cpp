@@ -38,14 +38,14 @@ void print_findings(const std::string& name, const CheckReport& report) {
 /// Where the model was made from a lattice.
 std::optional<SampleAgreement> compare_with_sections(const Settings& settings, MeshFile& file,
                                                      const CheckOptions& options) {
-    if (settings.sections.empty() || kind_of_input(settings.sections) != kVolumeInput) return {};
-    const auto reader = open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume);
+    if (settings.sections.empty() || !is_lattice(settings, settings.sections)) return {};
+    const auto reader = open_lattice(settings, settings.sections);
     return compare_samples(file.mesh, file.labels, options.background, *reader);
 }
 
 /// Is the background of the volume the exterior of the model? So it is in STL files.
 bool lacks_background(const Settings& settings, const MeshFile& file) {
-    if (settings.sections.empty() || kind_of_input(settings.sections) != kVolumeInput) return false;
+    if (settings.sections.empty() || !is_lattice(settings, settings.sections)) return false;
     const auto& background = settings.reconstruct.background;
     if (background.empty() || !file.background || !file.background->empty()) return false;
     for (Label label = 0; label < file.labels.size(); ++label)
@@ -70,8 +70,7 @@ int run_check(const Settings& given) {
         if (!file.empty()) require_writable(file, given.writing);
     MeshFile file = read_mesh(path, given.surface);
     if (lacks_background(given, file)) {
-        const auto reader =
-            open_sections({given.sections.begin(), given.sections.end()}, settings_for(given, file).volume);
+        const auto reader = open_lattice(settings_for(given, file), given.sections);
         restore_background(file, reader->info().lattice, given.reconstruct.background.front());
     }
     const Settings settings = settings_for(given, file);

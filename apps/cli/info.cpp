@@ -112,7 +112,21 @@ std::string print_info(const Settings& given, const std::string& path, MeshFile 
     return info_json(path, file, report);
 }
 
+/// How well drill holes are layers.
+void print_layers(const Settings& settings) {
+    LayerSummary found;
+    open_layers(settings.inputs.front(), settings.tetrahedra, layer_options(settings), &found);
+    std::string units;
+    for (const std::string& unit : found.units) units += (units.empty() ? "" : ", ") + printable(unit);
+    fmt::print("layers     {} from young to old: {}; {:.1f} % of the logged length is in this order\n",
+               found.units.size(), units, 100 * found.ordered_share);
+}
+
 std::string print_input(const Settings& settings) {
+    if (!settings.layers.empty()) {
+        require_fit(settings, settings.inputs);
+        print_layers(settings);
+    }
     return with_reader(settings, settings.inputs, [&](auto& reader) {
         std::string json = print_info(settings, reader);
         warn_of_grey_scale(settings, reader);

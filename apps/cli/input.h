@@ -16,8 +16,8 @@ namespace regionmesh::cli {
 template <class Visit>
 auto with_reader(const Settings& settings, const std::vector<std::string>& inputs, Visit&& visit) {
     require_fit(settings, inputs);
-    if (kind_of_input(inputs) != kVolumeInput) return visit(*open_tetrahedra(inputs.front(), settings.tetrahedra));
-    return visit(*open_sections({inputs.begin(), inputs.end()}, settings.volume));
+    if (!is_lattice(settings, inputs)) return visit(*open_tetrahedra(inputs.front(), settings.tetrahedra));
+    return visit(*open_lattice(settings, inputs));
 }
 
 /// What count_labels() takes from the settings.

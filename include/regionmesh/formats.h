@@ -5,6 +5,7 @@
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/page.h"
+#include "regionmesh/read_layers.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/write_report.h"

@@ -19,6 +19,10 @@ struct Lattice {
     bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
 };
 
+/// A factor of z that follows from the input: for sections the power of two that makes samples as far apart along z as
+/// along x and y, for drill holes that which makes points along a hole as far apart as holes are.
+inline constexpr double kAutoScale = 0;
+
 /// Which way the axes of the patient's space point: RAS, to the right, the front and the head; LPS, to the left, the
 /// back and the head. A half turn about z leads from one to the other.
 enum class Space { kUnknown, kRas, kLps };

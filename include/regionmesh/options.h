@@ -12,6 +12,7 @@
 #include "regionmesh/compare.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/page.h"
+#include "regionmesh/read_layers.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/reconstruct.h"
@@ -29,6 +30,8 @@ struct Settings {
     std::vector<std::string> sections;  // the input to check a model against, or to voxelise it like
     ReadOptions volume;
     TetrahedraOptions tetrahedra;
+    std::string layers;   // LayerOptions::units; empty: drill holes become tetrahedra, not layers
+    std::string terrain;  // LayerOptions::terrain
     ReadMeshOptions surface;
     bool hull = false;
 
@@ -137,6 +140,15 @@ void require_distinct_files(const Settings& settings);
 /// What the process of a command needs to do: read anything, write below the folders of its outputs and in that of
 /// temporary files, start the helper programs. Looks at the files.
 SandboxRules sandbox_rules(const Settings& settings);
+
+/// How to read drill holes as layers.
+LayerOptions layer_options(const Settings& settings);
+
+/// Whether the input is a lattice of samples: a volume, or drill holes as layers.
+bool is_lattice(const Settings& settings, const std::vector<std::string>& inputs);
+
+/// Opens such an input.
+std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std::vector<std::string>& inputs);
 
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);

@@ -14,7 +14,9 @@ namespace regionmesh {
 struct TetrahedraOptions {
     std::string columns = {};             // the meaning of the columns of a table (docs/files.md)
     std::optional<double> step = {};      // drill holes: largest distance of two points of an interval
-    double scale_z = 1;                   // z is multiplied by the nearest power of two, which is exact
+    std::filesystem::path collars = {};   // table of the places of holes; then the table of intervals has none
+    std::filesystem::path surveys = {};   // table of the directions of holes; none: vertical
+    double scale_z = 1;                   // z is multiplied by the nearest power of two, which is exact; kAutoScale
     std::string array = {};               // name of the array of labels in a mesh
     std::filesystem::path delaunay = {};  // the program regionmesh-delaunay, if it is not in one of the usual places
 };

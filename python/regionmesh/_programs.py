@@ -1,6 +1,7 @@
 """The programs that lie beside the module."""
 
 import os
+import shutil
 from pathlib import Path
 
 _FOLDER = Path(__file__).parent / "bin"
@@ -8,9 +9,9 @@ _VARIABLES = {"regionmesh-hdf5": "REGIONMESH_HDF5_PROGRAM", "regionmesh-delaunay
 
 
 def path_of(name):
-    """The path of a program of the package, or None."""
+    """The path of a program of the package, else of the system; or None."""
     path = _FOLDER / name
-    return str(path) if path.exists() else None
+    return str(path) if path.exists() else shutil.which(name)
 
 
 def announce():

@@ -8,7 +8,8 @@ from ._mesh import Mesh
 
 # Options that say how an input is read.
 _OF_SOURCE = {"sweep", "roi", "box", "downsample", "min-region", "background", "no-background"}
-_OF_FILES = ("size", "type", "layer", "columns", "step", "array", "hull", "max_work", "external_files")
+_OF_FILES = ("size", "type", "layer", "columns", "step", "layers", "collars", "surveys", "terrain", "array", "hull",
+             "max_work", "external_files")  # fmt: skip
 
 
 def _split(options, names):

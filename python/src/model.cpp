@@ -181,12 +181,17 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
 Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Watch& watch) {
     const Settings settings = settings_from(run.options, {path});
     Model model;
-    watch.run([&] {
-        const auto reader = open_tetrahedra(path, settings.tetrahedra);
+    const auto make = [&](auto& reader) {
         StageProgress progress(watch, settings.reconstruct);
         Reconstruction made =
-            reconstruct(*reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
-        model = model_from(std::move(made), run.names.value_or(reader->info().names), !settings.reconstruct.cap);
+            reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
+        model = model_from(std::move(made), run.names.value_or(reader.info().names), !settings.reconstruct.cap);
+    };
+    watch.run([&] {
+        if (is_lattice(settings, {path}))
+            make(*open_lattice(settings, {path}));
+        else
+            make(*open_tetrahedra(path, settings.tetrahedra));
     });
     return model;
 }

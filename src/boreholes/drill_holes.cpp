@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -76,8 +77,9 @@ double part_count(const Interval& interval, std::optional<double> step) {
 
 void refuse_overlaps(const DrillHoles& holes, const TableLabels& labels) {
     const std::vector<Interval>& intervals = holes.intervals;
-    std::vector<std::uint32_t> order(intervals.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = 0; i < intervals.size(); ++i)
+        if (intervals[i].label != kNoLabel) order.push_back(i);
     const auto key = [&](std::uint32_t i) {
         const Interval& interval = intervals[i];
         return std::tuple(interval.x, interval.y, -interval.top, i);
@@ -98,6 +100,30 @@ double physical_bytes() {
 
 }  // namespace
 
+void find_collars(DrillHoles& holes) {
+    std::map<std::pair<double, double>, double> tops;
+    for (const Interval& interval : holes.intervals) {
+        double& top = tops.try_emplace({interval.x, interval.y}, interval.collar).first->second;
+        top = std::max(top, interval.collar);
+    }
+    for (const auto& [place, top] : tops) holes.collars.push_back({place.first, place.second, top});
+    for (Interval& interval : holes.intervals)
+        interval.is_at_collar = interval.top >= tops.at({interval.x, interval.y});
+}
+
+double mean_distance(const std::vector<HeightSample>& places) {
+    double sum = 0, count = 0;
+    for (std::size_t a = 0; a < places.size(); ++a) {
+        double least = INFINITY;
+        for (std::size_t b = 0; b < places.size(); ++b) {
+            const double distance = std::hypot(places[a].x - places[b].x, places[a].y - places[b].y);
+            if (a != b && distance > 0) least = std::min(least, distance);
+        }
+        if (std::isfinite(least)) sum += least, ++count;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
 void append_points(const DrillHoles& holes, std::optional<double> step, PointTable& table) {
     double total = 0;
     for (const Interval& interval : holes.intervals) {
@@ -116,8 +142,10 @@ void append_points(const DrillHoles& holes, std::optional<double> step, PointTab
     for (const Interval& interval : holes.intervals) {
         const double parts = part_count(interval, step);
         for (double part = 0.5; part < parts; ++part) {
-            const double z = interval.top + (interval.bottom - interval.top) * (part / parts);
-            table.points.positions.push_back({interval.x, interval.y, z});
+            const double share = part / parts;
+            table.points.positions.push_back({interval.x + (interval.bottom_x - interval.x) * share,
+                                              interval.y + (interval.bottom_y - interval.y) * share,
+                                              interval.top + (interval.bottom - interval.top) * share});
             table.points.labels.push_back(interval.label);
             table.rows.push_back(interval.row);
         }

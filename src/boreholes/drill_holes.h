@@ -6,26 +6,44 @@
 #include <optional>
 #include <vector>
 
+#include "boreholes/kriging.h"
 #include "boreholes/point_table.h"
 #include "boreholes/table_labels.h"
 
 namespace regionmesh::formats {
 
-/// One row of a table of drill holes.
+/// One row of a table of drill holes, or a straight part of it.
 struct Interval {
-    double x = 0, y = 0;
-    double top = 0, bottom = 0;  // elevations, top > bottom
-    double length = 0;           // of the numbers in the table; elevations may be rounded again
-    std::uint32_t label = 0;     // of TableLabels
-    std::uint32_t hole = 0;      // of DrillHoles::holes
+    double x = 0, y = 0, top = 0;                   // the upper end; top and bottom are elevations
+    double bottom_x = 0, bottom_y = 0, bottom = 0;  // the lower end
+    double collar = 0;                              // elevation of the top of the hole, as far as this row says
+    double from = 0;            // grows down the hole: a depth, or an elevation with its sign changed
+    double length = 0;          // of the numbers in the table; elevations may be rounded again
+    bool is_at_collar = false;  // it begins where the hole begins
+    std::uint32_t label = 0;    // of TableLabels, or kNoLabel
+    std::uint32_t hole = 0;     // of DrillHoles::holes
     std::uint32_t row = 0;
 };
 
 struct DrillHoles {
     std::filesystem::path path;
+    std::vector<HeightSample> collars;  // the top of each hole; after find_collars()
     std::vector<Interval> intervals;
-    TextTable holes;  // names of holes; empty where the table has none
+    TextTable holes;          // names of holes; empty where the table has none
+    bool is_by_name = false;  // intervals of one name are one hole; else those at one x, y
 };
+
+/// A table of drill holes, as read_hole_table() returns it.
+struct HoleTable {
+    DrillHoles holes;
+    TableLabels labels;
+};
+
+/// Sets `collars`, for holes that are vertical, and `is_at_collar` of their intervals.
+void find_collars(DrillHoles& holes);
+
+/// The mean distance, in x and y, from a place to the nearest other one; 0 where all are at one place.
+double mean_distance(const std::vector<HeightSample>& places);
 
 /// Throws Error(kInput) naming both rows where intervals of two labels at one x, y overlap by more than a twentieth of
 /// the longer one. Smaller overlaps are accepted: nearly all are a boundary recorded twice, or a missing layer listed

@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "boreholes/drill_holes.h"
+#include "boreholes/hole_paths.h"
 #include "boreholes/table_columns.h"
 #include "boreholes/table_labels.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/csv_rows.h"
 #include "formats/text/header_text.h"
 #include "regionmesh/limits.h"
+#include "volume/exact_grid.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -29,22 +31,28 @@ public:
     PointTableReader(const std::filesystem::path& path, const TetrahedraOptions& options)
         : options_(options), rows_(path), labels_(path) {
         rows_.next();
-        columns_ = find_columns(rows_, options.columns);
+        columns_ = find_columns(rows_, options.columns, !options.collars.empty());
+        holes_.is_by_name = !options.collars.empty();
         holes_.path = path;
     }
 
     PointTable read();
+    HoleTable read_holes();
 
 private:
+    void read_rows();
     void reserve();
     void add_row();
     void add_interval(double x, double y, std::uint32_t row);
+    void add_depths(std::uint32_t row);
     void finish();
+    double estimated_scale();
 
     std::string_view text(Role role) const { return rows_.field(columns_.of(role)); }
     std::string_view words(Role role) const;
     double number(Role role) const;
     std::uint32_t add_label(std::uint32_t row);
+    std::uint32_t label_of_interval(std::uint32_t row);
     bool has_more_fields_than_titles() const;
 
     const TetrahedraOptions& options_;
@@ -55,6 +63,7 @@ private:
     std::uint32_t first_depth_ = 0,
                   first_elevation_ = 0;  // first rows in which top and bottom are depths, or elevations
     PointTable table_;
+    bool may_lack_labels_ = false;
 };
 
 /// Reserves memory for an upper bound on the rows, so that growing vectors hold nothing twice.
@@ -69,7 +78,7 @@ void PointTableReader::reserve() {
     }
 }
 
-PointTable PointTableReader::read() {
+void PointTableReader::read_rows() {
     if (options_.step && !columns_.are_intervals())
         fail(rows_.path(), "is a table of points; --step is for drill holes, with columns top and bottom");
     if (columns_.has_header && !rows_.next())
@@ -78,13 +87,28 @@ PointTable PointTableReader::read() {
     do {
         add_row();
     } while (rows_.next());
-    if (columns_.are_intervals()) {
-        if (holes_.intervals.empty()) fail(rows_.path(), "has no interval with a length; give it other bottoms");
-        refuse_overlaps(holes_, labels_);
-        append_points(holes_, options_.step, table_);
-    }
+    if (!columns_.are_intervals()) return;
+    if (holes_.intervals.empty()) fail(rows_.path(), "has no interval with a length; give it other bottoms");
+    refuse_overlaps(holes_, labels_);
+    if (holes_.is_by_name)
+        place_on_paths(holes_, read_hole_paths(options_.collars, options_.surveys));
+    else
+        find_collars(holes_);
+}
+
+PointTable PointTableReader::read() {
+    read_rows();
+    if (columns_.are_intervals()) append_points(holes_, options_.step, table_);
     finish();
     return std::move(table_);
+}
+
+HoleTable PointTableReader::read_holes() {
+    if (!columns_.are_intervals())
+        fail(rows_.path(), "is a table of points; --layers is for drill holes, with columns top and bottom");
+    may_lack_labels_ = true;
+    read_rows();
+    return {std::move(holes_), std::move(labels_)};
 }
 
 void PointTableReader::add_row() {
@@ -96,6 +120,7 @@ void PointTableReader::add_row() {
     if (has_more_fields_than_titles())
         rows_.refuse(fmt::format("has {} fields where there are {} columns; put text with a separator in quotes",
                                  rows_.field_count(), columns_.titles.size()));
+    if (holes_.is_by_name) return add_depths(row);
     const double x = number(Role::kX), y = number(Role::kY);
     if (columns_.are_intervals()) return add_interval(x, y, row);
     table_.points.positions.push_back({x, y, number(Role::kZ)});
@@ -119,25 +144,58 @@ void PointTableReader::add_interval(double x, double y, std::uint32_t row) {
         const double surface = columns_.has(Role::kSurface) ? number(Role::kSurface) : 0;
         interval.top = surface - interval.top;
         interval.bottom = surface - interval.bottom;
+        interval.collar = surface;
+    } else {
+        interval.collar = interval.top;
     }
+    interval.from = -interval.top;
+    interval.bottom_x = x;
+    interval.bottom_y = y;
     if (!std::isfinite(interval.length) || !std::isfinite(interval.top) || !std::isfinite(interval.bottom))
         rows_.refuse("top and bottom are out of range; mend them");
-    interval.label = add_label(row);
+    interval.label = label_of_interval(row);
     if (columns_.has(Role::kHole)) interval.hole = holes_.holes.number_of(words(Role::kHole));
     holes_.intervals.push_back(interval);
+}
+
+/// An interval of a hole whose path is in other tables. Until it is placed there, holes stand side by side.
+void PointTableReader::add_depths(std::uint32_t row) {
+    Interval interval{.from = number(Role::kTop), .row = row};
+    interval.length = number(Role::kBottom) - interval.from;
+    if (interval.length == 0) return;
+    if (!(interval.length > 0) || !std::isfinite(interval.length))
+        rows_.refuse("the bottom has the smaller number; with --collars, both are depths along the hole");
+    interval.label = label_of_interval(row);
+    interval.hole = holes_.holes.number_of(words(Role::kHole));
+    interval.x = interval.hole;
+    interval.top = -interval.from;
+    interval.bottom = -interval.from - interval.length;
+    holes_.intervals.push_back(interval);
+}
+
+/// The power of two nearest to the mean distance from a hole to the next, in mean distances of points of a hole.
+double PointTableReader::estimated_scale() {
+    if (!columns_.are_intervals()) fail(rows_.path(), "--scale-z auto is for drill holes; give a number");
+    if (holes_.collars.size() > kMostHeights)
+        fail(rows_.path(), "--scale-z auto takes at most 3000 holes; give a number");
+    double length = 0;
+    for (const Interval& interval : holes_.intervals) length += interval.length;
+    const double distance = mean_distance(holes_.collars);
+    const double between = length / static_cast<double>(table_.rows.size());
+    return distance > 0 ? nearest_power_of_two(distance / between) : 1;
 }
 
 /// Replaces the numbers of label texts by labels, and scales z.
 void PointTableReader::finish() {
     table_.info.source = rows_.path().string();
     table_.info.format = "csv";
-    table_.info.scale_z = options_.scale_z;
+    table_.info.scale_z = options_.scale_z == kAutoScale ? estimated_scale() : options_.scale_z;
     const std::vector<InputLabel> labels = labels_.labels(table_.info);
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
         InputLabel& label = table_.points.labels[i];
         label = labels[static_cast<std::size_t>(label)];
         double& z = table_.points.positions[i].z;
-        z *= options_.scale_z;
+        z *= table_.info.scale_z;
         if (!std::isfinite(z)) rows_.refuse(table_.rows[i], "z is out of range; give another --scale-z");
     }
 }
@@ -163,6 +221,11 @@ std::uint32_t PointTableReader::add_label(std::uint32_t row) {
     return labels_.add(words(Role::kLabel), columns_.has(Role::kName) ? text(Role::kName) : std::string_view(), row);
 }
 
+/// For layers an interval without a label is one that was not logged.
+std::uint32_t PointTableReader::label_of_interval(std::uint32_t row) {
+    return may_lack_labels_ && text(Role::kLabel).empty() ? kNoLabel : add_label(row);
+}
+
 /// Empty fields at the end of a row are ignored.
 bool PointTableReader::has_more_fields_than_titles() const {
     for (std::size_t i = columns_.titles.size(); i < rows_.field_count(); ++i)
@@ -172,8 +235,12 @@ bool PointTableReader::has_more_fields_than_titles() const {
 
 }  // namespace
 
+HoleTable read_hole_table(const std::filesystem::path& path, const TetrahedraOptions& options) {
+    return PointTableReader(path, options).read_holes();
+}
+
 PointTable read_point_table(const std::filesystem::path& path, const TetrahedraOptions& options) {
-    if (!(options.scale_z > 0) || !std::isfinite(options.scale_z))
+    if ((options.scale_z != kAutoScale && !(options.scale_z > 0)) || !std::isfinite(options.scale_z))
         fail(path, fmt::format("--scale-z {}: give a number above 0", options.scale_z));
     if (options.step && (!(*options.step > 0) || !std::isfinite(*options.step)))
         fail(path, fmt::format("--step {}: give a length above 0", *options.step));

@@ -20,4 +20,10 @@ struct PointTable {
 /// the row.
 PointTable read_point_table(const std::filesystem::path& path, const TetrahedraOptions& options);
 
+struct HoleTable;
+
+/// Reads a table of drill holes; rows without a label become intervals with kNoLabel. Throws as read_point_table(), and
+/// for a table of points.
+HoleTable read_hole_table(const std::filesystem::path& path, const TetrahedraOptions& options);
+
 }  // namespace regionmesh::formats

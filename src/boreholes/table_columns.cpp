@@ -25,20 +25,9 @@ const Words kBottomWords{"bottom", "base", "to", "depthto"};
 const Words kSurfaceWords{"surface", "collar", "elevation", "elev", "altitude"};
 const Words kHoleWords{"hole", "holeid", "bhid", "borehole", "well"};
 
-/// "X_m", "x (m)" and "X [m]" are x, "Depth from" is depthfrom.
-std::string plain_title(std::string_view title) {
-    const std::string lowered = lower(title.substr(0, title.find_first_of("([")));
-    Words words = split_words(lowered, " \t\r\n_-.");
-    constexpr std::array<std::string_view, 5> kUnits{"m", "ft", "km", "mm", "um"};
-    if (words.size() > 1 && std::find(kUnits.begin(), kUnits.end(), words.back()) != kUnits.end()) words.pop_back();
-    std::string plain;
-    for (const std::string_view word : words) plain += word;
-    return plain;
-}
-
 class ColumnFinder {
 public:
-    explicit ColumnFinder(const CsvRows& rows) : rows_(rows) {}
+    ColumnFinder(const CsvRows& rows, bool has_collars) : rows_(rows), has_collars_(has_collars) {}
 
     TableColumns find(const std::string& wanted);
 
@@ -53,7 +42,10 @@ private:
     std::optional<std::size_t>& place(Role role) { return found_.places[static_cast<std::size_t>(role)]; }
     bool is_number(std::size_t column) const { return parse_real(rows_.field(column)).has_value(); }
 
+    void find_place();
+
     const CsvRows& rows_;
+    bool has_collars_;
     TableColumns found_;
     bool is_by_number_ = true;  // whether `wanted` gives every column by number
 };
@@ -118,7 +110,8 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
 
 void ColumnFinder::look_for(Role role, const Words& words) {
     if (!found_.has_header) return;  // the first row is data
-    for (std::size_t i = 0; !place(role) && i < words.size(); ++i) place(role) = column_like(words[i], plain_title);
+    for (std::size_t i = 0; !place(role) && i < words.size(); ++i)
+        place(role) = column_like(words[i], plain_column_title);
 }
 
 /// In a table of intervals a column `elevation` is that of the surface, unless --columns says otherwise.
@@ -141,16 +134,27 @@ void ColumnFinder::choose_kind() {
     place(Role::kTop) = place(Role::kBottom) = std::nullopt;
 }
 
-TableColumns ColumnFinder::find(const std::string& wanted) {
-    if (!wanted.empty()) take_wanted(wanted);
-    const bool is_data = !wanted.empty() && is_by_number_ && found_.has(Role::kX) && found_.has(Role::kY) &&
-                         is_number(found_.of(Role::kX)) && is_number(found_.of(Role::kY));
-    found_.has_header = !is_data;
+void ColumnFinder::find_place() {
+    if (has_collars_) {
+        choose_kind();
+        if (!found_.are_intervals()) refuse_without("columns for top and bottom");
+        if (!found_.has(Role::kHole)) refuse_without("column for the hole");
+        place(Role::kSurface) = std::nullopt;
+        return;
+    }
     look_for(Role::kX, kXWords);
     if (!found_.has(Role::kX)) refuse_without("column for x");
     look_for(Role::kY, kYWords);
     if (!found_.has(Role::kY)) refuse_without("column for y");
     choose_kind();
+}
+
+TableColumns ColumnFinder::find(const std::string& wanted) {
+    if (!wanted.empty()) take_wanted(wanted);
+    const bool is_data = !wanted.empty() && is_by_number_ && found_.has(Role::kX) && found_.has(Role::kY) &&
+                         is_number(found_.of(Role::kX)) && is_number(found_.of(Role::kY));
+    found_.has_header = !is_data;
+    find_place();
     look_for(Role::kLabel, kLabelWords);
     if (!found_.has(Role::kLabel)) refuse_without("column for label");
     for (std::size_t i = 0; i < rows_.field_count(); ++i)
@@ -177,6 +181,18 @@ void ColumnFinder::refuse_without(const std::string& what) const {
 
 }  // namespace
 
-TableColumns find_columns(const CsvRows& rows, const std::string& wanted) { return ColumnFinder(rows).find(wanted); }
+std::string plain_column_title(std::string_view title) {
+    const std::string lowered = lower(title.substr(0, title.find_first_of("([")));
+    Words words = split_words(lowered, " \t\r\n_-.");
+    constexpr std::array<std::string_view, 5> kUnits{"m", "ft", "km", "mm", "um"};
+    if (words.size() > 1 && std::find(kUnits.begin(), kUnits.end(), words.back()) != kUnits.end()) words.pop_back();
+    std::string plain;
+    for (const std::string_view word : words) plain += word;
+    return plain;
+}
+
+TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars) {
+    return ColumnFinder(rows, has_collars).find(wanted);
+}
 
 }  // namespace regionmesh::formats

@@ -27,10 +27,15 @@ struct TableColumns {
     bool are_intervals() const { return !has(Role::kZ); }
 };
 
+/// The title without units, blanks and case: "X_m", "x (m)" and "X [m]" are x, "Depth from" is depthfrom.
+std::string plain_column_title(std::string_view title);
+
 /// Requires `rows` at the first row. `wanted` is TetrahedraOptions::columns: four columns "x,y,z,label" by name or
 /// number from 1, or pairs "x=east,label=3"; other columns are found by their usual names. It is a table of intervals
 /// where `wanted` has a top or bottom, or where the header has both and no column z. It has no header where `wanted`
-/// gives x and y by number and the first row has numbers there. Throws Error(kInput) that names the missing column.
-TableColumns find_columns(const CsvRows& rows, const std::string& wanted);
+/// gives x and y by number and the first row has numbers there. With
+/// `has_collars` another table has x, y and the surface: rows have hole, top, bottom and label, and neither. Throws
+/// Error(kInput) that names the missing column.
+TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars = false);
 
 }  // namespace regionmesh::formats

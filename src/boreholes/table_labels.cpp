@@ -64,6 +64,11 @@ std::uint32_t TableLabels::add(std::string_view text, std::string_view name, std
     return number;
 }
 
+bool TableLabels::are_words() const {
+    bool is_unsigned = false;
+    return !numbers_of(texts_, is_unsigned);
+}
+
 std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
     auto numbers = numbers_of(texts_, info.is_unsigned);
     const bool are_words = !numbers;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -12,6 +13,9 @@
 #include "regionmesh/tetrahedron_reader.h"
 
 namespace regionmesh::formats {
+
+/// The number of an interval without a unit.
+inline constexpr std::uint32_t kNoLabel = std::numeric_limits<std::uint32_t>::max();
 
 /// Numbers distinct texts from 0 in order of first use; stores each once.
 class TextTable {
@@ -40,6 +44,10 @@ public:
     std::uint32_t add(std::string_view text, std::string_view name, std::uint32_t row);
 
     const std::string& text(std::uint32_t number) const { return texts_.text(number); }
+    std::uint32_t count() const { return texts_.size(); }
+
+    /// Whether any text is no whole number of 64 bits.
+    bool are_words() const;
 
     /// The labels. Whole numbers of 64 bits keep their value ("3.0" is 3). If any text is no such number, all texts are
     /// words: they get labels 1, 2, ... in byte order, and their text as name. Sets is_unsigned and names in `info`.

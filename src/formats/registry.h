@@ -14,6 +14,7 @@
 #include "mesh/file_view.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
+#include "regionmesh/read_layers.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 
@@ -47,6 +48,8 @@ struct Format {
     // Labelled tetrahedra.
     std::unique_ptr<TetrahedronReader> (*open_tetrahedra)(const Path&, const TetrahedraOptions&) = nullptr;
     bool is_table = false;  // of points, not a mesh
+    std::unique_ptr<SectionReader> (*open_layers)(const Path&, const TetrahedraOptions&, const LayerOptions&,
+                                                  LayerSummary*) = nullptr;
 
     // Models.
     bool holds_surface = false;  // only set where the functions may be left out

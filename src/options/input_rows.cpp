@@ -59,12 +59,13 @@ Rows selection_rows() {
                 s.volume.select.roi = parse_sample_ranges(flag, text);
             }),
         special_option({.name = "box",
-                        .help = "volumes: keep the samples with these coordinates, as 0:120.5,:,-20:35",
+                        .help = "volumes: keep the samples with these coordinates, as 0:120.5,:,-20:35; layers: their "
+                                "extent",
                         .group = kGroup,
                         .commands = kLatticeCommands,
                         .unit = "length",
                         .value = "X,Y,Z",
-                        .inputs = kVolumeInput},
+                        .inputs = kVolumeInput | kTableInput},
                        OptionKind::kText,
                        [](Settings& s, const std::string& flag, const std::string& text) {
                            s.volume.select.box = parse_length_ranges(flag, text);
@@ -175,13 +176,14 @@ Rows volume_rows() {
                      .group = kGroup,
                      .commands = kVolumeCommands},
                     {"auto", "x", "y", "z"}, choose_sweep),
-        option({.name = "spacing",
-                .help = "volumes: distance between samples along x, y and z, instead of the spacing in the file",
-                .group = kGroup,
-                .commands = kFileCommands,
-                .unit = "length",
-                .inputs = kVolumeInput},
-               [](Settings& s) { return &s.volume.spacing; }),
+        option(
+            {.name = "spacing",
+             .help = "distance between samples along x, y and z: of a volume, instead of that in the file; of layers",
+             .group = kGroup,
+             .commands = kFileCommands,
+             .unit = "length",
+             .inputs = kVolumeInput | kTableInput},
+            [](Settings& s) { return &s.volume.spacing; }),
         option(
             {.name = "layer",
              .help = "volumes: which layer, channel or time to read where a file has several; counted from 0",
@@ -244,15 +246,51 @@ Rows tetrahedra_rows() {
              .unit = "length",
              .inputs = kTableInput},
             [](Settings& s) { return &s.tetrahedra.step; }, kPositive),
-        special_option({.name = "scale-z",
-                        .help = "compute with z times this factor, rounded to a power of two; the model is not scaled",
+        special_option(
+            {.name = "layers",
+             .help = "drill holes: interpolate the bases of units between the holes; units from young to old, or auto",
+             .group = kGroup,
+             .commands = kVolumeCommands,
+             .value = "auto|UNITS",
+             .inputs = kTableInput},
+            OptionKind::kText,
+            [](Settings& s, const std::string& flag, const std::string& text) {
+                if (text.empty()) refuse_value(flag, text, "auto, or units from young to old as clay,sand,chalk");
+                s.layers = text;
+                s.reconstruct.scale_z = kAutoScale;  // unless --scale-z, a later row, is given
+            }),
+        special_option({.name = "collars",
+                        .help = "drill holes: table of the places of inclined holes, with hole, x, y, surface",
                         .group = kGroup,
                         .commands = kVolumeCommands,
+                        .inputs = kTableInput},
+                       OptionKind::kFile,
+                       [](Settings& s, const std::string&, const std::string& text) { s.tetrahedra.collars = text; }),
+        special_option({.name = "surveys",
+                        .help = "drill holes: table of their directions, with hole, depth, azimuth, dip",
+                        .group = kGroup,
+                        .commands = kVolumeCommands,
+                        .inputs = kTableInput},
+                       OptionKind::kFile,
+                       [](Settings& s, const std::string&, const std::string& text) { s.tetrahedra.surveys = text; }),
+        file_option({.name = "terrain",
+                     .help = "layers: heights of the ground, an ESRI ASCII grid; without it, between the tops of holes",
+                     .group = kGroup,
+                     .commands = kVolumeCommands,
+                     .inputs = kTableInput},
+                    [](Settings& s) { return &s.terrain; }),
+        special_option({.name = "scale-z",
+                        .help = "compute with z times this factor, rounded to a power of two; the model is not scaled. "
+                                "auto: from the holes, and with --layers",
+                        .group = kGroup,
+                        .commands = kVolumeCommands,
+                        .value = "auto|NUMBER",
                         .range = kPositive.text(),
                         .default_text = "1"},
                        OptionKind::kNumber,
                        [](Settings& s, const std::string& flag, const std::string& text) {
-                           s.reconstruct.scale_z = s.tetrahedra.scale_z = parse_number(flag, text, kPositive);
+                           const double scale = text == "auto" ? kAutoScale : parse_number(flag, text, kPositive);
+                           s.reconstruct.scale_z = s.tetrahedra.scale_z = scale;
                        }),
         option({.name = "array",
                 .help = "meshes: name of the array of labels",

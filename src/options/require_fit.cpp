@@ -51,7 +51,41 @@ void require_consistent_smoothing(const Settings& settings) {
         if (given(settings, name)) refuse_both(off, name, "nothing is smoothed");
 }
 
+/// Options of a table that need layers, and one that they do not take.
+void require_layers(const Settings& settings, InputKind kind) {
+    if (kind != kTableInput) return;
+    if (given(settings, "surveys") && !given(settings, "collars"))
+        throw Error(ErrorCode::kUsage, "--surveys: directions of holes need their places; give --collars, too");
+    if (!settings.layers.empty()) {
+        if (given(settings, "step")) refuse_both("layers", "step", "layers take the whole intervals");
+        return;
+    }
+    for (const char* name : {"spacing", "box", "terrain"})
+        if (const std::string* text = given(settings, name))
+            throw Error(ErrorCode::kUsage,
+                        fmt::format("--{} {}: applies to drill holes as layers; give --layers auto, too", name, *text));
+}
+
 }  // namespace
+
+LayerOptions layer_options(const Settings& settings) {
+    return {.units = settings.layers,
+            .spacing = settings.volume.spacing,
+            .box = settings.volume.select.box,
+            .terrain = settings.terrain,
+            .sweep = settings.volume.sweep};
+}
+
+bool is_lattice(const Settings& settings, const std::vector<std::string>& inputs) {
+    const InputKind kind = kind_of_input(inputs);
+    return kind == kVolumeInput || (kind == kTableInput && !settings.layers.empty());
+}
+
+std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std::vector<std::string>& inputs) {
+    if (kind_of_input(inputs) != kVolumeInput)
+        return open_layers(inputs.front(), settings.tetrahedra, layer_options(settings));
+    return open_sections({inputs.begin(), inputs.end()}, settings.volume);
+}
 
 InputKind kind_of_input(const std::vector<std::string>& inputs) {
     const auto found = std::ranges::find_if(inputs, [](const auto& input) { return holds_tetrahedra(input); });
@@ -64,6 +98,7 @@ void require_fit(const Settings& settings, const std::vector<std::string>& input
     const InputKind kind = kind_of_input(inputs);
     if (kind != kVolumeInput && inputs.size() > 1)
         throw Error(ErrorCode::kUsage, inputs[1] + ": one table or mesh at a time; give one");
+    require_layers(settings, kind);
     for (const auto& [name, text] : settings.given) {
         const OptionSpec& option = *find_option(name);
         if ((option.inputs & kind) != 0) continue;

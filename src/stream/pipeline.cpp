@@ -159,6 +159,10 @@ namespace {
 
 /// A power of two: scaling is exact.
 double section_scale(const SectionReader& reader, const ReconstructOptions& options) {
+    if (options.scale_z == kAutoScale) {
+        const Vec3& spacing = reader.info().lattice.spacing;
+        return nearest_power_of_two(std::sqrt(spacing.x * spacing.y) / spacing.z);
+    }
     if (options.scale_z >= kLeastLength && options.scale_z <= 1 / kLeastLength)
         return nearest_power_of_two(options.scale_z);
     throw Error(ErrorCode::kInput,

@@ -73,6 +73,8 @@ protected:
             line += " --target-faces 10";
         if (option.inputs != kAnyInput && command.command == kCheck && option.name != "sections")
             line += " --sections " + path(input_for(option)).string();
+        if (option.name == "terrain") line += " --layers auto";
+        if (option.name == "surveys") line += " --collars " + path("none.csv").string();
         line += option.is_argument ? "" : " --" + option.name;
         return value.empty() ? line : line + (option.name == "output" ? ' ' + out(value) : ' ' + value);
     }

@@ -168,6 +168,35 @@ TEST_F(CliPoints, hull_says_aloud_what_is_the_rule) {
     EXPECT_TRUE(text_of(out("a.vtp")) != text_of(out("c.vtp")));
 }
 
+TEST_F(CliTetrahedra, drill_holes_become_layers) {
+    const std::string table = holes().substr(0, holes().find(' ')), read = " --layers auto --spacing 5,5,1";
+    for (const std::string options : {" --no-decimate --smooth off", " --reduce 60%"}) {
+        const Ran made = run("reconstruct " + table + read + options + " -o " + out("m.vtp"));
+        EXPECT_EQ(made.code, 0) << made.error;
+        const Ran checked = run("check " + out("m.vtp") + " --sections " + table + read);
+        EXPECT_EQ(checked.code, 0) << checked.out << checked.error;
+        EXPECT_THAT(checked.out, HasSubstr("no violations"));
+        EXPECT_THAT(checked.out, HasSubstr("keeps its label"));
+    }
+    const Ran shown = run("info " + table + read);
+    EXPECT_THAT(shown.out, HasSubstr("3 from young to old: soil, sand, rock; 100.0 % of the logged length"));
+    std::filesystem::remove(out("m.vtp"));
+    expect_refusal("reconstruct " + table + read + " --step 4 -o " + out("m.vtp"), 2, "--layers and --step");
+    expect_refusal("info " + table + " --terrain ground.asc", 2,
+                   "--terrain ground.asc: applies to drill holes as layers");
+    expect_refusal("info " + table + " --surveys s.csv", 2, "give --collars, too");
+    expect_refusal("info " + layers() + " --layers auto", 1, "is a table of points");
+    expect_refusal("info " + data("meshes/meshio_ascii.vtu") + " --layers auto", 2, "--layers auto: does not apply");
+}
+
+TEST_F(CliTetrahedra, the_scale_of_drill_holes_is_estimated) {
+    const Ran shown = run("info " + holes() + " --scale-z auto --json " + out("i.json"));
+    EXPECT_EQ(shown.code, 0) << shown.error;
+    EXPECT_THAT(text_of(out("i.json")), HasSubstr("\"scale_z\": 4")) << "holes 15 m apart, points 3.5 m";
+    std::filesystem::remove(out("i.json"));
+    expect_refusal("info " + layers() + " --scale-z auto", 1, "--scale-z auto is for drill holes");
+}
+
 TEST_F(CliTetrahedra, options_of_the_other_kind_of_input_are_refused) {
     const std::string mesh = data("meshes/meshio_ascii.vtu"), table = layers(), to = " -o " + out("m.vtp");
     put_text(path("volume.raw"), std::string(27, '\1'));

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "regionmesh/limits.h"
+#include "regionmesh/read_layers.h"
 #include "regionmesh/read_tetrahedra.h"
 
 namespace regionmesh::formats {
@@ -17,6 +18,10 @@ inline bool has_repeated_corner(const std::array<std::uint32_t, 4>& c) {
 
 /// The Delaunay tetrahedra of a table of labelled points or drill holes. Defined in src/boreholes.
 std::unique_ptr<TetrahedronReader> open_table(const std::filesystem::path& path, const TetrahedraOptions& options);
+
+/// Drill holes as layers. Defined in src/boreholes.
+std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& path, const TetrahedraOptions& table,
+                                                   const LayerOptions& layers, LayerSummary* summary);
 
 /// A VTK unstructured grid of tetrahedra; skips its faces, lines and vertices.
 std::unique_ptr<TetrahedronReader> open_vtu(const std::filesystem::path& path, const TetrahedraOptions& options);

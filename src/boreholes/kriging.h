@@ -1,0 +1,36 @@
+// Heights between scattered places: ordinary kriging in the plane.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace regionmesh::formats {
+
+/// A height at a place.
+struct HeightSample {
+    double x = 0, y = 0, z = 0;
+};
+
+/// Most samples of one surface: the time to solve for the weights grows with the cube of their number.
+inline constexpr std::size_t kMostHeights = 3000;
+
+/// The surface through the samples with the least variance of its error, for the power variogram r^1.5. It has no peaks
+/// at the samples, as the linear variogram makes them, and tends to the mean far from them. Samples nearer to each
+/// other than a millionth of the extent are one sample at their mean height.
+class Kriging {
+public:
+    /// Requires 1 to kMostHeights samples with finite coordinates.
+    explicit Kriging(std::vector<HeightSample> samples);
+
+    double at(double x, double y) const;
+
+private:
+    void merge_near_samples();
+    void solve();
+
+    std::vector<HeightSample> samples_;
+    std::vector<double> weights_;  // of samples_; their sum is 0
+    double constant_ = 0;
+};
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,165 @@
+// Sections of a model of layers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "boreholes/layer_order.h"
+#include "boreholes/layer_surfaces.h"
+#include "boreholes/point_table.h"
+#include "formats/input_file.h"
+#include "formats/surface/tetrahedron_formats.h"
+#include "formats/text/header_text.h"
+#include "regionmesh/limits.h"
+#include "volume/choose_sweep.h"
+
+namespace regionmesh::formats {
+namespace {
+
+constexpr double kColumnsOfSide = 100, kSamplesOfHeight = 200;  // without a spacing
+constexpr double kMostColumns = 1e8, kMostHeightBytes = 4e9, kMostSamplesOfAxis = 1e6;
+constexpr double kMargin = 0.5;  // of the mean distance from a hole to the next
+
+class LayerSections final : public SectionReader {
+public:
+    LayerSections(VolumeInfo info, LayerSurfaces surfaces, std::vector<InputLabel> labels)
+        : info_(std::move(info)), surfaces_(std::move(surfaces)), labels_(std::move(labels)) {}
+
+    const VolumeInfo& info() const override { return info_; }
+
+    bool next(std::span<InputLabel> section) override {
+        if (section_ == section_count()) return false;
+        const auto& [u, v, w] = info_.sweep.axes;
+        std::array<std::uint32_t, 3> at{};
+        at[static_cast<std::size_t>(w)] = section_++;
+        for (std::size_t n = 0; n < section.size(); ++n) {
+            at[static_cast<std::size_t>(u)] = static_cast<std::uint32_t>(n % section_width());
+            at[static_cast<std::size_t>(v)] = static_cast<std::uint32_t>(n / section_width());
+            section[n] = label_at(at);
+        }
+        return true;
+    }
+
+    void rewind() override { section_ = 0; }
+
+private:
+    InputLabel label_at(const std::array<std::uint32_t, 3>& at) const {
+        const Lattice& lattice = info_.lattice;
+        const double z = lattice.origin.z + at[2] * lattice.spacing.z;
+        return labels_[surfaces_.layer_of(std::size_t{at[1]} * lattice.size[0] + at[0], z)];
+    }
+
+    VolumeInfo info_;
+    LayerSurfaces surfaces_;
+    std::vector<InputLabel> labels_;  // of the air, then of the units from young to old
+    std::uint32_t section_ = 0;
+};
+
+/// The box and the spacing of the samples.
+class LatticeFinder {
+public:
+    LatticeFinder(const HoleTable& table, const LayerOptions& options) : table_(table), options_(options) {
+        for (const HeightSample& collar : table.holes.collars) {
+            low_ = min(low_, {collar.x, collar.y, collar.z});
+            high_ = max(high_, {collar.x, collar.y, collar.z});
+        }
+        for (const Interval& interval : table.holes.intervals) {
+            const Vec3 end{interval.bottom_x, interval.bottom_y, interval.bottom};
+            low_ = min(low_, end);
+            high_ = max(high_, end);
+        }
+    }
+
+    Lattice find() {
+        const double margin = kMargin * mean_distance(table_.holes.collars);
+        low_ = low_ - Vec3{margin, margin, 0};
+        high_ = high_ + Vec3{margin, margin, 0};
+        high_.z += (high_.z - low_.z) / kSamplesOfHeight;  // above the ground
+        std::array<double, 3> low{low_.x, low_.y, low_.z}, high{high_.x, high_.y, high_.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const LengthRange& range = options_.box[axis];
+            if (std::isfinite(range.low)) low[axis] = range.low;
+            if (std::isfinite(range.high)) high[axis] = range.high;
+            if (!(low[axis] < high[axis]))
+                fail(table_.holes.path,
+                     fmt::format("the model has no extent along {}, from {} to {}; give another --box", "xyz"[axis],
+                                 low[axis], high[axis]));
+        }
+        const double side = std::max(high[0] - low[0], high[1] - low[1]) / kColumnsOfSide;
+        const Vec3 spacing = options_.spacing.value_or(Vec3{side, side, (high[2] - low[2]) / kSamplesOfHeight});
+        Lattice lattice{.spacing = spacing, .origin = {low[0], low[1], low[2]}};
+        const std::array<double, 3> steps{spacing.x, spacing.y, spacing.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double count = std::round((high[axis] - low[axis]) / steps[axis]) + 1;
+            if (!(steps[axis] > 0) || !(count <= kMostSamplesOfAxis))
+                fail(table_.holes.path, fmt::format("--spacing {} along {} makes too many samples; give a larger one",
+                                                    steps[axis], "xyz"[axis]));
+            lattice.size[axis] = static_cast<std::uint32_t>(std::max(count, 2.0));
+        }
+        require_lattice(table_.holes.path.string(), lattice);
+        return lattice;
+    }
+
+private:
+    static Vec3 min(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+    static Vec3 max(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+
+    const HoleTable& table_;
+    const LayerOptions& options_;
+    Vec3 low_{INFINITY, INFINITY, INFINITY}, high_{-INFINITY, -INFINITY, -INFINITY};
+};
+
+void require_columns(const std::filesystem::path& path, const Lattice& lattice, std::size_t units) {
+    const double columns = static_cast<double>(lattice.size[0]) * lattice.size[1];
+    if (columns > kMostColumns || columns * static_cast<double>(units * sizeof(double)) > kMostHeightBytes)
+        fail(path, fmt::format("{} x {} columns of {} units are more than 4 GB; give a larger --spacing",
+                               lattice.size[0], lattice.size[1], units));
+}
+
+/// The labels of the air and of the units; sets type and names in `info`. Words get labels by age.
+std::vector<InputLabel> labels_of(const TableLabels& labels, const LayerOrder& order, VolumeInfo& info) {
+    TetrahedraInfo table;
+    const std::vector<InputLabel> all = labels.labels(table);
+    std::vector<InputLabel> found{0};
+    info.type = table.is_unsigned ? SampleType::kU64 : SampleType::kI64;
+    for (std::uint32_t n = 0; n < order.units.size(); ++n) {
+        const std::uint32_t unit = order.units[n];
+        const InputLabel label = labels.are_words() ? InputLabel{n} + 1 : all[unit];
+        found.push_back(label);
+        const auto name = table.names.find(all[unit]);
+        if (name != table.names.end()) info.names.emplace(label, name->second);
+    }
+    return found;
+}
+
+}  // namespace
+
+std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& path, const TetrahedraOptions& options,
+                                                   const LayerOptions& layers, LayerSummary* summary) {
+    const HoleTable table = read_hole_table(path, options);
+    if (table.holes.collars.size() > kMostHeights)
+        fail(path, fmt::format("has {} holes; --layers takes at most {}, leave some out", table.holes.collars.size(),
+                               kMostHeights));
+    const LayerOrder order = order_layers(table.holes, table.labels, layers.units);
+    std::optional<Terrain> terrain;
+    if (!layers.terrain.empty()) terrain.emplace(layers.terrain);
+    VolumeInfo info{.source = path.string(), .format = "csv", .can_sweep = {true, true, true}};
+    info.lattice = LatticeFinder(table, layers).find();
+    require_columns(path, info.lattice, order.units.size());
+    info.sweep = *choose_sweep(info, layers.sweep);
+    const Lattice& lattice = info.lattice;
+    const ColumnGrid grid{lattice.size[0],  lattice.size[1],   lattice.origin.x,
+                          lattice.origin.y, lattice.spacing.x, lattice.spacing.y};
+    LayerSurfaces surfaces = interpolate(order, Ground(table.holes.collars, terrain ? &*terrain : nullptr), grid);
+    info.held_bytes = grid.size() * order.units.size() * sizeof(double);
+    std::vector<InputLabel> labels = labels_of(table.labels, order, info);
+    if (summary) {
+        *summary = {};
+        summary->ordered_share = order.ordered_share;
+        for (const std::uint32_t unit : order.units) summary->units.push_back(table.labels.text(unit));
+    }
+    return std::make_unique<LayerSections>(std::move(info), std::move(surfaces), std::move(labels));
+}
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,53 @@
+// The ground and the bases of units on a grid of columns.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "boreholes/kriging.h"
+#include "boreholes/layer_order.h"
+#include "boreholes/terrain.h"
+
+namespace regionmesh::formats {
+
+/// Columns at (x + i * dx, y + j * dy).
+struct ColumnGrid {
+    std::uint32_t width = 0, height = 0;
+    double x = 0, y = 0, dx = 1, dy = 1;
+
+    std::size_t size() const { return std::size_t{width} * height; }
+};
+
+/// Surfaces on a grid, each as heights with i fastest: the ground, then the base of each unit but the oldest, from
+/// young to old. No surface lies above the one before.
+struct LayerSurfaces {
+    std::vector<std::vector<double>> heights;
+
+    /// The number of surfaces below which a place of column n lies: 0 is above the ground, 1 the youngest unit.
+    std::size_t layer_of(std::size_t column, double z) const;
+};
+
+/// Heights of the ground: those of the terrain, and between `collars` where it has none.
+class Ground {
+public:
+    /// Requires 1 to kMostHeights collars. `terrain` may be null.
+    Ground(std::vector<HeightSample> collars, const Terrain* terrain)
+        : between_(std::move(collars)), terrain_(terrain) {}
+
+    double at(double x, double y) const {
+        if (const auto height = terrain_ ? terrain_->at(x, y) : std::nullopt) return *height;
+        return between_.at(x, y);
+    }
+
+private:
+    Kriging between_;
+    const Terrain* terrain_;
+};
+
+/// Interpolates the bases between the contacts. A contact that only bounds a base takes part where the base
+/// interpolated without it is out of bounds.
+LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, const ColumnGrid& grid);
+
+}  // namespace regionmesh::formats

@@ -1,0 +1,28 @@
+// Heights of the ground from a raster.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace regionmesh::formats {
+
+/// An ESRI ASCII grid (.asc): a header of names and numbers (ncols, nrows, xllcorner or xllcenter, yllcorner or
+/// yllcenter, cellsize, NODATA_value), then heights, rows from north to south.
+class Terrain {
+public:
+    /// Throws Error(kInput) for a file that is no such grid, or that holds other than ncols * nrows numbers.
+    explicit Terrain(const std::filesystem::path& path);
+
+    /// The height between the four centres of cells round the place; none outside of them, or where one has no height.
+    std::optional<double> at(double x, double y) const;
+
+private:
+    std::size_t columns_ = 0, rows_ = 0;
+    double x_ = 0, y_ = 0;  // centre of the first cell of the last row
+    double cell_ = 0;
+    std::vector<double> heights_;  // rows from north to south; NaN: none
+};
+
+}  // namespace regionmesh::formats

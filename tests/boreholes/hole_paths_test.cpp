@@ -1,0 +1,107 @@
+#include "boreholes/hole_paths.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "boreholes/point_table.h"
+#include "formats/temporary_folder.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+using formats::HolePath;
+using testing::HasSubstr;
+
+void expect_near(Vec3 a, Vec3 b, double error = 1e-9) {
+    EXPECT_LT(length(a - b), error) << a.x << " " << a.y << " " << a.z;
+}
+
+TEST(HolePathAt, is_straight_along_one_direction) {
+    const double s = std::sqrt(0.5);
+    const HolePath path({10, 20, 30}, {{5, {s, 0, -s}}});
+    expect_near(path.at(0), {10, 20, 30});
+    expect_near(path.at(10), {10 + 10 * s, 20, 30 - 10 * s});
+}
+
+TEST(HolePathAt, follows_the_arc_of_a_circle_between_two_stations) {
+    const double r = 100, quarter = std::numbers::pi / 2 * r;  // from straight down to level, to the north
+    const HolePath path({0, 0, 0}, {{0, {0, 0, -1}}, {quarter, {0, 1, 0}}});
+    for (const double angle : {0.0, 0.3, 0.9, 1.5})
+        expect_near(path.at(angle * r), {0, r * (1 - std::cos(angle)), -r * std::sin(angle)});
+    expect_near(path.at(quarter + 50), {0, r + 50, -r});
+}
+
+class InclinedHoles : public TemporaryFolder {
+protected:
+    InclinedHoles() {
+        put_text(path("collars.csv"), "HOLEID,EAST,NORTH,ELEV\nA,100,200,50\nB,0,0,40\n");
+        put_text(path("surveys.csv"), "HoleID,Depth,Azimuth,Dip\nA,0,90,-60\n");
+        put_text(path("intervals.csv"), "hole_id,from,to,lith\nA,0,10,sand\nA,10,30,clay\nB,0,20,sand\n");
+        options_.collars = path("collars.csv");
+        options_.surveys = path("surveys.csv");
+    }
+
+    formats::PointTable read() const { return formats::read_point_table(path("intervals.csv"), options_); }
+
+    std::string failure() const {
+        try {
+            read();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::kInput);
+            return error.what();
+        }
+        return "nothing thrown";
+    }
+
+    TetrahedraOptions options_;
+};
+
+TEST_F(InclinedHoles, points_lie_on_the_path) {
+    const auto table = read();
+    ASSERT_EQ(table.points.positions.size(), 3u);
+    expect_near(table.points.positions[0], {100 + 5 * 0.5, 200, 50 - 5 * std::sqrt(0.75)});
+    expect_near(table.points.positions[1], {100 + 20 * 0.5, 200, 50 - 20 * std::sqrt(0.75)});
+    expect_near(table.points.positions[2], {0, 0, 30});
+}
+
+TEST_F(InclinedHoles, inclinations_count_from_straight_down_and_dips_of_either_sign_lead_down) {
+    const auto wanted = read().points.positions;
+    for (const char* text : {"hole,depth,azi,inclination\nA,0,90,30\n", "hole,md,azimuth,dip\nA,0,90,60\n"}) {
+        put_text(path("surveys.csv"), text);
+        const auto found = read().points.positions;
+        for (std::size_t n = 0; n < wanted.size(); ++n) expect_near(found[n], wanted[n]);
+    }
+}
+
+TEST_F(InclinedHoles, intervals_are_cut_at_stations) {
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-90\nA,20,90,-60\n");
+    EXPECT_EQ(read().points.positions.size(), 4u);
+}
+
+TEST_F(InclinedHoles, errors_name_what_is_missing) {
+    put_text(path("collars.csv"), "hole,x,y,z\nA,100,200,50\n");
+    EXPECT_THAT(failure(), HasSubstr("row 4: hole 'B' has no row in --collars"));
+    put_text(path("collars.csv"), "hole,x,y,z\nA,1,2,5\nA,1,2,6\n");
+    EXPECT_THAT(failure(), HasSubstr("row 3: hole 'A' has a collar in row 2, too"));
+    put_text(path("collars.csv"), "hole,x,y\nA,1,2\n");
+    EXPECT_THAT(failure(), HasSubstr("no column for the elevation"));
+    put_text(path("collars.csv"), "hole,x,y,z\nA,100,200,50\nB,0,0,40\n");
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-100\n");
+    EXPECT_THAT(failure(), HasSubstr("a dip of -100 degrees"));
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nC,0,90,-50\n");
+    EXPECT_THAT(failure(), HasSubstr("hole 'C' has stations but no collar"));
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-50\nA,0,80,-50\n");
+    EXPECT_THAT(failure(), HasSubstr("two stations at depth 0"));
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-50\n");
+    put_text(path("intervals.csv"), "hole,from,to,lith\nA,10,5,sand\n");
+    EXPECT_THAT(failure(), HasSubstr("row 2: the bottom has the smaller number"));
+    put_text(path("intervals.csv"), "hole,from,to,lith\nA,0,10,sand\nA,5,12,clay\n");
+    EXPECT_THAT(failure(), HasSubstr("overlap"));
+}
+
+}  // namespace
+}  // namespace regionmesh
