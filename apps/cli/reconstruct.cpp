@@ -85,6 +85,25 @@ void print_summary(const Settings& settings, const Report& report) {
         grouped(report.peak_bytes / 1000000));
 }
 
+/// Says once, while there is time to stop, that the run will need more than --memory. A hard limit ends it by itself.
+class MemoryWarning {
+public:
+    explicit MemoryWarning(const Settings& settings) : settings_(settings) {}
+
+    void show(const Progress& progress) {
+        if (is_shown_ || settings_.memory_is_hard || progress.bytes_needed == 0) return;
+        is_shown_ = true;
+        warn(fmt::format(
+            "topology or --max-error leave more faces than --memory {} MB has room for: the run may need {} MB; "
+            "raise --memory, or end such runs with --memory-limit hard",
+            grouped(settings_.reconstruct.memory / 1000000), grouped(progress.bytes_needed / 1000000)));
+    }
+
+private:
+    const Settings& settings_;
+    bool is_shown_ = false;
+};
+
 /// What the input says besides its samples.
 struct ModelNotes {
     Described labels;
@@ -94,14 +113,17 @@ struct ModelNotes {
 /// Reconstructs the input, whichever kind it is of, and sets `notes` to what it says about its labels and its space.
 Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
     ProgressLine line(settings.quiet);
+    MemoryWarning memory(settings);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
         LabelColours colours;
         if constexpr (requires { reader.info().colours; }) colours = reader.info().colours;
         notes.labels = describe(settings, reader.info().names, colours);
         if constexpr (requires { reader.info().space; }) notes.space = reader.info().space;
         warn_of_grey_scale(settings, reader);
-        Reconstruction made =
-            reconstruct(reader, settings.reconstruct, [&](const Progress& progress) { line.show(progress); });
+        Reconstruction made = reconstruct(reader, settings.reconstruct, [&](const Progress& progress) {
+            memory.show(progress);
+            line.show(progress);
+        });
         line.clear();
         return made;
     });

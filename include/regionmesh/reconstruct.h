@@ -50,7 +50,9 @@ struct Progress {
     const char* stage = "";
     std::uint32_t strips_read = 0, strip_count = 0;
     std::uint64_t faces_read = 0, faces_held = 0;
-    double share = 0;  // of the work of all stages, estimated, 0 to 1; begins again where smoothing does
+    double share = 0;                // of the work of all stages, estimated, 0 to 1; begins again where smoothing does
+    std::uint64_t bytes_needed = 0;  // of memory, estimated, once topology or the largest error are found to leave more
+                                     // faces than the memory of the options has room for; 0 before that
 };
 
 struct Reconstruction {

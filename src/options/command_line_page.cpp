@@ -19,7 +19,8 @@ This page is written by the program: `regionmesh --help-markdown > docs/referenc
 constexpr std::string_view kConventions = R"(```
 
 - Exit codes: 0 good; 1 the input cannot be used, or the output cannot be written; 2 usage: an unknown option, a value
-  that the option does not take, or options that contradict each other; 3 the model has violations.
+  that the option does not take, or options that contradict each other; 3 the model has violations;
+  4 `--preserve-volume` left a region off its volume.
 - An error is one line on stderr: what is wrong, where, and what to do. A failed run leaves no file behind.
 - Progress is shown on a terminal only. The summary goes to stdout; `--quiet` suppresses both.
 - *Length* is the unit of the spacing of a volume, or of the points of a surface.

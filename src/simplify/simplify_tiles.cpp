@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel_in_order.h"
 #include "simplify/collapse_edges.h"
@@ -32,6 +33,22 @@ VerdictCounts simplify_tile(Tile& tile, TiledFaces& faces, std::uint32_t number,
 
 }  // namespace
 
+std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint32_t> tiles,
+                              const TileOptions& options) {
+    const auto size_of = [&](std::size_t n) {
+        return faces.faces_of(tiles[n]).size() + faces.halo_of(tiles[n]).size();
+    };
+    std::size_t most = std::max(options.in_flight, 1u), first = 0;
+    std::uint64_t sum = 0;  // of the tiles from `first` to `n`
+    for (std::size_t n = 0; n < tiles.size(); ++n) {
+        for (sum += size_of(n); sum > options.faces_in_flight && first < n; ++first) {
+            most = std::min(most, n - first);
+            sum -= size_of(first);
+        }
+    }
+    return static_cast<std::uint32_t>(std::max<std::size_t>(most, 1));
+}
+
 TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
     const Chunk& chunk = faces.chunk();
     TileResult result{.left = {.carried = chunk.carried,
@@ -44,8 +61,11 @@ TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
     left.vertices.reserve(chunk.vertices.size());
     left.faces.reserve(chunk.faces.size());
     for (std::uint32_t local : chunk.active) left.active.push_back(faces.locked_number(local));
-    std::vector<Tile> tiles(std::max(options.in_flight, 1u));
-    std::vector<VerdictCounts> verdicts(tiles.size());
+    std::vector<std::uint32_t> numbers(faces.grid().tile_count());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    const std::uint32_t in_flight = tiles_in_flight(faces, numbers, options);
+    std::vector<Tile> tiles(in_flight);
+    std::vector<VerdictCounts> verdicts(in_flight);
     const auto work = [&](std::uint32_t n, std::uint32_t place) {
         verdicts[place] = simplify_tile(tiles[place], faces, n, options);
     };
@@ -54,13 +74,14 @@ TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
         add(result.verdicts, verdicts[place]);
         if (options.on_share) options.on_share((n + 1.0) / faces.grid().tile_count());
     };
-    parallel_in_order(faces.grid().tile_count(), options.in_flight, options.threads, {work, finish});
+    parallel_in_order(faces.grid().tile_count(), in_flight, options.threads, {work, finish});
     return result;
 }
 
 TileCounts try_tiles(TiledFaces& faces, std::span<const std::uint32_t> numbers, const TileOptions& options) {
     TileCounts counts;
-    std::vector<Tile> tiles(std::max(options.in_flight, 1u));
+    const std::uint32_t in_flight = tiles_in_flight(faces, numbers, options);
+    std::vector<Tile> tiles(in_flight);
     const auto work = [&](std::uint32_t n, std::uint32_t place) {
         simplify_tile(tiles[place], faces, numbers[n], options);
     };
@@ -70,7 +91,7 @@ TileCounts try_tiles(TiledFaces& faces, std::span<const std::uint32_t> numbers, 
         counts.inside += tiles[place].inside_count();
         counts.left_inside += tiles[place].left_inside();
     };
-    parallel_in_order(static_cast<std::uint32_t>(numbers.size()), options.in_flight, options.threads, {work, finish});
+    parallel_in_order(static_cast<std::uint32_t>(numbers.size()), in_flight, options.threads, {work, finish});
     return counts;
 }
 

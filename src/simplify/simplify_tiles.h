@@ -6,6 +6,7 @@
 #include <span>
 
 #include "mesh/chunk.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/simplify.h"
 #include "simplify/tiled_faces.h"
 #include "simplify/tuning.h"
@@ -13,13 +14,14 @@
 namespace regionmesh {
 
 struct TileOptions {
-    double threshold;                           // in units of scale^4: collapses up to this cost
-    double keep_share;                          // tiles stop at this share of their faces,
-    double free_share = 1;                      // and free collapses at this one where it is less
-    std::uint32_t threads = 1;                  // tiles at work at a time; 0: one per core. The result is the same
-    std::uint32_t in_flight = kTilesInFlight;   // tiles out of the chunk at a time; the result is the same
-    SimplifyOptions simplify;                   // quality, error, perturbation, scale, placement, tests
-    std::function<void(double)> on_share = {};  // share of the tiles that are done: one call at a time, on any thread
+    double threshold;                            // in units of scale^4: collapses up to this cost
+    double keep_share;                           // tiles stop at this share of their faces,
+    double free_share = 1;                       // and free collapses at this one where it is less
+    std::uint32_t threads = 1;                   // tiles at work at a time; 0: one per core. The result is the same
+    std::uint32_t in_flight = kTilesInFlight;    // tiles out of the chunk at a time; the result is the same
+    std::uint64_t faces_in_flight = kMostFaces;  // their faces, but one tile at least; the result is the same
+    SimplifyOptions simplify;                    // quality, error, perturbation, scale, placement, tests
+    std::function<void(double)> on_share = {};   // share of the tiles that are done: one call at a time, on any thread
 };
 
 struct TileResult {
@@ -30,6 +32,11 @@ struct TileResult {
 /// Simplifies each tile alone with its locked vertices fixed; merged vertices stay strictly inside their tile, so that
 /// the changes of two tiles cannot meet. Active vertices stay active, in their order.
 TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options);
+
+/// How many of the tiles may be out of the chunk at a time: any so many that follow each other have at most
+/// `faces_in_flight` faces with their halos. From 1 to `in_flight`.
+std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint32_t> tiles,
+                              const TileOptions& options);
 
 /// Size of a sample of tiles, before and after.
 struct TileCounts {

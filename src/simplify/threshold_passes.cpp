@@ -168,6 +168,7 @@ PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOpti
         TileOptions tiles = options.tiles;
         tiles.in_flight = std::clamp(static_cast<std::uint32_t>(held / options.tile_faces / kPartsInFlight), 1u,
                                      std::max(tiles.in_flight, 1u));
+        tiles.faces_in_flight = held / kPartsInFlight;
         double threshold = target == 0 ? HUGE_VAL : pass == 0 ? kFirstThreshold : result.threshold * kNextThreshold;
         std::optional<TileResult> done = pass_over(faces, tiles, target, threshold);
         if (!done) break;

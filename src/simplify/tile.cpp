@@ -46,7 +46,6 @@ void NumberTable::grow() {
 void Tile::take_out(TiledFaces& faces, std::uint32_t tile) {
     const auto own = faces.faces_of(tile);
     const auto halo = faces.halo_of(tile);
-    mesh_ = {};
     mesh_.reserve((own.size() + halo.size()) * 5 / 8, own.size() + halo.size());
     inside_count_ = 0;
     locals_.clear();
@@ -115,6 +114,7 @@ void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
         }
         if (all_locked == 0) left_faces_.push_back(face);
     }
+    mesh_ = {};  // the tile may wait long until those before it are put back
 }
 
 void Tile::put_back(Chunk& made) const {

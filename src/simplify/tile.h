@@ -25,14 +25,14 @@ private:
     std::uint32_t used_ = 0;
 };
 
-/// Used for one tile after the other, so that its arrays keep their room.
+/// Used for one tile after the other, so that its arrays keep their room, but for the mesh.
 class Tile {
 public:
     /// Takes the faces of the tile and its halo. Threads may do so for different tiles at the same time.
     void take_out(TiledFaces& faces, std::uint32_t tile);
     /// The faces taken out, along a curve, and their vertices; locked ones are fixed.
     Mesh& mesh() { return mesh_; }
-    /// Notes which of the tile's own faces are left. The tile may then be taken out again.
+    /// Notes which of the tile's own faces are left, and empties the mesh. The tile may then be taken out again.
     void note_left(TiledFaces& faces, std::uint32_t tile);
     /// Appends them to a chunk that begins with the locked vertices.
     void put_back(Chunk& made) const;

@@ -30,12 +30,18 @@ std::uint64_t share_of(std::uint64_t faces, double share) {
     return static_cast<std::uint64_t>(std::ceil(static_cast<double>(faces) * share));
 }
 
+/// Share of the faces of a chunk that tiles in flight may hold: half as many again as the average. Where faces crowd in
+/// few tiles, fewer of them are in flight.
+double share_in_flight(const BudgetDemand& demand, std::uint32_t tiles_in_flight) {
+    return std::min(1.5 * tiles_in_flight / demand.tiles, 1.0);
+}
+
 /// Bytes per face of a chunk of strips while it is worked on.
 std::uint64_t chunk_bytes_per_face(const BudgetDemand& demand, std::uint32_t tiles_in_flight) {
     if (demand.tile_share >= 1) return kChunkBytesPerFace;
-    // Some tiles have half as many faces again as the average.
-    const std::uint64_t in_flight = std::min<std::uint64_t>(demand.tiles, tiles_in_flight + tiles_in_flight / 2);
-    return kChunkBytesPerFace + kTilesBytesPerFace + kTileBytesPerFace * in_flight / demand.tiles;
+    return kChunkBytesPerFace + kTilesBytesPerFace +
+           static_cast<std::uint64_t>(static_cast<double>(kTileBytesPerFace) *
+                                      share_in_flight(demand, tiles_in_flight));
 }
 
 /// Bytes of the window when all strips before this one have left it.
@@ -48,6 +54,7 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
     Budget budget{.memory = memory,
                   .chunk_strips = chunk_strips,
                   .in_flight = in_flight,
+                  .share_in_flight = share_in_flight(demand, in_flight),
                   .chunks = {},
                   .least = {},
                   .asked_budget = demand.asked_budget};

@@ -36,6 +36,13 @@ public:
         result_.report.bytes_per_face = static_cast<double>(bytes) / static_cast<double>(faces);
     }
 
+    /// Notes that the whole run will need so many bytes, and says so.
+    void note_bytes_needed(std::uint64_t bytes, const char* stage) {
+        if (bytes <= progress_.bytes_needed) return;
+        progress_.bytes_needed = bytes;
+        report_progress(stage);
+    }
+
     void note_strip_count(std::uint32_t strips) { progress_.strip_count = strips; }
 
     /// Notes a strip that was meshed, before smoothing.

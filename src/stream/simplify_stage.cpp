@@ -6,6 +6,7 @@
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
 #include "simplify/threshold_passes.h"
+#include "stream/footprint.h"
 #include "stream/stage_options.h"
 #include "stream/tuning.h"
 
@@ -45,8 +46,18 @@ void SimplifyStage::keep_within_budget(double safe_high) {
         give_back_freed_memory();
     }
     // Where topology or the largest error forbid more, the mesh may grow.
-    if (stopped_ != StopReason::kTarget && mesh_.face_count() > room)
-        budget_.asked_budget = std::uint64_t{mesh_.face_count()} * stream::kGrowthHalves / 2;
+    if (stopped_ == StopReason::kTarget || mesh_.face_count() <= room) return;
+    budget_.asked_budget = std::uint64_t{mesh_.face_count()} * stream::kGrowthHalves / 2;
+    const auto merged = static_cast<double>(std::max<std::uint64_t>(initial_faces_, 1));
+    const double total = std::max(static_cast<double>(plan_.target.total.value_or(0)), merged);
+    warn_of_memory(static_cast<double>(mesh_.face_count()) * (total / merged), "reconstruct");
+}
+
+/// Says that the model will not fit, where it decimates so many faces in the end. Nobody can know before the work.
+void SimplifyStage::warn_of_memory(double faces, const char* stage) {
+    const double bytes = static_cast<double>(shape_.reading_bytes) + faces * static_cast<double>(kWorkBytesPerFace);
+    if (options_.face_budget || bytes <= static_cast<double>(options_.memory)) return;
+    log_.note_bytes_needed(static_cast<std::uint64_t>(bytes), stage);
 }
 
 void SimplifyStage::bring_to_target() {
@@ -56,6 +67,7 @@ void SimplifyStage::bring_to_target() {
     }
     strips_are_done_ = true;
     log_.report_progress("decimate");
+    warn_of_memory(mesh_.face_count(), "decimate");
     const std::uint64_t goal = plan_.target.of(log_.report().initial_faces);
     raise_threshold(goal, HUGE_VAL);
     log_.advance(WorkStage::kPasses, 1);

@@ -25,6 +25,7 @@ public:
 
 private:
     void raise_threshold(std::uint64_t goal, double safe_high);
+    void warn_of_memory(double faces, const char* stage);
     void trim(std::uint64_t goal, double safe_high, bool is_last);
 
     Mesh& mesh_;

@@ -1,6 +1,7 @@
 #include "stream/tile_stage.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "stream/stage_options.h"
 
@@ -23,6 +24,8 @@ void TileStage::run(Chunk& chunk, const Gatherer& gatherer) {
     tile_options_.on_share = [&](double share) {
         log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gatherer.strip_count() - strips_done_));
     };
+    tile_options_.faces_in_flight =
+        static_cast<std::uint64_t>(std::ceil(plan_.budget.share_in_flight * static_cast<double>(chunk.faces.size())));
     const Timer timer = log_.time("decimate tiles");
     log_.add(simplify_run(chunk, gatherer.carried(), gatherer.safe(), plan_.tiles, tile_options_));
     strips_done_ = gatherer.strip_count();

@@ -41,7 +41,7 @@ std::uint8_t nearest(const std::vector<Site>& sites, std::uint32_t x, std::uint3
 }  // namespace
 
 std::string Volume::text() const {
-    constexpr const char* kNames[] = {"noise", "blocks", "cells", "layers"};
+    constexpr const char* kNames[] = {"noise", "blocks", "cells", "layers", "band"};
     return std::string(kNames[static_cast<int>(pattern)]) + " " + std::to_string(size[0]) + " x " +
            std::to_string(size[1]) + " x " + std::to_string(size[2]);
 }
@@ -71,6 +71,9 @@ void write_npy(const Volume& volume, const std::filesystem::path& path) {
                         break;
                     case Pattern::kLayers:
                         label = 1 + (z + (x * y) / 64) / 5 % 9;
+                        break;
+                    case Pattern::kBand:
+                        label = y * 4 < volume.size[1] ? draw(random, 4) : 4;
                         break;
                 }
                 file.put(static_cast<char>(label));

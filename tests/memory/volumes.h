@@ -7,8 +7,8 @@
 
 namespace regionmesh::memory {
 
-enum class Pattern { kNoise, kBlocks, kCells, kLayers };
-inline constexpr int kPatterns = 4;
+enum class Pattern { kNoise, kBlocks, kCells, kLayers, kBand };  // band: noise in a quarter, along x
+inline constexpr int kPatterns = 5;
 
 struct Volume {
     Pattern pattern;

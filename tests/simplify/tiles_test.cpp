@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <set>
+
 #include "cells/label_census.h"
 #include "cells/strip_mesher.h"
 #include "smooth/smoother.h"
@@ -127,6 +130,62 @@ TEST(Tiles, keep_the_share_they_are_told_to) {
                  {.threshold = 1e-3, .keep_share = 0.5, .threads = 1, .simplify = {}});
     EXPECT_GE(batch.whole.faces.size(), faces / 2 - 16);
     EXPECT_LE(batch.whole.faces.size(), faces / 2 + 16);
+}
+
+/// Noise in a row of tiles, nothing elsewhere.
+Batch crowded() {
+    std::vector<InputLabel> labels;
+    const test::ArrayVolume noise = test::noise_volume({24, 6, 6}, 4, 3);
+    for (std::uint32_t z = 0; z < 6; ++z)
+        for (std::uint32_t y = 0; y < 24; ++y)
+            for (std::uint32_t x = 0; x < 24; ++x) labels.push_back(y < 6 ? noise.labels()[(z * 6 + y) * 24 + x] : 1);
+    test::ArrayVolume volume({24, 24, 6}, labels);
+    return Batch(volume);
+}
+
+TEST(Tiles, in_flight_hold_no_more_faces_than_they_may) {
+    const Batch batch = crowded();
+    const TileGrid grid{.origin = batch.lattice.origin,
+                        .spacing = batch.lattice.spacing,
+                        .size = {23, 23, 5},
+                        .cells = {6, 6, 5},
+                        .is_bounded = true};
+    const TiledFaces faces(batch.whole, {}, grid, 1);
+    std::vector<std::uint32_t> tiles(grid.tile_count());
+    std::iota(tiles.begin(), tiles.end(), 0);
+    const auto most_in = [&](std::size_t count) {
+        std::size_t most = 0;
+        for (std::size_t first = 0; first + count <= tiles.size(); ++first) {
+            std::size_t sum = 0;
+            for (std::size_t n = first; n < first + count; ++n)
+                sum += faces.faces_of(tiles[n]).size() + faces.halo_of(tiles[n]).size();
+            most = std::max(most, sum);
+        }
+        return most;
+    };
+    ASSERT_GT(most_in(4), 2 * batch.whole.faces.size() / 3) << "this test needs tiles that hold most of the faces";
+    for (std::uint32_t count : {1u, 2u, 3u, 4u, 7u}) {
+        const TileOptions options{
+            .threshold = 1, .keep_share = 0, .in_flight = 7, .faces_in_flight = most_in(count), .simplify = {}};
+        const std::uint32_t found = tiles_in_flight(faces, tiles, options);
+        EXPECT_GE(found, count);
+        EXPECT_EQ(most_in(found), most_in(count));
+    }
+    EXPECT_EQ(tiles_in_flight(faces, tiles, {.threshold = 1, .keep_share = 0, .faces_in_flight = 0, .simplify = {}}),
+              1u);
+}
+
+TEST(Tiles, in_flight_do_not_change_the_result) {
+    std::set<std::uint64_t> digests;
+    for (std::uint64_t most : {std::uint64_t{0}, std::uint64_t{9000}, kMostFaces})
+        for (std::uint32_t threads : {1u, 2u}) {
+            Batch batch = crowded();
+            simplify_run(
+                batch.whole, {}, extent_of(batch), plan_of(batch, 6),
+                {.threshold = 1, .keep_share = 0.3, .threads = threads, .faces_in_flight = most, .simplify = {}});
+            digests.insert(test::digest(batch.mesh()));
+        }
+    EXPECT_EQ(digests.size(), 1u);
 }
 
 TEST(Tiles, leave_carried_and_active_vertices_as_they_are) {

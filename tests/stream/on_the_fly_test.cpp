@@ -120,5 +120,31 @@ TEST(Memory, peak_does_not_grow_with_the_number_of_sections) {
     EXPECT_LE(whole.report.peak_faces, half.report.peak_faces * 11 / 10);
 }
 
+/// Of noise, the largest error leaves nearly all faces.
+TEST(Memory, faces_left_that_do_not_fit_are_said_during_the_run) {
+    test::ArrayVolume volume = test::noise_volume({8, 8, 120}, 4, 1);
+    ReconstructOptions options = test::reduced(0.95);
+    options.max_error = 1e-6;
+    options.memory = 27'000'000;
+    std::uint64_t needed = 0;
+    std::uint32_t at = 0;
+    const auto note = [&](const Progress& progress) {
+        if (progress.bytes_needed == 0 || needed > 0) return;
+        needed = progress.bytes_needed;
+        at = progress.strips_read;
+    };
+    volume.rewind();
+    const Reconstruction made = reconstruct(volume, options, note);
+    EXPECT_GT(needed, options.memory);
+    EXPECT_LT(at, 80u) << "too late to stop the run";
+    EXPECT_GT(needed, made.report.final_faces * 80);
+    EXPECT_LT(needed, made.report.final_faces * 150 + 30'000'000);
+    options.memory = 200'000'000;
+    needed = 0;
+    volume.rewind();
+    reconstruct(volume, options, note);
+    EXPECT_EQ(needed, 0u);
+}
+
 }  // namespace
 }  // namespace regionmesh
