@@ -31,9 +31,10 @@ struct TetrahedronCensus {
 };
 
 struct CensusOptions {
-    bool cap = true;                        // as in ReconstructOptions
-    std::vector<InputLabel> background{0};  // as in ReconstructOptions
-    std::optional<Sweep> sweep = {};        // of tetrahedra
+    bool cap = true;                         // as in ReconstructOptions
+    std::vector<InputLabel> background{0};   // as in ReconstructOptions
+    std::optional<Sweep> sweep = {};         // of tetrahedra
+    CellKind cells = CellKind::kTetrahedra;  // of sections, as in ReconstructOptions
 };
 
 /// Reads all sections. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader

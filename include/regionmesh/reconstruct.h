@@ -25,6 +25,7 @@ struct ReconstructOptions {
                                            // round, in the unit of the spacing
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
                       // change their label first, for noisy labels (docs/smoothing.md); 0: none changes
+    CellKind cells = CellKind::kTetrahedra;  // of sections: what faces are made from
     double scale_z = 1;  // of sections: z is multiplied by the nearest power of two while positions, costs, qualities
                          // and errors are computed; the model is not scaled. Tetrahedra have their own
     SmoothOptions smooth = {};                          // its scale, quality, tests and threads are set from the run

@@ -298,6 +298,13 @@ Rows label_rows() {
                      .group = kGroup,
                      .commands = kBoxed},
                     {"cap", "open"}, [](Settings& s, std::size_t word) { s.reconstruct.cap = word == 0; }),
+        word_option({.name = "cells",
+                     .help = "of sections. tetrahedra: six for eight samples, as the paper has them; compact: the same "
+                             "regions and lines with a third of the faces, before decimation",
+                     .group = kGroup,
+                     .commands = kReconstruct | kInfo},
+                    {"tetrahedra", "compact"},
+                    [](Settings& s, std::size_t word) { s.reconstruct.cells = static_cast<CellKind>(word); }),
         special_option(
             {.name = "outside",
              .help = "label of samples in no region, where there is no background",
