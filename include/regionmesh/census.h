@@ -31,10 +31,10 @@ struct TetrahedronCensus {
 };
 
 struct CensusOptions {
-    bool cap = true;                         // as in ReconstructOptions
-    std::vector<InputLabel> background{0};   // as in ReconstructOptions
-    std::optional<Sweep> sweep = {};         // of tetrahedra
-    CellKind cells = CellKind::kTetrahedra;  // of sections, as in ReconstructOptions
+    bool cap = true;                        // as in ReconstructOptions
+    std::vector<InputLabel> background{0};  // as in ReconstructOptions
+    std::optional<Sweep> sweep = {};        // of tetrahedra
+    CellKind cells = CellKind::kCompact;    // of sections: kCompact or kTetrahedra
 };
 
 /// Reads all sections. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader

@@ -41,8 +41,9 @@ inline constexpr Sweep kSweepZ{{0, 1, 2}};
 
 /// How a cell of eight samples is meshed. Both make the same regions, interfaces, lines and quadruple points.
 enum class CellKind {
-    kTetrahedra,  // in six tetrahedra, as the paper does (P 3.2)
+    kAuto,        // kCompact where smoothing keeps every sample by construction, or is off; else kTetrahedra
     kCompact,     // whole, from a table: a third of the faces (docs/explanation/compact-cells.md)
+    kTetrahedra,  // in six tetrahedra, as the paper does (P 3.2)
 };
 
 /// The axis along which a volume is read. kAuto: the axis with the smallest section (P 3.1), z before y before x.

@@ -299,11 +299,12 @@ Rows label_rows() {
                      .commands = kBoxed},
                     {"cap", "open"}, [](Settings& s, std::size_t word) { s.reconstruct.cap = word == 0; }),
         word_option({.name = "cells",
-                     .help = "of sections. tetrahedra: six for eight samples, as the paper has them; compact: the same "
-                             "regions and lines with a third of the faces, before decimation",
+                     .help = "how sections are meshed: compact, eight samples at a time, with a third of the faces for "
+                             "the same regions and lines; tetrahedra, six for eight samples, as the paper does; auto: "
+                             "compact unless taubin, laplacian or nifpms smooths",
                      .group = kGroup,
                      .commands = kReconstruct | kInfo},
-                    {"tetrahedra", "compact"},
+                    {"auto", "compact", "tetrahedra"},
                     [](Settings& s, std::size_t word) { s.reconstruct.cells = static_cast<CellKind>(word); }),
         special_option(
             {.name = "outside",

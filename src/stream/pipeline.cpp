@@ -171,7 +171,7 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
     SectionFaces source(ahead ? *ahead : reader,
-                        {.cap = options.cap, .background = options.background, .cells = options.cells},
+                        {.cap = options.cap, .background = options.background, .cells = cell_kind(options)},
                         is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader, options));
     Reconstruction result = reconstruct(source, options, on_progress);
     count_samples(result, source, options, on_progress);

@@ -40,7 +40,8 @@ void shake(Mesh& mesh, const LatticeFrame& frame, CellKind cells, std::mt19937_6
     const LatticeMargins margins{kMargin, cells == CellKind::kCompact ? CompactCells::kInnerMargin : 0};
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
         const LatticeSimplex simplex = simplex_of(mesh.position(VertexId{v}), frame);
-        mesh[VertexId{v}].position = position_in(simplex, random_weights(random, simplex.node_count(), margins.of(simplex.kind)), frame);
+        mesh[VertexId{v}].position =
+            position_in(simplex, random_weights(random, simplex.node_count(), margins.of(simplex.kind)), frame);
     }
 }
 
@@ -223,9 +224,7 @@ TEST_P(LatticeSimplexOf, any_positions_inside_keep_every_sample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(cells, LatticeSimplexOf, testing::Values(CellKind::kTetrahedra, CellKind::kCompact),
-                         [](const auto& info) {
-                             return info.param == CellKind::kCompact ? "compact" : "tetrahedra";
-                         });
+                         [](const auto& info) { return info.param == CellKind::kCompact ? "compact" : "tetrahedra"; });
 
 }  // namespace
 }  // namespace regionmesh
