@@ -6,7 +6,7 @@ namespace regionmesh::cli {
 
 CensusOptions census_options(const Settings& settings) {
     const ReconstructOptions& options = settings.reconstruct;
-    return {.cap = options.cap, .background = options.background, .sweep = options.sweep};
+    return {.cap = options.cap, .background = options.background, .sweep = options.sweep, .cells = cell_kind(options)};
 }
 
 Settings settings_for(const Settings& settings, const MeshFile& file) {

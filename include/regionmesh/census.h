@@ -34,6 +34,7 @@ struct CensusOptions {
     bool cap = true;                        // as in ReconstructOptions
     std::vector<InputLabel> background{0};  // as in ReconstructOptions
     std::optional<Sweep> sweep = {};        // of tetrahedra
+    CellKind cells = CellKind::kCompact;    // of sections: kCompact or kTetrahedra
 };
 
 /// Reads all sections. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader

@@ -43,6 +43,13 @@ inline constexpr Sweep kSweepX{{1, 2, 0}};
 inline constexpr Sweep kSweepY{{2, 0, 1}};
 inline constexpr Sweep kSweepZ{{0, 1, 2}};
 
+/// How a cell of eight samples is meshed. Both make the same regions, interfaces, lines and quadruple points.
+enum class CellKind {
+    kAuto,        // kCompact where smoothing keeps every sample by construction, or is off; else kTetrahedra
+    kCompact,     // whole, from a table: a third of the faces (docs/explanation/compact-cells.md)
+    kTetrahedra,  // in six tetrahedra, as the paper does (P 3.2)
+};
+
 /// The axis along which a volume is read. kAuto: the axis with the smallest section (P 3.1), z before y before x.
 enum class SweepChoice { kAuto, kX, kY, kZ };
 

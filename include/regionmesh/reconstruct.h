@@ -25,6 +25,7 @@ struct ReconstructOptions {
                                            // round, in the unit of the spacing
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
                       // change their label first, for noisy labels (docs/smoothing.md); 0: none changes
+    CellKind cells = CellKind::kAuto;  // of sections: how they are meshed
     double scale_z = 1;  // of sections: z is multiplied by the nearest power of two while positions, costs, qualities
                          // and errors are computed; the model is not scaled. Tetrahedra have their own
     SmoothOptions smooth = {};                          // its scale, quality, tests and threads are set from the run
@@ -61,6 +62,9 @@ struct Reconstruction {
     std::vector<Label> background;  // dense
     Report report;
 };
+
+/// How sections are meshed with these options: kCompact or kTetrahedra.
+CellKind cell_kind(const ReconstructOptions& options);
 
 /// Bytes that the process needs to simplify a mesh of `faces` faces made from the volume, reading and meshing included.
 std::uint64_t expected_bytes(const VolumeInfo& volume, std::uint64_t faces);

@@ -17,7 +17,8 @@ Census count_labels(SectionReader& reader, const CensusOptions& options) {
     Census census{.labels = table_for(reader.info()), .samples = {}, .strip_faces = {}, .oracle = {}};
     const std::vector<Label> background = dense_background(options.background, census.labels);
     SectionWindow window(reader, census.labels);
-    LabelCensus counter(reader.info().lattice, reader.info().sweep, {.cap = options.cap, .background = background});
+    LabelCensus counter(reader.info().lattice, reader.info().sweep,
+                        {.cap = options.cap, .background = background, .cells = options.cells});
     const auto add_samples = [&](std::span<const Label> section) {
         census.samples.resize(census.labels.size(), 0);
         for (Label label : section) ++census.samples[label];

@@ -99,33 +99,33 @@ void LabelCensus::count_cell(const Corners& labels) {
     for (int t = kFirstTetrahedron; t < kKindCount; ++t) {
         const auto& step = kKinds[t].steps;
         const unsigned pattern = tetrahedron_pattern(labels[0], labels[step[1]], labels[step[2]], labels[7]);
-        faces_ += faces_of(pattern);
+        if (options_.cells == CellKind::kTetrahedra) faces_ += faces_of(pattern);
         quadruple_points_ += pattern == 63;
     }
+    if (options_.cells == CellKind::kCompact) faces_ += CompactCells::get().face_count(labels);
 }
 
 void LabelCensus::count_caps(const Corners& labels, unsigned sides) {
     for (int side = 0; side < 6; ++side) {
         if (!(sides >> side & 1)) continue;
-        const int axis = side / 2;
-        const Step base = side % 2 ? 1 << axis : 0;
-        const Step s = 1 << (axis + 1) % 3, t = 1 << (axis + 2) % 3;
-        count_triangle(labels[base], labels[base | s], labels[base | s | t]);
-        count_triangle(labels[base], labels[base | t], labels[base | s | t]);
+        const auto corner = labels_at(labels, corners_of_side(side));
+        if (options_.cells == CellKind::kCompact && drops_diagonal(corner)) {
+            for (const CaseFace& face : compact_cap(corner)) count_face(corner[face.first], 1);
+            continue;
+        }
+        count_triangle(corner[0], corner[1], corner[3]);
+        count_triangle(corner[0], corner[2], corner[3]);
     }
 }
 
 /// A corner alone gives one face with its label; two corners with the same label give two, three give one.
 void LabelCensus::count_triangle(Label a, Label b, Label c) {
-    const auto count = [&](Label label, std::uint64_t faces) {
-        if (!options_.is_background(label)) faces_ += faces;
-    };
-    if (a == b && b == c) return count(a, 1);
-    if (a != b && b != c && a != c) return count(a, 2), count(b, 2), count(c, 2);
+    if (a == b && b == c) return count_face(a, 1);
+    if (a != b && b != c && a != c) return count_face(a, 2), count_face(b, 2), count_face(c, 2);
     const Label twin = a == b || a == c ? a : b;
     const Label tip = a == b ? c : a == c ? b : a;
-    count(twin, 2);
-    count(tip, 1);
+    count_face(twin, 2);
+    count_face(tip, 1);
 }
 
 LabelOracle LabelCensus::oracle() const { return {euler_, quadruple_points_, pairs_.size()}; }

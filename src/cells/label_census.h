@@ -36,6 +36,9 @@ private:
     void count_node(const Corners& labels, Step available);
     void count_caps(const Corners& labels, unsigned sides);
     void count_triangle(Label a, Label b, Label c);
+    void count_face(Label label, std::uint64_t faces) {
+        if (!options_.is_background(label)) faces_ += faces;
+    }
 
     std::uint32_t width_, height_;
     StripOptions options_;

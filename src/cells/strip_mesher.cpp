@@ -32,6 +32,7 @@ StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions optio
     for (auto& row : rows_) row.assign(std::size_t{width_} * kRowSlots, 0);
     plan_tetrahedra();
     plan_triangles();
+    plan_compact_cells();
 }
 
 std::size_t StripMesher::bytes() const {
@@ -102,6 +103,22 @@ void StripMesher::plan_triangles() {
     }
 }
 
+void StripMesher::plan_compact_cells() {
+    for (int n = 0; n < kCellSimplexCount; ++n) {
+        std::array<Step, 4> corners{};
+        int count = 0;
+        for (Step step = 0; step < 8; ++step)
+            if (kCellSimplices[n] >> step & 1) corners[count++] = step;
+        simplices_[n] = place_of(corners.data(), (1u << count) - 1);
+    }
+    for (int side = 0; side < 6; ++side) {
+        SquarePlan& plan = squares_[side];
+        plan.corners = corners_of_side(side);
+        plan.turns = side % 2 == 0;
+        for (unsigned set = 1; set < 16; ++set) plan.simplices[set] = place_of(plan.corners.data(), set);
+    }
+}
+
 void StripMesher::mesh(std::span<const Label> low, std::span<const Label> high, Chunk& chunk) {
     assert(strip_ + 1 < count_ && low.size() == std::size_t{width_} * height_ && high.size() == low.size());
     low_ = low;
@@ -122,7 +139,8 @@ void StripMesher::mesh_row(std::uint32_t j) {
     const std::size_t row = std::size_t{j} * width_;
     const std::uint32_t cells = width_ - 1;
     mixed_.find(&low_[row], &low_[row + width_], &high_[row], &high_[row + width_]);
-    mixed_.for_each([&](std::uint32_t i) { mesh_cell(i, j); });
+    const bool is_compact = options_.cells == CellKind::kCompact;
+    mixed_.for_each([&](std::uint32_t i) { is_compact ? mesh_compact(i, j) : mesh_in_tetrahedra(i, j); });
     if (!options_.cap) return;
     cap_side(0, j, 0);
     cap_side(cells - 1, j, 1);
@@ -139,7 +157,7 @@ std::array<Label, 8> StripMesher::cell_labels(std::uint32_t i, std::uint32_t j) 
     return {low_[a], low_[a + 1], low_[b], low_[b + 1], high_[a], high_[a + 1], high_[b], high_[b + 1]};
 }
 
-void StripMesher::mesh_cell(std::uint32_t i, std::uint32_t j) {
+void StripMesher::mesh_in_tetrahedra(std::uint32_t i, std::uint32_t j) {
     const auto labels = cell_labels(i, j);
     for (const TetrahedronPlan& plan : tetrahedra_) {
         const std::array<Label, 4> corner{labels[0], labels[plan.corners[1]], labels[plan.corners[2]], labels[7]};
@@ -159,10 +177,48 @@ void StripMesher::mesh_cell(std::uint32_t i, std::uint32_t j) {
     }
 }
 
+void StripMesher::mesh_compact(std::uint32_t i, std::uint32_t j) {
+    const auto labels = cell_labels(i, j);
+    std::array<std::uint32_t, kCellSimplexCount> known{};  // vertex number + 1
+    compact_cells_.for_each_face(labels, [&](const CompactFace& face) {
+        ChunkFace made;
+        for (int n = 0; n < 3; ++n) {
+            std::uint32_t& number = known[face.vertices[n]];
+            if (!number) number = vertex(simplices_[face.vertices[n]], i, j) + 1;
+            made.vertices[n] = number - 1;
+        }
+        made.labels = {labels[face.first], labels[face.second]};
+        chunk_->faces.push_back(made);
+    });
+}
+
 void StripMesher::cap_side(std::uint32_t i, std::uint32_t j, int side) {
     const auto labels = cell_labels(i, j);
-    // Sides are numbered by the axes of the lattice, triangles were planned by those of the sweep.
+    // Sides are numbered by the axes of the lattice, triangles and squares were planned by those of the sweep.
     const Label outside = exterior(2 * sweep_.axes[side / 2] + side % 2);
+    if (options_.cells == CellKind::kCompact && drops_diagonal(labels_at(labels, squares_[side].corners)))
+        cap_square(labels, i, j, side, outside);
+    else
+        cap_triangles(labels, i, j, side, outside);
+}
+
+/// Where the diagonal has no vertex.
+void StripMesher::cap_square(const std::array<Label, 8>& labels, std::uint32_t i, std::uint32_t j, int side,
+                             Label outside) {
+    const SquarePlan& plan = squares_[side];
+    for (const CaseFace& face : compact_cap(labels_at(labels, plan.corners))) {
+        const Label inside = labels[plan.corners[face.first]];
+        if (options_.is_background(inside)) continue;
+        ChunkFace made;
+        for (int n = 0; n < 3; ++n) made.vertices[n] = vertex(plan.simplices[face.vertices[n]], i, j);
+        if (plan.turns) std::swap(made.vertices[1], made.vertices[2]);
+        made.labels = {inside, outside};
+        chunk_->faces.push_back(made);
+    }
+}
+
+void StripMesher::cap_triangles(const std::array<Label, 8>& labels, std::uint32_t i, std::uint32_t j, int side,
+                                Label outside) {
     for (const TrianglePlan& plan : triangles_[side]) {
         const std::array<Label, 3> corner{labels[plan.corners[0]], labels[plan.corners[1]], labels[plan.corners[2]]};
         for (const CaseFace& face : plan.cases[triangle_pattern(corner[0], corner[1], corner[2])]) {

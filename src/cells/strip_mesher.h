@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cells/compact_cells.h"
 #include "cells/marching_tetrahedra.h"
 #include "cells/mixed_cells.h"
 #include "mesh/chunk.h"
@@ -18,7 +19,8 @@ namespace regionmesh {
 struct StripOptions {
     bool cap = true;                     // split the lattice triangles on the six sides of the box into faces
     std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
-    QuadCuts cuts = QuadCuts::kBestQuality;
+    CellKind cells = CellKind::kTetrahedra;
+    QuadCuts cuts = QuadCuts::kBestQuality;  // of tetrahedra and of their triangles on the box
 
     bool is_background(Label label) const {
         return std::find(background.begin(), background.end(), label) != background.end();
@@ -64,12 +66,22 @@ private:
         TriangleCases cases;
     };
 
+    struct SquarePlan {
+        bool turns;
+        std::array<Step, 4> corners;  // within the cell; the ends of the diagonal are the first and the last
+        std::array<SimplexPlace, 16> simplices;
+    };
+
     SimplexPlace place_of(const Step* corners, unsigned set) const;
     void plan_tetrahedra();
     void plan_triangles();
+    void plan_compact_cells();
     void mesh_row(std::uint32_t j);
-    void mesh_cell(std::uint32_t i, std::uint32_t j);
+    void mesh_in_tetrahedra(std::uint32_t i, std::uint32_t j);
+    void mesh_compact(std::uint32_t i, std::uint32_t j);
     void cap_side(std::uint32_t i, std::uint32_t j, int side);
+    void cap_square(const std::array<Label, 8>& labels, std::uint32_t i, std::uint32_t j, int side, Label outside);
+    void cap_triangles(const std::array<Label, 8>& labels, std::uint32_t i, std::uint32_t j, int side, Label outside);
     std::array<Label, 8> cell_labels(std::uint32_t i, std::uint32_t j) const;
     std::uint32_t vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j);
     std::uint32_t make_vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j);
@@ -82,6 +94,8 @@ private:
     std::uint32_t width_, height_, count_;  // samples along the fast axis, the slow axis, the sweep
     std::array<TetrahedronPlan, 6> tetrahedra_;
     std::array<std::vector<TrianglePlan>, 6> triangles_;
+    std::array<SimplexPlace, kCellSimplexCount> simplices_;  // of compact cells
+    std::array<SquarePlan, 6> squares_;
 
     std::uint32_t strip_ = 0;
     std::span<const Label> low_, high_;
@@ -90,6 +104,7 @@ private:
     std::vector<std::uint32_t> rows_[2];
     std::vector<std::uint32_t> touched_[2];  // places in planes_ that are not 0
     MixedCells mixed_;                       // of a row of cells
+    const CompactCells& compact_cells_ = CompactCells::get();
 };
 
 }  // namespace regionmesh

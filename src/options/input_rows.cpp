@@ -336,6 +336,14 @@ Rows label_rows() {
                      .group = kGroup,
                      .commands = kBoxed},
                     {"cap", "open"}, [](Settings& s, std::size_t word) { s.reconstruct.cap = word == 0; }),
+        word_option({.name = "cells",
+                     .help = "how sections are meshed: compact, eight samples at a time, with a third of the faces for "
+                             "the same regions and lines; tetrahedra, six for eight samples, as the paper does; auto: "
+                             "compact unless taubin, laplacian or nifpms smooths",
+                     .group = kGroup,
+                     .commands = kReconstruct | kInfo},
+                    {"auto", "compact", "tetrahedra"},
+                    [](Settings& s, std::size_t word) { s.reconstruct.cells = static_cast<CellKind>(word); }),
         special_option(
             {.name = "outside",
              .help = "label of samples in no region, where there is no background",

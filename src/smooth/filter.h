@@ -22,6 +22,7 @@ struct ChunkOrder {
     std::uint32_t overlap = 0;  // chunks that follow and begin before the end of one, at most
     std::uint32_t extra = 0;    // chunks held beyond those that the reach of the filter calls for
     LatticeFrame frame = {};    // of the vertices; for SmoothFilter::kLattice
+    double inner_margin = 0;    // least weight in triangles on the main diagonal of a cell, for the same
 
     std::uint32_t chunks_within(double length) const {
         return static_cast<std::uint32_t>(std::ceil(length / thickness));

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/parallel_for.h"
 
@@ -103,29 +106,51 @@ std::uint32_t LatticeLines::node_of(std::uint32_t vertex) const {
     return low;
 }
 
-/// Two vertices in triangles or tetrahedra of the lattice are joined along lines only.
+/// An edge between two vertices in triangles or tetrahedra of the lattice is part of a line where faces of two
+/// interfaces meet in it; compact cells cut sheets along such edges, too.
 void LatticeLines::link(std::uint32_t chunk) {
+    struct Side {
+        std::uint32_t from, to;  // nodes
+        std::uint32_t order;
+        std::array<Label, 2> labels;
+    };
     const NumberRange own = window_.vertices_of(chunk);
     NumberRange faces = window_.faces_of(chunk);
     if (chunk + 1 < window_.chunk_end()) faces.end = window_.faces_of(chunk + 1).end;
-    const auto join = [&](std::uint32_t from, std::uint32_t to) {
+    std::vector<Side> sides;
+    const auto add = [&](std::uint32_t from, std::uint32_t to, std::array<Label, 2> labels) {
         if (from < own.first || from >= own.end) return;
-        Node& node = nodes_[node_of(from)];
-        const std::uint32_t next = node_of(to);
-        const auto end = node.next.begin() + node.count;
-        if (std::find(node.next.begin(), end, next) == end && node.count < node.next.size())
-            node.next[node.count++] = next;
+        if (labels[0] > labels[1]) std::swap(labels[0], labels[1]);
+        sides.push_back({node_of(from), node_of(to), static_cast<std::uint32_t>(sides.size()), labels});
     };
     for (std::uint32_t f = faces.first; f < faces.end; ++f) {
-        const auto& corners = window_.faces[f].vertices;
+        const auto& [corners, labels] = window_.faces[f];
         bool is_on_line[3];
         for (int n = 0; n < 3; ++n) is_on_line[n] = sites_.kind(corners[n]) >= kFirstTriangle;
         for (int n = 0; n < 3; ++n) {
             const int next = (n + 1) % 3;
             if (!is_on_line[n] || !is_on_line[next]) continue;
-            join(corners[n], corners[next]);
-            join(corners[next], corners[n]);
+            add(corners[n], corners[next], labels);
+            add(corners[next], corners[n], labels);
         }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.from, a.to, a.order) < std::tie(b.from, b.to, b.order);
+    });
+    // One side for each edge of a line, in the order in which they came.
+    std::size_t kept = 0;
+    for (std::size_t first = 0, end; first < sides.size(); first = end) {
+        bool is_line = false;
+        for (end = first;
+             end < sides.size() && sides[end].from == sides[first].from && sides[end].to == sides[first].to; ++end)
+            is_line |= sides[end].labels != sides[first].labels;
+        if (is_line) sides[kept++] = sides[first];
+    }
+    sides.resize(kept);
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.order < b.order; });
+    for (const Side& side : sides) {
+        Node& node = nodes_[side.from];
+        if (node.count < node.next.size()) node.next[node.count++] = side.to;
     }
     for (std::uint32_t n = first_node_[chunk]; n < first_node_[chunk + 1]; ++n) end_links(nodes_[n]);
 }
@@ -159,7 +184,8 @@ void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_
             }
             for (int i = 0; i < count; ++i)
                 for (int j = 0; j < count; ++j) step[i] += node.nearest.a[i][j] * b[j];
-            node.at[to] = position_in(node.simplex, clamp_inside(weights_of(step, count), count + 1, margin_), frame);
+            node.at[to] = position_in(
+                node.simplex, clamp_inside(weights_of(step, count), count + 1, margins_.of(node.simplex.kind)), frame);
         }
     });
 }

@@ -34,8 +34,8 @@ Barycentric weights_of(const std::array<double, 3>& coefficients, int count);
 /// the mean of its neighbours.
 class LatticeLines {
 public:
-    LatticeLines(const SurfaceWindow& window, const LatticeSites& sites, double margin)
-        : window_(window), sites_(sites), margin_(margin) {
+    LatticeLines(const SurfaceWindow& window, const LatticeSites& sites, const LatticeMargins& margins)
+        : window_(window), sites_(sites), margins_(margins) {
         first_node_.push_back(0);
     }
 
@@ -74,7 +74,7 @@ private:
 
     const SurfaceWindow& window_;
     const LatticeSites& sites_;
-    double margin_;
+    LatticeMargins margins_;
     SlidingArray<Node> nodes_;                // by vertex
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
 };

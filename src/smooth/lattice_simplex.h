@@ -30,6 +30,17 @@ struct LatticeSimplex {
 /// The simplex whose centroid an unsmoothed vertex is. Throws Error(kInput) for any other position.
 LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame);
 
+/// The least weights of the nodes of a vertex's simplex.
+struct LatticeMargins {
+    double all;
+    double inner;  // in triangles on the main diagonal of a cell
+
+    double of(int kind) const {
+        const bool is_inner = kKinds[kind].node_count == 3 && kKinds[kind].steps[2] == 7;
+        return is_inner && inner > all ? inner : all;
+    }
+};
+
 /// Moves weights into the smaller simplex in which none is below `margin`. Keeps weights that are there already.
 /// Requires margin < 1 / node_count.
 Barycentric clamp_inside(const Barycentric& weights, int node_count, double margin);

@@ -26,8 +26,9 @@ LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder&
     : options_(options),
       order_(order),
       spacing_(order.frame.spacing / order.frame.finest()),
+      margins_{kLatticeMargin, order.inner_margin},
       sites_(window_, order.frame),
-      lines_(window_, sites_, kLatticeMargin) {
+      lines_(window_, sites_, margins_) {
     for (double size = largest_block(order.frame, options.reach); size >= smoothing::kSmallestBlock; size /= 2)
         levels_.emplace_back(sites_, estimates_,
                              LatticeLevel::Options{.size = size,
@@ -145,7 +146,7 @@ void LatticeSmoother::place(std::uint32_t chunk) {
             const SimplexEdges edges = edges_of(sites_.kind(v), spacing_);
             const Barycentric weights = weights_of(nearest_to_interfaces(v, edges).solve(), edges.count);
             positions_[v] = position_in(simplex_in(window_, sites_, v),
-                                        clamp_inside(weights, edges.count + 1, kLatticeMargin), frame);
+                                        clamp_inside(weights, edges.count + 1, margins_.of(sites_.kind(v))), frame);
         }
     });
     for (std::uint32_t v = vertices.first; v < vertices.end; ++v)

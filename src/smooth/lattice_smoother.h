@@ -42,6 +42,7 @@ private:
     SmoothOptions options_;
     ChunkOrder order_;
     Vec3 spacing_;  // in finest spacings
+    LatticeMargins margins_;
     SurfaceWindow window_;
     LatticeSites sites_;
     SlidingArray<SiteEstimate> estimates_;  // by site

@@ -25,6 +25,7 @@ struct FaceCount {
 struct SourceShape {
     std::string name;          // for messages
     bool has_samples = false;  // at the nodes of the lattice
+    CellKind cells = CellKind::kTetrahedra;
     Lattice lattice;           // round all positions, axis-aligned: tiles are blocks of its cells
     Sweep sweep;
     std::uint32_t strip_count = 0;

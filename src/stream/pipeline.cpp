@@ -174,7 +174,8 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
-    SectionFaces source(ahead ? *ahead : reader, {.cap = options.cap, .background = options.background},
+    SectionFaces source(ahead ? *ahead : reader,
+                        {.cap = options.cap, .background = options.background, .cells = cell_kind(options)},
                         is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader, options));
     Reconstruction result = reconstruct(source, options, on_progress);
     count_samples(result, source, options, on_progress);

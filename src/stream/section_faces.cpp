@@ -10,9 +10,10 @@
 namespace regionmesh {
 namespace {
 
-SourceShape shape_of(const VolumeInfo& info, double scale_z) {
+SourceShape shape_of(const VolumeInfo& info, CellKind cells, double scale_z) {
     SourceShape shape{
         .name = info.source, .has_samples = true, .lattice = meshing_lattice(info.lattice), .sweep = info.sweep};
+    shape.cells = cells;
     shape.scale_z = scale_z;
     shape.lattice.spacing.z *= scale_z;
     shape.lattice.origin.z *= scale_z;
@@ -31,7 +32,7 @@ SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options, 
     : reader_(reader),
       options_(options),
       cuts_(cuts),
-      shape_(shape_of(reader.info(), scale_z)),
+      shape_(shape_of(reader.info(), options.cells, scale_z)),
       labels_(table_for(reader.info())),
       background_(dense_background(options.background, labels_)) {}
 

@@ -33,7 +33,9 @@ public:
 
 private:
     void begin();
-    StripOptions strip_options() const { return {.cap = options_.cap, .background = background_, .cuts = cuts_}; }
+    StripOptions strip_options() const {
+        return {.cap = options_.cap, .background = background_, .cells = options_.cells, .cuts = cuts_};
+    }
 
     SectionReader& reader_;
     CensusOptions options_;

@@ -10,6 +10,14 @@ ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter a
     return own;
 }
 
+CellKind cell_kind(const ReconstructOptions& options) {
+    if (options.cells != CellKind::kAuto) return options.cells;
+    const SmoothFilter filter = options.smooth.filter;
+    const bool keeps_samples =
+        options.smooth.passes == 0 || filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice;
+    return keeps_samples ? CellKind::kCompact : CellKind::kTetrahedra;
+}
+
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
     SmoothOptions own = options.smooth;
     own.scale = scale;

@@ -1,5 +1,7 @@
 #include "stream/strips.h"
 
+#include "cells/compact_cells.h"
+
 namespace regionmesh {
 
 ChunkOrder strip_order(const SourceShape& shape, std::uint32_t extra) {
@@ -7,7 +9,8 @@ ChunkOrder strip_order(const SourceShape& shape, std::uint32_t extra) {
             .thickness = shape.strip_thickness,
             .overlap = shape.strip_overlap,
             .extra = extra,
-            .frame = {shape.lattice.origin, shape.lattice.spacing}};
+            .frame = {shape.lattice.origin, shape.lattice.spacing},
+            .inner_margin = shape.cells == CellKind::kCompact ? CompactCells::kInnerMargin : 0};
 }
 
 std::uint32_t window_strips(const SmoothOptions& options, const ChunkOrder& order) {

@@ -75,7 +75,8 @@ TEST(LabelCensus, counts_the_faces_that_are_made) {
     for (test::ArrayVolume& volume : volumes())
         for (const ReconstructOptions& option : options) {
             volume.rewind();
-            const Census census = count_labels(volume, {.cap = option.cap, .background = option.background});
+            const Census census =
+                count_labels(volume, {.cap = option.cap, .background = option.background, .cells = option.cells});
             EXPECT_EQ(census.face_count, test::run(volume, option).mesh.face_count());
         }
 }

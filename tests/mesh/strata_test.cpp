@@ -60,8 +60,9 @@ TEST(Strata, a_diagonal_between_two_edges_of_the_box_is_no_line) {
 }
 
 TEST(Strata, the_rim_of_an_open_surface_counts_the_sides_it_lies_on) {
-    const Mesh mesh =
-        run(test::TextVolume({{"00", "00"}, {"11", "11"}}), {.decimate = false, .cap = false, .background = {}}).mesh;
+    const Mesh mesh = run(test::TextVolume({{"00", "00"}, {"11", "11"}}),
+                          {.cells = CellKind::kTetrahedra, .decimate = false, .cap = false, .background = {}})
+                          .mesh;
     const VertexId corner = vertex_at(mesh, {0, 0, 0.5}), side = vertex_at(mesh, {0.5, 0, 0.5});
     EXPECT_THAT(labels_of(vertex_labels(mesh, corner)), UnorderedElementsAre(0, 1, exterior(0), exterior(2)));
     EXPECT_THAT(labels_of(edge_labels(mesh, corner, side)), UnorderedElementsAre(0, 1, exterior(2)));

@@ -23,7 +23,7 @@ namespace {
 constexpr double kMargin = 1e-3;  // positions nearer to the ends than any that the filter makes
 
 /// Weights anywhere inside, often at the margin.
-Barycentric random_weights(std::mt19937_64& random, int node_count) {
+Barycentric random_weights(std::mt19937_64& random, int node_count, double margin = kMargin) {
     std::uniform_real_distribution<double> uniform(0, 1);
     Barycentric weights{};
     double sum = 0;
@@ -33,13 +33,15 @@ Barycentric random_weights(std::mt19937_64& random, int node_count) {
     }
     if (sum == 0) sum = weights[0] = 1;
     for (double& weight : weights) weight /= sum;
-    return clamp_inside(weights, node_count, kMargin);
+    return clamp_inside(weights, node_count, margin);
 }
 
-void shake(Mesh& mesh, const LatticeFrame& frame, std::mt19937_64& random) {
+void shake(Mesh& mesh, const LatticeFrame& frame, CellKind cells, std::mt19937_64& random) {
+    const LatticeMargins margins{kMargin, cells == CellKind::kCompact ? CompactCells::kInnerMargin : 0};
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
         const LatticeSimplex simplex = simplex_of(mesh.position(VertexId{v}), frame);
-        mesh[VertexId{v}].position = position_in(simplex, random_weights(random, simplex.node_count()), frame);
+        mesh[VertexId{v}].position =
+            position_in(simplex, random_weights(random, simplex.node_count(), margins.of(simplex.kind)), frame);
     }
 }
 
@@ -181,38 +183,31 @@ TEST(LatticeSimplex, faces_of_a_tetrahedron_never_cross) {
     }
 }
 
+class LatticeSimplexOf : public testing::TestWithParam<CellKind> {};
+
 /// All 4,140 partitions of the eight samples of a cell, caps included.
-TEST(LatticeSimplex, surfaces_of_all_cells_stay_sound) {
+TEST_P(LatticeSimplexOf, surfaces_of_all_cells_stay_sound) {
     std::mt19937_64 random(13);
     std::uint32_t partitions = 0;
-    std::vector<InputLabel> labels(8, 0);
-    const auto each = [&](auto&& self, std::size_t n, InputLabel count) -> void {
-        if (n < 8) {
-            for (InputLabel label = 0; label <= count; ++label) {
-                labels[n] = label;
-                self(self, n + 1, std::max(count, label + 1));
-            }
-            return;
-        }
+    for_each_partition([&](const Partition& labels) {
         ++partitions;
         Mesh mesh;
         Chunk chunk;
         const std::vector<Label> dense(labels.begin(), labels.end());
-        StripMesher mesher({.size = {2, 2, 2}}, kSweepZ, {.cuts = QuadCuts::kCones});
+        StripMesher mesher({.size = {2, 2, 2}}, kSweepZ, {.cells = GetParam(), .cuts = QuadCuts::kCones});
         mesher.mesh(std::span(dense).first(4), std::span(dense).last(4), chunk);
         for (const ChunkVertex& vertex : chunk.vertices) mesh.add_vertex(vertex.position, vertex.sides);
         for (const ChunkFace& face : chunk.faces)
             mesh.add_face(VertexId{face.vertices[0]}, VertexId{face.vertices[1]}, VertexId{face.vertices[2]},
                           face.labels[0], face.labels[1]);
-        shake(mesh, {}, random);
+        shake(mesh, {}, GetParam(), random);
         const CheckReport report = check(mesh, {.threads = 1});
         if (report.violation_count() > 0) test::expect_sound(report);
-    };
-    each(each, 0, 0);
+    });
     EXPECT_EQ(partitions, 4140u);
 }
 
-TEST(LatticeSimplex, any_positions_inside_keep_every_sample) {
+TEST_P(LatticeSimplexOf, any_positions_inside_keep_every_sample) {
     std::mt19937_64 random(17);
     const LatticeFrame frames[] = {{}, {{-7.3, 100.1, 0.7}, {0.7, 1.3, 5.1}}};
     for (const LatticeFrame& frame : frames)
@@ -220,13 +215,16 @@ TEST(LatticeSimplex, any_positions_inside_keep_every_sample) {
             test::ArrayVolume volume = test::noise_volume({6, 6, 6}, labels, labels);
             volume.lattice().spacing = frame.spacing;
             volume.lattice().origin = frame.origin;
-            Mesh mesh = test::mesh_of(test::cone_chunks(volume));
-            shake(mesh, frame, random);
+            Mesh mesh = test::mesh_of(test::cone_chunks(volume, GetParam()));
+            shake(mesh, frame, GetParam(), random);
             EXPECT_TRUE(test::crossings_in(mesh).empty());
             test::expect_sound(check(mesh));
             expect_samples_inside(mesh, volume, frame);
         }
 }
+
+INSTANTIATE_TEST_SUITE_P(cells, LatticeSimplexOf, testing::Values(CellKind::kTetrahedra, CellKind::kCompact),
+                         [](const auto& info) { return info.param == CellKind::kCompact ? "compact" : "tetrahedra"; });
 
 }  // namespace
 }  // namespace regionmesh

@@ -134,7 +134,7 @@ TEST(Budget, the_next_run_is_expected_to_keep_as_much_as_the_last) {
 
 TEST(Census, counts_the_faces_of_each_strip) {
     test::ArrayVolume volume = test::grain_volume({12, 11, 10}, 6, 3);
-    const Census census = count_labels(volume, {.background = {}});
+    const Census census = count_labels(volume, {.background = {}, .cells = CellKind::kTetrahedra});
     volume.rewind();
     const Lattice lattice = volume.info().lattice;
     StripMesher mesher(lattice, volume.info().sweep, {});
@@ -162,6 +162,7 @@ TEST(Memory, twice_and_four_times_the_sections_take_no_more) {
     for (std::uint32_t passes : {0u, 1u}) {
         SCOPED_TRACE(std::to_string(passes) + " passes");
         const ReconstructOptions options{.target_faces = 4000,
+                                         .cells = CellKind::kTetrahedra,
                                          .smooth = {.filter = SmoothFilter::kTaubin, .passes = passes},
                                          .keep_samples = false,
                                          .background = {},

@@ -13,7 +13,7 @@ namespace {
 using test::run;
 
 ReconstructOptions with_budget(std::uint64_t target, std::uint64_t budget) {
-    ReconstructOptions options{.target_faces = target, .background = {}};
+    ReconstructOptions options{.target_faces = target, .cells = CellKind::kTetrahedra, .background = {}};
     options.face_budget = budget;
     return options;
 }

@@ -41,9 +41,10 @@ void expect_same_surface(const Reconstruction& a, const Reconstruction& b) {
 TEST(TetrahedronFaces, a_lattice_as_tetrahedra_is_the_model_of_its_sections) {
     for (const test::ArrayVolume& volume :
          {test::grain_volume({17, 14, 12}, 8, 1), test::noise_volume({9, 8, 10}, 5, 2), test::solid_volume({4, 3, 5})})
-        for (const ReconstructOptions& options :
+        for (ReconstructOptions options :
              {plain(), ReconstructOptions{.smooth = {.passes = 0}, .decimate = false},
               ReconstructOptions{.smooth = {.passes = 0}, .decimate = false, .cap = false}}) {
+            options.cells = CellKind::kTetrahedra;
             test::ArrayVolume sections = volume;
             expect_same_surface(run(test::mesh_of(volume), options), test::run(sections, options));
         }

@@ -1,4 +1,4 @@
-// The unsmoothed reconstruction whose quads are cut into cones, as the lattice filter needs it.
+// The unsmoothed reconstruction as the lattice filter needs it: quads of tetrahedra are cut into cones.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 namespace regionmesh::test {
 
 /// A chunk for each strip. Labels of the volume are dense labels already.
-inline std::vector<Chunk> cone_chunks(const ArrayVolume& volume) {
+inline std::vector<Chunk> cone_chunks(const ArrayVolume& volume, CellKind cells = CellKind::kTetrahedra) {
     const Size size = volume.size();
     const std::size_t area = std::size_t{size[0]} * size[1];
     const std::vector<Label> labels(volume.labels().begin(), volume.labels().end());
-    StripMesher mesher(volume.info().lattice, kSweepZ, {.cuts = QuadCuts::kCones});
+    StripMesher mesher(volume.info().lattice, kSweepZ, {.cells = cells, .cuts = QuadCuts::kCones});
     std::vector<Chunk> chunks(size[2] - 1);
     for (std::uint32_t strip = 0; strip + 1 < size[2]; ++strip)
         mesher.mesh(std::span(labels).subspan(strip * area, area), std::span(labels).subspan((strip + 1) * area, area),

@@ -16,11 +16,15 @@ inline void expect_sound(const CheckReport& report) {
         ADD_FAILURE() << to_string(report.violations[n].kind) << ": " << report.violations[n].text;
 }
 
-/// All labels are regions, nothing is smoothed or decimated.
-inline ReconstructOptions plain() { return {.smooth = {.passes = 0}, .decimate = false, .background = {}}; }
+/// The paper's tetrahedra; all labels are regions, nothing is smoothed or decimated.
+inline ReconstructOptions plain() {
+    return {.cells = CellKind::kTetrahedra, .smooth = {.passes = 0}, .decimate = false, .background = {}};
+}
 
-/// All labels are regions, nothing is smoothed; this share of the faces goes.
-inline ReconstructOptions reduced(double share) { return {.reduce = share, .smooth = {.passes = 0}, .background = {}}; }
+/// The same, and this share of the faces goes.
+inline ReconstructOptions reduced(double share) {
+    return {.reduce = share, .cells = CellKind::kTetrahedra, .smooth = {.passes = 0}, .background = {}};
+}
 
 /// From the first section, whatever was read before.
 inline Reconstruction run(ArrayVolume& volume, const ReconstructOptions& options = plain()) {

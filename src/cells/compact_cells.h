@@ -1,0 +1,80 @@
+// Cells meshed whole, from a table, instead of in six tetrahedra: the same sheets and lines with a third of the faces
+// (docs/explanation/compact-cells.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cells/cell_partition.h"
+#include "cells/marching_tetrahedra.h"
+
+namespace regionmesh {
+
+/// The table is text: faces of four letters each, three vertices (places in kCellSimplices) and, as 8 * first + second,
+/// the nodes whose labels the face separates. The faces of a class of partitions end with kEndOfClass.
+inline constexpr std::string_view kCompactAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
+inline constexpr char kEndOfClass = ' ';
+
+/// A face in a cell; its normal points from the label of node `first` to that of node `second`.
+struct CompactFace {
+    std::array<std::uint8_t, 3> vertices;  // places in kCellSimplices
+    std::uint8_t first, second;            // nodes
+};
+
+/// The faces of a side of the box that drops_diagonal(), anticlockwise as seen from the high end of its axis; corners
+/// are those of corners_of_side(). Wherever vertices go on their edges, the faces cover the side once.
+const std::array<CaseFace, 4>& compact_cap(const std::array<Label, 4>& labels);
+
+/// The faces of all partitions. They stay embedded wherever vertices go in their lattice simplices, but those in
+/// triangles on the main diagonal (is_held) within weights above kInnerMargin.
+class CompactCells {
+public:
+    static constexpr double kInnerMargin = 0.3;
+
+    /// Made from the table at the first call.
+    static const CompactCells& get();
+
+    int face_count(const std::array<Label, 8>& labels) const { return class_of(labels).face_count; }
+
+    /// Calls visit(face) for each face of a cell with these labels.
+    template <class Visit>
+    void for_each_face(const std::array<Label, 8>& labels, Visit&& visit) const {
+        const Entry& entry = class_of(labels);
+        const Image& image = images_[entry.symmetry];
+        for (std::uint32_t f = entry.first_face; f < entry.first_face + entry.face_count; ++f) {
+            const CompactFace& face = faces_[f];
+            const auto& [a, b, c] = face.vertices;
+            visit(
+                CompactFace{{image.vertex[a], image.vertex[image.mirrors ? c : b], image.vertex[image.mirrors ? b : c]},
+                            image.node[face.first],
+                            image.node[face.second]});
+        }
+    }
+
+private:
+    /// The faces of a partition: those of the first of its class, after a symmetry.
+    struct Entry {
+        std::uint32_t first_face = 0;
+        std::uint16_t face_count = 0;
+        std::uint16_t symmetry = 0;
+    };
+    struct Image {
+        std::array<std::uint8_t, kCellSimplexCount> vertex;
+        std::array<std::uint8_t, 8> node;
+        bool mirrors;
+    };
+
+    CompactCells();
+    const Entry& class_of(const std::array<Label, 8>& labels) const {
+        return entries_[number_of(partition_of(labels))];
+    }
+
+    std::vector<CompactFace> faces_;
+    std::vector<Entry> entries_;  // by number_of()
+    std::array<Image, 12> images_;
+};
+
+}  // namespace regionmesh
