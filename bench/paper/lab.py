@@ -42,7 +42,7 @@ class Lab:
         return json.loads(path.read_text())
 
     def reconstruct(self, volume, *options, model="model.vtp"):
-        return self.reported("reconstruct", volume, "-o", self.at(model), *options)
+        return self.reported("reconstruct", volume, "--cells", "tetrahedra", "-o", self.at(model), *options)
 
     def decimate(self, model, *options, to="decimated.vtp"):
         return self.reported("decimate", self.at(model), "-o", self.at(to), *options)

@@ -154,6 +154,7 @@ def reconstruct(
     hull: bool | None = None,
     background: int | Iterable[int] | None = None,
     boundary: Literal["cap", "open"] | None = None,
+    cells: Literal["auto", "compact", "tetrahedra"] | None = None,
     target_faces: int | None = None,
     reduce: float | str | None = None,
     max_error: float | None = None,

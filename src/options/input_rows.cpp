@@ -341,7 +341,8 @@ Rows label_rows() {
                              "the same regions and lines; tetrahedra, six for eight samples, as the paper does; auto: "
                              "compact unless taubin, laplacian or nifpms smooths",
                      .group = kGroup,
-                     .commands = kReconstruct | kInfo},
+                     .commands = kReconstruct | kInfo,
+                     .inputs = kVolumeInput | kTableInput},
                     {"auto", "compact", "tetrahedra"},
                     [](Settings& s, std::size_t word) { s.reconstruct.cells = static_cast<CellKind>(word); }),
         special_option(
