@@ -45,7 +45,7 @@ inline constexpr Sweep kSweepZ{{0, 1, 2}};
 
 /// How a cell of eight samples is meshed. Both make the same regions, interfaces, lines and quadruple points.
 enum class CellKind {
-    kAuto,        // kCompact where smoothing keeps every sample by construction, or is off; else kTetrahedra
+    kAuto,        // kCompact where smoothing keeps every sample and volumes need not be kept; else kTetrahedra
     kCompact,     // whole, from a table: a third of the faces (docs/explanation/compact-cells.md)
     kTetrahedra,  // in six tetrahedra, as the paper does (P 3.2)
 };

@@ -28,8 +28,8 @@ struct CompactFace {
 /// are those of corners_of_side(). Wherever vertices go on their edges, the faces cover the side once.
 const std::array<CaseFace, 4>& compact_cap(const std::array<Label, 4>& labels);
 
-/// The faces of all partitions. They stay embedded wherever vertices go in their lattice simplices, but those in
-/// triangles on the main diagonal (is_held) within weights above kInnerMargin.
+/// The faces of all partitions. They stay embedded wherever vertices go in their lattice simplices; in triangles on the
+/// main diagonal of a cell weights stay above kInnerMargin.
 class CompactCells {
 public:
     static constexpr double kInnerMargin = 0.3;

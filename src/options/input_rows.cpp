@@ -339,7 +339,7 @@ Rows label_rows() {
         word_option({.name = "cells",
                      .help = "how sections are meshed: compact, eight samples at a time, with a third of the faces for "
                              "the same regions and lines; tetrahedra, six for eight samples, as the paper does; auto: "
-                             "compact unless taubin, laplacian or nifpms smooths",
+                             "compact unless taubin, laplacian or nifpms smooths, or volumes are preserved",
                      .group = kGroup,
                      .commands = kReconstruct | kInfo,
                      .inputs = kVolumeInput | kTableInput},

@@ -15,7 +15,7 @@ CellKind cell_kind(const ReconstructOptions& options) {
     const SmoothFilter filter = options.smooth.filter;
     const bool keeps_samples =
         options.smooth.passes == 0 || filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice;
-    return keeps_samples ? CellKind::kCompact : CellKind::kTetrahedra;
+    return keeps_samples && !options.preserve_volume ? CellKind::kCompact : CellKind::kTetrahedra;
 }
 
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {

@@ -138,7 +138,9 @@ TEST_F(Layers, contacts_at_the_holes_are_those_that_were_logged) {
     const auto reader = open(folded(holes), kFine);
     for (const auto& [x, y, base] : bases(*reader, 2))
         for (const auto& hole : holes)
-            if (hole.x == x && hole.y == y) EXPECT_NEAR(base, lower(x, y), 0.126) << x << " " << y;
+            if (hole.x == x && hole.y == y) {
+                EXPECT_NEAR(base, lower(x, y), 0.126) << x << " " << y;
+            }
 }
 
 TEST_F(Layers, units_pinch_out_in_order) {
@@ -159,9 +161,15 @@ TEST_F(Layers, units_pinch_out_in_order) {
         for (std::size_t k = 1; k < lattice.size[2]; ++k) EXPECT_LE(labels[k * area + n], labels[(k - 1) * area + n]);
         for (std::size_t k = 0; k < lattice.size[2]; ++k) clay += labels[k * area + n] == 2;
         const double x = 20.0 * static_cast<double>(n % lattice.size[0]);
-        if (x <= 400) EXPECT_GE(clay, 15u) << x;
-        if (x >= 600) EXPECT_LE(clay, 5u) << x;
-        if (x > 460 && x < 540) EXPECT_TRUE(clay > 2 && clay < 18) << "a wedge, at " << x;
+        if (x <= 400) {
+            EXPECT_GE(clay, 15u) << x;
+        }
+        if (x >= 600) {
+            EXPECT_LE(clay, 5u) << x;
+        }
+        if (x > 460 && x < 540) {
+            EXPECT_TRUE(clay > 2 && clay < 18) << "a wedge, at " << x;
+        }
     }
 }
 
@@ -220,7 +228,9 @@ TEST_F(Layers, the_model_fills_a_box_round_the_holes_below_the_ground) {
     const std::size_t area = std::size_t{lattice.size[0]} * lattice.size[1];
     for (std::size_t n = 0; n < labels.size(); n += 97) {
         const double z = static_cast<double>(n / area) * lattice.spacing.z;
-        if (reader->info().sweep == kSweepZ) EXPECT_EQ(labels[n] == 0, z > 100) << z;
+        if (reader->info().sweep == kSweepZ) {
+            EXPECT_EQ(labels[n] == 0, z > 100) << z;
+        }
     }
 }
 

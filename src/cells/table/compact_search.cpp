@@ -18,6 +18,8 @@ using Edge = std::pair<NodeSet, NodeSet>;
 /// Sheets are cut one after the other; every choice is tried. A cell has at most 19 sheets, mostly with one cut each.
 constexpr int kMostChoices = 200000;
 
+static_assert(AnyPosition::kTenths == 10 * CompactCells::kInnerMargin);
+
 bool is_inner_triangle(NodeSet vertex) {
     return std::popcount(static_cast<unsigned>(vertex)) == 3 && (vertex & kMainDiagonal) == kMainDiagonal;
 }
@@ -45,7 +47,7 @@ private:
         const int count = std::popcount(static_cast<unsigned>(vertex));
         if (vertex == kMainDiagonal) return false;
         if (is_inner_triangle(vertex)) return kept_.count(vertex) > 0;
-        const bool is_diagonal = count == 2 && sides_of(vertex) != 0 && std::popcount(sides_of(vertex)) == 1;
+        const bool is_diagonal = count == 2 && std::popcount(sides_of(vertex)) == 1;
         return !is_diagonal || !drops_diagonal(vertex, labels_);
     }
 

@@ -74,7 +74,9 @@ TEST(LineTable, dihedral_angles_are_a_full_turn_and_lengths_those_of_the_report)
         std::istringstream angles(row.at("angles"));
         double sum = 0, angle;
         while (angles >> angle) sum += angle;
-        if (row.at("label_count") == "3") EXPECT_THAT(sum, DoubleNear(360, 0.01)) << row.at("labels");
+        if (row.at("label_count") == "3") {
+            EXPECT_THAT(sum, DoubleNear(360, 0.01)) << row.at("labels");
+        }
     }
     EXPECT_THAT(inside, DoubleNear(made.report.check.lines.length, 1e-6 * inside));
     EXPECT_GT(inside, 10);
@@ -93,7 +95,9 @@ TEST(LineTable, of_the_box_has_the_exterior_as_one_label) {
     const std::string text = lines_csv(made.mesh, made.labels, made.background);
     EXPECT_THAT(text, HasSubstr("; exterior"));
     for (const auto& row : table_of(interfaces_csv(made.mesh, made.labels, made.background))) {
-        if (row.at("neighbour_name") == "exterior") EXPECT_EQ(row.at("mean_curvature"), "");
+        if (row.at("neighbour_name") == "exterior") {
+            EXPECT_EQ(row.at("mean_curvature"), "");
+        }
         EXPECT_GT(number_in(row, "line_length"), 0);
     }
 }
