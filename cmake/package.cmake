@@ -15,6 +15,8 @@ if(REGIONMESH_WITH_PYTHON AND REGIONMESH_SYSTEM_PACKAGE)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-regionmesh)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+    get_target_property(module_suffix regionmesh_python SUFFIX)  # .cpython-311-x86_64-linux-gnu.so
+    string(REGEX REPLACE "^.*cpython-3([0-9]+).*$" "\\1" Python_VERSION_MINOR "${module_suffix}")
     math(EXPR next_python "${Python_VERSION_MINOR} + 1")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
         "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, regionmesh (= ${PROJECT_VERSION})")

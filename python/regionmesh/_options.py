@@ -10,6 +10,7 @@ _NOT_HERE = {"quiet", "verbose", "weld", "orient", "outside", "labels"}  # label
 _NOT_HERE |= {"memory-limit", "no-sandbox", "require-sandbox"}  # of the process, which is the interpreter's
 # Options that describe a model when it is made; its methods know them.
 _OF_MODEL = {"background", "no-background", "boundary", "hull"}
+_INPUT_FILES = {"collars", "surveys", "terrain"}  # other files are arguments here, or outputs
 _FALSE_AND_TRUE = {"smooth": ("off", "normal")}
 
 
@@ -25,7 +26,9 @@ def rows(command):
     found = {}
     for row in _core.option_rows(command):
         name = row["name"]
-        if row["is_argument"] or row["kind"] == "file" or row["group"] == "Output":
+        if row["is_argument"] or row["group"] == "Output":
+            continue
+        if row["kind"] == "file" and name not in _INPUT_FILES:
             continue
         if name in _NOT_HERE or name == "no-background":
             continue

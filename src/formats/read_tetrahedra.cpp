@@ -32,8 +32,7 @@ std::unique_ptr<TetrahedronReader> open_tetrahedra(const std::filesystem::path& 
         formats::fail(path, "--scale-z must be a number above 0, and within bounds; take one such as 100");
     TetrahedraOptions options = given;
     if (!is_auto) options.scale_z = nearest_power_of_two(given.scale_z);
-    if (is_auto && is_mesh(path))
-        formats::fail(path, "--scale-z auto is for drill holes; give a number");
+    if (is_auto && is_mesh(path)) formats::fail(path, "--scale-z auto is for drill holes; give a number");
     const formats::Format* format = formats::find_format(path);
     if (is_table_format(format)) formats::require_readable(path, format);
     if (format && format->open_tetrahedra) return format->open_tetrahedra(path, options);
