@@ -177,6 +177,9 @@ int run_all(std::uint64_t count, std::uint64_t seed, std::uint64_t from) {
         const std::string wrong = Trial(drawn, folder).wrong(outcome);
         ++outcomes[outcome];
         refused += outcome.starts_with("exit 1") || outcome.starts_with("exit 2");
+        if (outcome.starts_with("exit 3"))
+            std::printf("violations, reported by the run: --seed %llu --from %llu\n",
+                        static_cast<unsigned long long>(seed), static_cast<unsigned long long>(n));
         if (!wrong.empty()) {
             ++failures;
             std::printf("FAILED --seed %llu --from %llu: %s, %s,%s%s, threads 1 and %llu, memory %.1f: %s\n",
