@@ -117,7 +117,24 @@ void require_columns(const std::filesystem::path& path, const Lattice& lattice, 
                                lattice.size[0], lattice.size[1], units));
 }
 
-/// The labels of the air and of the units; sets type and names in `info`. Words get labels by age.
+/// Coordinates whose squares are numbers; --box may leave out data that lie farther away.
+void require_places(const std::filesystem::path& path, const DrillHoles& holes) {
+    Box box;
+    for (const Interval& interval : holes.intervals) {
+        const Vec3 ends[] = {{interval.x, interval.y, interval.top},
+                             {interval.bottom_x, interval.bottom_y, interval.bottom}};
+        for (const Vec3& end : ends) {
+            if (!std::isfinite(end.x) || !std::isfinite(end.y) || !std::isfinite(end.z))
+                fail(path, fmt::format("row {}: its interval ends beyond all numbers; mend the path of its hole",
+                                       interval.row));
+            box.add(end);
+        }
+    }
+    if (!holes.intervals.empty()) require_extent(path.string(), box);
+}
+
+/// The labels of the air and of the units; sets type and names in `info`. Words get labels by age. Throws Error(kInput)
+/// where a unit would have the label of the air, or two the same.
 std::vector<InputLabel> labels_of(const TableLabels& labels, const LayerOrder& order, VolumeInfo& info) {
     TetrahedraInfo table;
     const std::vector<InputLabel> all = labels.labels(table);
@@ -126,6 +143,10 @@ std::vector<InputLabel> labels_of(const TableLabels& labels, const LayerOrder& o
     for (std::uint32_t n = 0; n < order.units.size(); ++n) {
         const std::uint32_t unit = order.units[n];
         const InputLabel label = labels.are_words() ? InputLabel{n} + 1 : all[unit];
+        if (std::find(found.begin(), found.end(), label) != found.end())
+            fail(info.source, fmt::format("unit {} {}; give units other numbers, or words", labels.text(unit),
+                                          label == 0 ? "has the number 0, which stands for the air"
+                                                     : "has the number of another unit"));
         found.push_back(label);
         const auto name = table.names.find(all[unit]);
         if (name != table.names.end()) info.names.emplace(label, name->second);
@@ -141,6 +162,7 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
     if (table.holes.collars.size() > kMostHeights)
         fail(path, fmt::format("has {} holes; --layers takes at most {}, leave some out", table.holes.collars.size(),
                                kMostHeights));
+    require_places(path, table.holes);
     const LayerOrder order = order_layers(table.holes, table.labels, layers.units);
     std::optional<Terrain> terrain;
     if (!layers.terrain.empty()) terrain.emplace(layers.terrain);

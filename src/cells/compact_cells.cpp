@@ -13,18 +13,17 @@ constexpr std::string_view kTable =
 constexpr CornerSet k01 = 0b0011, k02 = 0b0101, k13 = 0b1010, k23 = 0b1100;
 constexpr CornerSet k0 = 0b0001, k1 = 0b0010, k2 = 0b0100, k3 = 0b1000;
 
-/// By whether corners 1 and 2 have the label of corner 3, or that of corner 0.
-constexpr std::array<std::array<CaseFace, 4>, 4> kCaps{{
+}  // namespace
+
+const std::array<std::array<CaseFace, 4>, 4> kCompactCaps{{
     {{{{k0, k1, k13}, 0, 0}, {{k0, k13, k23}, 0, 0}, {{k0, k23, k2}, 0, 0}, {{k13, k3, k23}, 3, 3}}},
     {{{{k0, k01, k23}, 0, 0}, {{k0, k23, k2}, 0, 0}, {{k01, k1, k3}, 3, 3}, {{k01, k3, k23}, 3, 3}}},
     {{{{k0, k1, k13}, 0, 0}, {{k0, k13, k02}, 0, 0}, {{k02, k13, k3}, 3, 3}, {{k02, k3, k2}, 3, 3}}},
     {{{{k0, k01, k02}, 0, 0}, {{k01, k1, k3}, 3, 3}, {{k01, k3, k02}, 3, 3}, {{k02, k3, k2}, 3, 3}}},
 }};
 
-}  // namespace
-
 const std::array<CaseFace, 4>& compact_cap(const std::array<Label, 4>& labels) {
-    return kCaps[unsigned(labels[1] == labels[3]) | unsigned(labels[2] == labels[3]) << 1];
+    return kCompactCaps[unsigned(labels[1] == labels[3]) | unsigned(labels[2] == labels[3]) << 1];
 }
 
 CompactCells::CompactCells() : entries_(kPartitionNumbers) {

@@ -27,6 +27,8 @@ struct CompactFace {
 /// The faces of a side of the box that drops_diagonal(), anticlockwise as seen from the high end of its axis; corners
 /// are those of corners_of_side(). Wherever vertices go on their edges, the faces cover the side once.
 const std::array<CaseFace, 4>& compact_cap(const std::array<Label, 4>& labels);
+/// All that compact_cap() returns: by whether corners 1 and 2 have the label of corner 3, or that of corner 0.
+extern const std::array<std::array<CaseFace, 4>, 4> kCompactCaps;
 
 /// The faces of all partitions. They stay embedded wherever vertices go in their lattice simplices; in triangles on the
 /// main diagonal of a cell weights stay above kInnerMargin.

@@ -53,6 +53,7 @@ StripMesher::SimplexPlace StripMesher::place_of(const Step* corners, unsigned se
             chain[length++] = corners[c] - base;
     }
     const int kind = kind_of(chain[0], chain[1], chain[2]);
+    assert(kind >= 0);
     const std::uint32_t dx = base & 1, dy = base >> 1 & 1;
     SimplexPlace place{Table::kNowhere, std::uint8_t(kind), base, 0};
     if (kind >= kFirstTetrahedron) return place;
@@ -115,7 +116,9 @@ void StripMesher::plan_compact_cells() {
         SquarePlan& plan = squares_[side];
         plan.corners = corners_of_side(side);
         plan.turns = side % 2 == 0;
-        for (unsigned set = 1; set < 16; ++set) plan.simplices[set] = place_of(plan.corners.data(), set);
+        for (const auto& faces : kCompactCaps)
+            for (const CaseFace& face : faces)
+                for (CornerSet set : face.vertices) plan.simplices[set] = place_of(plan.corners.data(), set);
     }
 }
 

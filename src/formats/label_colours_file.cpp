@@ -142,6 +142,7 @@ LabelColours read_label_colours(const std::filesystem::path& path) {
         rows[0], [](const std::string& field) { return formats::parse_table_label(field).has_value(); });
     if (has_header) {
         columns = columns_of(rows[0]);
+        if (!columns.hex && !columns.parts) return {};
         rows.erase(rows.begin());
     }
     const bool is_by_place = !columns.hex && !columns.parts;

@@ -76,7 +76,7 @@ std::string extensions_with(Member Format::*function) {
     std::string text;
     for (const Format& format : all_formats()) {
         for (const char* extension : format.extensions)
-            if (extension && format.*function) text += (text.empty() ? "" : " ") + std::string(extension);
+            if (extension && format.*function) text.append(text.empty() ? "" : " ").append(extension);
     }
     return text;
 }

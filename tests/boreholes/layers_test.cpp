@@ -143,6 +143,17 @@ TEST_F(Layers, contacts_at_the_holes_are_those_that_were_logged) {
             }
 }
 
+TEST_F(Layers, units_that_would_be_air_or_one_another_are_refused) {
+    EXPECT_THAT(failure_of(row(0, 0, 0, 5, "1") + row(0, 0, 5, 9, "0") + row(90, 9, 0, 5, "1")),
+                HasSubstr("unit 0 has the number 0, which stands for the air"));
+}
+
+TEST_F(Layers, places_beyond_what_can_be_squared_are_refused_whatever_the_box) {
+    const LayerOptions options{.spacing = Vec3{10, 10, 10}, .box = {{{0, 100}, {0, 100}, {50, 100}}}};
+    EXPECT_THAT(failure_of(row(0, 0, 0, 5, "a") + row(1e200, 0, 0, 5, "b") + row(90, 9, 0, 5, "a"), options),
+                HasSubstr("coordinates along x"));
+}
+
 TEST_F(Layers, units_pinch_out_in_order) {
     std::string rows;
     for (int n = 0; n < 6; ++n) {  // clay is 20 m thick in the west, and missing in the east

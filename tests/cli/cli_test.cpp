@@ -140,7 +140,7 @@ TEST_F(Cli, the_report_says_what_smoothing_did) {
 }
 
 TEST_F(Cli, smooth_takes_a_model_and_writes_the_same_without_steps) {
-    EXPECT_EQ(run("reconstruct " + volume() + "--smooth 0 -o " + out("steps.vtp")).code, 0);
+    EXPECT_EQ(run("reconstruct " + volume() + "--smooth 0 --cells tetrahedra -o " + out("steps.vtp")).code, 0);
     const Ran ran = run("smooth " + out("steps.vtp") + " -o " + out("m.vtp") + " --scale 1 --report " + out("r.json"));
     EXPECT_EQ(ran.code, 0) << ran.error;
     EXPECT_EQ(ran.error, "");

@@ -65,6 +65,7 @@ TEST_F(LabelColoursFile, rows_that_are_damaged_have_none) {
 TEST_F(LabelColoursFile, numbers_of_another_kind_are_no_colours) {
     EXPECT_THAT(colours_of("1 Precentral_L 10 20 30 40\n2 Precentral_R -10 20 30 40\n"), IsEmpty()) << "places";
     EXPECT_THAT(colours_of("1 a 10 20 30 40\n2 b 10 20 30.5 40\n"), IsEmpty());
+    EXPECT_THAT(colours_of("index,name,x,y,z,volume\n1,liver,10,20,30,40\n"), IsEmpty());
 }
 
 TEST_F(LabelColoursFile, a_table_that_is_not_there_is_an_error) { EXPECT_ANY_THROW(read_label_colours(path("none"))); }

@@ -30,7 +30,7 @@ std::string name_of(const SmoothOptions& options) {
 /// All labels are regions; smoothed so, by taubin where nothing else is given, and not decimated.
 ReconstructOptions smoothed(SmoothOptions smooth = {}) {
     if (smooth.filter == SmoothFilter::kAuto) smooth.filter = SmoothFilter::kTaubin;
-    return {.smooth = smooth, .decimate = false, .background = {}};
+    return {.cells = CellKind::kTetrahedra, .smooth = smooth, .decimate = false, .background = {}};
 }
 
 /// The filter and its rounds of backtracking on the whole mesh, as reconstruct() does them strip by strip. What is

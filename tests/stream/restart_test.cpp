@@ -60,7 +60,7 @@ private:
 };
 
 const SmoothOptions kSmooth{.filter = SmoothFilter::kTaubin, .passes = 2, .threads = 1};
-const CensusOptions kAllRegions{.background = {}};
+const CensusOptions kAllRegions{.background = {}, .cells = CellKind::kTetrahedra};
 
 /// Is smoothing of the strips stuck when it holds this number of strips more than it seems to need?
 bool is_stuck(double back, std::uint32_t extra) {
@@ -94,7 +94,9 @@ TEST(Restart, smoothing_that_holds_all_strips_is_never_stuck) {
     for (double back = 0; back < 12; back += 0.5) EXPECT_FALSE(is_stuck(back, 1000)) << back;
 }
 
-ReconstructOptions options() { return {.smooth = kSmooth, .decimate = false, .background = {}, .threads = 1}; }
+ReconstructOptions options() {
+    return {.cells = CellKind::kTetrahedra, .smooth = kSmooth, .decimate = false, .background = {}, .threads = 1};
+}
 
 TEST(Restart, a_run_that_is_stuck_begins_again_and_gives_a_whole_mesh) {
     test::ArrayVolume volume = bar_and_bead(), same = bar_and_bead();

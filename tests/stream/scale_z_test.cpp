@@ -45,7 +45,7 @@ TEST(ScaleZ, is_the_model_of_higher_voxels_made_flat_again) {
 }
 
 TEST(ScaleZ, a_factor_that_leaves_the_range_of_lengths_is_refused) {
-    for (const double factor : {0.0, -2.0, 1e300, 1e11, std::nan("")}) EXPECT_THROW(run_flat(kFlat, factor), Error);
+    for (const double factor : {-2.0, 1e300, 1e11, std::nan("")}) EXPECT_THROW(run_flat(kFlat, factor), Error);
 }
 
 }  // namespace

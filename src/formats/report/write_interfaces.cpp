@@ -30,7 +30,10 @@ private:
 template <class TextOf>
 std::string joined(const std::vector<std::uint32_t>& ranks, const char* gap, TextOf&& text_of) {
     std::string text;
-    for (const std::uint32_t rank : ranks) text += (rank == ranks.front() ? "" : gap) + text_of(rank);
+    for (const std::uint32_t rank : ranks) {
+        if (rank != ranks.front()) text += gap;
+        text += text_of(rank);
+    }
     return text;
 }
 
@@ -60,11 +63,12 @@ std::string lines_csv(const Mesh& mesh, const LabelTable& labels, const std::vec
     std::string text = "labels,names,label_count,edges,length,angles\n";
     for (const auto& [ranks, sums] : measure_edges(view).lines) {
         std::string angles;
-        for (std::size_t n = 0; n < ranks.size(); ++n)
-            angles += (n == 0 ? "" : " ") +
-                      (sums.angle_length[n] > 0
-                           ? fmt::format("{:.6g}", sums.angles[n] / sums.angle_length[n] * 180 / std::numbers::pi)
-                           : std::string("-"));
+        for (std::size_t n = 0; n < ranks.size(); ++n) {
+            if (n > 0) angles += ' ';
+            angles += sums.angle_length[n] > 0
+                          ? fmt::format("{:.6g}", sums.angles[n] / sums.angle_length[n] * 180 / std::numbers::pi)
+                          : "-";
+        }
         text +=
             fmt::format("{},{},{},{},{:.10g},{}\n", joined(ranks, " ", [&](auto rank) { return texts.label(rank); }),
                         csv_cell(joined(ranks, "; ", [&](auto rank) { return texts.name(rank); })), ranks.size(),

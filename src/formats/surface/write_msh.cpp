@@ -181,6 +181,7 @@ void MshWriter::write_volumes(const std::string& mesh_name, OutputFile& file) co
     TextWriter text(file);
     text.line("// Volumes for the faces of", mesh_name + ": gmsh -3 this file");
     text.line("Merge \"" + mesh_name + "\";");
+    text.line("Mesh.AngleToleranceFacetOverlap = 0.001;  // degrees; with 0.1, the default, thin regions are refused");
     std::size_t count = 0;
     for (const Body& body : bodies_.all()) {
         const std::uint32_t region = regions_.number(body.label);
