@@ -117,7 +117,7 @@ void print_layers(const Settings& settings) {
     LayerSummary found;
     open_layers(settings.inputs.front(), settings.tetrahedra, layer_options(settings), &found);
     std::string units;
-    for (const std::string& unit : found.units) units += (units.empty() ? "" : ", ") + printable(unit);
+    for (const std::string& unit : found.units) units.append(units.empty() ? "" : ", ").append(printable(unit));
     fmt::print("layers     {} from young to old: {}; {:.1f} % of the logged length is in this order\n",
                found.units.size(), units, 100 * found.ordered_share);
 }

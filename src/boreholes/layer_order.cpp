@@ -159,7 +159,7 @@ private:
             if (labels_.text(unit) == text) return unit;
         std::string known;
         for (std::size_t n = 0; n < used_.size() && n < 12; ++n)
-            known += (n ? ", " : "") + shown(labels_.text(used_[n]));
+            known.append(n ? ", " : "").append(shown(labels_.text(used_[n])));
         fail(path_, fmt::format("--layers: no interval has the unit '{}'; units are {}{}", shown(text), known,
                                 used_.size() > 12 ? ", ..." : ""));
     }

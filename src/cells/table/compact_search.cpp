@@ -53,7 +53,7 @@ private:
 
     /// False where a loop has too few vertices left, two lines would become one edge, or a line would lie in a side.
     bool shorten_boundaries() {
-        std::map<Edge, std::set<Loop>> paths;
+        std::map<Edge, Loop> paths;  // the vertices left out between the ends
         for (const Sheet& sheet : sheets_) {
             auto& loops = boundaries_.emplace_back();
             for (const Loop& whole : sheet.boundary) {
@@ -70,7 +70,9 @@ private:
                     }
                     if (!loop.empty()) {
                         if (loop.back() > vertex) std::reverse(path.begin(), path.end());
-                        paths[std::minmax(loop.back(), vertex)].insert(std::exchange(path, {}));
+                        const auto known = paths.try_emplace(std::minmax(loop.back(), vertex), path).first;
+                        if (!std::ranges::equal(known->second, path)) return false;
+                        path.clear();
                     }
                     loop.push_back(vertex);
                 }
@@ -78,10 +80,9 @@ private:
                 if (loop.size() < 3) return false;
             }
         }
-        for (const auto& [edge, own] : paths) {
-            if (own.size() > 1) return false;
+        for (const auto& [edge, left_out] : paths) {
             const unsigned sides = sides_of(edge.first) & sides_of(edge.second);
-            for (NodeSet vertex : *own.begin())
+            for (NodeSet vertex : left_out)
                 if (sides && !(sides_of(vertex) & sides)) return false;
             edges_.insert(edge);
         }

@@ -35,7 +35,7 @@ std::string words_of(std::string_view forbidden) {
         {'"', "quotes"}, {'\\', "backslashes"}, {':', "colons"}, {'<', "'<', '>', '&'"}};
     std::string words;
     for (const auto& [letter, word] : kWords)
-        if (forbidden.find(letter) != std::string_view::npos) words += (words.empty() ? "" : ", ") + std::string(word);
+        if (forbidden.find(letter) != std::string_view::npos) words.append(words.empty() ? "" : ", ").append(word);
     return words.empty() ? words : words + " and ";
 }
 
