@@ -26,7 +26,7 @@ struct SourceShape {
     std::string name;          // for messages
     bool has_samples = false;  // at the nodes of the lattice
     CellKind cells = CellKind::kTetrahedra;
-    Lattice lattice;           // round all positions, axis-aligned: tiles are blocks of its cells
+    Lattice lattice;  // round all positions, axis-aligned: tiles are blocks of its cells
     Sweep sweep;
     std::uint32_t strip_count = 0;
     double strip_thickness = 1;       // of the thinnest strip
