@@ -37,13 +37,14 @@ struct Cost {
 Mesh read_ply(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     Mesh mesh;
-    std::size_t label_bytes = 0;
+    std::size_t face_bytes = 0;  // of its labels and colours
     for (std::string line; std::getline(file, line) && line != "end_header";) {
         if (line.starts_with("element vertex ")) mesh.points.resize(3 * std::stoull(line.substr(15)));
         if (line.starts_with("element face ")) mesh.vertices.resize(3 * std::stoull(line.substr(13)));
-        if (line.starts_with("property ") && line.find(" label_") != std::string::npos) label_bytes += 4;
+        if (line.starts_with("property int label_")) face_bytes += 4;
+        if (face_bytes > 0 && line.starts_with("property uchar ")) face_bytes += 1;
     }
-    if (!file || label_bytes == 0) throw std::runtime_error(path + " is no PLY file of regionmesh");
+    if (!file || face_bytes == 0) throw std::runtime_error(path + " is no PLY file of regionmesh");
     char bytes[64];
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         double point[3];
@@ -52,7 +53,7 @@ Mesh read_ply(const std::string& path) {
         for (int axis = 0; axis < 3; ++axis) mesh.points[3 * v + axis] = static_cast<float>(point[axis]);
     }
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        file.read(bytes, static_cast<std::streamsize>(1 + 3 * sizeof(std::uint32_t) + label_bytes));
+        file.read(bytes, static_cast<std::streamsize>(1 + 3 * sizeof(std::uint32_t) + face_bytes));
         std::memcpy(&mesh.vertices[3 * f], bytes + 1, 3 * sizeof(std::uint32_t));
     }
     if (!file) throw std::runtime_error(path + " cannot be read to its end");
