@@ -13,7 +13,7 @@ int run_convert(const Settings& given) {
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const auto [names, colours] = describe(settings, file.names, file.colours);
-    OutputFiles files(settings.writing);
+    OutputFiles files(model_writing(settings));
     const auto written =
         write_model(settings, {file.mesh, file.labels, options.background, names, colours, file.space}, files);
     files.commit();

@@ -80,7 +80,7 @@ int run_decimate(const Settings& given) {
     report.check = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);
     const Model model{file.mesh, file.labels, options.background, names, colours, file.space};
-    OutputFiles files(settings.writing);
+    OutputFiles files(model_writing(settings));
     const auto written = write_model(settings, model, files);
     write_report_file(settings, report, model, made_by(kDecimate, settings), files);
     if (!settings.html.empty())

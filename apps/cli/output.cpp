@@ -48,6 +48,12 @@ void write_tables(const Settings& settings, const Model& model, OutputFiles& fil
         if (!path->empty()) files.add(*path).write(make(model.mesh, model.labels, model.background, model.names));
 }
 
+OutputOptions model_writing(const Settings& settings) {
+    OutputOptions options = settings.writing;
+    options.threads = settings.reconstruct.threads;
+    return options;
+}
+
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
     write_tables(settings, model, files);
     return write_mesh(model.mesh, model.labels, settings.output,

@@ -35,6 +35,9 @@ struct Model {
 /// Writes the tables of --regions, --interfaces and --lines as some of `files`.
 void write_tables(const Settings& settings, const Model& model, OutputFiles& files);
 
+/// How a model is written: on as many threads as it was made.
+OutputOptions model_writing(const Settings& settings);
+
 /// Writes the model to `settings.output`, and the tables, as some of `files`. Returns the files of the model.
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files);
 

@@ -143,7 +143,7 @@ int run_reconstruct(const Settings& settings) {
     const auto& [names, colours] = notes.labels;
     const Model model{made.mesh, made.labels, made.background, names, colours, notes.space};
     put_line(Audience::kLog, "write");
-    OutputFiles files(settings.writing);
+    OutputFiles files(model_writing(settings));
     std::vector<std::filesystem::path> written;
     double writing = 0;
     {

@@ -15,8 +15,9 @@ namespace regionmesh {
 
 /// How files are written.
 struct OutputOptions {
-    bool force = false;  // replaces files that are read-only
-    bool sync = true;    // forces data, and the name, to disk before the file counts as written
+    bool force = false;         // replaces files that are read-only
+    bool sync = true;           // forces data, and the name, to disk before the file counts as written
+    std::uint32_t threads = 0;  // most that compress; 0: one per core
 };
 
 /// Writes under a temporary name in the folder of `path` (`.name.part-<pid>`) and renames in commit(); without commit()
@@ -35,6 +36,7 @@ public:
     void write(std::string_view bytes);
     /// Replaces bytes written before. Requires a seekable file, which a pipe is not.
     void overwrite(std::uint64_t offset, std::string_view bytes);
+    const OutputOptions& options() const { return options_; }
     /// Bytes written so far.
     std::uint64_t size() const { return size_; }
     /// Closes the file under its temporary name. No writes may follow.

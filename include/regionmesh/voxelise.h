@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "regionmesh/label_table.h"
@@ -37,12 +38,15 @@ struct VoxeliseOptions {
 /// and vertices within 1e-9 spacings of a side of the box are moved onto it.
 class Voxeliser {
 public:
-    /// Holds a reference to the mesh. Memory: 8 bytes a face and the crossings of one section.
+    /// Holds a reference to the mesh. Memory: 8 bytes a face, and the crossings of the sections filled at a time.
     Voxeliser(const Mesh& mesh, const VoxeliseOptions& options);
 
     /// Fills the labels of the next section, size[axes[0]] * size[axes[1]] samples with axes[0] fastest; kNoRegion
     /// outside all regions, or the first background label where there is one. False when all sections were handed out.
     bool next(std::span<Label> section);
+    /// Fills the labels of the sections that come next, on at most `threads` threads (0: one per core), and returns how
+    /// many: fewer than asked at the end.
+    std::uint32_t next(std::span<const std::span<Label>> sections, std::uint32_t threads);
 
     /// Samples so far at which the surface contradicts itself: no region, or several, were entered once more than
     /// they were left. 0 for a closed surface. Such a sample is counted as outside.
@@ -53,23 +57,37 @@ private:
         std::uint64_t sample;  // in the section: the first one beyond the face
         Label left, entered;
     };
+    /// Room for one section.
+    struct Scratch {
+        std::vector<Crossing> crossings;
+        std::vector<std::pair<Label, int>> entered;  // times entered less times left, of regions where this is not 0
+        std::uint64_t contradictions = 0;
+    };
+    struct ActiveFace {
+        FaceId face;
+        std::uint32_t end;  // of the sections that it may reach
+    };
 
     Vec3 place(VertexId v) const;
     void sort_faces();
-    void cross(FaceId f, std::uint32_t section);
-    void cross_row(const std::array<Vec3, 3>& corners, const Face& face, std::uint32_t row, std::uint32_t section);
-    void label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels);
+    void activate(std::uint32_t first, std::uint32_t end);
+    void label_section(std::uint32_t section, std::span<Label> labels, Scratch& scratch) const;
+    void cross(FaceId f, std::uint32_t section, std::vector<Crossing>& crossings) const;
+    void label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels,
+                   Scratch& scratch) const;
     bool is_outside(Label label) const;
+    std::uint32_t first_at_or_above(int axis, double low) const;
+    std::uint32_t end_at_or_below(int axis, double high) const;
 
     const Mesh& mesh_;
     VoxeliseOptions options_;
     std::shared_ptr<const SampleLines> lines_;
     std::array<std::uint32_t, 3> size_;  // along the axes of the sweep
-    std::vector<std::uint32_t> order_;   // faces by the first section that they reach
+    std::vector<FaceId> order_;          // faces by the first section that they reach
     std::vector<std::uint32_t> start_;   // of the faces of each section in order_
-    std::vector<std::uint32_t> active_;  // faces that reach the section in hand
-    std::vector<Crossing> crossings_;
-    bool is_mirrored_ = false;
+    std::vector<ActiveFace> active_;     // faces that reach the sections in hand
+    std::vector<Scratch> scratch_;       // by section in hand
+    bool is_mirrored_ = false, is_turned_ = false;
     std::uint32_t section_ = 0;
     std::uint64_t contradictions_ = 0;
 };
@@ -93,8 +111,9 @@ struct SampleAgreement {
 };
 
 /// Voxelises the mesh on the lattice of the reader, and compares sample by sample. `labels` is the table of the mesh;
-/// labels that only the sections have are added to it. Reads the reader to its end. Throws what the reader throws.
+/// labels that only the sections have are added to it. Reads the reader to its end, on at most `threads` threads (0:
+/// one per core). Throws what the reader throws.
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
-                                SectionReader& reader);
+                                SectionReader& reader, std::uint32_t threads = 0);
 
 }  // namespace regionmesh

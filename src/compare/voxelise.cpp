@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "mesh/sample_lines.h"
 
 namespace regionmesh {
@@ -12,6 +14,12 @@ namespace {
 
 /// Share of the spacing within which a vertex of an oblique model lies on a side of the box.
 constexpr double kOnSide = 1e-9;
+
+/// Room for rounding, in samples: positions of crossings and of samples are rounded a few times.
+double doubt(double coordinate, double spacing) {
+    constexpr double kLeast = 1e-6, kRounding = 64 * std::numeric_limits<double>::epsilon();
+    return kLeast + kRounding * std::abs(coordinate) / spacing;
+}
 
 /// The inverse of the rotation of a lattice: its transpose.
 Vec3 into_axes(const std::array<double, 9>& d, Vec3 p) {
@@ -31,6 +39,7 @@ SampleLines lines_of(const VoxeliseOptions& options) {
 Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options)
     : mesh_(mesh), options_(options), lines_(std::make_shared<SampleLines>(lines_of(options))) {
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
+    is_turned_ = !options.lattice.is_axis_aligned();
     const auto& d = options.lattice.direction;
     is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
     sort_faces();
@@ -40,7 +49,7 @@ Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options)
 Vec3 Voxeliser::place(VertexId v) const {
     const Lattice& lattice = options_.lattice;
     Vec3 p = mesh_.position(v);
-    if (!lattice.is_axis_aligned()) {
+    if (is_turned_) {
         p = into_axes(lattice.direction, p - lattice.origin);
         for (int axis = 0; axis < 3; ++axis) {
             const double far = (lattice.size[axis] - 1) * lattice.spacing[axis];
@@ -56,14 +65,24 @@ bool Voxeliser::is_outside(Label label) const {
     return is_exterior(label) || std::ranges::find(options_.background, label) != options_.background.end();
 }
 
-/// Counts faces by the first section at or above their lowest corner, then puts them in that order.
+/// size(axis) where all samples lie below.
+std::uint32_t Voxeliser::first_at_or_above(int axis, double low) const {
+    const double at = std::ceil(lines_->index_of(axis, low) - doubt(low, lines_->spacing(axis)));
+    return static_cast<std::uint32_t>(std::clamp(at, 0.0, static_cast<double>(size_[axis])));
+}
+
+/// One more than the number of the last sample.
+std::uint32_t Voxeliser::end_at_or_below(int axis, double high) const {
+    const double at = std::floor(lines_->index_of(axis, high) + doubt(high, lines_->spacing(axis))) + 1;
+    return static_cast<std::uint32_t>(std::clamp(at, 0.0, static_cast<double>(size_[axis])));
+}
+
+/// Counts faces by the first section that they may reach, then puts them in that order.
 void Voxeliser::sort_faces() {
     const auto first_section = [&](FaceId f) {
         double low = HUGE_VAL;
         for (const VertexId v : mesh_[f].vertices) low = std::min(low, place(v).z);
-        const double guess = std::floor(lines_->index_of(2, low));
-        // One section early, for rounding: a face below its plane adds no crossing there.
-        return static_cast<std::uint32_t>(std::clamp(guess, 0.0, static_cast<double>(size_[2])));
+        return first_at_or_above(2, low);
     };
     start_.assign(size_[2] + 2, 0);
     for (std::uint32_t f = 0; f < mesh_.face_end(); ++f)
@@ -72,35 +91,53 @@ void Voxeliser::sort_faces() {
     order_.resize(start_.back());
     std::vector<std::uint32_t> place_of(start_.begin(), start_.end());
     for (std::uint32_t f = 0; f < mesh_.face_end(); ++f)
-        if (mesh_.is_alive(FaceId{f})) order_[place_of[first_section(FaceId{f})]++] = f;
+        if (mesh_.is_alive(FaceId{f})) order_[place_of[first_section(FaceId{f})]++] = FaceId{f};
 }
 
-bool Voxeliser::next(std::span<Label> section) {
-    if (section_ == size_[2]) return false;
-    crossings_.clear();
-    active_.insert(active_.end(), order_.begin() + start_[section_], order_.begin() + start_[section_ + 1]);
-    const double z = lines_->at(2, section_);
-    std::erase_if(active_, [&](std::uint32_t f) {
-        const auto& v = mesh_[FaceId{f}].vertices;
-        return place(v[0]).z < z && place(v[1]).z < z && place(v[2]).z < z;
-    });
-    for (const std::uint32_t f : active_) cross(FaceId{f}, section_);
+/// Finds the faces that may reach sections from `first` to before `end`.
+void Voxeliser::activate(std::uint32_t first, std::uint32_t end) {
+    std::erase_if(active_, [&](const ActiveFace& active) { return active.end <= first; });
+    for (std::uint32_t n = start_[first]; n < start_[end]; ++n) {
+        double high = -HUGE_VAL;
+        for (const VertexId v : mesh_[order_[n]].vertices) high = std::max(high, place(v).z);
+        const std::uint32_t face_end = end_at_or_below(2, high);
+        if (face_end > first) active_.push_back({order_[n], face_end});
+    }
+}
+
+bool Voxeliser::next(std::span<Label> section) { return next(std::span(&section, 1), 1) == 1; }
+
+std::uint32_t Voxeliser::next(std::span<const std::span<Label>> sections, std::uint32_t threads) {
+    const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(sections.size(), size_[2] - section_));
+    if (count == 0) return 0;
+    activate(section_, section_ + count);
+    scratch_.resize(std::max<std::size_t>(scratch_.size(), count));
+    parallel_for(count, threads, [&](std::uint32_t n) { label_section(section_ + n, sections[n], scratch_[n]); });
+    section_ += count;
+    for (std::uint32_t n = 0; n < count; ++n) contradictions_ += scratch_[n].contradictions;
+    return count;
+}
+
+void Voxeliser::label_section(std::uint32_t section, std::span<Label> labels, Scratch& scratch) const {
+    auto& crossings = scratch.crossings;
+    crossings.clear();
+    scratch.contradictions = 0;
+    for (const ActiveFace& active : active_)
+        if (active.end > section) cross(active.face, section, crossings);
     // No order among equal samples is needed: all of them are passed before the sample is labelled.
-    std::ranges::sort(crossings_, {}, &Crossing::sample);
+    std::ranges::sort(crossings, {}, &Crossing::sample);
     std::size_t begin = 0;
     for (std::uint32_t row = 0; row < size_[1]; ++row) {
         const std::uint64_t first = std::uint64_t{row} * size_[0];
         std::size_t end = begin;
-        while (end < crossings_.size() && crossings_[end].sample < first + size_[0]) ++end;
-        label_row(std::span(crossings_).subspan(begin, end - begin), first, section.subspan(first, size_[0]));
+        while (end < crossings.size() && crossings[end].sample < first + size_[0]) ++end;
+        label_row(std::span(crossings).subspan(begin, end - begin), first, labels.subspan(first, size_[0]), scratch);
         begin = end;
     }
-    ++section_;
-    return true;
 }
 
-/// The rows that the face's cut with the plane of the section may reach.
-void Voxeliser::cross(FaceId f, std::uint32_t section) {
+/// Tries the rows that the face's cut with the plane of the section may reach; the exact test decides.
+void Voxeliser::cross(FaceId f, std::uint32_t section, std::vector<Crossing>& crossings) const {
     const Face& face = mesh_[f];
     const std::array<Vec3, 3> p{place(face.vertices[0]), place(face.vertices[1]), place(face.vertices[2])};
     const double z = lines_->at(2, section);
@@ -114,25 +151,22 @@ void Voxeliser::cross(FaceId f, std::uint32_t section) {
         high = std::max(high, a.z == b.z ? std::max(a.y, b.y) : y);
     }
     if (low > high) return;
-    const auto row_near = [&](double y) { return std::clamp(lines_->index_of(1, y), 0.0, size_[1] - 1.0); };
-    // One row more on either side, for rounding; the exact test decides.
-    const auto first = static_cast<std::uint32_t>(std::max(std::floor(row_near(low)) - 1, 0.0));
-    const auto last = static_cast<std::uint32_t>(std::min(std::ceil(row_near(high)) + 1, size_[1] - 1.0));
-    for (std::uint32_t row = first; row <= last; ++row) cross_row(p, face, row, section);
+    const std::uint32_t end = end_at_or_below(1, high);
+    for (std::uint32_t row = first_at_or_above(1, low); row < end; ++row) {
+        const auto crossing = lines_->crossing(p, row, section);
+        if (!crossing || crossing->first_beyond == size_[0]) continue;
+        // The normal points from the first label to the second; along it the line leaves the first.
+        const int left = crossing->is_ahead == is_mirrored_;
+        crossings.push_back(
+            {std::uint64_t{row} * size_[0] + crossing->first_beyond, face.labels[left], face.labels[1 - left]});
+    }
 }
 
-void Voxeliser::cross_row(const std::array<Vec3, 3>& p, const Face& face, std::uint32_t row, std::uint32_t section) {
-    const auto crossing = lines_->crossing(p, row, section);
-    if (!crossing || crossing->first_beyond == size_[0]) return;
-    // The normal points from the first label to the second; along it the line leaves the first.
-    const int left = crossing->is_ahead == is_mirrored_;
-    const Label from = face.labels[left], to = face.labels[1 - left];
-    crossings_.push_back({std::uint64_t{row} * size_[0] + crossing->first_beyond, from, to});
-}
-
-void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels) {
+void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels,
+                          Scratch& scratch) const {
     const Label outside = options_.background.empty() ? kNoRegion : options_.background.front();
-    std::vector<std::pair<Label, int>> entered;  // times entered less times left, of regions other than 0
+    auto& entered = scratch.entered;
+    entered.clear();
     const auto add = [&](Label label, int times) {
         if (is_outside(label)) return;
         const auto known = std::ranges::find(entered, label, &std::pair<Label, int>::first);
@@ -141,20 +175,21 @@ void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t fir
     };
     Label now = outside;
     bool contradicts = false;
-    std::size_t next = 0;
-    for (std::uint32_t n = 0; n < labels.size(); ++n) {
-        const std::size_t before = next;
-        for (; next < crossings.size() && crossings[next].sample == first + n; ++next) {
+    std::size_t done = 0;  // samples
+    for (std::size_t next = 0; next < crossings.size();) {
+        const std::uint64_t sample = crossings[next].sample;
+        std::fill(labels.begin() + done, labels.begin() + (sample - first), now);
+        scratch.contradictions += contradicts ? sample - first - done : 0;
+        done = sample - first;
+        for (; next < crossings.size() && crossings[next].sample == sample; ++next) {
             add(crossings[next].left, -1);
             add(crossings[next].entered, 1);
         }
-        if (next != before) {
-            contradicts = entered.size() > 1 || (entered.size() == 1 && entered[0].second != 1);
-            now = entered.empty() || contradicts ? outside : entered[0].first;
-        }
-        labels[n] = now;
-        contradictions_ += contradicts;
+        contradicts = entered.size() > 1 || (entered.size() == 1 && entered[0].second != 1);
+        now = entered.empty() || contradicts ? outside : entered[0].first;
     }
+    std::fill(labels.begin() + done, labels.end(), now);
+    scratch.contradictions += contradicts ? labels.size() - done : 0;
 }
 
 double SampleAgreement::dice() const {
@@ -167,28 +202,71 @@ double SampleAgreement::dice() const {
     return all.dice();
 }
 
+namespace {
+
+/// Room for one section at a time, as given and as found in the model.
+struct ComparedSection {
+    std::vector<Label> given, found;
+    SampleAgreement agreement;  // of all sections that were here
+
+    /// Counts runs of samples with one label in both.
+    void compare(const std::vector<Label>& background, std::size_t label_count) {
+        agreement.regions.resize(label_count);
+        auto& regions = agreement.regions;
+        for (std::size_t n = 0; n < given.size();) {
+            const std::size_t first = n;
+            while (n < given.size() && given[n] == given[first] && found[n] == found[first]) ++n;
+            const std::size_t run = n - first;
+            const bool is_background = std::ranges::find(background, given[first]) != background.end();
+            const Label in_section = is_background ? background.front() : given[first], in_model = found[first];
+            regions[in_section].in_sections += run;
+            if (!is_exterior(in_model)) regions[in_model].in_model += run;
+            (in_model == in_section ? regions[in_section].in_both : agreement.wrong) += run;
+        }
+        agreement.samples += given.size();
+    }
+};
+
+void add(SampleAgreement& sum, const SampleAgreement& part) {
+    sum.samples += part.samples;
+    sum.wrong += part.wrong;
+    sum.regions.resize(std::max(sum.regions.size(), part.regions.size()));
+    for (std::size_t n = 0; n < part.regions.size(); ++n) {
+        sum.regions[n].in_sections += part.regions[n].in_sections;
+        sum.regions[n].in_model += part.regions[n].in_model;
+        sum.regions[n].in_both += part.regions[n].in_both;
+    }
+}
+
+}  // namespace
+
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
-                                SectionReader& reader) {
+                                SectionReader& reader, std::uint32_t threads) {
+    constexpr std::uint32_t kMostSections = 4;  // in hand: each takes eight bytes a sample
     const VolumeInfo& info = reader.info();
     Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background});
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
-    std::vector<InputLabel> given(samples);
-    std::vector<Label> found(samples);
+    std::vector<InputLabel> input(samples);
+    std::vector<ComparedSection> sections(threads == 0 ? kMostSections : std::min(threads, kMostSections));
+    std::vector<std::span<Label>> found;
     SampleAgreement result;
-    while (reader.next(given) && voxeliser.next(found)) {
-        for (std::size_t n = 0; n < samples; ++n) {
-            Label label = labels.dense(given[n]);
-            if (std::ranges::find(background, label) != background.end()) label = background.front();
-            if (result.regions.size() < labels.size()) result.regions.resize(labels.size());
-            ++result.regions[label].in_sections;
-            if (!is_exterior(found[n])) ++result.regions[found[n]].in_model;
-            if (found[n] == label)
-                ++result.regions[label].in_both;
-            else
-                ++result.wrong;
-        }
-        result.samples += samples;
-    }
+    const auto read = [&](ComparedSection& section) {
+        if (!reader.next(input)) return false;
+        section.given.resize(samples);
+        section.found.resize(samples);
+        for (std::size_t n = 0; n < samples; ++n)
+            section.given[n] = n > 0 && input[n] == input[n - 1] ? section.given[n - 1] : labels.dense(input[n]);
+        return true;
+    };
+    do {
+        found.clear();
+        while (found.size() < sections.size() && read(sections[found.size()]))
+            found.push_back(sections[found.size()].found);
+        found.resize(voxeliser.next(found, threads));
+        parallel_for(static_cast<std::uint32_t>(found.size()), threads,
+                     [&](std::uint32_t n) { sections[n].compare(background, labels.size()); });
+    } while (found.size() == sections.size());
+    for (const ComparedSection& section : sections) add(result, section.agreement);
     result.contradictions = voxeliser.contradictions();
     return result;
 }

@@ -24,6 +24,7 @@ public:
     SampleLines(const Lattice& lattice, const std::array<int, 3>& axes);
 
     std::uint32_t size(int axis) const { return size_[axis]; }
+    double spacing(int axis) const { return spacing_[axis]; }
     double at(int axis, std::uint32_t n) const { return origin_[axis] + n * spacing_[axis]; }
     /// Index along an axis, not rounded.
     double index_of(int axis, double coordinate) const { return (coordinate - origin_[axis]) / spacing_[axis]; }

@@ -127,7 +127,8 @@ void count_samples(Reconstruction& result, SectionFaces& source, const Reconstru
     double& seconds = result.report.seconds["samples"];
     {
         const Timer timer(seconds);
-        result.report.samples = compare_samples(result.mesh, result.labels, result.background, source.reader());
+        result.report.samples =
+            compare_samples(result.mesh, result.labels, result.background, source.reader(), options.threads);
     }
     result.report.seconds["total"] += seconds;
     result.report.peak_bytes = peak_resident_bytes();

@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/parallel_for.h"
 #include "formats/codec/base64.h"
 #include "formats/surface/mesh_formats.h"
 #include "mesh/region_colours.h"
@@ -26,6 +27,7 @@ static_assert(std::endian::native == std::endian::little,
               "the file says LittleEndian and numbers are written as they lie in memory");
 
 constexpr std::size_t kBlockBytes = 1 << 20;  // uncompressed; a multiple of the size of every number
+constexpr std::uint32_t kMostBlocks = 4;      // compressed at a time
 constexpr std::size_t kProbeBytes = 1 << 15;
 constexpr int kStored = 0, kFast = 1;  // levels of zlib
 
@@ -47,8 +49,24 @@ int compression_level(std::span<const Bytef> block, std::span<Bytef> scratch) {
     return size > probe / 8 * 7 ? kStored : kFast;
 }
 
-// One DataArray: collects numbers into blocks and writes each full block compressed. The header with the compressed
-// sizes precedes the blocks but is known only after them, so its place is filled in last.
+// What one thread compresses at a time.
+struct Block {
+    std::vector<Bytef> plain = std::vector<Bytef>(kBlockBytes);
+    std::size_t used = 0;
+    std::vector<Bytef> packed = std::vector<Bytef>(compressBound(kBlockBytes));
+    uLongf packed_size = 0;
+
+    void pack() {
+        const int level = compression_level(std::span(plain).first(used), packed);
+        packed_size = packed.size();
+        const int status = compress2(packed.data(), &packed_size, plain.data(), used, level);
+        if (status != Z_OK) throw std::bad_alloc();  // the room suffices, so only memory can fail
+    }
+};
+
+// One DataArray: collects numbers into blocks, compresses some blocks at a time on several threads and writes them in
+// their order. The header with the compressed sizes precedes the blocks but is known only after them, so its place is
+// filled in last.
 template <class T>
 class ArrayWriter {
 public:
@@ -60,18 +78,21 @@ public:
         block_count_ = header_[0];
         header_offset_ = file.size();
         file.write(std::string(base64_length((header_.size() + block_count_) * sizeof(std::uint64_t)), 'A'));
-        block_.resize(kBlockBytes);
-        compressed_.resize(compressBound(kBlockBytes));
+        const std::uint32_t at_a_time =
+            file.options().threads == 0 ? kMostBlocks : std::min(file.options().threads, kMostBlocks);
+        blocks_.resize(std::clamp<std::uint64_t>(block_count_, 1, at_a_time));
     }
 
     void put(T value) {
-        if (used_ == kBlockBytes) write_block();
-        std::memcpy(&block_[used_], &value, sizeof(T));
-        used_ += sizeof(T);
+        if (blocks_[full_].used == kBlockBytes && ++full_ == blocks_.size()) write_blocks();
+        Block& block = blocks_[full_];
+        std::memcpy(&block.plain[block.used], &value, sizeof(T));
+        block.used += sizeof(T);
     }
 
     void close() {
-        if (used_ > 0) write_block();
+        if (blocks_[full_].used > 0) ++full_;
+        write_blocks();
         assert(header_.size() == 3 + block_count_);
         text_.clear();
         encoder_.finish(text_);
@@ -81,16 +102,17 @@ public:
     }
 
 private:
-    void write_block() {
-        const int level = compression_level(std::span(block_).first(used_), compressed_);
-        uLongf size = compressed_.size();
-        const int status = compress2(compressed_.data(), &size, block_.data(), used_, level);
-        if (status != Z_OK) throw std::bad_alloc();  // the room suffices, so only memory can fail
-        header_.push_back(size);
-        text_.clear();
-        encoder_.encode(std::as_bytes(std::span(compressed_).first(size)), text_);
-        file_.write(text_);
-        used_ = 0;
+    void write_blocks() {
+        parallel_for(static_cast<std::uint32_t>(full_), file_.options().threads,
+                     [&](std::uint32_t n) { blocks_[n].pack(); });
+        for (Block& block : std::span(blocks_).first(full_)) {
+            header_.push_back(block.packed_size);
+            text_.clear();
+            encoder_.encode(std::as_bytes(std::span(block.packed).first(block.packed_size)), text_);
+            file_.write(text_);
+            block.used = 0;
+        }
+        full_ = 0;
     }
 
     OutputFile& file_;
@@ -98,9 +120,8 @@ private:
     std::vector<std::uint64_t> header_;  // number of blocks, their size, size of the last if smaller, compressed sizes
     std::uint64_t block_count_ = 0;
     std::uint64_t header_offset_ = 0;
-    std::vector<Bytef> block_;
-    std::size_t used_ = 0;
-    std::vector<Bytef> compressed_;
+    std::vector<Block> blocks_;
+    std::size_t full_ = 0;  // blocks
     std::string text_;
 };
 
