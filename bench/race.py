@@ -10,8 +10,9 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 VIOLATIONS = 3   # exit code of regionmesh
-CANNOT_READ = 3  # exit code of vtk_pair.py
-PEERS = ("meshoptimizer", "VTK")
+CANNOT_READ = 3  # exit code of vtk_pair.py and surface_nets.cpp
+PEERS = {"meshoptimizer": "meshoptimizer", "tetrahedra": "meshoptimizer, tetrahedra", "VTK": "VTK", "SurfaceNets": "SurfaceNets"}
+COMPILED = {"meshoptimizer": "meshoptimizer", "tetrahedra": "meshoptimizer", "SurfaceNets": "surface_nets"}  # peers/NAME.cpp
 SAMPLES = 200_000  # points on each surface from which distances are taken
 
 
@@ -55,6 +56,7 @@ class Setting:
     program: str
     folder: str
     reduce: float = 0.9
+    target_faces: int = 0  # instead of a share, where given
     smooth: int = 0
     threads: int = 0  # 0: as many as there are
     options: tuple = ()
@@ -101,8 +103,8 @@ def common(setting):
 def ours(case, setting):
     """From labels to the model written and checked: the wall time of the whole process."""
     report = setting.at("report.json")
-    command = [setting.program, "reconstruct", case.path, "-o", setting.at(setting.model), "--reduce", f"{100 * setting.reduce:g}%",
-               "--report", report, *common(setting)]
+    goal = ["--target-faces", str(setting.target_faces)] if setting.target_faces else ["--reduce", f"{100 * setting.reduce:g}%"]
+    command = [setting.program, "reconstruct", case.path, "-o", setting.at(setting.model), *goal, "--report", report, *common(setting)]
     start = time.perf_counter()
     run(command)
     seconds = time.perf_counter() - start
@@ -114,6 +116,12 @@ def ours(case, setting):
 def write_full(case, setting):
     """The unsimplified model as full.ply, smoothed or not as the simplified one is."""
     run([setting.program, "reconstruct", case.path, "-o", setting.at("full.ply"), "--no-decimate", *common(setting)])
+
+
+def write_tetrahedra(case, setting):
+    """That of the same samples in five tetrahedra a cell, as tetrahedra.ply."""
+    write = setting.but(options=(*setting.options, "--cells", "tetrahedra"))
+    run([write.program, "reconstruct", case.path, "-o", write.at("tetrahedra.ply"), "--no-decimate", *common(write)])
 
 
 def peer(command, setting):
@@ -140,6 +148,15 @@ def distance(setting, a, b):
         return json.load(file)["distance"]["both"]["rms"]
 
 
+def checked(case, setting):
+    """The model checked anew, with its samples: the wall time of the whole process."""
+    command = [setting.program, "check", setting.at(setting.model), "--sections", case.path, "--quiet",
+               *(["--no-background"] if "--no-background" in setting.options else [])]
+    start = time.perf_counter()
+    run(command, fine=(0, VIOLATIONS))
+    return time.perf_counter() - start
+
+
 def crossing_count(setting):
     """Pairs of faces that cross in the model."""
     path = setting.at("check.json")
@@ -155,32 +172,35 @@ class Peers:
         self.names = [name for name in PEERS if name in names]
         self.versions = {}
         self.missing = set()
-        self.meshoptimizer_program = os.path.join(folder, "meshoptimizer")
-        if "meshoptimizer" in self.names and not self.compile_meshoptimizer():
-            self.missing.add("meshoptimizer")
+        self.folder = folder
+        self.missing |= {name for name in self.names if name in COMPILED and not self.compile(COMPILED[name])}
         if "VTK" in self.names and not succeeds([sys.executable, "-c", "import vtkmodules.vtkFiltersGeneral"]):
             self.missing.add("VTK")
 
-    def compile_meshoptimizer(self):
+    def compile(self, program):
         compiler = os.environ.get("CXX", "c++")
         if not succeeds([compiler, "-E", "-x", "c++", "-include", "meshoptimizer.h", os.devnull]):
             return False
-        run([compiler, "-std=c++20", "-O3", "-DNDEBUG", os.path.join(HERE, "peers/meshoptimizer.cpp"), "-lmeshoptimizer",
-             "-o", self.meshoptimizer_program])
+        run([compiler, "-std=c++20", "-O3", "-DNDEBUG", os.path.join(HERE, f"peers/{program}.cpp"), "-lmeshoptimizer",
+             "-o", os.path.join(self.folder, program)])
         return True
 
     def lanes(self, case, setting, our_lane, is_measured):
         """Of each peer. What it makes is kept for distances where those are measured."""
-        def meshoptimizer():
+        def kept(name):
+            return [setting.at(name)] if is_measured else []
+
+        def simplified(full, result):
             target = our_lane.results[0].final_faces
-            return self.call("meshoptimizer", [self.meshoptimizer_program, setting.at("full.ply"), str(target),
-                                               *([setting.at("meshoptimizer.ply")] if is_measured else [])], setting)
+            return [os.path.join(self.folder, "meshoptimizer"), setting.at(full), str(target), *kept(result)]
 
-        def vtk():
-            return self.call("VTK", [sys.executable, os.path.join(HERE, "peers/vtk_pair.py"), case.path, f"{setting.reduce:g}",
-                                     *([setting.at("vtk")] if is_measured else [])], setting)
-
-        return [Lane(name, {"meshoptimizer": meshoptimizer, "VTK": vtk}[name]) for name in self.names]
+        commands = {
+            "meshoptimizer": lambda: simplified("full.ply", "meshoptimizer.ply"),
+            "tetrahedra": lambda: simplified("tetrahedra.ply", "tetrahedra-reduced.ply"),
+            "VTK": lambda: [sys.executable, os.path.join(HERE, "peers/vtk_pair.py"), case.path, f"{setting.reduce:g}", *kept("vtk")],
+            "SurfaceNets": lambda: [os.path.join(self.folder, "surface_nets"), case.path, str(our_lane.results[0].final_faces),
+                                    *kept("nets")]}
+        return [Lane(PEERS[name], lambda name=name: self.call(name, commands[name](), setting)) for name in self.names]
 
     def call(self, name, command, setting):
         if name in self.missing:
@@ -191,7 +211,9 @@ class Peers:
 
 
 def measure_distances(lanes, setting):
-    files = {"meshoptimizer": ("full.ply", "meshoptimizer.ply"), "VTK": ("vtk-full.ply", "vtk-reduced.ply")}
+    files = {"meshoptimizer": ("full.ply", "meshoptimizer.ply"), "VTK": ("vtk-full.ply", "vtk-reduced.ply"),
+             "meshoptimizer, tetrahedra": ("tetrahedra.ply", "tetrahedra-reduced.ply"),
+             "SurfaceNets": ("nets-full.ply", "nets-reduced.ply")}
     for lane in lanes:
         if lane.results and lane.results[0].final_faces > 0:
             lane.rms = distance(setting, *(("full.ply", "model.vtp") if lane.is_ours else files[lane.name]))
