@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace regionmesh {
 namespace {
@@ -26,6 +27,11 @@ struct Slab {
         const double height = dot(normal, p - from);
         return height >= low && height <= high;
     }
+    /// Is the point farther than rounding from both ends?
+    bool holds_deep(Vec3 p) const {
+        const double height = dot(normal, p - from), margin = 2 * std::min(-low, high);
+        return height > low + margin && height < high - margin;
+    }
 };
 
 /// Numbers of samples along an axis.
@@ -38,10 +44,10 @@ std::int64_t round_up(double x) {
     return n + (static_cast<double>(n) < x);
 }
 
-/// The samples of a lattice in the box of a tetrahedron, in units of the spacing.
-class Reach {
+/// The tetrahedron over a face, in units of the spacing.
+class Tetrahedron {
 public:
-    Reach(const Lattice& lattice, const std::array<Vec3, 3>& face, Vec3 p) : face_(face), p_(p) {
+    Tetrahedron(const Lattice& lattice, const std::array<Vec3, 3>& face, Vec3 p) : face_(face), p_(p) {
         const Vec3 low = min(min(face[0], face[1]), min(face[2], p)),
                    high = max(max(face[0], face[1]), max(face[2], p));
         for (int axis = 0; axis < 3; ++axis) {
@@ -50,14 +56,16 @@ public:
                              -round_up(-std::clamp(high[axis] + slack, -1.0, end - 1))};
         }
     }
-    bool has_samples() const {
+    bool has_samples_in_box() const {
         return ranges_[0].first <= ranges_[0].last && ranges_[1].first <= ranges_[1].last &&
                ranges_[2].first <= ranges_[2].last;
     }
 
-    /// Is each of them certainly outside the tetrahedron? Looks at lines along the axis that is steepest on the face:
-    /// few have a sample in its slab.
-    bool is_clear() const {
+    /// Calls visit(sample) for each sample that is perhaps inside, until it returns false. Looks at lines along the
+    /// axis that is steepest on the face: few have a sample in its slab. Returns false, without visits, where the face
+    /// is flat.
+    template <class Visit>
+    bool for_samples(Visit&& visit) const {
         const Slab slab(face_[0], face_[1], face_[2], p_);
         int axis = 0;
         for (int other = 1; other < 3; ++other)
@@ -78,21 +86,32 @@ public:
                 for (; n <= end; ++n) {
                     Vec3 sample;
                     sample[axis] = n, sample[u] = static_cast<double>(i), sample[v] = static_cast<double>(j);
-                    if (is_between_sides(sample)) return false;
+                    if (is_between_sides(sample) && !visit(sample)) return true;
                 }
             }
         return true;
     }
 
+    bool is_deep_inside(Vec3 sample) const {
+        if (!Slab(face_[0], face_[1], face_[2], p_).holds_deep(sample)) return false;
+        for (int n = 0; n < 3; ++n)
+            if (!side(n).holds_deep(sample)) return false;
+        return true;
+    }
+    bool is_outside(Vec3 sample) const {
+        return !Slab(face_[0], face_[1], face_[2], p_).holds(sample) || !is_between_sides(sample);
+    }
+
 private:
+    Slab side(int n) const { return {face_[n], face_[(n + 1) % 3], p_, face_[(n + 2) % 3]}; }
     /// In the slabs of the faces that meet in p.
     bool is_between_sides(Vec3 sample) const {
         for (int n = 0; n < 3; ++n)
-            if (!Slab(face_[n], face_[(n + 1) % 3], p_, face_[(n + 2) % 3]).holds(sample)) return false;
+            if (!side(n).holds(sample)) return false;
         return true;
     }
 
-    const std::array<Vec3, 3>& face_;
+    std::array<Vec3, 3> face_;
     Vec3 p_;
     std::array<Range, 3> ranges_;
 };
@@ -108,21 +127,33 @@ bool is_flat_cap(const LabelledTriangle& face, Vec3 p) {
 
 }  // namespace
 
-bool sweeps_no_sample(const Lattice& lattice, std::span<const LabelledTriangle> before, Vec3 position) {
+SweptSamples find_swept_samples(const Lattice& lattice, std::span<const LabelledTriangle> before, Vec3 position) {
     const Vec3 per_spacing{1 / lattice.spacing.x, 1 / lattice.spacing.y, 1 / lattice.spacing.z};
     const auto in_spacings = [&](Vec3 p) {
         const Vec3 from_origin = p - lattice.origin;
         return Vec3{from_origin.x * per_spacing.x, from_origin.y * per_spacing.y, from_origin.z * per_spacing.z};
     };
     const Vec3 p = in_spacings(position);
+    thread_local std::vector<Tetrahedron> swept;  // those with samples in their boxes
+    swept.clear();
     for (const LabelledTriangle& face : before) {
         const auto& [a, b, c] = face.at;
         if (a == position || b == position || c == position || is_flat_cap(face, position)) continue;
-        const std::array<Vec3, 3> corners{in_spacings(a), in_spacings(b), in_spacings(c)};
-        const Reach reach(lattice, corners, p);
-        if (reach.has_samples() && !reach.is_clear()) return false;
+        const Tetrahedron own(lattice, {in_spacings(a), in_spacings(b), in_spacings(c)}, p);
+        if (own.has_samples_in_box()) swept.push_back(own);
     }
-    return true;
+    bool is_clear = true, is_sure = false;
+    for (std::size_t n = 0; n < swept.size() && !is_sure; ++n) {
+        const bool was_looked_at = swept[n].for_samples([&](Vec3 sample) {
+            is_clear = false;
+            is_sure = swept[n].is_deep_inside(sample);
+            for (std::size_t other = 0; other < swept.size() && is_sure; ++other)
+                is_sure = other == n || swept[other].is_outside(sample);
+            return !is_sure;
+        });
+        is_clear = is_clear && was_looked_at;
+    }
+    return is_sure ? SweptSamples::kSome : is_clear ? SweptSamples::kNone : SweptSamples::kPerhaps;
 }
 
 }  // namespace regionmesh

@@ -15,9 +15,15 @@ struct LabelledTriangle {
     std::array<Label, 2> labels;  // the normal points from the first to the second
 };
 
+enum class SweptSamples {
+    kNone,     // none changes its region, and no new face meets one
+    kSome,     // one changes its region
+    kPerhaps,  // only the exact test can tell
+};
+
 /// A collapse replaces the faces `before` by those from `position` over their outer edges. So the regions change in the
-/// tetrahedra from `position` over the faces and nowhere else. True: no sample lies in one of them, or so near that
-/// rounding may take it there; no sample changes its region and no new face meets one. False: perhaps one does.
-bool sweeps_no_sample(const Lattice& lattice, std::span<const LabelledTriangle> before, Vec3 position);
+/// tetrahedra from `position` over the faces and nowhere else. kNone where no sample lies in one of them, or so near
+/// that rounding may take it there; kSome where one lies deeper than rounding in one of them, and outside the others.
+SweptSamples find_swept_samples(const Lattice& lattice, std::span<const LabelledTriangle> before, Vec3 position);
 
 }  // namespace regionmesh
