@@ -13,18 +13,28 @@
 
 namespace regionmesh {
 
-/// Largest resident size so far, in bytes. Read from /proc on Linux: the portable count may include the size of the
-/// program that started this one.
-inline std::uint64_t peak_resident_bytes() {
+/// Resident size of the process, in bytes: largest so far, and now.
+struct ResidentBytes {
+    std::uint64_t peak = 0, now = 0;
+};
+
+/// Read from /proc on Linux: the portable count may include the size of the program that started this one, and has no
+/// size of now.
+inline ResidentBytes resident_bytes() {
+    ResidentBytes bytes;
     std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
+    for (std::string word; bytes.now == 0 && status >> word;) {
         std::uint64_t kibibytes = 0;
-        if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
+        if (word == "VmHWM:" && status >> kibibytes) bytes.peak = kibibytes * 1024;
+        if (word == "VmRSS:" && status >> kibibytes) bytes.now = kibibytes * 1024;
     }
+    if (bytes.peak != 0) return bytes;
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    bytes.peak = bytes.now = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    return bytes;
 }
+inline std::uint64_t peak_resident_bytes() { return resident_bytes().peak; }
 
 /// Returns freed memory to the system, which the C library would keep. Call after large arrays were freed.
 inline void give_back_freed_memory() {

@@ -20,10 +20,11 @@ struct Report {
     std::uint64_t initial_vertices = 0;
     std::uint64_t final_faces = 0;
     std::uint64_t final_vertices = 0;
-    std::map<std::string, double> seconds;  // by stage, and "total"
-    std::uint64_t peak_bytes = 0;           // largest resident size of the process
-    std::uint64_t peak_faces = 0;           // most faces held at once
-    double bytes_per_face = 0;              // of mesh and decimation at their peak, over the faces held then
+    std::map<std::string, double> seconds;             // by stage, and "total"
+    std::map<std::string, std::uint64_t> stage_bytes;  // by stage: largest resident size of the process seen in it
+    std::uint64_t peak_bytes = 0;                      // largest resident size of the process
+    std::uint64_t peak_faces = 0;                      // most faces held at once
+    double bytes_per_face = 0;                         // of mesh and decimation at their peak, over the faces held then
     SmoothReport smoothing;
     std::vector<double> unsmoothed_volumes;  // by dense label, length^3; empty if not needed
     PreserveReport preserved;

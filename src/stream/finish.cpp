@@ -9,7 +9,7 @@ namespace regionmesh {
 
 void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.improve) return;
-    const Timer timer = log.time("improve");
+    const StageTimer timer = log.time("improve");
     const SimplifyOptions simplify = simplify_options(options, shape);
     ImproveOptions own{.min_quality = simplify.min_quality, .scale = simplify.scale, .samples = simplify.samples};
     // The number of sweeps is not known: the share nears 1 ever more slowly.
@@ -24,7 +24,7 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
 
 void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log) {
     if (!options.preserve_volume) return;
-    const Timer timer = log.time("preserve volume");
+    const StageTimer timer = log.time("preserve volume");
     const std::vector<double>& before = result.report.unsmoothed_volumes;
     WantedVolumes wanted(before.begin(), before.end());
     for (Label label : result.background)
@@ -35,7 +35,7 @@ void restore_volumes(Reconstruction& result, const ReconstructOptions& options, 
 void check_result(Reconstruction& result, std::optional<LabelOracle> oracle, const ReconstructOptions& options,
                   RunLog& log) {
     log.report_progress("check");
-    const Timer timer = log.time("check");
+    const StageTimer timer = log.time("check");
     CheckOptions check_options;
     check_options.boundary_is_open = !options.cap;
     check_options.background = result.background;

@@ -9,7 +9,7 @@ bool Gatherer::next(Chunk& chunk) {
     const std::uint32_t first = strips_.count();
     chunk.clear();
     while (strips_.count() - first < chunk_strips_ && strips_.next(strip_)) {
-        const Timer timer = log_.time("reconstruct");
+        const StageTimer timer = log_.time("reconstruct");
         chunk.append(strip_);
     }
     const bool is_whole = strips_.count() - first == chunk_strips_ || strips_.is_at_end();

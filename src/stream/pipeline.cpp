@@ -32,7 +32,7 @@ namespace {
 std::optional<FaceCount> count_faces(FaceSource& source, RunLog& log) {
     log.note_strip_count(source.shape().strip_count);
     log.report_progress("count");
-    const Timer timer = log.time("count");
+    const StageTimer timer = log.time("count");
     std::optional<FaceCount> counted = source.count();
     log.note_strip_count(source.shape().strip_count);
     log.advance(WorkStage::kCount, 1);
@@ -131,7 +131,9 @@ void count_samples(Reconstruction& result, SectionFaces& source, const Reconstru
             compare_samples(result.mesh, result.labels, result.background, source.reader(), options.threads);
     }
     result.report.seconds["total"] += seconds;
-    result.report.peak_bytes = peak_resident_bytes();
+    const ResidentBytes bytes = resident_bytes();
+    result.report.stage_bytes["samples"] = bytes.peak > result.report.peak_bytes ? bytes.peak : bytes.now;
+    result.report.peak_bytes = bytes.peak;
 }
 
 }  // namespace

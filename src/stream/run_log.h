@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <thread>
 
 #include "regionmesh/process.h"
@@ -14,6 +16,22 @@ namespace regionmesh {
 
 using OnProgress = std::function<void(const Progress&)>;
 
+class RunLog;
+
+/// Adds its lifetime to the seconds of a stage, and notes the memory in its end.
+class StageTimer {
+public:
+    StageTimer(RunLog& log, const char* stage);
+    ~StageTimer();
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+private:
+    RunLog& log_;
+    const char* stage_;
+    Timer timer_;
+};
+
 /// Fills the report of a result. No result depends on it.
 class RunLog {
 public:
@@ -21,8 +39,20 @@ public:
 
     Report& report() { return result_.report; }
 
-    /// Adds the time until its end to the seconds of a stage.
-    [[nodiscard]] Timer time(const char* stage) { return Timer(result_.report.seconds[stage]); }
+    [[nodiscard]] StageTimer time(const char* stage) { return {*this, stage}; }
+
+    /// Notes the resident size for a stage. Looks at it every few milliseconds at most, and always at the first time.
+    void note_resident(const std::string& stage) {
+        constexpr std::chrono::milliseconds kPause{10};
+        std::uint64_t& most = result_.report.stage_bytes[stage];
+        const auto now = std::chrono::steady_clock::now();
+        if (most != 0 && now < next_look_) return;
+        next_look_ = now + kPause;
+        const ResidentBytes bytes = resident_bytes();
+        // Where the peak rose since the last look, it was in this stage.
+        most = std::max(most, bytes.peak > peak_ ? bytes.peak : bytes.now);
+        peak_ = bytes.peak;
+    }
 
     void add(const VerdictCounts& verdicts) {
         for (int n = 0; n < kVerdictCount; ++n) result_.report.verdicts[n] += verdicts[n];
@@ -83,6 +113,12 @@ private:
     ProgressShares shares_;
     std::thread::id thread_ = std::this_thread::get_id();
     std::size_t most_bytes_ = 0;
+    std::uint64_t peak_ = 0;  // resident, at the last look
+    std::chrono::steady_clock::time_point next_look_;
 };
+
+inline StageTimer::StageTimer(RunLog& log, const char* stage)
+    : log_(log), stage_(stage), timer_(log.report().seconds[stage]) {}
+inline StageTimer::~StageTimer() { log_.note_resident(stage_); }
 
 }  // namespace regionmesh

@@ -18,7 +18,7 @@ SimplifyStage::SimplifyStage(Mesh& mesh, const Plan& plan, const ReconstructOpti
 
 void SimplifyStage::merge(Chunk& chunk, std::uint64_t initial_faces) {
     {
-        const Timer timer = log_.time("reconstruct");
+        const StageTimer timer = log_.time("reconstruct");
         merger_.add(chunk);
     }
     ++merged_chunks_;
@@ -79,7 +79,7 @@ void SimplifyStage::bring_to_target() {
 
 /// Brings the mesh near the goal, tile by tile: mesh -> chunk -> tiles -> chunk -> mesh.
 void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
-    const Timer timer = log_.time("raise level");
+    const StageTimer timer = log_.time("raise level");
     // The number of passes is not known: each is taken for half of what was left.
     double passes_done = 0;
     const auto on_share = [&](double share) {
@@ -107,7 +107,7 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
 
 /// Brings the mesh to the goal exactly, with one heap over all edges.
 void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
-    const Timer timer = log_.time("decimate");
+    const StageTimer timer = log_.time("decimate");
     SimplifyOptions own = simplify_options(options_, shape_);
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
     const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()), .refresh = is_last};

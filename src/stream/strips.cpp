@@ -33,11 +33,11 @@ bool Strips::next(Chunk& strip) {
 
 bool Strips::mesh_next(Chunk& strip) {
     {
-        const Timer timer = log_.time("read");
+        const StageTimer timer = log_.time("read");
         if (!source_.advance()) return false;
     }
     {
-        const Timer timer = log_.time("reconstruct");
+        const StageTimer timer = log_.time("reconstruct");
         source_.make_faces(strip);
     }
     log_.note_strip(source_.strips_read(), strip.faces.size(), strip.vertices.size());
@@ -48,11 +48,11 @@ bool Strips::mesh_next(Chunk& strip) {
 bool Strips::smooth_next(Chunk& strip) {
     for (;;) {
         {
-            const Timer timer = log_.time("smooth");
+            const StageTimer timer = log_.time("smooth");
             if (smoother_->next(strip)) return true;
         }
         if (!mesh_next(strip)) return false;
-        const Timer timer = log_.time("smooth");
+        const StageTimer timer = log_.time("smooth");
         if (!smoother_->add(strip, source_.is_last(), source_.low_of(source_.strips_read()))) return false;
     }
 }

@@ -26,7 +26,7 @@ void TileStage::run(Chunk& chunk, const Gatherer& gatherer) {
     };
     tile_options_.faces_in_flight =
         static_cast<std::uint64_t>(std::ceil(plan_.budget.share_in_flight * static_cast<double>(chunk.faces.size())));
-    const Timer timer = log_.time("decimate tiles");
+    const StageTimer timer = log_.time("decimate tiles");
     log_.add(simplify_run(chunk, gatherer.carried(), gatherer.safe(), plan_.tiles, tile_options_));
     strips_done_ = gatherer.strip_count();
 }

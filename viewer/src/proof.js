@@ -91,11 +91,12 @@ function verdictCard({ verdicts, stopped, refreshes }) {
         element("p", { class: "hint" }, `Decimation ended: ${stopped.replaceAll("_", " ")}. Candidates gathered again: ${grouped(refreshes)} times.`));
 }
 
-function secondsCard({ seconds, peak_bytes: bytes }) {
+function secondsCard({ seconds, stage_bytes: memory = {}, peak_bytes: bytes }) {
     const { total, ...stages } = seconds, largest = Math.max(...Object.values(stages), 1e-9);
     const rows = Object.entries(stages).sort((a, b) => b[1] - a[1]);
-    return card("Seconds by stage",
-        element("table", { class: "bars" }, ...rows.map(([stage, time]) => barRow(stage, time, largest, time < 0.001 ? "< 0.001" : short(time, 3)))),
+    const text = (stage, time) => (time < 0.001 ? "< 0.001" : short(time, 3)) + (memory[stage] ? `, ${grouped(Math.round(memory[stage] / 1e6))} MB` : "");
+    return card(Object.keys(memory).length > 0 ? "Seconds and memory by stage" : "Seconds by stage",
+        element("table", { class: "bars" }, ...rows.map(([stage, time]) => barRow(stage, time, largest, text(stage, time)))),
         element("p", { class: "hint" }, `${total === undefined ? "" : `${short(total, 3)} s in all. `}${bytes ? `At most ${grouped(bytes / 1e6)} MB of memory.` : ""}`));
 }
 

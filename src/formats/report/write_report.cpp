@@ -148,6 +148,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
               {"final_faces", report.final_faces},
               {"final_vertices", report.final_vertices},
               {"seconds", report.seconds},
+              {"stage_bytes", report.stage_bytes},
               {"peak_bytes", report.peak_bytes},
               {"peak_faces", report.peak_faces},
               {"bytes_per_face", report.bytes_per_face}};

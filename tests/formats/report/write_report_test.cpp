@@ -45,7 +45,7 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     EXPECT_THAT(keys_of(json),
                 testing::UnorderedElementsAre(
                     "initial_faces", "initial_vertices", "final_faces", "final_vertices", "error_bound", "seconds",
-                    "peak_bytes", "peak_faces", "bytes_per_face", "verdicts", "refreshes", "samples_in_room", "stopped",
+                    "stage_bytes", "peak_bytes", "peak_faces", "bytes_per_face", "verdicts", "refreshes", "samples_in_room", "stopped",
                     "smoothing", "volumes_preserved", "quality", "regions", "triple_lines", "region_pairs",
                     "pinned_vertices", "quadruple_points_inside", "violations", "violation_counts"));
     EXPECT_THAT(keys_of(json["quality"]),
@@ -63,12 +63,14 @@ TEST(ReportJson, says_what_the_report_says) {
     report.peak_bytes = 1'000'000'000'000;
     report.check = two_regions();
     report.seconds = {{"total", 1.5}};
+    report.stage_bytes = {{"smooth", 2'000'000}};
     report.verdicts[static_cast<int>(Verdict::kPinch)] = 4;
     report.stopped = "target";
     const Json json = Json::parse(report_json(report, labels_of({7, 3})));
     EXPECT_EQ(json["initial_faces"], 100);
     EXPECT_EQ(json["final_vertices"], 7);
     EXPECT_EQ(json["seconds"]["total"], 1.5);
+    EXPECT_EQ(json["stage_bytes"], (Json{{"smooth", 2'000'000}}));
     EXPECT_EQ(json["peak_bytes"], 1'000'000'000'000);
     EXPECT_EQ(json["verdicts"]["pinch"], 4);
     EXPECT_EQ(json["stopped"], "target");
