@@ -80,6 +80,12 @@ VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
     return a_may ? a : b_may ? b : kNoVertex;
 }
 
+bool Candidates::may_go(VertexId v, VertexId w) const {
+    if (mesh_[v].is_fixed || mesh_[w].is_fixed) return false;
+    const LabelSet labels = edge_labels(mesh_, v, w);
+    return labels.size() > 0 && labels.size() == label_count(v);
+}
+
 /// Rank of an edge; infinite above the threshold or the largest error.
 float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) {
     constexpr float kNever = std::numeric_limits<float>::infinity();

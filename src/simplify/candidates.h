@@ -24,10 +24,13 @@ public:
     bool has_edges_over_error() const { return has_edges_over_error_; }
     VertexId goes() const { return heap_.top(); }
     VertexId stays() const { return partner_[index(heap_.top())]; }
+    double least_rank() const { return heap_.top_key() / key_unit_; }
+    /// May v go to w, by strata? Both are alive.
+    bool may_go(VertexId v, VertexId w) const;
 
     /// Puts the cheapest candidate aside until something near it changes.
     void refuse();
-    /// After a collapse: `goes` has left, and the edges round `stays` are ranked again.
+    /// After a collapse of any edge: `goes` has left, and the edges round `stays` are ranked again.
     void update(VertexId goes, VertexId stays);
 
     static constexpr std::size_t kBytesPerVertex = EdgeHeap::kBytesPerVertex + sizeof(VertexId) + sizeof(float);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mesh/strata.h"
 #include "simplify/bytes.h"
 #include "simplify/candidates.h"
+#include "simplify/half_candidates.h"
 #include "simplify/prepass.h"
 #include "simplify/tuning.h"
 #include "simplify/verdict/verdicts.h"
@@ -54,6 +56,7 @@ public:
           outside_(mesh, bounds.limits),
           placement_((count_labels(mesh), make_placement(mesh, options))),
           candidates_(mesh, *placement_, options),
+          halves_(mesh.vertex_count() / 2),
           collapse_{.mesh = mesh,
                     .tree = tree_,
                     .bounds = {.min_quality = options.min_quality},
@@ -67,12 +70,14 @@ public:
         for (;;) {
             if (is_at_target()) break;
             result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
-            result_.bytes = std::max(result_.bytes, tree_.bytes() + candidates_.bytes() + placement_->bytes());
+            halves_.clear();
             const std::uint64_t before = accepted(), over_error = count(Verdict::kError);
-            while (!candidates_.empty() && !is_at_target()) {
+            while (!(candidates_.empty() && halves_.empty()) && !is_at_target()) {
                 step();
                 pack();
             }
+            result_.bytes =
+                std::max(result_.bytes, tree_.bytes() + candidates_.bytes() + placement_->bytes() + halves_.bytes());
             if (is_at_target()) break;
             if (accepted() == before || !is_refreshing_) {
                 const bool is_error = candidates_.has_edges_over_error() || count(Verdict::kError) > over_error;
@@ -109,20 +114,64 @@ private:
         tree_.build(mesh_);
     }
 
-    /// Tests the cheapest candidate: collapses it, or puts it aside.
     void step() {
+        if (halves_.empty() || (!candidates_.empty() && candidates_.least_rank() <= halves_.least_rank()))
+            try_best();
+        else
+            try_half(halves_.take());
+        if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress();
+    }
+
+    /// Tests the cheapest candidate where it costs least: collapses it, or puts it aside.
+    void try_best() {
         const EdgeStar& star = collapse_.star;
         gather(mesh_, candidates_.goes(), candidates_.stays(), collapse_.star);
         const Verdict verdict = examine(collapse_, [&] { return placement_->place(mesh_, star); });
         ++result_.verdicts[static_cast<int>(verdict)];
         if (verdict == Verdict::kAccepted) {
-            placement_->collapse(mesh_, star, collapse_.position);
-            collapse_edge(mesh_, tree_, collapse_);
-            candidates_.update(star.goes, star.stays);
+            apply();
         } else {
+            if (depends_on_place(verdict)) add_half(star.goes, star.stays);
             candidates_.refuse();
         }
-        if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress();
+    }
+
+    static bool depends_on_place(Verdict verdict) {
+        return verdict == Verdict::kFold || verdict == Verdict::kQuality || verdict == Verdict::kPinch ||
+               verdict == Verdict::kSamples;
+    }
+
+    void add_half(VertexId goes, VertexId stays) {
+        if (const auto rank = rank_of_half(goes, stays)) halves_.add({*rank, goes, stays});
+    }
+
+    /// None above the largest cost or error.
+    std::optional<double> rank_of_half(VertexId goes, VertexId stays) {
+        gather_vertex(mesh_, goes, around_);
+        placement_->rank_halves(mesh_, around_, {&stays, 1}, half_costs_);
+        const auto [cost, weight] = half_costs_.front();
+        if (!(cost <= options_.max_cost) || cost > options_.max_error * options_.max_error * weight) return {};
+        return cost + kLengthShare * weight * length2(mesh_.position(stays) - mesh_.position(goes));
+    }
+
+    /// Tests it as the mesh is now. Where the edge has become dearer it waits once more.
+    void try_half(HalfCandidates::Edge edge) {
+        const auto [rank, goes, stays] = edge;
+        if (!mesh_.is_alive(goes) || !mesh_.is_alive(stays) || !candidates_.may_go(goes, stays)) return;
+        const auto now = rank_of_half(goes, stays);
+        if (!now) return;
+        if (*now > rank * kSameRank) return halves_.add({*now, goes, stays});
+        gather_half(mesh_, goes, stays, collapse_.star);
+        const Verdict verdict = examine(collapse_, [&] { return Places{collapse_.star.at_stays}; });
+        ++result_.verdicts[static_cast<int>(verdict)];
+        if (verdict == Verdict::kAccepted) apply();
+    }
+
+    void apply() {
+        const EdgeStar& star = collapse_.star;
+        placement_->collapse(mesh_, star, collapse_.position);
+        collapse_edge(mesh_, tree_, collapse_);
+        candidates_.update(star.goes, star.stays);
     }
 
     Mesh& mesh_;
@@ -132,7 +181,10 @@ private:
     FixedOutside outside_;
     std::unique_ptr<Placement> placement_;
     Candidates candidates_;
+    HalfCandidates halves_;
     Collapse collapse_;
+    EdgeStar around_;                   // of a vertex that may go
+    std::vector<HalfCost> half_costs_;  // of one edge
     CollapseResult result_;
     std::uint64_t steps_ = 0;
 };

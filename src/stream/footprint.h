@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kMeshBytesPerFace = per_face(sizeof(Face), sizeof
 static_assert(kMeshBytesPerFace == 48);
 
 /// Per vertex a quadric of ten floats, the partner of its cheapest edge, the cost up to which edges were refused, a
-/// heap entry and the position in the heap; and 4 bytes of spare room.
+/// heap entry and the position in the heap; and 16 bytes of a second choice for every second vertex.
 inline constexpr std::uint64_t kDecimationBytesPerFace =
     per_face(kTreeBytesPerFace, 10 * sizeof(float) + 5 * sizeof(std::uint32_t)) + 4;
 inline constexpr std::uint64_t kBytesPerFace = kMeshBytesPerFace + kDecimationBytesPerFace;

@@ -94,7 +94,7 @@ function verdictCard({ verdicts, stopped, refreshes }) {
 function secondsCard({ seconds, stage_bytes: memory = {}, peak_bytes: bytes }) {
     const { total, ...stages } = seconds, largest = Math.max(...Object.values(stages), 1e-9);
     const rows = Object.entries(stages).sort((a, b) => b[1] - a[1]);
-    const text = (stage, time) => (time < 0.001 ? "< 0.001" : short(time, 3)) + (memory[stage] ? `, ${grouped(Math.round(memory[stage] / 1e6))} MB` : "");
+    const text = (stage, time) => (time < 0.001 ? "< 0.001" : short(time, 3)) + (memory[stage] ? `, ${grouped(Math.round(memory[stage] / 1e6))}\u00a0MB` : "");
     return card(Object.keys(memory).length > 0 ? "Seconds and memory by stage" : "Seconds by stage",
         element("table", { class: "bars" }, ...rows.map(([stage, time]) => barRow(stage, time, largest, text(stage, time)))),
         element("p", { class: "hint" }, `${total === undefined ? "" : `${short(total, 3)} s in all. `}${bytes ? `At most ${grouped(bytes / 1e6)} MB of memory.` : ""}`));
