@@ -148,9 +148,9 @@ void layers(const fs::path& path, Random& random) {
             table.surveys = extension == ".surveys" ? path : folder / "dips.surveys";
     }
     if (extension == ".asc" || random.one_in(4)) options.terrain = extension == ".asc" ? path : folder / "corner.asc";
-    if (random.one_in(4)) options.units = kUnits[random.below(kUnits.size())];
+    if (random.one_in(8)) options.units = kUnits[random.below(kUnits.size())];
     options.spacing = random.one_in(8) ? Vec3{1e-3, 1, 1e5} : Vec3{50, 50, 5};
-    if (random.one_in(4)) options.box[2] = {-1e9, 1e9};
+    if (random.one_in(8)) options.box[2] = {-1e9, 1e9};
     const char* const whole = table.collars.empty() ? "holes.csv" : "intervals.csv";
     pull_sections(*open_layers(is_table ? path : folder / whole, table, options));
     if (!table.collars.empty()) formats::read_point_table(is_table ? path : folder / whole, table);
