@@ -1,8 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "commands.h"
 #include "input.h"
 #include "messages.h"
@@ -12,26 +9,6 @@
 
 namespace regionmesh::cli {
 namespace {
-
-bool has_target(const ReconstructOptions& asked) { return asked.target_faces || asked.reduce || asked.max_error; }
-
-SimplifyOptions to_options(const Settings& settings, const Mesh& mesh) {
-    const ReconstructOptions& asked = settings.reconstruct;
-    SimplifyOptions options{.target_faces = has_target(asked) ? 0 : mesh.face_count()};
-    if (asked.target_faces)
-        options.target_faces =
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
-    if (asked.reduce)
-        options.target_faces = static_cast<std::uint32_t>(std::llround(mesh.face_count() * (1 - *asked.reduce)));
-    if (asked.max_error) options.max_error = *asked.max_error;
-    options.min_quality = asked.min_quality;
-    options.perturbation = asked.perturbation;
-    options.intersect_check = asked.intersect_check;
-    options.placement = asked.placement;
-    options.threads = asked.threads;
-    options.scale = typical_edge(mesh);
-    return options;
-}
 
 /// Simplifies and improves, and reports it as reconstruct does.
 Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving) {
@@ -66,7 +43,7 @@ void print_summary(const std::string& path, const Report& report) {
 
 int run_decimate(const Settings& given) {
     const ReconstructOptions& asked = given.reconstruct;
-    if (!has_target(asked) && !asked.improve)
+    if (!has_target(given) && !asked.improve)
         throw Error(ErrorCode::kUsage,
                     "decimate: no target; give --target-faces, --reduce or --max-error, or --improve");
     require_outputs(given);
@@ -75,7 +52,7 @@ int run_decimate(const Settings& given) {
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
-    Report report = simplified(file.mesh, to_options(settings, file.mesh), asked.improve);
+    Report report = simplified(file.mesh, simplify_options(settings, file.mesh), asked.improve);
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);

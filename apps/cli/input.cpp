@@ -1,7 +1,5 @@
 #include "input.h"
 
-#include <algorithm>
-
 namespace regionmesh::cli {
 
 CensusOptions census_options(const Settings& settings) {
@@ -12,10 +10,7 @@ CensusOptions census_options(const Settings& settings) {
 Settings settings_for(const Settings& settings, const MeshFile& file) {
     Settings own = settings;
     if (own.volume.space == Space::kUnknown) own.volume.space = file.space;
-    const bool is_given = std::ranges::any_of(settings.given, [](const auto& option) {
-        return option.first == "background" || option.first == "no-background";
-    });
-    if (!is_given && file.background) {
+    if (!has_background(settings) && file.background) {
         own.reconstruct.background = *file.background;
         if (!file.background->empty()) own.volume.select.rest = file.background->front();
     }

@@ -10,15 +10,6 @@
 namespace regionmesh::cli {
 namespace {
 
-SmoothOptions to_options(const Settings& settings, const Mesh& mesh) {
-    SmoothOptions options = settings.reconstruct.smooth;
-    options.min_quality = settings.reconstruct.min_quality;
-    options.intersect_check = settings.reconstruct.intersect_check;
-    options.threads = settings.reconstruct.threads;
-    options.scale = settings.scale.value_or(typical_edge(mesh));
-    return options;
-}
-
 WantedVolumes volumes_of(const CheckReport& report) {
     WantedVolumes volumes;
     for (const RegionReport& region : report.regions) {
@@ -36,12 +27,12 @@ Report smoothed(const Settings& settings, Mesh& mesh, const CheckReport& before)
     report.stopped = "none asked";
     {
         const Timer timer(report.seconds["smooth"]);
-        report.smoothing = smooth(mesh, to_options(settings, mesh));
+        report.smoothing = smooth(mesh, smooth_options(settings, mesh));
     }
     report.unsmoothed_volumes = report.smoothing.volume_before;
     if (settings.reconstruct.preserve_volume) {
         const Timer timer(report.seconds["preserve volume"]);
-        report.preserved = preserve_volumes(mesh, volumes_of(before), to_options(settings, mesh));
+        report.preserved = preserve_volumes(mesh, volumes_of(before), smooth_options(settings, mesh));
     }
     return report;
 }

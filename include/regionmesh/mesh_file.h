@@ -27,9 +27,10 @@ struct WriteOptions {
     std::vector<PointArray> point_arrays = {};  // .vtp and .vtu only: Float64
     LabelNames names = {};                      // of regions, in formats that can hold them
     LabelColours colours = {};                  // of some regions; the others get those of a palette
-    bool per_region = false;                    // .stl, .obj and .ply: a file for each region, MODEL-REGION.EXTENSION
+    bool per_region = false;                    // .stl, .obj and .ply: a file for each region, MODEL-REGION.EXTENSION;
+                                                // .obj: and MODEL.mtl with their colours
     Space space = Space::kUnknown;              // of the coordinates, written where 3D Slicer reads it
-    double metres = 1;                          // in a unit of the coordinates; .glb files are in metres
+    std::optional<double> metres = {};          // in a unit of the coordinates; .glb are scaled to metres, .3mf say it
     bool boundary_is_open = false;              // the box is not capped: refused where volumes are needed
     OutputOptions output = {};
 };

@@ -41,7 +41,7 @@ struct Settings {
 
     InputLabel outside = 0;  // of samples in no region, when a model is voxelised
 
-    double metres = 1;  // in a unit of length of the input
+    std::optional<double> metres;  // in a unit of length of the input
 
     std::string output, names, report, json, distance, html, regions, interfaces, lines, log, config;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
@@ -140,6 +140,16 @@ void require_distinct_files(const Settings& settings);
 /// What the process of a command needs to do: read anything, write below the folders of its outputs and in that of
 /// temporary files, start the helper programs. Looks at the files.
 SandboxRules sandbox_rules(const Settings& settings);
+
+/// Whether --background or --no-background is given: a model file may say what its background is.
+bool has_background(const Settings& settings);
+
+/// Whether a target is given: faces, a share of them, or an error.
+bool has_target(const Settings& settings);
+
+/// How to simplify and to smooth a whole model; without a target simplify() keeps all faces.
+SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh);
+SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh);
 
 /// How to read drill holes as layers.
 LayerOptions layer_options(const Settings& settings);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/section_reader.h"
 #include "regionmesh/select_sections.h"
@@ -21,6 +22,9 @@ struct LayerOptions {
     std::array<LengthRange, 3> box{};    // of the model; without a bound: that of the holes, and a margin
     std::filesystem::path terrain = {};  // ESRI ASCII grid of the heights of the ground; none: between the collars
     SweepChoice sweep = SweepChoice::kAuto;
+    std::uint64_t memory = std::uint64_t{2} << 30;  // most bytes of the heights of all surfaces and of the terrain
+    std::uint64_t max_work = kMostWork;             // samples, and evaluations of the surfaces
+    std::uint32_t threads = 0;                      // 0: one per core. The result does not depend on it
 };
 
 /// What open_layers() found.
@@ -35,7 +39,8 @@ struct LayerSummary {
 /// words get labels 1, 2, ... from young to old. docs/boreholes.md describes the method.
 ///
 /// Reads `columns` of `table`. Throws Error(kInput) that names file and row, and what to do; also where units are not
-/// in the order for half of the logged length, and for more than 3000 holes.
+/// in the order for half of the logged length, for more than 3000 holes, and where `memory` or `max_work` do not
+/// suffice: before the heights take memory.
 std::unique_ptr<SectionReader> open_layers(const std::filesystem::path& path, const TetrahedraOptions& table,
                                            const LayerOptions& layers = {}, LayerSummary* summary = nullptr);
 

@@ -85,34 +85,6 @@ CheckOptions check_options(const Model& model, std::uint32_t threads) {
     return options;
 }
 
-bool has_target(const ReconstructOptions& asked) { return asked.target_faces || asked.reduce || asked.max_error; }
-
-SimplifyOptions simplify_options(const ReconstructOptions& asked, const Mesh& mesh) {
-    SimplifyOptions options{.target_faces = has_target(asked) ? 0 : mesh.face_count()};
-    if (asked.target_faces)
-        options.target_faces =
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
-    if (asked.reduce)
-        options.target_faces = static_cast<std::uint32_t>(std::llround(mesh.face_count() * (1 - *asked.reduce)));
-    if (asked.max_error) options.max_error = *asked.max_error;
-    options.min_quality = asked.min_quality;
-    options.perturbation = asked.perturbation;
-    options.intersect_check = asked.intersect_check;
-    options.placement = asked.placement;
-    options.threads = asked.threads;
-    options.scale = typical_edge(mesh);
-    return options;
-}
-
-SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh) {
-    SmoothOptions options = settings.reconstruct.smooth;
-    options.min_quality = settings.reconstruct.min_quality;
-    options.intersect_check = settings.reconstruct.intersect_check;
-    options.threads = settings.reconstruct.threads;
-    options.scale = settings.scale.value_or(typical_edge(mesh));
-    return options;
-}
-
 /// The report of a change to a mesh, before the change. Parts with violations are locked.
 Report begin_change(Mesh& mesh, const CheckReport& before, const CheckOptions& options) {
     Report report;
@@ -201,11 +173,9 @@ Model load_model(const std::string& path, const OptionValues& options) {
     const py::gil_scoped_release release;
     MeshFile file = read_mesh(path, settings.surface);
     file.mesh.compact();
-    const bool is_given = std::ranges::any_of(settings.given, [](const auto& option) {
-        return option.first == "background" || option.first == "no-background";
-    });
     std::vector<Label> background;
-    for (const InputLabel label : !is_given && file.background ? *file.background : settings.reconstruct.background)
+    for (const InputLabel label :
+         !has_background(settings) && file.background ? *file.background : settings.reconstruct.background)
         background.push_back(file.labels.dense(label));
     return {std::move(file.mesh),   std::move(file.labels),    std::move(background),
             std::move(file.names),  !settings.reconstruct.cap, file.space,
@@ -252,14 +222,14 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
     const Settings settings = settings_from(options);
     const ReconstructOptions& asked = settings.reconstruct;
-    if (!has_target(asked) && !asked.improve)
+    if (!has_target(settings) && !asked.improve)
         throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error, or improve=True");
     Model made;
     watch.run([&] {
         made = copy_of(model);
         const CheckOptions checks = check_options(made, asked.threads);
         Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
-        SimplifyOptions simplify_with = simplify_options(asked, made.mesh);
+        SimplifyOptions simplify_with = simplify_options(settings, made.mesh);
         simplify_with.samples = samples;
         const std::uint64_t before = made.mesh.face_count(), gone = before - simplify_with.target_faces;
         simplify_with.on_progress = [&] { watch.note("decimate", before - made.mesh.face_count(), gone); };

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "boreholes/column_titles.h"
 #include "boreholes/table_columns.h"
 #include "formats/text/csv_rows.h"
 #include "formats/text/header_text.h"
@@ -16,7 +18,9 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr double kStraight = 1e-6;  // radians, below which an arc is a line
+constexpr double kOpposite = 1e-6;  // length of the sum of two directions, below which the arc has no plane
 constexpr double kLeastDepth = -1e-9;
+constexpr std::size_t kMostCuts = 16;  // parts, in intervals and stations; overlaps of one unit alone make more
 
 /// The vector along the arc from a direction to another, for a length of the arc.
 Vec3 along_arc(Vec3 from, Vec3 to, double measured) {
@@ -32,8 +36,6 @@ Vec3 between(Vec3 from, Vec3 to, double share) {
     return (from * std::sin((1 - share) * angle) + to * std::sin(share * angle)) / std::sin(angle);
 }
 
-using Words = std::vector<std::string_view>;
-
 /// A table with a header, columns found by the words in their titles.
 class NamedColumns {
 public:
@@ -42,17 +44,20 @@ public:
         for (std::size_t i = 0; i < rows_.field_count(); ++i) titles_.push_back(plain_column_title(rows_.field(i)));
     }
 
-    std::optional<std::size_t> find(const Words& words) const {
-        for (const std::string_view word : words)
-            for (std::size_t i = 0; i < titles_.size(); ++i)
-                if (titles_[i] == word) return i;
+    std::optional<std::size_t> find(std::initializer_list<Titles> wanted) const {
+        for (const Titles& titles : wanted)
+            for (const std::string_view title : titles)
+                for (std::size_t i = 0; i < titles_.size(); ++i)
+                    if (titles_[i] == title) return i;
         return {};
     }
 
-    std::size_t require(const char* what, const Words& words) const {
-        if (const auto column = find(words)) return *column;
-        rows_.refuse(fmt::format("has no column for {}; call one '{}'", what, words[0]));
+    std::size_t require(const char* what, std::initializer_list<Titles> wanted) const {
+        if (const auto column = find(wanted)) return *column;
+        rows_.refuse(fmt::format("has no column for {}; call one '{}'", what, wanted.begin()->front()));
     }
+
+    std::size_t require_hole() const { return require("the hole", {titles::kHole, titles::kName}); }
 
     bool next() { return rows_.next(); }
     const CsvRows& rows() const { return rows_; }
@@ -73,8 +78,6 @@ private:
     std::vector<std::string> titles_;
 };
 
-const Words kHoleTitles{"hole", "holeid", "bhid", "borehole", "well", "name"};
-
 struct Collar {
     Vec3 place;
     std::uint64_t row;
@@ -82,9 +85,9 @@ struct Collar {
 
 std::map<std::string, Collar, std::less<>> read_collars(const std::filesystem::path& path) {
     NamedColumns table(path);
-    const std::size_t hole = table.require("the hole", kHoleTitles), x = table.require("x", {"x", "easting", "east"}),
-                      y = table.require("y", {"y", "northing", "north"}),
-                      z = table.require("the elevation", {"surface", "z", "elevation", "elev", "collar", "altitude"});
+    const std::size_t hole = table.require_hole(), x = table.require("x", {titles::kX}),
+                      y = table.require("y", {titles::kY}),
+                      z = table.require("the elevation", {titles::kSurface, titles::kZ});
     std::map<std::string, Collar, std::less<>> collars;
     while (table.next()) {
         const Collar collar{{table.number(x), table.number(y), table.number(z)}, table.rows().number()};
@@ -104,18 +107,22 @@ struct SurveyRow {
 };
 
 std::vector<SurveyRow> read_survey_rows(NamedColumns& table, bool& dips_are_inclinations) {
-    const std::size_t hole = table.require("the hole", kHoleTitles),
-                      depth = table.require("the depth", {"depth", "md", "at", "distance", "from"}),
-                      azimuth = table.require("the azimuth", {"azimuth", "azi", "az", "bearing"});
-    const auto inclination = table.find({"inclination", "inc", "incl"});
-    dips_are_inclinations = inclination && !table.find({"dip"});
-    const std::size_t dip = dips_are_inclinations ? *inclination : table.require("the dip", {"dip"});
+    const std::size_t hole = table.require_hole(), depth = table.require("the depth", {titles::kDepth}),
+                      azimuth = table.require("the azimuth", {titles::kAzimuth});
+    const auto inclination = table.find({titles::kInclination});
+    dips_are_inclinations = inclination && !table.find({titles::kDip});
+    const std::size_t dip = dips_are_inclinations ? *inclination : table.require("the dip", {titles::kDip});
     std::vector<SurveyRow> rows;
     while (table.next()) {
         rows.push_back({std::string(table.text(hole)), table.number(depth), table.number(azimuth), table.number(dip),
                         table.rows().number()});
-        if (!(std::abs(rows.back().dip) <= (dips_are_inclinations ? 180 : 90)))
-            table.rows().refuse(fmt::format("a dip of {} degrees; it lies between -90 and 90", rows.back().dip));
+        const double angle = rows.back().dip;
+        if (dips_are_inclinations && !(angle >= 0 && angle <= 180))
+            table.rows().refuse(fmt::format(
+                "an inclination of {} degrees; it is 0 (straight down) to 180 (straight up), mend it", angle));
+        if (!dips_are_inclinations && !(std::abs(angle) <= 90))
+            table.rows().refuse(
+                fmt::format("a dip of {} degrees; it is -90 to 90 from the horizontal, mend it", angle));
         if (rows.back().depth < 0)
             table.rows().refuse(fmt::format("a depth of {}; it is 0 or more along the hole", rows.back().depth));
     }
@@ -138,8 +145,14 @@ std::map<std::string, std::vector<Station>, std::less<>> read_stations(const std
         if (!of_hole.empty() && of_hole.back().depth == row.depth)
             table.rows().refuse(
                 row.row, fmt::format("hole '{}' has two stations at depth {}; keep one", shown(row.hole), row.depth));
-        of_hole.push_back(
-            {row.depth, Vec3{std::cos(down) * std::sin(azimuth), std::cos(down) * std::cos(azimuth), -std::sin(down)}});
+        const Station station{
+            row.depth, {std::cos(down) * std::sin(azimuth), std::cos(down) * std::cos(azimuth), -std::sin(down)}};
+        if (!of_hole.empty() && length(of_hole.back().direction + station.direction) < kOpposite)
+            table.rows().refuse(
+                row.row, fmt::format("hole '{}' turns back, by 180 degrees, between depths {} and {}; no one arc "
+                                     "does that, mend a station or add one between",
+                                     shown(row.hole), of_hole.back().depth, row.depth));
+        of_hole.push_back(station);
     }
     return stations;
 }
@@ -182,38 +195,70 @@ HolePaths read_hole_paths(const std::filesystem::path& collars, const std::files
     return paths;
 }
 
+namespace {
+
+const HolePath& path_of(const DrillHoles& holes, const Interval& interval, const HolePaths& paths) {
+    const auto found = paths.find(holes.holes.text(interval.hole));
+    if (found == paths.end())
+        fail(holes.path, fmt::format("row {}: hole '{}' has no row in --collars; add it", interval.row,
+                                     shown(holes.holes.text(interval.hole))));
+    if (interval.from < kLeastDepth)
+        fail(holes.path, fmt::format("row {}: depth {} is above the collar; with --collars, from and to are depths",
+                                     interval.row, interval.from));
+    return found->second;
+}
+
+/// The stations inside an interval, ends excluded.
+std::span<const Station> stations_in(const HolePath& path, const Interval& interval) {
+    const auto& stations = path.stations();
+    const auto first = std::ranges::upper_bound(stations, interval.from, {}, &Station::depth);
+    const auto last = std::ranges::lower_bound(stations, interval.from + interval.length, {}, &Station::depth);
+    return {first, std::max(first, last)};
+}
+
+/// Intervals that hardly overlap are cut about once a station. Without the limit, a table of long intervals in the same
+/// unit at the same depths would make intervals times stations of parts.
+std::size_t count_parts(const DrillHoles& holes, const HolePaths& paths) {
+    std::size_t stations = 0, parts = 0;
+    for (const auto& [hole, path] : paths) stations += path.stations().size();
+    const std::size_t most = kMostCuts * (holes.intervals.size() + stations);
+    for (const Interval& interval : holes.intervals) {
+        parts += stations_in(path_of(holes, interval, paths), interval).size() + 1;
+        if (parts > most)
+            fail(holes.path, fmt::format("row {}: intervals of hole '{}' overlap so often that stations cut them into "
+                                         "more than {} parts; give each depth once",
+                                         interval.row, shown(holes.holes.text(interval.hole)), most));
+    }
+    return parts;
+}
+
+}  // namespace
+
 void place_on_paths(DrillHoles& holes, const HolePaths& paths) {
     std::vector<Interval> placed;
+    placed.reserve(count_parts(holes, paths));
     std::vector<bool> has_collar(holes.holes.size());
     for (const Interval& whole : holes.intervals) {
-        const auto found = paths.find(holes.holes.text(whole.hole));
-        if (found == paths.end())
-            fail(holes.path, fmt::format("row {}: hole '{}' has no row in --collars; add it", whole.row,
-                                         shown(holes.holes.text(whole.hole))));
-        const HolePath& path = found->second;
+        const HolePath& path = path_of(holes, whole, paths);
         if (!has_collar[whole.hole]) {
             const Vec3 collar = path.at(0);
             holes.collars.push_back({collar.x, collar.y, collar.z});
             has_collar[whole.hole] = true;
         }
-        if (whole.from < kLeastDepth)
-            fail(holes.path, fmt::format("row {}: depth {} is above the collar; with --collars, from and to are depths",
-                                         whole.row, whole.from));
-        const double end = whole.from + whole.length;
-        std::vector<double> cuts{whole.from};
-        for (const Station& station : path.stations())
-            if (station.depth > whole.from && station.depth < end) cuts.push_back(station.depth);
-        cuts.push_back(end);
-        for (std::size_t n = 1; n < cuts.size(); ++n) {
-            const Vec3 a = path.at(cuts[n - 1]), b = path.at(cuts[n]);
+        double from = whole.from;
+        const auto add_part = [&](double to) {
+            const Vec3 a = path.at(from), b = path.at(to);
             Interval part = whole;
             part.x = a.x, part.y = a.y, part.top = a.z;
             part.bottom_x = b.x, part.bottom_y = b.y, part.bottom = b.z;
-            part.from = cuts[n - 1];
-            part.length = cuts[n] - cuts[n - 1];
+            part.from = from;
+            part.length = to - from;
             part.is_at_collar = part.from <= 0;
             placed.push_back(part);
-        }
+            from = to;
+        };
+        for (const Station& station : stations_in(path, whole)) add_part(station.depth);
+        add_part(whole.from + whole.length);
     }
     holes.intervals = std::move(placed);
 }

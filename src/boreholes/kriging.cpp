@@ -6,11 +6,14 @@
 #include <tuple>
 #include <utility>
 
+#include "base/parallel_for.h"
+
 namespace regionmesh::formats {
 namespace {
 
-constexpr double kNear = 1e-6;         // of the extent
-constexpr double kLeastPivot = 1e-13;  // of the largest diagonal entry; smaller ones are rounding errors
+constexpr double kNear = 1e-6;                   // of the extent
+constexpr std::size_t kLeastProducts = 1 << 16;  // of one task
+constexpr double kLeastPivot = 1e-13;            // of the largest diagonal entry; smaller ones are rounding errors
 
 /// -r^1.5: conditionally positive definite, so that weights with the sum 0 make a positive definite matrix.
 double covariance(double dx, double dy) {
@@ -27,14 +30,18 @@ public:
 
     double* row(std::size_t i) { return entries_.data() + i * (i + 1) / 2; }
 
-    /// Replaces the matrix by its Cholesky factor.
-    void factorise() {
+    /// Replaces the matrix by its Cholesky factor, column by column.
+    void factorise(std::uint32_t threads) {
         double most = 0;
         for (std::size_t i = 0; i < size_; ++i) most = std::max(most, row(i)[i]);
-        for (std::size_t i = 0; i < size_; ++i) {
-            double* const a = row(i);
-            for (std::size_t j = 0; j < i; ++j) a[j] = (a[j] - product(a, row(j), j)) / row(j)[j];
-            a[i] = std::sqrt(std::max(a[i] - product(a, a, i), kLeastPivot * most));
+        for (std::size_t j = 0; j < size_; ++j) {
+            double* const b = row(j);
+            b[j] = std::sqrt(std::max(b[j] - product(b, b, j), kLeastPivot * most));
+            const std::size_t chunk = kLeastProducts / (j + 1) + 1, count = (size_ - j - 1 + chunk - 1) / chunk;
+            parallel_for(static_cast<std::uint32_t>(count), threads, [&](std::uint32_t n) {
+                const std::size_t first = j + 1 + n * chunk, end = std::min(first + chunk, size_);
+                for (std::size_t i = first; i < end; ++i) row(i)[j] = (row(i)[j] - product(row(i), b, j)) / b[j];
+            });
         }
     }
 
@@ -60,18 +67,22 @@ private:
 
 }  // namespace
 
-Kriging::Kriging(std::vector<HeightSample> samples) : samples_(std::move(samples)) {
+double near_distance(const std::vector<HeightSample>& samples) {
+    const auto [left, right] = std::ranges::minmax(samples, {}, &HeightSample::x);
+    const auto [low, high] = std::ranges::minmax(samples, {}, &HeightSample::y);
+    return kNear * std::max(right.x - left.x, high.y - low.y);
+}
+
+Kriging::Kriging(std::vector<HeightSample> samples, std::uint32_t threads) : samples_(std::move(samples)) {
     assert(!samples_.empty());
     merge_near_samples();
-    solve();
+    solve(threads);
 }
 
 void Kriging::merge_near_samples() {
     const auto place = [](const HeightSample& s) { return std::tuple(s.x, s.y, s.z); };
     std::sort(samples_.begin(), samples_.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
-    double low = samples_[0].y, high = low;
-    for (const HeightSample& sample : samples_) low = std::min(low, sample.y), high = std::max(high, sample.y);
-    const double near = kNear * std::max(samples_.back().x - samples_[0].x, high - low);
+    const double near = near_distance(samples_);
     std::vector<HeightSample> kept;
     std::vector<double> counts;
     for (const HeightSample& sample : samples_) {
@@ -91,7 +102,7 @@ void Kriging::merge_near_samples() {
 
 /// Weights with the sum 0 are those of differences to the last sample, which leaves one equation less and no
 /// constraint.
-void Kriging::solve() {
+void Kriging::solve(std::uint32_t threads) {
     const std::size_t count = samples_.size() - 1;
     const HeightSample& last = samples_.back();
     LowerMatrix matrix(count);
@@ -102,7 +113,7 @@ void Kriging::solve() {
             matrix.row(i)[j] =
                 covariance(samples_[i], samples_[j]) - covariance(samples_[i], last) - covariance(samples_[j], last);
     }
-    matrix.factorise();
+    matrix.factorise(threads);
     matrix.solve(differences);
     weights_ = std::move(differences);
     double sum = 0;

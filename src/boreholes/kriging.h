@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace regionmesh::formats {
@@ -14,19 +15,23 @@ struct HeightSample {
 /// Most samples of one surface: the time to solve for the weights grows with the cube of their number.
 inline constexpr std::size_t kMostHeights = 3000;
 
+/// Below this distance two places count as one: a millionth of the larger of the extents along x and y.
+double near_distance(const std::vector<HeightSample>& samples);
+
 /// The surface through the samples with the least variance of its error, for the power variogram r^1.5. It has no peaks
 /// at the samples, as the linear variogram makes them, and tends to the mean far from them. Samples nearer to each
 /// other than a millionth of the extent are one sample at their mean height.
 class Kriging {
 public:
-    /// Requires 1 to kMostHeights samples with finite coordinates.
-    explicit Kriging(std::vector<HeightSample> samples);
+    /// Requires 1 to kMostHeights samples with finite coordinates. `threads` as in parallel_for(); the result does not
+    /// depend on them.
+    explicit Kriging(std::vector<HeightSample> samples, std::uint32_t threads = 0);
 
     double at(double x, double y) const;
 
 private:
     void merge_near_samples();
-    void solve();
+    void solve(std::uint32_t threads);
 
     std::vector<HeightSample> samples_;
     std::vector<double> weights_;  // of samples_; their sum is 0

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/megabytes.h"
 #include "boreholes/layer_order.h"
 #include "boreholes/layer_surfaces.h"
 #include "boreholes/point_table.h"
@@ -18,8 +19,9 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr double kColumnsOfSide = 100, kSamplesOfHeight = 200;  // without a spacing
-constexpr double kMostColumns = 1e8, kMostHeightBytes = 4e9, kMostSamplesOfAxis = 1e6;
-constexpr double kMargin = 0.5;  // of the mean distance from a hole to the next
+constexpr double kMostHeightBytes = 4e9, kMostSamplesOfAxis = 1e6, kMostNumber = 1e18;
+constexpr double kSolve = 1.0 / 64;  // time to solve for the weights, in evaluations per cube of the holes
+constexpr double kMargin = 0.5;      // of the mean distance from a hole to the next
 
 class LayerSections final : public SectionReader {
 public:
@@ -110,11 +112,27 @@ private:
     Vec3 low_{INFINITY, INFINITY, INFINITY}, high_{-INFINITY, -INFINITY, -INFINITY};
 };
 
-void require_columns(const std::filesystem::path& path, const Lattice& lattice, std::size_t units) {
-    const double columns = static_cast<double>(lattice.size[0]) * lattice.size[1];
-    if (columns > kMostColumns || columns * static_cast<double>(units * sizeof(double)) > kMostHeightBytes)
-        fail(path, fmt::format("{} x {} columns of {} units are more than 4 GB; give a larger --spacing",
-                               lattice.size[0], lattice.size[1], units));
+/// The bytes of the heights. Refuses a model that needs more memory or more work than the options allow.
+std::uint64_t require_columns(const HoleTable& table, const Lattice& lattice, std::size_t units,
+                              const LayerOptions& options) {
+    const std::filesystem::path& path = table.holes.path;
+    const double columns = static_cast<double>(lattice.size[0]) * lattice.size[1],
+                 surfaces = static_cast<double>(units), holes = static_cast<double>(table.holes.collars.size());
+    const double bytes = columns * surfaces * sizeof(double);
+    const double most = std::min(static_cast<double>(options.memory), kMostHeightBytes);
+    if (bytes > most)
+        fail(path, fmt::format("{} x {} columns of {} surfaces take {}, more than {}; give a larger --spacing{}",
+                               lattice.size[0], lattice.size[1], units,
+                               bytes < kMostNumber ? megabytes(static_cast<std::uint64_t>(bytes)) : "too many bytes",
+                               bytes > kMostHeightBytes ? "4 GB" : memory_limit_text(options.memory),
+                               bytes > kMostHeightBytes ? "" : " or more memory"));
+    const double work = columns * lattice.size[2] + columns * surfaces * holes + surfaces * std::pow(holes, 3) * kSolve;
+    if (!(work <= static_cast<double>(options.max_work)))
+        fail(path,
+             fmt::format("{} x {} x {} samples of {} surfaces between {} holes are work of {:.0f}, more than "
+                         "--max-work {}; give a larger --spacing, or raise --max-work",
+                         lattice.size[0], lattice.size[1], lattice.size[2], units, holes, work, options.max_work));
+    return static_cast<std::uint64_t>(bytes);
 }
 
 /// Coordinates whose squares are numbers; --box may leave out data that lie farther away.
@@ -164,17 +182,17 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
                                kMostHeights));
     require_places(path, table.holes);
     const LayerOrder order = order_layers(table.holes, table.labels, layers.units);
-    std::optional<Terrain> terrain;
-    if (!layers.terrain.empty()) terrain.emplace(layers.terrain);
     VolumeInfo info{.source = path.string(), .format = "csv", .can_sweep = {true, true, true}};
     info.lattice = LatticeFinder(table, layers).find();
-    require_columns(path, info.lattice, order.units.size());
+    info.held_bytes = require_columns(table, info.lattice, order.units.size(), layers);
+    std::optional<Terrain> terrain;
+    if (!layers.terrain.empty()) terrain.emplace(layers.terrain, layers.memory - info.held_bytes);
     info.sweep = *choose_sweep(info, layers.sweep);
     const Lattice& lattice = info.lattice;
     const ColumnGrid grid{lattice.size[0],  lattice.size[1],   lattice.origin.x,
                           lattice.origin.y, lattice.spacing.x, lattice.spacing.y};
-    LayerSurfaces surfaces = interpolate(order, Ground(table.holes.collars, terrain ? &*terrain : nullptr), grid);
-    info.held_bytes = grid.size() * order.units.size() * sizeof(double);
+    LayerSurfaces surfaces = interpolate(
+        order, Ground(table.holes.collars, terrain ? &*terrain : nullptr, layers.threads), grid, layers.threads);
     std::vector<InputLabel> labels = labels_of(table.labels, order, info);
     if (summary) {
         *summary = {};

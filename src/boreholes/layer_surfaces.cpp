@@ -1,6 +1,8 @@
 #include "boreholes/layer_surfaces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "base/parallel_for.h"
 
@@ -13,8 +15,35 @@ bool is_known(const Contact& contact) {
     return contact.kind == ContactKind::kAt || contact.kind == ContactKind::kGround;
 }
 
+bool are_near(const HeightSample& a, const HeightSample& b, double near) {
+    return std::hypot(a.x - b.x, a.y - b.y) <= near;
+}
+
+/// Of the bounds at one place, the tightest of each kind; none where a sample has the height. Kriging takes the mean of
+/// samples at one place: a mean with a bound would satisfy neither.
+std::vector<Contact> tightest(const std::vector<Contact>& bounds, const std::vector<HeightSample>& samples) {
+    std::vector<HeightSample> places = samples;
+    for (const Contact& bound : bounds) places.push_back({bound.x, bound.y, bound.z});
+    if (places.empty()) return {};
+    const double near = near_distance(places);
+    std::vector<Contact> kept;
+    for (const Contact& bound : bounds) {
+        const HeightSample place{bound.x, bound.y, bound.z};
+        if (std::ranges::any_of(samples, [&](const HeightSample& sample) { return are_near(sample, place, near); }))
+            continue;
+        const auto same = std::ranges::find_if(kept, [&](const Contact& other) {
+            return other.kind == bound.kind && are_near({other.x, other.y, other.z}, place, near);
+        });
+        if (same == kept.end())
+            kept.push_back(bound);
+        else
+            same->z = bound.kind == ContactKind::kAtMost ? std::min(same->z, bound.z) : std::max(same->z, bound.z);
+    }
+    return kept;
+}
+
 /// The base of one unit.
-Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground) {
+Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground, std::uint32_t threads) {
     std::vector<HeightSample> samples;
     std::vector<Contact> bounds;
     for (const Contact& contact : contacts) {
@@ -24,9 +53,10 @@ Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground) {
         else
             bounds.push_back(contact);
     }
+    bounds = tightest(bounds, samples);
     if (samples.empty())
         for (const Contact& bound : std::exchange(bounds, {})) samples.push_back({bound.x, bound.y, bound.z});
-    Kriging base(samples);
+    Kriging base(samples, threads);
     for (int round = 0; round < kMostRounds && !bounds.empty(); ++round) {
         const std::size_t count = bounds.size();
         std::erase_if(bounds, [&](const Contact& bound) {
@@ -36,14 +66,14 @@ Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground) {
             return !is_kept;
         });
         if (bounds.size() == count) break;
-        base = Kriging(samples);
+        base = Kriging(samples, threads);
     }
     return base;
 }
 
-std::vector<double> heights_of(const ColumnGrid& grid, const auto& surface) {
+std::vector<double> heights_of(const ColumnGrid& grid, const auto& surface, std::uint32_t threads) {
     std::vector<double> heights(grid.size());
-    parallel_for(grid.height, 0, [&](std::uint32_t j) {
+    parallel_for(grid.height, threads, [&](std::uint32_t j) {
         for (std::uint32_t i = 0; i < grid.width; ++i)
             heights[std::size_t{j} * grid.width + i] = surface.at(grid.x + i * grid.dx, grid.y + j * grid.dy);
     });
@@ -58,11 +88,12 @@ std::size_t LayerSurfaces::layer_of(std::size_t column, double z) const {
     return static_cast<std::size_t>(below - heights.begin());
 }
 
-LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, const ColumnGrid& grid) {
+LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, const ColumnGrid& grid,
+                          std::uint32_t threads) {
     LayerSurfaces surfaces;
-    surfaces.heights.push_back(heights_of(grid, ground));
+    surfaces.heights.push_back(heights_of(grid, ground, threads));
     for (const std::vector<Contact>& contacts : order.contacts) {
-        std::vector<double> heights = heights_of(grid, base_of(contacts, ground));
+        std::vector<double> heights = heights_of(grid, base_of(contacts, ground, threads), threads);
         for (std::size_t n = 0; n < heights.size(); ++n)
             heights[n] = std::min(heights[n], surfaces.heights.back()[n]);  // younger units cut older ones
         surfaces.heights.push_back(std::move(heights));

@@ -33,8 +33,8 @@ struct LayerSurfaces {
 class Ground {
 public:
     /// Requires 1 to kMostHeights collars. `terrain` may be null.
-    Ground(std::vector<HeightSample> collars, const Terrain* terrain)
-        : between_(std::move(collars)), terrain_(terrain) {}
+    Ground(std::vector<HeightSample> collars, const Terrain* terrain, std::uint32_t threads)
+        : between_(std::move(collars), threads), terrain_(terrain) {}
 
     double at(double x, double y) const {
         if (const auto height = terrain_ ? terrain_->at(x, y) : std::nullopt) return *height;
@@ -47,7 +47,8 @@ private:
 };
 
 /// Interpolates the bases between the contacts. A contact that only bounds a base takes part where the base
-/// interpolated without it is out of bounds.
-LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, const ColumnGrid& grid);
+/// interpolated without it is out of bounds; of the bounds at one place, the tightest of each kind, unless another hole
+/// there has the contact. `threads` as in parallel_for().
+LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, const ColumnGrid& grid, std::uint32_t threads);
 
 }  // namespace regionmesh::formats

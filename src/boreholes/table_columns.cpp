@@ -7,23 +7,13 @@
 #include <span>
 #include <string_view>
 
+#include "boreholes/column_titles.h"
 #include "formats/text/header_text.h"
 
 namespace regionmesh::formats {
 namespace {
 
 using Words = std::vector<std::string_view>;
-
-// Titles that identify a column by default, the most likely first.
-const Words kXWords{"x", "easting", "east"};
-const Words kYWords{"y", "northing", "north"};
-const Words kZWord{"z"};
-const Words kElevationWords{"elevation", "elev"};
-const Words kLabelWords{"label", "lithology", "lith", "formation", "unit"};
-const Words kTopWords{"top", "from", "depthfrom"};
-const Words kBottomWords{"bottom", "base", "to", "depthto"};
-const Words kSurfaceWords{"surface", "collar", "elevation", "elev", "altitude"};
-const Words kHoleWords{"hole", "holeid", "bhid", "borehole", "well"};
 
 class ColumnFinder {
 public:
@@ -35,7 +25,7 @@ private:
     void take_wanted(const std::string& wanted);
     std::size_t wanted_column(std::string_view column);
     std::optional<std::size_t> column_like(std::string_view title, std::string (*plain)(std::string_view)) const;
-    void look_for(Role role, const Words& words);
+    void look_for(Role role, Titles titles);
     void choose_kind();
     [[noreturn]] void refuse_without(const std::string& what) const;
 
@@ -108,10 +98,10 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
     }
 }
 
-void ColumnFinder::look_for(Role role, const Words& words) {
+void ColumnFinder::look_for(Role role, Titles titles) {
     if (!found_.has_header) return;  // the first row is data
-    for (std::size_t i = 0; !place(role) && i < words.size(); ++i)
-        place(role) = column_like(words[i], plain_column_title);
+    for (std::size_t i = 0; !place(role) && i < titles.size(); ++i)
+        place(role) = column_like(titles[i], plain_column_title);
 }
 
 /// In a table of intervals a column `elevation` is that of the surface, unless --columns says otherwise.
@@ -119,17 +109,17 @@ void ColumnFinder::choose_kind() {
     const bool has_interval = found_.has(Role::kTop) || found_.has(Role::kBottom);
     if (found_.has(Role::kZ) && has_interval)
         fail(rows_.path(), "--columns names z and also top or bottom; points have a z, intervals have the others");
-    if (!has_interval) look_for(Role::kZ, kZWord);
+    if (!has_interval) look_for(Role::kZ, titles::kZ);
     if (found_.has(Role::kZ)) return;
-    look_for(Role::kTop, kTopWords);
-    look_for(Role::kBottom, kBottomWords);
+    look_for(Role::kTop, titles::kTop);
+    look_for(Role::kBottom, titles::kBottom);
     if (found_.has(Role::kTop) && found_.has(Role::kBottom)) {
-        look_for(Role::kSurface, kSurfaceWords);
-        look_for(Role::kHole, kHoleWords);
+        look_for(Role::kSurface, titles::kSurface);
+        look_for(Role::kHole, titles::kHole);
         return;
     }
     if (has_interval) refuse_without(found_.has(Role::kTop) ? "column for bottom" : "column for top");
-    look_for(Role::kZ, kElevationWords);
+    look_for(Role::kZ, titles::kElevation);
     if (!found_.has(Role::kZ)) refuse_without("column for z, nor both of top and bottom");
     place(Role::kTop) = place(Role::kBottom) = std::nullopt;
 }
@@ -142,9 +132,9 @@ void ColumnFinder::find_place() {
         place(Role::kSurface) = std::nullopt;
         return;
     }
-    look_for(Role::kX, kXWords);
+    look_for(Role::kX, titles::kX);
     if (!found_.has(Role::kX)) refuse_without("column for x");
-    look_for(Role::kY, kYWords);
+    look_for(Role::kY, titles::kY);
     if (!found_.has(Role::kY)) refuse_without("column for y");
     choose_kind();
 }
@@ -155,7 +145,7 @@ TableColumns ColumnFinder::find(const std::string& wanted) {
                          is_number(found_.of(Role::kX)) && is_number(found_.of(Role::kY));
     found_.has_header = !is_data;
     find_place();
-    look_for(Role::kLabel, kLabelWords);
+    look_for(Role::kLabel, titles::kLabel);
     if (!found_.has(Role::kLabel)) refuse_without("column for label");
     for (std::size_t i = 0; i < rows_.field_count(); ++i)
         found_.titles.push_back(is_data || rows_.field(i).empty() ? std::to_string(i + 1)

@@ -8,35 +8,32 @@
 #include <string>
 #include <string_view>
 
+#include "base/megabytes.h"
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
 
 namespace regionmesh::formats {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;
+constexpr std::string_view kNoData = "nodata_value";
 constexpr std::uint64_t kLeastHeightBytes = 2;  // "0 "
 
-std::string text_of(const std::filesystem::path& path) {
-    const InputFile file(path);
-    if (file.size() > kMostBytes) fail(path, "is larger than 2 GiB; give a coarser grid");
-    std::string text(file.size(), ' ');
-    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
-    return text;
-}
-
-/// Names, in lower case, and numbers; ends before the first line that begins with a number.
-std::map<std::string, double> take_header(const std::filesystem::path& path, std::string_view& text) {
+/// Names, in lower case, and numbers; ends before the first word in place of a name that is a number.
+std::map<std::string, double> take_header(ByteReader& file) {
     std::map<std::string, double> header;
     for (;;) {
-        std::string_view rest = text, line = take_line(rest);
-        const std::string name = lower(take_word(line));
-        if (name.empty() ? rest.empty() : parse_real(name).has_value()) return header;
-        const auto number = parse_finite(trim(line));
-        if (!name.empty() && !number)
-            fail(path, fmt::format("header: '{}' has no number; is it an ESRI ASCII grid?", shown(name)));
-        if (!name.empty()) header[name] = *number;
-        text = rest;
+        const std::uint64_t begin = file.place(), lines = file.lines();
+        const auto word = file.take_word();
+        if (!word || parse_real(*word)) {
+            file.go_to(begin, lines);
+            return header;
+        }
+        const std::string name = lower(shown(*word));
+        const auto number = file.take_word();
+        const auto value = number ? parse_real(*number) : std::nullopt;
+        if (!value || (std::isnan(*value) && name != kNoData))
+            file.fail(fmt::format("header: '{}' has no number; is it an ESRI ASCII grid?", name));
+        header[name] = *value;
     }
 }
 
@@ -70,10 +67,9 @@ private:
 
 }  // namespace
 
-Terrain::Terrain(const std::filesystem::path& path) {
-    const std::string whole = text_of(path);
-    std::string_view text = whole;
-    const Header header(path, take_header(path, text));
+Terrain::Terrain(const std::filesystem::path& path, std::uint64_t most_bytes) {
+    ByteReader file(path);
+    const Header header(path, take_header(file));
     columns_ = header.count("ncols");
     rows_ = header.count("nrows");
     cell_ = header.number("cellsize");
@@ -81,21 +77,27 @@ Terrain::Terrain(const std::filesystem::path& path) {
     x_ = header.has("xllcenter") ? header.number("xllcenter") : header.number("xllcorner") + cell_ / 2;
     y_ = header.has("yllcenter") ? header.number("yllcenter") : header.number("yllcorner") + cell_ / 2;
     const std::size_t count = columns_ * rows_;
-    if (count > (text.size() + 1) / kLeastHeightBytes)
+    if (count > (file.left() + 1) / kLeastHeightBytes)
         fail(path,
              fmt::format("holds fewer than {} heights, {} columns of {} rows; is it cut off?", count, columns_, rows_));
+    if (count > most_bytes / sizeof(double))
+        fail(path, fmt::format("{} heights take {}, more than {} has left; give a coarser grid or more memory", count,
+                               megabytes(count * sizeof(double)), "--memory"));
+    read_heights(file, header.has(std::string(kNoData)) ? header.number(std::string(kNoData)) : -9999);
+}
+
+void Terrain::read_heights(ByteReader& file, double none) {
+    const std::size_t count = columns_ * rows_;
     heights_.reserve(count);
-    const double none = header.has("nodata_value") ? header.number("nodata_value") : -9999;
-    for (std::string_view word = take_word(text); !word.empty() || !text.empty(); word = take_word(text)) {
-        if (word.empty()) continue;
-        const auto height = parse_finite(word);
-        if (!height) fail(path, fmt::format("height {}: '{}' is no number; mend it", heights_.size() + 1, shown(word)));
-        if (heights_.size() == count) fail(path, fmt::format("holds more than {} heights; mend ncols or nrows", count));
+    while (const auto word = file.take_word()) {
+        const auto height = parse_real(*word);
+        if (!height) file.fail(fmt::format("height {}: '{}' is no number; mend it", heights_.size() + 1, shown(*word)));
+        if (heights_.size() == count) file.fail(fmt::format("holds more than {} heights; mend ncols or nrows", count));
         heights_.push_back(*height == none ? std::numeric_limits<double>::quiet_NaN() : *height);
     }
     if (heights_.size() < count)
-        fail(path, fmt::format("holds {} heights, where {} columns of {} rows are {}; is it cut off?", heights_.size(),
-                               columns_, rows_, count));
+        file.fail(fmt::format("holds {} heights, where {} columns of {} rows are {}; is it cut off?", heights_.size(),
+                              columns_, rows_, count));
 }
 
 std::optional<double> Terrain::at(double x, double y) const {

@@ -2,23 +2,30 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
+#include "formats/codec/byte_reader.h"
+
 namespace regionmesh::formats {
 
 /// An ESRI ASCII grid (.asc): a header of names and numbers (ncols, nrows, xllcorner or xllcenter, yllcorner or
-/// yllcenter, cellsize, NODATA_value), then heights, rows from north to south.
+/// yllcenter, cellsize, NODATA_value), then heights, rows from north to south. A height of NaN, and one that equals
+/// NODATA_value, which may be NaN, is none.
 class Terrain {
 public:
-    /// Throws Error(kInput) for a file that is no such grid, or that holds other than ncols * nrows numbers.
-    explicit Terrain(const std::filesystem::path& path);
+    /// Throws Error(kInput) for a file that is no such grid, or that holds other than ncols * nrows numbers; before
+    /// they take memory where they would take more than `most_bytes`.
+    explicit Terrain(const std::filesystem::path& path, std::uint64_t most_bytes = UINT64_MAX);
 
     /// The height between the four centres of cells round the place; none outside of them, or where one has no height.
     std::optional<double> at(double x, double y) const;
 
 private:
+    void read_heights(ByteReader& file, double none);
+
     std::size_t columns_ = 0, rows_ = 0;
     double x_ = 0, y_ = 0;  // centre of the first cell of the last row
     double cell_ = 0;

@@ -18,8 +18,9 @@ using Fields = std::vector<std::string>;
 using formats::trim;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;  // as read_label_names()
+constexpr std::size_t kMostFields = 1000;                     // of a row, likewise
 
-/// The fields of a line; quoted ones may hold the separator. Several blanks separate once.
+/// The fields of a line, at most kMostFields + 1; quoted ones may hold the separator. Several blanks separate once.
 Fields split(std::string_view line, char separator) {
     const bool is_blank = separator == ' ';
     Fields fields;
@@ -31,6 +32,7 @@ Fields split(std::string_view line, char separator) {
         was_quoted = false;
     };
     for (const char letter : line) {
+        if (fields.size() > kMostFields) return fields;
         const bool ends = letter == separator || (is_blank && letter == '\t');
         if (letter == '"')
             is_quoted = !is_quoted, was_quoted = true;
@@ -116,13 +118,15 @@ bool is_comment(std::string_view line) {
     return line.empty() || line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
 }
 
-std::vector<Fields> rows_of(std::string_view text) {
-    std::vector<Fields> rows;
+/// Takes the fields of the next line that is no comment off `text`; none at its end.
+std::optional<Fields> take_row(std::string_view& text) {
     while (!text.empty())
         if (const std::string_view line = trim(formats::take_line(text)); !is_comment(line))
-            rows.push_back(split(line, separator_of(line)));
-    return rows;
+            return split(line, separator_of(line));
+    return {};
 }
+
+bool is_label(const std::string& field) { return formats::parse_table_label(field).has_value(); }
 
 }  // namespace
 
@@ -132,26 +136,23 @@ LabelColours read_label_colours(const std::filesystem::path& path) {
     std::string text(file.size(), '\0');
     text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark
-    std::vector<Fields> rows = rows_of(text);
-    if (rows.empty()) return {};
-    const auto label_at = [](const Fields& row, std::size_t place) {
-        return place < row.size() ? formats::parse_table_label(row[place]) : std::nullopt;
-    };
+    std::string_view rest = text;
+    auto row = take_row(rest);
+    if (!row) return {};
     Columns columns;
-    const bool has_header = std::ranges::none_of(
-        rows[0], [](const std::string& field) { return formats::parse_table_label(field).has_value(); });
-    if (has_header) {
-        columns = columns_of(rows[0]);
-        if (!columns.hex && !columns.parts) return {};
-        rows.erase(rows.begin());
+    if (std::ranges::none_of(*row, is_label)) {  // a header
+        columns = columns_of(*row);
+        if (row->size() > kMostFields || (!columns.hex && !columns.parts)) return {};
+        row = take_row(rest);
     }
     const bool is_by_place = !columns.hex && !columns.parts;
     LabelColours colours;
-    for (const Fields& row : rows) {
-        const auto label = label_at(row, columns.label);
-        const auto colour = is_by_place ? colour_by_place(row) : columns.colour(row);
+    for (; row; row = take_row(rest)) {
+        if (row->size() > kMostFields) return {};
+        const auto colour = is_by_place ? colour_by_place(*row) : columns.colour(*row);
         if (is_by_place && !colour) return {};  // numbers of another kind
-        if (label && colour) colours.emplace(*label, *colour);
+        if (!colour || columns.label >= row->size()) continue;
+        if (const auto label = formats::parse_table_label((*row)[columns.label])) colours.emplace(*label, *colour);
     }
     return colours;
 }

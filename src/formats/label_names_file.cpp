@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using formats::trim;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
-constexpr std::size_t kMostColumns = 1000;
+constexpr std::size_t kMostColumns = 1000, kMostFields = std::size_t{1} << 20;  // of a row, and of a table
 constexpr char kBlank = ' ';  // the separator of tables that have no other
 
 struct Row {
@@ -82,8 +82,11 @@ std::vector<Row> TableReader::split(char separator) const {
         std::replace_if(
             text.begin(), text.end(), [](char c) { return c == '\t' || c == '\v' || c == '\f'; }, kBlank);
     std::vector<Row> rows;
+    std::size_t fields = 0;
     for (formats::CsvRows found(formats::InputFile(path_), std::move(text), separator); found.next();) {
         if (found.field_count() > kMostColumns) refuse(found.number(), "has more than 1000 columns: no table of names");
+        if ((fields += found.field_count()) > kMostFields)
+            refuse(found.number(), "is behind more than a million fields: no table of names");
         Row row{found.number(), {}};
         for (std::size_t i = 0; i < found.field_count(); ++i)
             if (separator != kBlank || !found.field(i).empty()) row.fields.emplace_back(found.field(i));

@@ -14,6 +14,7 @@ constexpr Part kHdf5{"HDF5", REGIONMESH_WITH_HDF5 != 0};
 constexpr Part kZarr{"ZARR", REGIONMESH_WITH_ZARR != 0};
 constexpr Part kTiff{"TIFF", REGIONMESH_WITH_TIFF != 0};
 constexpr Part kPng{"PNG", REGIONMESH_WITH_PNG != 0};
+constexpr Part k3mf{"3MF", REGIONMESH_WITH_3MF != 0};
 constexpr Part kTables{"TABLES", REGIONMESH_WITH_TABLES != 0};
 
 /// The function, or null where its part is not built; then nothing refers to it.
@@ -37,8 +38,19 @@ void write_with_arrays(const FileView& view, const WriteOptions& options, Output
     kWrite(view, options.point_arrays, files.add(path));
 }
 
+template <const Part& kPart>
+constexpr auto write_3mf_in_part() {
+    using Write = void (*)(const FileView&, const WriteOptions&, OutputFiles&, const Path&);
+    if constexpr (kPart.is_built)
+        return Write([](const FileView& view, const WriteOptions& options, OutputFiles& files, const Path& path) {
+            write_3mf(view, options.metres, files.add(path));
+        });
+    else
+        return Write(nullptr);
+}
+
 void write_in_metres(const FileView& view, const WriteOptions& options, OutputFiles& files, const Path& path) {
-    write_glb(view, options.metres, files.add(path));
+    write_glb(view, options.metres.value_or(1), files.add(path));
 }
 
 template <void (*kWrite)(const FileView&, OutputFiles&, const Path&)>
@@ -138,6 +150,7 @@ constexpr Format kFormats[] = {
      .read_surface = read_obj,
      .write_surface = write_two<write_obj>,
      .write_region = write_region_obj,
+     .write_companion = write_materials_of_regions,
      .companion = ".mtl",
      .forbidden_in_name = "\\"},
     {.name = "Gmsh",
@@ -157,6 +170,12 @@ constexpr Format kFormats[] = {
      .needs_closed_regions = true},
     {.name = "Abaqus", .extensions = {".inp"}, .write_surface = write_one<write_inp>},
     {.name = "glTF", .extensions = {".glb"}, .write_surface = write_in_metres},
+    {.name = "3MF",
+     .extensions = {".3mf"},
+     .part = k3mf,
+     .holds_surface = true,
+     .write_surface = write_3mf_in_part<k3mf>(),
+     .needs_closed_regions = true},
     {.name = "DREAM.3D",
      .extensions = {".dream3d"},
      .part = kHdf5,

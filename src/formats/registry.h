@@ -11,6 +11,7 @@
 #include "formats/array/volume_formats.h"
 #include "formats/images/image_formats.h"
 #include "formats/surface/file_surface.h"
+#include "formats/surface/mesh_formats.h"
 #include "mesh/file_view.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
@@ -55,7 +56,8 @@ struct Format {
     bool holds_surface = false;  // only set where the functions may be left out
     FileSurface (*read_surface)(const Path&) = nullptr;
     void (*write_surface)(const FileView&, const WriteOptions&, OutputFiles&, const Path&) = nullptr;
-    void (*write_region)(const FileView&, std::uint32_t colour, OutputFile&) = nullptr;  // one region as a file
+    void (*write_region)(const FileView&, const RegionStyle&, OutputFile&) = nullptr;  // one region as a file
+    void (*write_companion)(const FileView&, OutputFile&) = nullptr;  // of the files of regions, by the model's name
     bool has_point_arrays = false;
     bool needs_closed_regions = false;
     const char* companion = nullptr;          // extension of a second file

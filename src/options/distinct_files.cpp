@@ -73,7 +73,7 @@ Files files_of(const Settings& settings) {
         }
         files.written.push_back({&option, text});
         const formats::Format* const format = formats::find_format(text);
-        if (format && format->companion && !settings.per_region)
+        if (format && format->companion)
             files.written.push_back({&option, fs::path(text).replace_extension(format->companion)});
     }
     return files;

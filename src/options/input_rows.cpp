@@ -193,11 +193,11 @@ Rows volume_rows() {
             [](Settings& s) { return &s.volume.layer; }, kLayers),
         option({.name = "max-work",
                 .help = "volumes: most samples to read, where each section counts as 4096 more; a small file may "
-                        "describe endless ones",
+                        "describe endless ones. layers: most samples and evaluations of surfaces",
                 .group = kGroup,
                 .commands = kFileCommands,
                 .unit = "samples",
-                .inputs = kVolumeInput},
+                .inputs = kVolumeInput | kTableInput},
                [](Settings& s) { return &s.volume.max_work; }),
         option({.name = "external-files",
                 .help = "volumes: the header may name files outside its own folder; for headers that you trust",

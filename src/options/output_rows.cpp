@@ -55,15 +55,16 @@ Rows output_rows() {
                 constexpr Space kSpaces[] = {Space::kUnknown, Space::kRas, Space::kLps};
                 s.volume.space = s.surface.space = kSpaces[word];
             }),
-        word_option({.name = "units",
-                     .help = "unit of length of the input; .glb files are in metres and are scaled",
-                     .group = kGroup,
-                     .commands = kWriters | kConvert},
-                    {"m", "mm", "um", "nm"},
-                    [](Settings& s, std::size_t word) {
-                        constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
-                        s.metres = kMetres[word];
-                    }),
+        word_option(
+            {.name = "units",
+             .help = "unit of length of the input; .glb files are in metres and are scaled, .3mf files say the unit",
+             .group = kGroup,
+             .commands = kWriters | kConvert},
+            {"m", "mm", "um", "nm"},
+            [](Settings& s, std::size_t word) {
+                constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
+                s.metres = kMetres[word];
+            }),
         file_option({.name = "regions",
                      .help = "CSV table to write: volume, area, centroid, box, neighbours and curvature of each region",
                      .group = kGroup,
@@ -133,7 +134,9 @@ Rows run_rows() {
                     [](Settings& s) { return &s.config; }),
         special_option(
             {.name = "memory",
-             .help = "memory that the process may use, such as 500MiB; too little is refused before the work starts",
+             .help =
+                 "memory that the work is planned for, such as 500MiB; too little is refused before it starts. A plan, "
+                 "not a limit: --memory-limit",
              .group = kGroup,
              .commands = kReconstruct,
              .unit = "bytes",
@@ -145,9 +148,9 @@ Rows run_rows() {
             }),
         word_option(
             {.name = "memory-limit",
-             .help = "what --memory is: plan, the work is laid out for it and may exceed it where faces left by "
-                     "topology or --max-error are not known before; hard, the run ends with exit code 1 and no output "
-                     "rather than exceed it",
+             .help = "what --memory is: plan, the run warns and exceeds it, by half and more, where topology or "
+                     "--max-error "
+                     "leave more faces than it has room for; hard, the run ends with exit code 1 and no output instead",
              .group = kGroup,
              .commands = kReconstruct},
             {"plan", "hard"}, [](Settings& s, std::size_t word) { s.memory_is_hard = word == 1; }),

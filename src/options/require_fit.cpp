@@ -60,7 +60,7 @@ void require_layers(const Settings& settings, InputKind kind) {
         if (given(settings, "step")) refuse_both("layers", "step", "layers take the whole intervals");
         return;
     }
-    for (const char* name : {"spacing", "box", "terrain"})
+    for (const char* name : {"spacing", "box", "terrain", "max-work"})
         if (const std::string* text = given(settings, name))
             throw Error(ErrorCode::kUsage,
                         fmt::format("--{} {}: applies to drill holes as layers; give --layers auto, too", name, *text));
@@ -73,7 +73,10 @@ LayerOptions layer_options(const Settings& settings) {
             .spacing = settings.volume.spacing,
             .box = settings.volume.select.box,
             .terrain = settings.terrain,
-            .sweep = settings.volume.sweep};
+            .sweep = settings.volume.sweep,
+            .memory = settings.reconstruct.memory,
+            .max_work = settings.volume.max_work,
+            .threads = settings.reconstruct.threads};
 }
 
 bool is_lattice(const Settings& settings, const std::vector<std::string>& inputs) {

@@ -82,6 +82,36 @@ TEST_F(InclinedHoles, intervals_are_cut_at_stations) {
     EXPECT_EQ(read().points.positions.size(), 4u);
 }
 
+TEST_F(InclinedHoles, inclinations_are_0_to_180_and_dips_minus_90_to_90) {
+    put_text(path("surveys.csv"), "hole,depth,azimuth,inclination\nA,0,90,170\n");
+    EXPECT_GT(read().points.positions[1].z, 50) << "a hole that is drilled upwards";
+    put_text(path("surveys.csv"), "hole,depth,azimuth,inclination\nA,0,90,-30\n");
+    EXPECT_THAT(failure(), HasSubstr("row 2: an inclination of -30 degrees; it is 0 (straight down) to 180"));
+    put_text(path("surveys.csv"), "hole,depth,azimuth,inclination\nA,0,90,181\n");
+    EXPECT_THAT(failure(), HasSubstr("an inclination of 181 degrees"));
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,91\n");
+    EXPECT_THAT(failure(), HasSubstr("a dip of 91 degrees; it is -90 to 90"));
+}
+
+TEST_F(InclinedHoles, a_hole_that_turns_back_between_two_stations_is_refused) {
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,0\nA,20,270,0\n");
+    EXPECT_THAT(failure(), HasSubstr("row 3: hole 'A' turns back, by 180 degrees, between depths 0 and 20"));
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,0\nA,10,180,0\nA,20,270,0\n");
+    EXPECT_EQ(read().points.positions.size(), 4u);
+}
+
+TEST_F(InclinedHoles, repeated_intervals_of_many_stations_are_refused_before_they_take_memory) {
+    constexpr int kCount = 5000;
+    std::string intervals = "hole,from,to,lith\n", surveys = "hole,depth,azimuth,inclination\n";
+    for (int n = 0; n < kCount; ++n) {
+        intervals += "A,0,10000,sand\n";
+        surveys += "A," + std::to_string(n) + ",90,0\n";
+    }
+    put_text(path("intervals.csv"), intervals);
+    put_text(path("surveys.csv"), surveys);
+    EXPECT_THAT(failure(), HasSubstr("intervals of hole 'A' overlap so often that stations cut them into more than"));
+}
+
 TEST_F(InclinedHoles, errors_name_what_is_missing) {
     put_text(path("collars.csv"), "hole,x,y,z\nA,100,200,50\n");
     EXPECT_THAT(failure(), HasSubstr("row 4: hole 'B' has no row in --collars"));

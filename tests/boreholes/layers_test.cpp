@@ -245,6 +245,50 @@ TEST_F(Layers, the_model_fills_a_box_round_the_holes_below_the_ground) {
     }
 }
 
+TEST_F(Layers, heights_count_in_memory_and_evaluations_in_work) {
+    const std::string rows = folded(places(20));
+    LayerOptions options{.spacing = Vec3{0.1, 0.1, 1}, .memory = 200'000'000};
+    EXPECT_THAT(failure_of(rows, options), HasSubstr("columns of 3 surfaces take"));
+    EXPECT_THAT(failure_of(rows, options), HasSubstr("more than --memory 200 MB; give a larger --spacing"));
+    options = {.spacing = Vec3{10, 10, 1}, .max_work = 100'000};
+    EXPECT_THAT(failure_of(rows, options), HasSubstr("more than --max-work 100000; give a larger --spacing"));
+    options.max_work = 10'000'000;
+    EXPECT_GE(open(rows, options)->info().held_bytes, 3 * 8 * 100 * 100u);
+}
+
+TEST_F(Layers, threads_change_nothing) {
+    const std::string rows = folded(places(400));
+    LayerOptions one = kFine, four = kFine;
+    one.threads = 1, four.threads = 4;
+    one.spacing = four.spacing = Vec3{50, 50, 0.5};
+    const auto alone = open(rows, one), together = open(rows, four);
+    EXPECT_EQ(labels_of(*alone), labels_of(*together));
+}
+
+TEST_F(Layers, a_bound_where_another_hole_has_the_contact_does_not_move_it) {
+    std::string rows;
+    for (const double x : {0, 500, 1000})
+        for (const double y : {0, 500, 1000}) rows += row(x, y, 0, 50, "sand") + row(x, y, 50, 100, "clay");
+    rows += "short,500.0005,500,100,0,80,sand\n";  // beside a hole with clay below 50: at most 80 contradicts 50
+    const auto columns = bases(*open(rows, kFine), 1);
+    for (const auto& [x, y, base] : columns)
+        if (x == 500 && y == 500) {
+            EXPECT_NEAR(base, 50, 0.3);
+        }
+}
+
+TEST_F(Layers, of_two_bounds_at_one_place_the_tighter_holds) {
+    std::string rows;
+    for (const double x : {0, 1000})
+        for (const double y : {0, 1000}) rows += row(x, y, 0, 50, "sand") + row(x, y, 50, 100, "clay");
+    rows += "a,500.0005,500,100,0,60,sand\nb,500,500,100,0,80,sand\n";
+    const auto columns = bases(*open(rows, kFine), 1);
+    for (const auto& [x, y, base] : columns)
+        if (x == 500 && y == 500) {
+            EXPECT_NEAR(base, 20, 0.3) << "below the end of the deeper hole, at 20";
+        }
+}
+
 TEST_F(Layers, the_terrain_is_the_top) {
     put_text(path("ground.asc"),
              "NCOLS 2\nNROWS 2\nXLLCORNER -500\nYLLCORNER -500\nCELLSIZE 1000\nNODATA_VALUE -1\n"
@@ -281,6 +325,27 @@ TEST_F(TerrainFile, heights_lie_between_the_centres_of_cells) {
     EXPECT_FALSE(terrain.at(13.5, 21)) << "next to a cell without height";
     EXPECT_FALSE(terrain.at(9, 21));
     EXPECT_FALSE(terrain.at(11, 22.5));
+}
+
+TEST_F(TerrainFile, not_a_number_is_no_height) {
+    const std::string head = "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
+    const auto terrain = read(head + "NODATA_value nan\nnan 2\n3 4\n");
+    EXPECT_FALSE(terrain.at(0, 1));
+    EXPECT_EQ(*terrain.at(1, 1), 2);
+    EXPECT_FALSE(read(head + "NaN 2\n3 4\n").at(0, 1)) << "NaN, where another number stands for none";
+    EXPECT_THAT(failure_of("ncols nan\n"), HasSubstr("'ncols' has no number"));
+}
+
+TEST_F(TerrainFile, one_larger_than_memory_is_refused_before_its_heights_are_read) {
+    std::string text = "ncols 1000\nnrows 1000\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (int n = 0; n < 1000 * 1000; ++n) text += "1 ";
+    put_text(path("t.asc"), text + "no height\n");
+    try {
+        formats::Terrain(path("t.asc"), 1 << 20);
+        FAIL() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("1000000 heights take 8 MB, more than --memory has left"));
+    }
 }
 
 TEST_F(TerrainFile, damaged_files_are_refused) {

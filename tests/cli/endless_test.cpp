@@ -61,5 +61,23 @@ TEST_F(Endless, volume_of_endless_sections_in_a_small_store_is_refused_with_its_
     EXPECT_EQ(run(small + "20540").code, 0);
 }
 
+/// 1,024 sections of 2,048 x 2,048 bytes that take a few blocks on the disk.
+TEST_F(Endless, sparse_npy_of_4_GB_is_refused_by_max_work_and_read_as_far_as_it_is_wanted) {
+    constexpr std::uint64_t kBytes = std::uint64_t{1} << 32;
+    std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (1024, 2048, 2048), }";
+    header.resize(117, ' ');
+    put_text(path("v.npy"), std::string("\x93NUMPY\1\0\x76\0", 10) + header + "\n");
+    std::filesystem::resize_file(path("v.npy"), 128 + kBytes);
+    const std::string volume = path("v.npy").string();
+    const auto start = std::chrono::steady_clock::now();
+    expect_refusal("info " + volume + " --max-work 4000000000", 1, "more than --max-work 4000000000");
+    const Ran ran = run("info " + volume + " --roi :,:,:10 --sweep z", "timeout 60");
+    EXPECT_EQ(ran.code, 0) << ran.error;
+    EXPECT_THAT(ran.out, HasSubstr("41943040 samples"));
+    std::filesystem::resize_file(path("v.npy"), 128 + kBytes - 1);
+    expect_refusal("info " + volume, 1, "v.npy");
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+}
+
 }  // namespace
 }  // namespace regionmesh

@@ -67,6 +67,7 @@ std::vector<Scenario> all_scenarios() {
         {"smooth", {"smooth", "../in/m.obj", "-o", "m.glb", "--report", "r.json"}, model},
         {"decimate", {"decimate", "../in/m.obj", "-o", "m.obj", "--reduce", "10%"}, model},
         {"convert", {"convert", "../in/m.obj", "m.inp"}, model},
+        {"archive", {"convert", "../in/m.obj", "m.3mf"}, model},
         {"check", {"check", "../in/m.obj", "--json", "c.json"}, model},
         {"compare", {"compare", "../in/m.obj", "../in/m.obj", "--json", "c.json", "--distance", "d.vtp"}, model},
         {"voxelise",

@@ -68,6 +68,13 @@ TEST_F(LabelColoursFile, numbers_of_another_kind_are_no_colours) {
     EXPECT_THAT(colours_of("index,name,x,y,z,volume\n1,liver,10,20,30,40\n"), IsEmpty());
 }
 
+TEST_F(LabelColoursFile, rows_of_more_than_1000_fields_are_no_colours) {
+    const std::string row = "label,color\n1,#000001";
+    EXPECT_THAT(colours_of(row + std::string(998, ',') + "\n"), ElementsAre(Pair(1, 1u)));
+    EXPECT_THAT(colours_of(row + std::string(999, ',') + "\n"), IsEmpty());
+    EXPECT_THAT(colours_of("label,color" + std::string(999, ',') + "x\n1,#000001\n"), IsEmpty());
+}
+
 TEST_F(LabelColoursFile, a_table_that_is_not_there_is_an_error) { EXPECT_ANY_THROW(read_label_colours(path("none"))); }
 
 TEST_F(LabelColoursFile, tables_without_colours_have_none) {

@@ -112,6 +112,9 @@ TEST_F(LabelNamesFile, errors_name_the_row) {
     EXPECT_THAT(failure_of("x,y,label,name\n1,2\n"), HasSubstr("row 2: has 2 columns"));
     EXPECT_THAT(failure_of(std::string("1,a\0b\n", 6)), HasSubstr("is no text"));
     EXPECT_THAT(failure_of(std::string(1000, ',') + "x\n1,1\n"), HasSubstr("more than 1000 columns"));
+    std::string rows;
+    for (int n = 0; n < 1100; ++n) rows += "1,x" + std::string(998, ',') + "\n";
+    EXPECT_THAT(failure_of(rows), HasSubstr("row 1049: is behind more than a million fields"));
     EXPECT_THAT(failure_of("<atlas>"), HasSubstr("is no whole XML"));
     EXPECT_THAT(failure_of("<atlas/>"), HasSubstr("holds no names"));
     EXPECT_THAT(failure_of("<atlas><data><label index=\"x\">a</label></data></atlas>"), HasSubstr("no whole number"));

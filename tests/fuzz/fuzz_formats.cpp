@@ -12,6 +12,7 @@
 #include "regionmesh/check.h"
 #include "regionmesh/label_names_file.h"
 #include "regionmesh/mesh_file.h"
+#include "regionmesh/read_layers.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/simplify.h"
 
@@ -131,6 +132,29 @@ void points(const fs::path& path, Random& random) {
     options.step = farthest / 20;
     formats::read_point_table(path, options);
 }
+
+/// One of the files that a model of layers is read from: the intervals, by places or with a table of collars; that
+/// table, one of stations, or a terrain. The others are whole.
+void layers(const fs::path& path, Random& random) {
+    constexpr std::array kUnits{"auto", "auto,-clay", "clay,auto", "sand,clay,chalk", "3,2,1"};
+    const fs::path folder = path.parent_path();
+    const std::string extension = path.extension();
+    TetrahedraOptions table;
+    LayerOptions options{.memory = std::uint64_t{64} << 20, .max_work = 2'000'000, .threads = 1};
+    const bool is_table = extension == ".csv";
+    if (extension == ".collars" || extension == ".surveys" || (is_table && random.one_in(2))) {
+        table.collars = extension == ".collars" ? path : folder / "collars.collars";
+        if (extension == ".surveys" || random.one_in(2))
+            table.surveys = extension == ".surveys" ? path : folder / "dips.surveys";
+    }
+    if (extension == ".asc" || random.one_in(4)) options.terrain = extension == ".asc" ? path : folder / "corner.asc";
+    if (random.one_in(8)) options.units = kUnits[random.below(kUnits.size())];
+    options.spacing = random.one_in(8) ? Vec3{1e-3, 1, 1e5} : Vec3{50, 50, 5};
+    if (random.one_in(8)) options.box[2] = {-1e9, 1e9};
+    const char* const whole = table.collars.empty() ? "holes.csv" : "intervals.csv";
+    pull_sections(*open_layers(is_table ? path : folder / whole, table, options));
+    if (!table.collars.empty()) formats::read_point_table(is_table ? path : folder / whole, table);
+}
 #endif
 
 /// Without the formats that the build leaves out.
@@ -154,6 +178,7 @@ std::span<const Format> formats() {
             Format{"names", "names", {".txt", ".csv", ".tsv", ".label", ".ctbl", ".xml"}, names},
 #if REGIONMESH_WITH_TABLES
             Format{"points", "points", {".csv", ".tsv"}, points},
+            Format{"layers", "layers", {".csv", ".collars", ".surveys", ".asc"}, layers},
 #endif
             Format{"hdf5", "chunked", {".h5"}, hdf5}, Format{"dream3d", "chunked", {".dream3d"}, volume},
             Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},

@@ -4,14 +4,17 @@ import re
 import subprocess
 import sys
 
-import meshio
+import vtk
 
 done = subprocess.run(["xvfb-run", "-a", "meshlabserver", "-i", sys.argv[1], "-o", "seen.ply", "-m", "fc"], capture_output=True, text=True)
 if done.returncode:
     failed = re.search("Assertion `.*' failed", done.stderr)
     raise SystemExit(failed[0] if failed else f"exit code {done.returncode}")
-mesh = meshio.read("seen.ply")
-colours = {tuple(int(mesh.cell_data[name][0][n]) for name in ("red", "green", "blue")) for n in range(len(mesh.cells[0].data))
-           } if "red" in mesh.cell_data else set()
-print("FOUND " + json.dumps({"extent": (mesh.points.max(axis=0) - mesh.points.min(axis=0)).tolist(), "regions": len(colours),
-                             "faces": sum(len(block.data) for block in mesh.cells), "colours": len(colours)}))
+reader = vtk.vtkPLYReader()
+reader.SetFileName("seen.ply")
+reader.Update()
+mesh, bounds = reader.GetOutput(), reader.GetOutput().GetBounds()
+rgb = mesh.GetCellData().GetArray("RGB")
+colours = {rgb.GetTuple(n)[:3] for n in range(rgb.GetNumberOfTuples())} if rgb else set()
+print("FOUND " + json.dumps({"extent": [bounds[2 * n + 1] - bounds[2 * n] for n in range(3)], "regions": len(colours),
+                             "faces": mesh.GetNumberOfCells(), "colours": len(colours)}))

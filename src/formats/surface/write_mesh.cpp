@@ -87,11 +87,12 @@ Path file_of(const FileView& view, const FileRegion& region, const Path& path) {
     return path.parent_path() / fmt::format("{}-{}{}", path.stem().string(), own, path.extension().string());
 }
 
-/// A file for each region: with all other labels as background its normals point outward.
+/// A file for each region, and the companion of all: with all other labels as background its normals point outward.
 std::vector<Path> write_regions(const FileView& view, const Format& format, OutputFiles& files, const Path& path) {
     const FileRegions regions(view);
     const GroupedFaces faces = faces_by_region(view, regions);
     const std::vector<std::uint32_t> colours = region_colours(view);
+    const Path companion = format.companion ? Path(path).replace_extension(format.companion) : Path();
     std::vector<Path> written;
     for (std::size_t n = 0; n < regions.all().size(); ++n) {
         const Label own = regions.all()[n].label;
@@ -102,7 +103,12 @@ std::vector<Path> write_regions(const FileView& view, const Format& format, Outp
         FileView part_view(part, view.labels(), others, view.names());
         part_view.set_space(view.space());
         part_view.set_given_colours(view.given_colours());
-        format.write_region(part_view, colours[view.rank(own)], files.add(written.back()));
+        const RegionStyle style{colours[view.rank(own)], regions.all()[n].word, companion.filename().string()};
+        format.write_region(part_view, style, files.add(written.back()));
+    }
+    if (format.write_companion) {
+        written.push_back(companion);
+        format.write_companion(view, files.add(companion));
     }
     return written;
 }
@@ -135,8 +141,7 @@ std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const P
 void require_writable_mesh(const Path& path, const WriteOptions& options, bool with_point_arrays) {
     const Format& format = format_of(path, options, with_point_arrays || !options.point_arrays.empty());
     require_writable(path, options.output, options.per_region);
-    if (format.companion && !options.per_region)
-        require_writable(Path(path).replace_extension(format.companion), options.output);
+    if (format.companion) require_writable(Path(path).replace_extension(format.companion), options.output);
 }
 
 }  // namespace regionmesh

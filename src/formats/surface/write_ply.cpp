@@ -79,9 +79,9 @@ void write(const FileView& view, FaceLabels face_labels, const ColourOf& colour_
 
 void write_ply(const FileView& view, OutputFile& file) { write(view, FaceLabels::kBoth, FaceColours(view), file); }
 
-void write_region_ply(const FileView& view, std::uint32_t colour, OutputFile& file) {
+void write_region_ply(const FileView& view, const RegionStyle& style, OutputFile& file) {
     write(
-        view, FaceLabels::kNone, [&](FaceId) { return rgb_of(colour); }, file);
+        view, FaceLabels::kNone, [&](FaceId) { return rgb_of(style.colour); }, file);
 }
 
 }  // namespace regionmesh

@@ -51,7 +51,7 @@ void write_stl(const FileView& view, OutputFile& file) {
 }
 
 /// Binary, in single precision: one solid.
-void write_region_stl(const FileView& view, std::uint32_t, OutputFile& file) {
+void write_region_stl(const FileView& view, const RegionStyle&, OutputFile& file) {
     constexpr std::size_t kHeadBytes = 80;
     std::string head = "binary STL of regionmesh" + space_text(view);  // must not begin with "solid"
     head.resize(kHeadBytes);

@@ -40,11 +40,12 @@ TEST_F(WriteColours, given_ones_are_kept_in_models) {
     }
 }
 
-TEST_F(WriteColours, obj_has_an_object_for_each_first_label_and_a_material_for_each_region) {
+TEST_F(WriteColours, obj_has_an_object_and_a_material_for_each_region) {
     const std::string text = nested_in("m.obj", {.background = {2}, .names = {{7, "the core"}}, .colours = kGiven});
     EXPECT_THAT(text, HasSubstr("\nmtllib m.mtl\n"));
-    EXPECT_THAT(text, HasSubstr("\no region_5\nusemtl region_5\ng interface_5_7\n"));
-    EXPECT_EQ(count_of(text, "\no "), 1u) << "no face has region 7 behind it";
+    EXPECT_THAT(text, HasSubstr("\no region_5\nusemtl region_5\ng interface_5_0\n"));
+    EXPECT_THAT(text, HasSubstr("\no the_core\nusemtl the_core\ng interface_7_5\n"));
+    EXPECT_EQ(count_of(text, "\no "), 2u);
     const std::string materials = text_of(path("m.mtl"));
     EXPECT_THAT(materials, HasSubstr("newmtl the_core\nKd 1 0.502 0\n"));
     EXPECT_EQ(count_of(materials, "newmtl "), 2u);

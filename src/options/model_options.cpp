@@ -1,0 +1,47 @@
+// The options of stages that work on a whole model, for the program and the Python module.
+#include <algorithm>
+#include <cmath>
+
+#include "regionmesh/options.h"
+
+namespace regionmesh {
+
+bool has_background(const Settings& settings) {
+    return std::ranges::any_of(settings.given, [](const auto& option) {
+        return option.first == "background" || option.first == "no-background";
+    });
+}
+
+bool has_target(const Settings& settings) {
+    const ReconstructOptions& asked = settings.reconstruct;
+    return asked.target_faces || asked.reduce || asked.max_error;
+}
+
+SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh) {
+    const ReconstructOptions& asked = settings.reconstruct;
+    SimplifyOptions options{.target_faces = has_target(settings) ? 0 : mesh.face_count()};
+    if (asked.target_faces)
+        options.target_faces =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(*asked.target_faces, mesh.face_count()));
+    if (asked.reduce)
+        options.target_faces = static_cast<std::uint32_t>(std::llround(mesh.face_count() * (1 - *asked.reduce)));
+    if (asked.max_error) options.max_error = *asked.max_error;
+    options.min_quality = asked.min_quality;
+    options.perturbation = asked.perturbation;
+    options.intersect_check = asked.intersect_check;
+    options.placement = asked.placement;
+    options.threads = asked.threads;
+    options.scale = typical_edge(mesh);
+    return options;
+}
+
+SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh) {
+    SmoothOptions options = settings.reconstruct.smooth;
+    options.min_quality = settings.reconstruct.min_quality;
+    options.intersect_check = settings.reconstruct.intersect_check;
+    options.threads = settings.reconstruct.threads;
+    options.scale = settings.scale.value_or(typical_edge(mesh));
+    return options;
+}
+
+}  // namespace regionmesh
