@@ -22,6 +22,20 @@ double largest_block(const LatticeFrame& frame, double reach) {
 
 }  // namespace
 
+/// Fits lie within NearRuns::kRings blocks of a vertex and read whole blocks within as many of theirs. Normals reach
+/// over the faces of a vertex and the passes; sweeps of lines move on by a cell each, over the faces of the last.
+std::array<std::uint32_t, 3> lattice_reach(const SmoothOptions& options, const LatticeFrame& frame) {
+    constexpr std::uint32_t kBlocks = 2 * NearRuns::kRings + 1;
+    constexpr std::uint32_t kCells = 1 + LatticeSites::kNormalPasses + LatticeLines::kSweeps + 1;
+    const double block = largest_block(frame, options.reach);
+    std::array<std::uint32_t, 3> reach{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double spacing = frame.spacing[axis] / frame.finest();
+        reach[axis] = static_cast<std::uint32_t>(std::ceil(kBlocks * std::max(block / spacing, 1.0))) + kCells + 1;
+    }
+    return reach;
+}
+
 LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder& order)
     : options_(options),
       order_(order),
