@@ -95,6 +95,14 @@ Piece read_piece(const fs::path& path) {
 
 PieceHeader read_piece_header(const fs::path& path) { return header_of(formats::InputFile(path)); }
 
+std::uint32_t read_checksum(const fs::path& path) {
+    const formats::InputFile file(path);
+    std::uint32_t checksum = 0;
+    if (file.size() < sizeof(checksum)) formats::fail(path, "is no piece of a model");
+    read_items(file, file.size() - sizeof(checksum), std::span(&checksum, 1));
+    return checksum;
+}
+
 std::optional<std::uint32_t> find_piece(const fs::path& path, const PieceHeader& like) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return {};
@@ -104,10 +112,7 @@ std::optional<std::uint32_t> find_piece(const fs::path& path, const PieceHeader&
     } catch (const Error&) {
         return {};  // made again
     }
-    const formats::InputFile file(path);
-    std::uint32_t checksum = 0;
-    read_items(file, file.size() - sizeof(checksum), std::span(&checksum, 1));
-    return checksum;
+    return read_checksum(path);
 }
 
 }  // namespace regionmesh

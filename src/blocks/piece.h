@@ -64,6 +64,9 @@ Piece read_piece(const std::filesystem::path& path);
 /// The header alone; the rest of the file is not looked at.
 PieceHeader read_piece_header(const std::filesystem::path& path);
 
+/// The checksum that the file says.
+std::uint32_t read_checksum(const std::filesystem::path& path);
+
 /// The checksum of a complete piece of this job, pass and block; nothing where there is none.
 std::optional<std::uint32_t> find_piece(const std::filesystem::path& path, const PieceHeader& like);
 

@@ -5,7 +5,7 @@
 namespace regionmesh {
 
 void StagedLabels::write(SectionReader& reader, LabelTable& labels, const std::filesystem::path& path,
-                         const OutputOptions& options) {
+                         const OutputOptions& options, const OnStrip& on_strip) {
     OutputFile file(path, options);
     SectionWindow window(reader, labels);
     const auto put = [&](std::span<const Label> section) {
@@ -14,6 +14,7 @@ void StagedLabels::write(SectionReader& reader, LabelTable& labels, const std::f
     while (window.advance()) {
         if (window.sections_read() == 2) put(window.low());
         put(window.high());
+        if (on_strip) on_strip(window.low(), window.high(), window.is_last());
     }
     file.commit();
 }

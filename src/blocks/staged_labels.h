@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <span>
 
 #include "blocks/label_boxes.h"
 #include "formats/input_file.h"
@@ -14,10 +16,12 @@ namespace regionmesh {
 /// A file of 32-bit dense labels, section by section as the volume is swept. Reading a box reads its rows and no more.
 class StagedLabels final : public LabelBoxes {
 public:
-    /// Reads the volume once and writes its labels, numbered by `labels`. The file has its name only when it is
-    /// complete.
+    using OnStrip = std::function<void(std::span<const Label> low, std::span<const Label> high, bool is_last)>;
+
+    /// Reads the volume once and writes its labels, numbered by `labels`. Calls `on_strip` for two consecutive sections
+    /// at a time. The file has its name only when it is complete.
     static void write(SectionReader& reader, LabelTable& labels, const std::filesystem::path& path,
-                      const OutputOptions& options);
+                      const OutputOptions& options, const OnStrip& on_strip = {});
 
     /// Throws Error(kInput) where the file is missing or of another size than the volume.
     StagedLabels(const std::filesystem::path& path, const Lattice& lattice, const Sweep& sweep);

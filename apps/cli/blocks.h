@@ -1,0 +1,20 @@
+// Models in pieces.
+#pragma once
+
+#include "regionmesh/blocks.h"
+#include "regionmesh/options.h"
+
+namespace regionmesh::cli {
+
+/// Whether the output of reconstruct is a folder of pieces: --block-size is given, or --output names a folder.
+bool writes_blocks(const Settings& settings);
+
+/// Makes the folder of pieces, if the command writes one: a confined process cannot. Throws Error(kOutput) where it
+/// cannot be made.
+void make_block_folder(const Settings& settings);
+
+/// Runs reconstruct block by block, with other processes. Returns the exit code.
+int run_blocks(const Settings& settings, BlockTasks& tasks);
+int run_blocks(const Settings& settings);
+
+}  // namespace regionmesh::cli
