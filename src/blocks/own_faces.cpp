@@ -94,7 +94,9 @@ Chunk own_faces(const BlockVolume& volume, const BlockGrid& grid, std::uint32_t 
     Reconstruction unused;
     const OnProgress silent;
     RunLog log(unused, silent);
-    Strips strips(source, smooth_options(options, shape.scale), strip_order(source.shape(), 0), log);
+    ChunkOrder order = strip_order(source.shape(), 0);
+    order.wanted = grid.limits(block);
+    Strips strips(source, smooth_options(options, shape.scale), order, log);
     Taker taker(grid, block);
     for (Chunk strip; strips.next(strip);) taker.add(strip);
     return taker.take();

@@ -92,14 +92,16 @@ std::vector<Case> cases() {
     const ReconstructOptions open{.smooth = {.reach = 2}, .decimate = false, .cap = false};
     const ReconstructOptions rough{.smooth = {.passes = 0}, .decimate = false, .background = {}};
     const ReconstructOptions tetrahedra{.cells = CellKind::kTetrahedra, .smooth = {.reach = 2}, .decimate = false};
-    return {{"the default, long along x", {190, 21, 20}, 40, 37, kSweepZ, {1, 1, 1}, smoothed},
-            {"the default, swept along x", {190, 21, 20}, 40, 37, kSweepX, {1, 1, 1}, smoothed},
-            {"spacing that rounds", {150, 16, 17}, 40, 31, kSweepZ, {0.3, 0.7, 0.3}, fine},
-            {"wide sections far apart", {90, 84, 9}, 60, 29, kSweepZ, {0.1, 0.1, 0.55}, fine},
-            {"swept along y", {20, 110, 18}, 50, 26, kSweepY, {1, 1, 1}, fine},
-            {"open", {20, 24, 110}, 50, 26, kSweepZ, {1, 1, 1}, open},
-            {"not smoothed", {31, 32, 33}, 30, 10, kSweepZ, {0.3, 0.3, 0.3}, rough},
-            {"tetrahedra", {100, 14, 15}, 40, 33, kSweepZ, {1, 1, 1}, tetrahedra}};
+    return {
+        {"the default, long along x", {190, 21, 20}, 40, 37, kSweepZ, {1, 1, 1}, smoothed},
+        {"large grains, on which the coarsest fits are accepted", {210, 34, 33}, 4, 41, kSweepZ, {1, 1, 1}, smoothed},
+        {"the default, swept along x", {190, 21, 20}, 40, 37, kSweepX, {1, 1, 1}, smoothed},
+        {"spacing that rounds", {150, 16, 17}, 40, 31, kSweepZ, {0.3, 0.7, 0.3}, fine},
+        {"wide sections far apart", {90, 84, 9}, 60, 29, kSweepZ, {0.1, 0.1, 0.55}, fine},
+        {"swept along y", {20, 110, 18}, 50, 26, kSweepY, {1, 1, 1}, fine},
+        {"open", {20, 24, 110}, 50, 26, kSweepZ, {1, 1, 1}, open},
+        {"not smoothed", {31, 32, 33}, 30, 10, kSweepZ, {0.3, 0.3, 0.3}, rough},
+        {"tetrahedra", {100, 14, 15}, 40, 33, kSweepZ, {1, 1, 1}, tetrahedra}};
 }
 
 TEST(Blocks, have_the_faces_of_the_whole_bit_for_bit) {
