@@ -35,8 +35,6 @@ constexpr double kBlockBytesPerFace = kChunkBytesPerFace + kTilesBytesPerFace, k
 constexpr double kUneven = 2;
 /// Sections that the window of smoothing holds, about.
 constexpr double kWindowSections = 64;
-/// The seams leave this much more than the target to the pass that reaches it.
-constexpr double kSeamMargin = 1.02;
 /// The labels of the volume, while blocks are reconstructed.
 constexpr const char* kLabels = "volume.labels";
 /// Passes that trim the last faces, at most.
@@ -197,20 +195,13 @@ void BlockRun::run_passes() {
     if (manifest_.passes == 0) reconstruct_pass();
     if (!is_decimating_) return;
     if (has_target() && face_count() <= target()) return;
-    if (manifest_.passes == 1) {
+    if (manifest_.passes == 1 && manifest_.pieces.size() > 1) {
         const std::vector<PieceHeader> before = headers();
-        const double aim = std::min(static_cast<double>(target()) * kSeamMargin, static_cast<double>(face_count()));
-        seam_pass(1, "seams",
-                  has_target() ? shares_at_common_threshold(before, aim) : std::vector<double>(before.size(), 0.0));
-    }
-    if (!has_target() || face_count() <= target()) return;
-    if (manifest_.passes == 2) {
         // Each block may end below its goal by a face or two.
-        const double aim = static_cast<double>(target()) + 2.0 * grid(2).count();
-        const double share = std::min(aim / static_cast<double>(face_count()), 1.0);
-        seam_pass(2, "trim", std::vector<double>(manifest_.pieces.size(), share));
+        const double aim = std::min(static_cast<double>(target()) + 2.0 * grid(1).count(), double(face_count()));
+        seam_pass(has_target() ? shares_at_common_threshold(before, aim) : std::vector<double>(before.size(), 0.0));
     }
-    trim_passes();
+    if (has_target()) trim_passes();
 }
 
 std::uint64_t BlockRun::face_count() const {
@@ -219,7 +210,8 @@ std::uint64_t BlockRun::face_count() const {
 }
 
 BlockGrid BlockRun::grid(std::uint32_t pass) const {
-    return BlockGrid(volume_->shape.lattice, manifest_.block_cells, pass == 1 ? manifest_.block_cells / 2 : 0);
+    const bool is_shifted = pass > 0 && manifest_.pieces.size() != 1;
+    return BlockGrid(volume_->shape.lattice, manifest_.block_cells, is_shifted ? manifest_.block_cells / 2 : 0);
 }
 
 BlockSimplifyOptions BlockRun::simplify_options() const {
@@ -303,12 +295,12 @@ void BlockRun::reconstruct_pass() {
                          .chunk = own_faces(*volume_, blocks, header.block, options_)};
         header.initial_faces = block.chunk.faces.size();
         if (is_decimating_) simplify_low(block, target_.share(), simplify_options());
-        if (is_decimating_ && has_target()) {
+        if (is_decimating_ && (blocks.count() == 1 || !has_target())) {
+            header.is_at_limit = simplify_to(block, has_target() ? target() : 0, simplify_options());
+        } else if (is_decimating_) {
             const double left = static_cast<double>(block.chunk.faces.size()) + 1;
             const double share = target_.share() * static_cast<double>(header.initial_faces) / left;
             header.left = try_thresholds(block, std::min(share, 1.0) / 2, simplify_options());
-        } else if (is_decimating_) {
-            header.is_at_limit = simplify_to(block, 0, simplify_options());
         }
         return piece_of(block, blocks, header);
     });
@@ -331,16 +323,16 @@ Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>
     return piece_of(block, blocks, own);
 }
 
-void BlockRun::seam_pass(std::uint32_t pass, const char* stage, const std::vector<double>& shares) {
+void BlockRun::seam_pass(const std::vector<double>& shares) {
     const std::vector<PieceHeader> before = headers();
-    std::vector<std::uint32_t> all(grid(pass).count());
+    std::vector<std::uint32_t> all(grid(1).count());
     std::iota(all.begin(), all.end(), 0);
-    run_pass(pass, stage, all, [&](const PieceHeader& header) { return remade(header, before, shares, {}); });
+    run_pass(1, "seams", all, [&](const PieceHeader& header) { return remade(header, before, shares, {}); });
 }
 
 /// Takes the last faces above the target out of some blocks, with their rims as they are.
 void BlockRun::trim_passes() {
-    for (std::uint32_t pass = manifest_.passes; pass < 3 + kMostTrims && face_count() > target(); ++pass) {
+    for (std::uint32_t pass = manifest_.passes; pass < 2 + kMostTrims && face_count() > target(); ++pass) {
         const std::vector<PieceHeader> before = headers();
         std::vector<std::uint64_t> faces;
         std::vector<bool> is_at_limit;

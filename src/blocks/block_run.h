@@ -16,9 +16,9 @@ namespace regionmesh {
 using OpenSections = std::function<std::unique_ptr<SectionReader>()>;
 
 /// Pass 0 reconstructs the blocks and simplifies each up to a low threshold, its rim locked. Pass 1 simplifies blocks
-/// shifted by half a block, whose goals follow from a common threshold. Pass 2 brings the blocks to the target, and
-/// further passes trim the last faces. A pass is complete when all of its pieces are; then the manifest says so, and
-/// the pieces before it go.
+/// shifted by half a block, whose goals follow from a common threshold. Further passes take the last faces above the
+/// target out of a few blocks. One block needs pass 0 alone. A pass is complete when all of its pieces are; then the
+/// manifest says so, and the pieces before it go.
 class BlockRun {
 public:
     BlockRun(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,
@@ -40,7 +40,7 @@ private:
     void end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
     void remove_passes_before(std::uint32_t pass);
     void reconstruct_pass();
-    void seam_pass(std::uint32_t pass, const char* stage, const std::vector<double>& shares);
+    void seam_pass(const std::vector<double>& shares);
     void trim_passes();
     void complete();
 

@@ -9,7 +9,8 @@
 namespace regionmesh {
 namespace {
 
-/// The excess that one block can give.
+/// What one block can give of the excess: this share of its faces, or this number.
+constexpr double kMostShare = 0.01;
 constexpr std::uint64_t kMostOfOne = 64;
 
 /// The share left at a threshold: between trials a power of it, beyond the last as between the last two, and before the
@@ -54,31 +55,24 @@ std::vector<double> shares_at_common_threshold(std::span<const PieceHeader> piec
 std::vector<std::uint64_t> trimmed(std::span<const std::uint64_t> faces, const std::vector<bool>& is_at_limit,
                                    std::uint64_t target) {
     std::vector<std::uint64_t> goals(faces.begin(), faces.end());
+    std::vector<std::size_t> order;  // largest first
+    for (std::size_t n = 0; n < faces.size(); ++n)
+        if (!is_at_limit[n] && faces[n] > 0) order.push_back(n);
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return faces[a] > faces[b]; });
     const std::uint64_t all = std::accumulate(faces.begin(), faces.end(), std::uint64_t{0});
-    std::uint64_t movable = 0;
-    std::size_t largest = faces.size();
-    for (std::size_t n = 0; n < faces.size(); ++n) {
-        if (is_at_limit[n]) continue;
-        movable += faces[n];
-        if (largest == faces.size() || faces[n] > faces[largest]) largest = n;
-    }
-    if (all <= target || movable == 0) return goals;
-    const std::uint64_t excess = all - target;
-    if (excess <= kMostOfOne) {
-        goals[largest] -= std::min(excess, faces[largest]);
-        return goals;
-    }
-    // Two faces less than its part of the excess for each block, which may go below its goal.
-    std::uint64_t dealt = 0;
-    const double part = static_cast<double>(std::min(excess, movable)) / static_cast<double>(movable);
-    for (std::size_t n = 0; n < faces.size(); ++n) {
-        if (is_at_limit[n]) continue;
-        const auto own = static_cast<std::uint64_t>(part * static_cast<double>(faces[n]));
-        const std::uint64_t gives = own > 2 ? own - 2 : 0;
+    std::uint64_t excess = all - std::min(target, all), overshoot = 0;
+    for (const std::size_t n : order) {
+        // The block goes to its goal less two at worst, which those that follow must not need.
+        if (excess <= overshoot) break;
+        const std::uint64_t left = excess - overshoot;
+        const std::uint64_t most = std::max(static_cast<std::uint64_t>(kMostShare * double(faces[n])), kMostOfOne);
+        const bool is_last = left <= most;
+        const std::uint64_t gives = std::min({left, most, faces[n]});
         goals[n] -= gives;
-        dealt += gives;
+        excess -= gives;
+        if (is_last) break;
+        overshoot += 2;
     }
-    if (dealt == 0) goals[largest] -= std::min(kMostOfOne, faces[largest]);
     return goals;
 }
 

@@ -13,9 +13,10 @@ namespace regionmesh {
 /// at one threshold, common to all blocks. The threshold follows from the sum of the histograms in the headers.
 std::vector<double> shares_at_common_threshold(std::span<const PieceHeader> pieces, double target);
 
-/// Faces to which some blocks go down when all have `faces` and more than `target`: the excess, dealt out in proportion
-/// to their faces; the last few come from one block. Blocks at their limit give none. By block; a block that is not to
-/// change has its own number. Collapses remove two faces at a time, so each block may end one below its goal.
+/// Faces to which some blocks go down when all have `faces` and more than `target`, by block: the excess comes out of
+/// the largest blocks, a hundredth of their faces each. Blocks at their limit give none. Collapses remove two faces at
+/// a time, or three at lines, so a block may end two below its goal: all together stay above the target even then, but
+/// for the last of them.
 std::vector<std::uint64_t> trimmed(std::span<const std::uint64_t> faces, const std::vector<bool>& is_at_limit,
                                    std::uint64_t target);
 
