@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+BlockTasks* shared_tasks = nullptr;
+
 /// Options that do not change the model: a run may go on with others.
 constexpr std::array<std::string_view, 14> kFree{"input",   "output",  "threads",    "memory",         "memory-limit",
                                                  "log",     "quiet",   "verbose",    "config",         "force",
@@ -71,9 +73,9 @@ void print_summary(const Settings& settings, const BlockReport& report) {
     if (report.stopped == "topology" || report.stopped == "max_error")
         say("decimation ended by {}, with {}", report.stopped == "topology" ? "topology or quality" : "--max-error",
             counted(report.final_faces, "face"));
-    say("made: {}, {} (from {} faces), in {} of {} cells; {} made and {} found complete",
+    say("made: {}, {} (from {} faces), in {} of up to {} cells; {} made and {} found complete",
         counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
-        counted(report.blocks, "block"), report.block_cells, counted(report.made, "piece"), report.found);
+        counted(report.pieces, "piece"), report.block_cells, counted(report.made, "block"), report.found);
     say("written: {}; {:.2f} s, {} MB of memory", printable(settings.output), report.seconds,
         grouped(report.peak_bytes / 1000000));
 }
@@ -95,7 +97,13 @@ void make_block_folder(const Settings& settings) {
                                             "; name a folder in one that exists and may be written");
 }
 
-int run_blocks(const Settings& settings, BlockTasks& tasks) {
+void share_blocks(BlockTasks& tasks) { shared_tasks = &tasks; }
+
+bool has_other_processes() { return shared_tasks != nullptr; }
+
+int run_blocks(const Settings& settings) {
+    BlockTasks alone;
+    BlockTasks& tasks = shared_tasks ? *shared_tasks : alone;
     require_fit_of_blocks(settings);
     BlockOptions blocks{.folder = settings.output,
                         .block_cells = settings.block_cells.value_or(0),
@@ -116,11 +124,6 @@ int run_blocks(const Settings& settings, BlockTasks& tasks) {
     line.clear();
     if (tasks.is_first()) print_summary(settings, report);
     return kGood;
-}
-
-int run_blocks(const Settings& settings) {
-    BlockTasks alone;
-    return run_blocks(settings, alone);
 }
 
 }  // namespace regionmesh::cli

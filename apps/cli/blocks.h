@@ -13,8 +13,11 @@ bool writes_blocks(const Settings& settings);
 /// cannot be made.
 void make_block_folder(const Settings& settings);
 
-/// Runs reconstruct block by block, with other processes. Returns the exit code.
-int run_blocks(const Settings& settings, BlockTasks& tasks);
+/// Shares the blocks of the run with other processes. Once called, reconstruct writes folders only.
+void share_blocks(BlockTasks& tasks);
+bool has_other_processes();
+
+/// Runs reconstruct block by block. Returns the exit code.
 int run_blocks(const Settings& settings);
 
 }  // namespace regionmesh::cli

@@ -59,7 +59,6 @@ BlockRun::BlockRun(const OpenSections& open, const ReconstructOptions& options, 
       tasks_(tasks),
       on_progress_(on_progress),
       folder_(blocks.folder),
-      job_(job_of(blocks.identity)),
       target_{options.target_faces, options.reduce, {}},
       is_decimating_(is_decimating(options)) {}
 
@@ -69,6 +68,7 @@ BlockReport BlockRun::run() {
         if (tasks_.is_first()) begin();
         tasks_.end_phase();
         manifest_ = *read_manifest(folder_);
+        job_ = job_of(manifest_.identity);
         if (!manifest_.is_complete) {
             open_volume();
             run_passes();
@@ -77,7 +77,7 @@ BlockReport BlockRun::run() {
             manifest_ = *read_manifest(folder_);
         }
     }
-    report_.blocks = static_cast<std::uint32_t>(manifest_.pieces.size());
+    report_.pieces = static_cast<std::uint32_t>(manifest_.pieces.size());
     report_.block_cells = manifest_.block_cells;
     report_.initial_faces = manifest_.initial_faces;
     report_.final_faces = manifest_.faces;

@@ -61,7 +61,7 @@ private:
     BlockTasks& tasks_;
     const std::function<void(const BlockProgress&)>& on_progress_;
     std::filesystem::path folder_;
-    std::uint64_t job_;
+    std::uint64_t job_ = 0;
     Manifest manifest_;
     Target target_;
     bool is_decimating_;

@@ -86,7 +86,7 @@ TEST(BlockRun, without_decimation_has_as_many_faces_and_vertices_as_a_run_withou
     options.decimate = false;
     const BlockReport report = run_blocks(folder.path, volume, options);
     const Reconstruction whole = test::run(volume, options);
-    EXPECT_EQ(report.blocks, 3u * 3 * 3);
+    EXPECT_EQ(report.pieces, 3u * 3 * 3);
     EXPECT_EQ(report.final_faces, whole.report.final_faces);
     EXPECT_EQ(report.final_vertices, whole.report.final_vertices);
     MeshFile model = read_block_folder(folder.path);
