@@ -68,7 +68,7 @@ int run_check(const Settings& given) {
     const std::string& path = given.models.front();
     for (const std::string& file : {given.json, given.regions, given.interfaces, given.lines})
         if (!file.empty()) require_writable(file, given.writing);
-    MeshFile file = read_mesh(path, given.surface);
+    MeshFile file = read_model(path, given.surface);
     if (lacks_background(given, file)) {
         const auto reader = open_lattice(settings_for(given, file), given.sections);
         restore_background(file, reader->info().lattice, given.reconstruct.background.front());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "blocks.h"
 #include "config_file.h"
 #include "messages.h"
 #include "regionmesh/error.h"
@@ -61,6 +62,7 @@ void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Text
 
 /// Before the first thread of the work starts, so that all are confined. Returns what the kernel enforces.
 std::optional<SandboxState> confine(const Settings& settings) {
+    make_block_folder(settings);
     if (!settings.sandbox) return std::nullopt;
     const SandboxState state = enter_sandbox(sandbox_rules(settings));
     if (settings.needs_sandbox && !(state.files && state.calls))

@@ -15,7 +15,7 @@ constexpr std::size_t kShown = 10;  // rows of a table; the JSON has all
 constexpr std::size_t kNameWidth = 12;
 
 MeshFile read_faces(const std::string& path) {
-    MeshFile file = read_mesh(path);
+    MeshFile file = read_model(path);
     if (file.mesh.face_count() == 0)
         throw Error(ErrorCode::kInput, fmt::format("{}: has no faces; there is nothing to compare", path));
     return file;

@@ -9,7 +9,7 @@ namespace regionmesh::cli {
 
 int run_convert(const Settings& given) {
     require_outputs(given);
-    MeshFile file = read_mesh(given.models.front(), given.surface);
+    MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const auto [names, colours] = describe(settings, file.names, file.colours);

@@ -47,7 +47,7 @@ int run_decimate(const Settings& given) {
         throw Error(ErrorCode::kUsage,
                     "decimate: no target; give --target-faces, --reduce or --max-error, or --improve");
     require_outputs(given);
-    MeshFile file = read_mesh(given.models.front(), given.surface);
+    MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);

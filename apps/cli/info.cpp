@@ -143,7 +143,7 @@ bool has_extension(const std::string& path, const std::string& extensions) {
 /// An input, or a surface model: some files may be either, and a folder too.
 std::string print_anything(const Settings& settings) {
     const std::string& path = settings.inputs.front();
-    const auto model = [&] { return print_info(settings, path, read_mesh(path)); };
+    const auto model = [&] { return print_info(settings, path, read_model(path)); };
     const bool may_be_model = settings.inputs.size() == 1 &&
                               (has_extension(path, readable_extensions()) || std::filesystem::is_directory(path));
     if (!may_be_model) return print_input(settings);

@@ -1,6 +1,12 @@
 #include "input.h"
 
+#include "regionmesh/blocks.h"
+
 namespace regionmesh::cli {
+
+MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {
+    return is_block_folder(path) ? read_block_folder(path) : read_mesh(path, options);
+}
 
 CensusOptions census_options(const Settings& settings) {
     const ReconstructOptions& options = settings.reconstruct;

@@ -20,6 +20,9 @@ auto with_reader(const Settings& settings, const std::vector<std::string>& input
     return visit(*open_lattice(settings, inputs));
 }
 
+/// A surface from a file, or from a folder of pieces.
+MeshFile read_model(const std::string& path, const ReadMeshOptions& options = {});
+
 /// What count_labels() takes from the settings.
 CensusOptions census_options(const Settings& settings);
 

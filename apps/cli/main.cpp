@@ -20,18 +20,23 @@
 #include "commands.h"
 #include "messages.h"
 #include "printable.h"
+#include "program.h"
 #include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
 
 namespace regionmesh::cli {
 namespace {
 
+/// What begins each line on standard error, and whether this process says what all others of a run would say, too.
+std::string process_name = "regionmesh: ";
+bool says_usage = true;
+
 /// What helps when memory runs out: options that the command has.
 const char* advice = "end other programs, or take a part of the input";
 
 /// One line on standard error. Allocates nothing and cannot fail: the exit code says the same where nobody reads it.
 void complain(std::initializer_list<const char*> words) {
-    std::fputs("regionmesh: ", stderr);
+    std::fputs(process_name.c_str(), stderr);
     for (const char* word : words)
         for_printable(word, [](const char* bytes, std::size_t count) { std::fwrite(bytes, 1, count, stderr); });
     std::fputc('\n', stderr);
@@ -64,8 +69,9 @@ int run(const Act& action) {
         return action();
     } catch (const Error& error) {
         log_line(error.what());
-        complain({error.what()});
-        return error.code() == ErrorCode::kUsage ? kBadUsage : kBadInput;
+        const bool is_usage = error.code() == ErrorCode::kUsage;
+        if (!is_usage || says_usage) complain({error.what()});
+        return is_usage ? kBadUsage : kBadInput;
     } catch (const std::bad_alloc&) {
         say_out_of_memory();
     } catch (const std::system_error& error) {
@@ -152,7 +158,7 @@ int parse_and_run(int argc, char** argv) {
         return app.exit(asked);
     } catch (const CLI::ParseError& error) {
         const std::string unknown = unknown_word(arguments_of(argc, argv));
-        complain({unknown.empty() ? error.what() : unknown.c_str(), "; see ", help.c_str()});
+        if (says_usage) complain({unknown.empty() ? error.what() : unknown.c_str(), "; see ", help.c_str()});
         return kBadUsage;
     }
     if (app.got_subcommand("reconstruct")) advice = "give a smaller --memory, fewer --threads or a lower target";
@@ -160,13 +166,18 @@ int parse_and_run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace regionmesh::cli
 
-int main(int argc, char** argv) {
-    using namespace regionmesh::cli;
+void name_process(std::string name, bool says_all) {
+    process_name = std::move(name);
+    says_usage = says_all;
+}
+
+int run_program(int argc, char** argv) {
     hold_standard_streams();
     std::set_terminate(end_without_destructors);
-    regionmesh::remove_outputs_on_signals();
-    regionmesh::keep_large_arrays_apart();
+    remove_outputs_on_signals();
+    keep_large_arrays_apart();
     return finish(run([&] { return parse_and_run(argc, argv); }));
 }
+
+}  // namespace regionmesh::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "advice.h"
+#include "blocks.h"
 #include "commands.h"
 #include "input.h"
 #include "memory_watch.h"
@@ -132,6 +133,11 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
 }  // namespace
 
 int run_reconstruct(const Settings& settings) {
+    if (writes_blocks(settings)) return run_blocks(settings);
+    if (has_other_processes())
+        throw Error(ErrorCode::kUsage, "--output " + settings.output +
+                                           ": processes share the blocks of a folder; name one with a / at its end, or "
+                                           "give --block-size");
     require_outputs(settings);
     std::optional<MemoryWatch> watch;
     if (settings.memory_is_hard) watch.emplace(settings.reconstruct.memory);

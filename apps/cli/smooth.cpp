@@ -48,7 +48,7 @@ void print_summary(const std::string& path, const Report& report, const CheckRep
 
 int run_smooth(const Settings& given) {
     require_outputs(given);
-    MeshFile file = read_mesh(given.models.front(), given.surface);
+    MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);

@@ -10,7 +10,7 @@ namespace regionmesh::cli {
 int run_view(const Settings& given) {
     require_page(given.output, given.writing);
     const std::string& path = given.models.front();
-    MeshFile file = read_mesh(path, given.surface);
+    MeshFile file = read_model(path, given.surface);
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;

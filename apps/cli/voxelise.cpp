@@ -9,7 +9,7 @@ namespace regionmesh::cli {
 int run_voxelise(const Settings& given) {
     const std::string& path = given.models.front();
     require_writable(given.output, given.writing);
-    MeshFile file = read_mesh(path, given.surface);
+    MeshFile file = read_model(path, given.surface);
     const Settings settings = settings_for(given, file);
     const VolumeInfo info =
         open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume)->info();

@@ -1,6 +1,7 @@
 // The public headers of regionmesh::formats: reading volumes, tetrahedra and models, writing models and reports.
 #pragma once
 
+#include "regionmesh/blocks.h"
 #include "regionmesh/label_names_file.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"

@@ -47,8 +47,9 @@ struct Settings {
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
     bool per_region = false, list_all = false, quiet = false, verbose = false;
-    bool sandbox = true, needs_sandbox = false;  // confine the program; end where the kernel cannot
-    bool memory_is_hard = false;                 // the program ends rather than exceed reconstruct.memory
+    bool sandbox = true, needs_sandbox = false;     // confine the program; end where the kernel cannot
+    std::optional<std::uint32_t> block_cells = {};  // BlockOptions::block_cells; the output is then a folder
+    bool memory_is_hard = false;                    // the program ends rather than exceed reconstruct.memory
 
     OptionValues given;  // set by apply_options()
 };

@@ -195,7 +195,14 @@ void StripMesher::mesh_compact(std::uint32_t i, std::uint32_t j) {
     });
 }
 
+/// Sides are numbered by the axes of the sweep.
+bool StripMesher::has_side(int side) const {
+    const int axis = sweep_.axes[side / 2];
+    return options_.is_side_of_whole(axis, side % 2 != 0, lattice_.size[axis]);
+}
+
 void StripMesher::cap_side(std::uint32_t i, std::uint32_t j, int side) {
+    if (!has_side(side)) return;
     const auto labels = cell_labels(i, j);
     // Sides are numbered by the axes of the lattice, triangles and squares were planned by those of the sweep.
     const Label outside = exterior(2 * sweep_.axes[side / 2] + side % 2);
@@ -268,17 +275,18 @@ std::uint32_t StripMesher::vertex(const SimplexPlace& place, std::uint32_t i, st
 
 std::uint32_t StripMesher::make_vertex(const SimplexPlace& place, std::uint32_t i, std::uint32_t j) {
     const std::array<std::uint32_t, 3> cell{i, j, strip_};
-    const std::array<std::uint32_t, 3> size{width_, height_, count_};
     const Vec3 middle = centroid(place.kind);
     const Step along = extent(place.kind);
     ChunkVertex made;
     for (int a = 0; a < 3; ++a) {
         const int axis = sweep_.axes[a];
-        const std::uint32_t node = cell[a] + (place.base >> a & 1);
-        made.position[axis] = lattice_.origin[axis] + (node + middle[a]) * lattice_.spacing[axis];
+        const std::uint32_t node = cell[a] + (place.base >> a & 1), size = lattice_.size[axis];
+        made.position[axis] =
+            lattice_.origin[axis] + (options_.first[axis] + node + middle[a]) * lattice_.spacing[axis];
         if (along >> a & 1) continue;
-        if (node == 0) made.sides |= SideSet(1 << 2 * axis);
-        if (node + 1 == size[a]) made.sides |= SideSet(1 << (2 * axis + 1));
+        if (node == 0 && options_.is_side_of_whole(axis, false, size)) made.sides |= SideSet(1 << 2 * axis);
+        if (node + 1 == size && options_.is_side_of_whole(axis, true, size))
+            made.sides |= SideSet(1 << (2 * axis + 1));
     }
     chunk_->vertices.push_back(made);
     return chunk_->carried + static_cast<std::uint32_t>(chunk_->vertices.size()) - 1;

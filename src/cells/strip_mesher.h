@@ -21,7 +21,13 @@ struct StripOptions {
     std::vector<Label> background = {};  // dense labels whose faces with the exterior are not made
     CellKind cells = CellKind::kTetrahedra;
     QuadCuts cuts = QuadCuts::kBestQuality;  // of tetrahedra and of their triangles on the box
+    // Of a part of a larger lattice: the index of its first sample and the samples of the whole, along x, y, z. 0: the
+    // part ends where the whole does. Vertices and caps are those that the whole has there.
+    std::array<std::uint32_t, 3> first{0, 0, 0}, whole{0, 0, 0};
 
+    bool is_side_of_whole(int axis, bool is_high, std::uint32_t size) const {
+        return is_high ? whole[axis] == 0 || first[axis] + size == whole[axis] : first[axis] == 0;
+    }
     bool is_background(Label label) const {
         return std::find(background.begin(), background.end(), label) != background.end();
     }
@@ -29,7 +35,8 @@ struct StripOptions {
 
 /// Meshes strips. A vertex is found by its lattice key, a base node and one of 26 kinds, in flat tables that cover two
 /// sections (kinds in the plane of a section, kBytesPerSample) and two rows (all other kinds).
-/// Positions are origin + (index + centroid) * spacing, in the axes of the lattice; its direction is not applied.
+/// Positions are origin + (index + centroid) * spacing, in the axes of the lattice; its direction is not applied. The
+/// index and the origin are those of the whole where the lattice is a part of a larger one.
 class StripMesher {
     static constexpr int kPlaneSlots = 6;  // node, 3 edges, 2 triangles in the plane of a section
     static constexpr int kRowSlots = 14;   // 4 edges, 10 triangles out of it
@@ -76,6 +83,7 @@ private:
     void plan_tetrahedra();
     void plan_triangles();
     void plan_compact_cells();
+    bool has_side(int side) const;
     void mesh_row(std::uint32_t j);
     void mesh_in_tetrahedra(std::uint32_t i, std::uint32_t j);
     void mesh_compact(std::uint32_t i, std::uint32_t j);

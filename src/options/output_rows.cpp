@@ -7,7 +7,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu};
+constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu}, kBlockCells{4, 1u << 20};
 
 std::string_view output_help() {
     static const std::string text =
@@ -154,6 +154,15 @@ Rows run_rows() {
              .group = kGroup,
              .commands = kReconstruct},
             {"plan", "hard"}, [](Settings& s, std::size_t word) { s.memory_is_hard = word == 1; }),
+        option(
+            {.name = "block-size",
+             .help = "cells along each axis of a block, for models larger than memory: the output is a folder of "
+                     "pieces, and a run that was ended goes on; from --memory if not given and --output is a folder",
+             .group = kGroup,
+             .commands = kReconstruct,
+             .unit = "cells",
+             .inputs = kVolumeInput},
+            [](Settings& s) { return &s.block_cells; }, kBlockCells),
         option({.name = "face-budget",
                 .help = "largest number of faces in memory at a time; derived from --memory if not given",
                 .group = kGroup,

@@ -15,13 +15,11 @@ namespace fs = std::filesystem;
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-/// The folder, since files get their name when they are complete; a device or a pipe is written itself.
-void add_output(const fs::path& path, std::vector<fs::path>& writable) {
+/// The folder, since files get their name when they are complete; a device, a pipe or a folder is written itself.
+void add_output(const fs::path& given, std::vector<fs::path>& writable) {
     std::error_code ignored;
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        if (!fs::is_directory(path, ignored)) writable.push_back(path);
-        return;
-    }
+    const fs::path path = given.has_filename() ? given : given.parent_path();  // "folder/"
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) return writable.push_back(path);
     writable.push_back(folder_of(path));
     const fs::path target = fs::weakly_canonical(path, ignored);
     if (!ignored) writable.push_back(folder_of(target));

@@ -35,6 +35,7 @@ TileGrid grid_of(const TilePlan& plan, const PassOptions& options, std::uint64_t
                   .size = {},
                   .cells = {},
                   .extent = box_of(options.safe, sweep),
+                  .first_cell = plan.first_cell,
                   .is_bounded = plan.is_bounded};
     for (int axis = 0; axis < 3; ++axis) grid.size[axis] = plan.lattice.size[axis] - 1;
     std::array<bool, 3> is_cut;

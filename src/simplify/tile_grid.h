@@ -15,10 +15,11 @@ namespace regionmesh {
 /// All are cut by `extent`.
 struct TileGrid {
     Vec3 origin, spacing;               // of the samples
-    std::array<std::uint32_t, 3> size;  // cells of the volume
+    std::array<std::uint32_t, 3> size;  // cells of the volume, or of a block of it
     std::array<std::uint32_t, 3> cells;
     std::array<std::uint32_t, 3> shift{0, 0, 0};
     Box extent{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    std::array<std::uint32_t, 3> first_cell{0, 0, 0};  // of a block; the origin is that of the whole volume
     bool is_bounded = true;  // false: the outermost tiles reach beyond the volume, without end
 
     std::uint32_t count(int axis) const {
@@ -58,7 +59,7 @@ private:
         return (place[2] * count(1) + place[1]) * count(0) + place[0];
     }
     std::uint32_t along(int axis, double x) const {
-        const double cell = std::floor((x - origin[axis]) / spacing[axis]);
+        const double cell = std::floor((x - origin[axis]) / spacing[axis]) - first_cell[axis];
         const auto inside = static_cast<std::uint32_t>(std::clamp(cell, 0.0, std::max(size[axis], 1u) - 1.0));
         return (inside + shift[axis]) / cells[axis];
     }
@@ -68,7 +69,7 @@ private:
         if (!is_bounded && n >= count(axis)) return HUGE_VAL;
         const std::uint64_t cell = std::uint64_t{n} * cells[axis];
         const std::uint64_t at = std::min<std::uint64_t>(cell - std::min<std::uint64_t>(cell, shift[axis]), size[axis]);
-        return origin[axis] + static_cast<double>(at) * spacing[axis];
+        return origin[axis] + static_cast<double>(first_cell[axis] + at) * spacing[axis];
     }
 };
 

@@ -15,6 +15,7 @@ TileGrid grid_of(const TilePlan& plan, SafeInterval safe) {
                   .size = {},
                   .cells = {},
                   .extent = box_of(safe, sweep),
+                  .first_cell = plan.first_cell,
                   .is_bounded = plan.is_bounded};
     for (int axis = 0; axis < 3; ++axis) {
         grid.size[axis] = plan.lattice.size[axis] - 1;

@@ -15,9 +15,10 @@ namespace regionmesh {
 struct TilePlan {
     Lattice lattice;  // whose origin and spacing made the positions
     Sweep sweep;
-    std::uint32_t run_strips;  // strips of a run, and length of its tiles along the sweep
-    std::uint32_t tile_cells;  // width of a tile along the other two axes
-    bool is_bounded = true;    // false: vertices may move beyond the lattice
+    std::uint32_t run_strips;                          // strips of a run, and length of its tiles along the sweep
+    std::uint32_t tile_cells;                          // width of a tile along the other two axes
+    bool is_bounded = true;                            // false: vertices may move beyond the lattice
+    std::array<std::uint32_t, 3> first_cell{0, 0, 0};  // of a block; the origin is that of the whole volume
 };
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
 

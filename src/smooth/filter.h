@@ -23,6 +23,8 @@ struct ChunkOrder {
     std::uint32_t extra = 0;    // chunks held beyond those that the reach of the filter calls for
     LatticeFrame frame = {};    // of the vertices; for SmoothFilter::kLattice
     double inner_margin = 0;    // least weight in triangles on the main diagonal of a cell, for the same
+    Box wanted{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};  // for the same: positions of
+                                                                                    // vertices outside are not needed
 
     std::uint32_t chunks_within(double length) const {
         return static_cast<std::uint32_t>(std::ceil(length / thickness));

@@ -73,16 +73,31 @@ void LatticeLevel::refine_layer(std::int64_t layer) {
     const auto count = static_cast<std::uint32_t>(rows.size());
     std::vector<OpenRow> open(count);
     parallel_for(count, options_.threads, [&](std::uint32_t r) { find_open(layer, r, open[r]); });
+    const auto want = [](LatticeRow& row, std::uint32_t run) {
+        if (!std::exchange(row.runs[run].is_wanted, true)) row.wanted.push_back(run);
+    };
     for (const OpenRow& row : open)
-        for (const FitPlace& place : row.fits)
-            if (!std::exchange(place.row->runs[place.run].is_wanted, true)) place.row->wanted.push_back(place.run);
+        for (const FitPlace& place : row.fits) want(*place.row, place.run);
+    for (std::uint32_t r = 0; r < count; ++r)
+        for (const std::uint32_t run : open[r].early) want(rows[r], run);
     make_wanted_fits(layer);
     parallel_for(count, options_.threads, [&](std::uint32_t r) {
-        const auto& [runs, first_fit, fits] = open[r];
+        const auto& [runs, first_fit, fits, early] = open[r];
         for (std::size_t n = 0; n < runs.size(); ++n)
             fits_.blend(rows[r], runs[n], std::span(fits).subspan(first_fit[n], first_fit[n + 1] - first_fit[n]),
                         estimates_);
     });
+}
+
+bool LatticeLevel::is_wanted(const LatticeRow& row, const LatticeRun& run, int rings) const {
+    const LatticePoint& first = sites_[row.sites[run.site]].centroid;
+    const Vec3 low = run.low.wide(), high = run.high.wide();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double at = first.at[axis] * LatticePoint::kStep, margin = rings * blocks_.size_along(axis);
+        if (at + high[axis] < options_.wanted.low[axis] - margin) return false;
+        if (at + low[axis] > options_.wanted.high[axis] + margin) return false;
+    }
+    return true;
 }
 
 void LatticeLevel::find_open(std::int64_t layer, std::uint32_t row, OpenRow& open) {
@@ -92,6 +107,11 @@ void LatticeLevel::find_open(std::int64_t layer, std::uint32_t row, OpenRow& ope
     for (std::uint32_t run = 0; run + 1 < own.runs.size(); ++run) {
         const auto is_open = [&](std::uint32_t site) { return estimates_[site].rest > 0; };
         const auto begin = own.sites.begin();
+        if (!is_wanted(own, own.runs[run], 0)) {
+            // On finer levels fits are made later, too, as others ask for them.
+            if (!options_.before && is_wanted(own, own.runs[run], kRings)) open.early.push_back(run);
+            continue;
+        }
         if (std::none_of(begin + own.runs[run].site, begin + own.runs[run + 1].site, is_open)) continue;
         fits_.find_near(own, run, near.of(own.runs[run]), open.fits);
         open.runs.push_back(run);

@@ -21,6 +21,7 @@ public:
         const LatticeLevel* before = nullptr;  // the level that refines the same sites first
         int sweep_axis = 2;
         std::uint32_t threads = 0;
+        Box wanted;  // in finest spacings: estimates of sites outside need not be made
     };
 
     LatticeLevel(const LatticeSites& sites, SlidingArray<SiteEstimate>& estimates, const Options& options);
@@ -54,11 +55,14 @@ private:
     struct OpenRow {
         std::vector<std::uint32_t> runs, first_fit;  // one more at the end
         std::vector<FitPlace> fits;
+        std::vector<std::uint32_t> early;  // runs near those wanted: their fits are made while the sites are held
     };
 
     void sort(Layer& layer);
     NearRuns near_runs(std::int64_t layer, std::uint32_t row);
     void refine_layer(std::int64_t layer);
+    /// Whether the sites of a run reach into the box of sites that are wanted, with so many blocks round it.
+    bool is_wanted(const LatticeRow& row, const LatticeRun& run, int rings) const;
     void find_open(std::int64_t layer, std::uint32_t row, OpenRow& open);
     void make_wanted_fits(std::int64_t layer);
 

@@ -20,7 +20,33 @@ double largest_block(const LatticeFrame& frame, double reach) {
                                                                : smoothing::kLargestBlockAnisotropic;
 }
 
+/// Sites whose estimates vertices in the box need, in finest spacings from the origin: sweeps of lines reach beyond it.
+Box box_of_sites(const ChunkOrder& order) {
+    constexpr double kCells = LatticeLines::kSweeps + 2;
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double spacing = order.frame.spacing[axis], origin = order.frame.origin[axis];
+        box.low[axis] = (order.wanted.low[axis] - origin - kCells * spacing) / order.frame.finest();
+        box.high[axis] = (order.wanted.high[axis] - origin + kCells * spacing) / order.frame.finest();
+    }
+    return box;
+}
+
 }  // namespace
+
+/// Fits lie within NearRuns::kRings blocks of a vertex and read whole blocks within as many of theirs. Normals reach
+/// over the faces of a vertex and the passes; sweeps of lines move on by a cell each, over the faces of the last.
+std::array<std::uint32_t, 3> lattice_reach(const SmoothOptions& options, const LatticeFrame& frame) {
+    constexpr std::uint32_t kBlocks = 2 * NearRuns::kRings + 1;
+    constexpr std::uint32_t kCells = 1 + LatticeSites::kNormalPasses + LatticeLines::kSweeps + 1;
+    const double block = largest_block(frame, options.reach);
+    std::array<std::uint32_t, 3> reach{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double spacing = frame.spacing[axis] / frame.finest();
+        reach[axis] = static_cast<std::uint32_t>(std::ceil(kBlocks * std::max(block / spacing, 1.0))) + kCells + 1;
+    }
+    return reach;
+}
 
 LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder& order)
     : options_(options),
@@ -35,7 +61,8 @@ LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder&
                                                    .takes_all = size / 2 < smoothing::kSmallestBlock,
                                                    .before = levels_.empty() ? nullptr : &levels_.back(),
                                                    .sweep_axis = order.axis,
-                                                   .threads = options.threads});
+                                                   .threads = options.threads,
+                                                   .wanted = box_of_sites(order)});
 }
 
 /// Measured on a surface without faces: the lag depends on the blocks and on the thickness of a chunk only.

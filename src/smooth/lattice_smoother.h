@@ -10,6 +10,9 @@
 
 namespace regionmesh {
 
+/// How many samples along x, y and z from a vertex, at most, the lattice filter reads labels for its position.
+std::array<std::uint32_t, 3> lattice_reach(const SmoothOptions& options, const LatticeFrame& frame);
+
 /// New positions of the vertices of a reconstruction, each strictly inside its lattice simplex: see
 /// docs/explanation/lattice-smoothing.md. Requires a surface made by StripMesher with QuadCuts::kCones: other cuts can
 /// cross. The sites of a chunk are made, their normals averaged, the levels refined, the vertices placed and the lines

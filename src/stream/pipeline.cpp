@@ -7,7 +7,6 @@
 #include <string>
 
 #include "regionmesh/error.h"
-#include "regionmesh/limits.h"
 #include "regionmesh/process.h"
 #include "regionmesh/voxelise.h"
 #include "stream/chunk_volumes.h"
@@ -22,7 +21,6 @@
 #include "stream/tetrahedron_faces.h"
 #include "stream/tile_stage.h"
 #include "stream/tuning.h"
-#include "volume/exact_grid.h"
 #include "volume/room_reader.h"
 
 namespace regionmesh {
@@ -160,18 +158,6 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
 
 namespace {
 
-/// A power of two: scaling is exact.
-double section_scale(const SectionReader& reader, const ReconstructOptions& options) {
-    if (options.scale_z == kAutoScale) {
-        const Vec3& spacing = reader.info().lattice.spacing;
-        return nearest_power_of_two(std::sqrt(spacing.x * spacing.y) / spacing.z);
-    }
-    if (options.scale_z >= kLeastLength && options.scale_z <= 1 / kLeastLength)
-        return nearest_power_of_two(options.scale_z);
-    throw Error(ErrorCode::kInput,
-                reader.info().source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
-}
-
 Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOptions& options,
                                     const OnProgress& on_progress) {
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
@@ -179,7 +165,7 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
     if (options.threads != 1) ahead.emplace(reader);
     SectionFaces source(ahead ? *ahead : reader,
                         {.cap = options.cap, .background = options.background, .cells = cell_kind(options)},
-                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader, options));
+                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader.info(), options));
     Reconstruction result = reconstruct(source, options, on_progress);
     count_samples(result, source, options, on_progress);
     return result;

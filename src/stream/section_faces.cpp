@@ -8,9 +8,8 @@
 #include "stream/place_in_space.h"
 
 namespace regionmesh {
-namespace {
 
-SourceShape shape_of(const VolumeInfo& info, CellKind cells, double scale_z) {
+SourceShape section_shape(const VolumeInfo& info, CellKind cells, double scale_z) {
     SourceShape shape{
         .name = info.source, .has_samples = true, .lattice = meshing_lattice(info.lattice), .sweep = info.sweep};
     shape.cells = cells;
@@ -26,13 +25,11 @@ SourceShape shape_of(const VolumeInfo& info, CellKind cells, double scale_z) {
     return shape;
 }
 
-}  // namespace
-
 SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts, double scale_z)
     : reader_(reader),
       options_(options),
       cuts_(cuts),
-      shape_(shape_of(reader.info(), options.cells, scale_z)),
+      shape_(section_shape(reader.info(), options.cells, scale_z)),
       labels_(table_for(reader.info())),
       background_(dense_background(options.background, labels_)) {}
 

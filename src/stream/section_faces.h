@@ -11,6 +11,9 @@
 
 namespace regionmesh {
 
+/// How the faces of a volume lie; until place(), z is multiplied by `scale_z`, a power of two.
+SourceShape section_shape(const VolumeInfo& info, CellKind cells, double scale_z);
+
 /// Meshes the strips between sections as they are read. Sections that can be read twice are counted first.
 class SectionFaces final : public FaceSource {
 public:

@@ -1,6 +1,11 @@
 #include "stream/stage_options.h"
 
+#include <cmath>
+
+#include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "stream/tuning.h"
+#include "volume/exact_grid.h"
 
 namespace regionmesh {
 
@@ -25,6 +30,17 @@ SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
     own.intersect_check = options.intersect_check;
     own.threads = options.threads;
     return own;
+}
+
+double section_scale(const VolumeInfo& volume, const ReconstructOptions& options) {
+    if (options.scale_z == kAutoScale) {
+        const Vec3& spacing = volume.lattice.spacing;
+        return nearest_power_of_two(std::sqrt(spacing.x * spacing.y) / spacing.z);
+    }
+    if (options.scale_z >= kLeastLength && options.scale_z <= 1 / kLeastLength)
+        return nearest_power_of_two(options.scale_z);
+    throw Error(ErrorCode::kInput,
+                volume.source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
 }
 
 SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape) {

@@ -15,6 +15,7 @@ std::string data_folder() { return REGIONMESH_TEST_DATA; }
 std::string source_folder() { return REGIONMESH_SOURCE_DIR; }
 std::string program() { return REGIONMESH_PROGRAM; }
 std::string hdf5_program() { return REGIONMESH_HDF5_PROGRAM; }
+std::string mpi_program() { return REGIONMESH_MPI_PROGRAM; }
 std::string delaunay_program() { return REGIONMESH_DELAUNAY_PROGRAM; }
 
 }  // namespace regionmesh::test

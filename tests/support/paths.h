@@ -11,5 +11,6 @@ std::string program();
 /// Empty where it was not built.
 std::string delaunay_program();
 std::string hdf5_program();
+std::string mpi_program();
 
 }  // namespace regionmesh::test

@@ -1,0 +1,129 @@
+#include "blocks.h"
+
+#include <fmt/core.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "commands.h"
+#include "input.h"
+#include "messages.h"
+#include "output.h"
+#include "printable.h"
+#include "progress_line.h"
+
+namespace regionmesh::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+BlockTasks* shared_tasks = nullptr;
+
+/// Options that do not change the model: a run may go on with others.
+constexpr std::array<std::string_view, 14> kFree{"input",   "output",  "threads",    "memory",         "memory-limit",
+                                                 "log",     "quiet",   "verbose",    "config",         "force",
+                                                 "sandbox", "no-sync", "no-sandbox", "require-sandbox"};
+
+/// Options of a model in one file.
+constexpr std::array<std::string_view, 9> kOneFile{"report",     "html",        "regions", "interfaces",   "lines",
+                                                   "per-region", "face-budget", "units",   "preview-faces"};
+
+/// "82,131 bytes, changed at 1700000000.5": a file that differs is another input.
+std::string state_of(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return "missing";
+    if (!S_ISDIR(status.st_mode))
+        return fmt::format("{} bytes, changed at {}.{:09}", status.st_size, status.st_mtim.tv_sec,
+                           status.st_mtim.tv_nsec);
+    std::uint64_t files = 0, bytes = 0;
+    std::error_code ignored;
+    for (const auto& entry : fs::recursive_directory_iterator(path, ignored)) {
+        if (!entry.is_regular_file(ignored)) continue;
+        ++files;
+        bytes += entry.file_size(ignored);
+    }
+    return fmt::format("{} files, {} bytes", files, bytes);
+}
+
+RunIdentity identity_of(const Settings& settings) {
+    RunIdentity identity{{"version", REGIONMESH_VERSION}};
+    for (const std::string& input : settings.inputs)
+        identity.emplace_back("input " + fs::path(input).filename().string(), state_of(input));
+    for (const auto& [name, text] : settings.given)
+        if (std::ranges::find(kFree, name) == kFree.end()) identity.emplace_back("--" + name, text);
+    return identity;
+}
+
+void require_fit_of_blocks(const Settings& settings) {
+    for (const auto& [name, text] : settings.given)
+        if (std::ranges::find(kOneFile, name) != kOneFile.end())
+            throw Error(ErrorCode::kUsage,
+                        fmt::format("--{}: is for a model in one file, and --output is a folder of pieces; leave it "
+                                    "out, and give the folder to regionmesh convert or check",
+                                    name));
+    require_fit(settings, settings.inputs);
+    if (!is_lattice(settings, settings.inputs))
+        throw Error(ErrorCode::kUsage,
+                    settings.inputs.front() + ": blocks are for sections; name a file for the model in --output");
+}
+
+void print_summary(const Settings& settings, const BlockReport& report) {
+    if (report.stopped == "topology" || report.stopped == "max_error")
+        say("decimation ended by {}, with {}", report.stopped == "topology" ? "topology or quality" : "--max-error",
+            counted(report.final_faces, "face"));
+    say("made: {}, {} (from {} faces), in {} of up to {} cells; {} made and {} found complete",
+        counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
+        counted(report.pieces, "piece"), report.block_cells, counted(report.made, "block"), report.found);
+    say("written: {}; {:.2f} s, {} MB of memory", printable(settings.output), report.seconds,
+        grouped(report.peak_bytes / 1000000));
+}
+
+}  // namespace
+
+bool writes_blocks(const Settings& settings) {
+    return settings.block_cells || settings.output.ends_with('/') || is_block_folder(settings.output);
+}
+
+void make_block_folder(const Settings& settings) {
+    if (settings.output.empty() || settings.inputs.empty() || !writes_blocks(settings)) return;
+    std::error_code error;
+    fs::path folder = settings.output;
+    if (!folder.has_filename()) folder = folder.parent_path();
+    if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);
+    if (error)
+        throw Error(ErrorCode::kOutput, settings.output + ": cannot be made: " + error.message() +
+                                            "; name a folder in one that exists and may be written");
+}
+
+void share_blocks(BlockTasks& tasks) { shared_tasks = &tasks; }
+
+bool has_other_processes() { return shared_tasks != nullptr; }
+
+int run_blocks(const Settings& settings) {
+    BlockTasks alone;
+    BlockTasks& tasks = shared_tasks ? *shared_tasks : alone;
+    require_fit_of_blocks(settings);
+    BlockOptions blocks{.folder = settings.output,
+                        .block_cells = settings.block_cells.value_or(0),
+                        .identity = identity_of(settings),
+                        .output = settings.writing};
+    if (!blocks.folder.has_filename()) blocks.folder = blocks.folder.parent_path();
+    ProgressLine line(settings.quiet || !tasks.is_first());
+    const BlockReport report = reconstruct_blocks(
+        [&] { return open_lattice(settings, settings.inputs); }, settings.reconstruct, blocks, tasks,
+        [&](const BlockProgress& progress) {
+            Progress shown;
+            shown.stage = progress.stage;
+            shown.strips_read = progress.done;
+            shown.strip_count = progress.count;
+            shown.share = progress.count > 0 ? static_cast<double>(progress.done) / progress.count : 0;
+            line.show(shown);
+        });
+    line.clear();
+    if (tasks.is_first()) print_summary(settings, report);
+    return kGood;
+}
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,23 @@
+// Models in pieces.
+#pragma once
+
+#include "regionmesh/blocks.h"
+#include "regionmesh/options.h"
+
+namespace regionmesh::cli {
+
+/// Whether the output of reconstruct is a folder of pieces: --block-size is given, or --output names a folder.
+bool writes_blocks(const Settings& settings);
+
+/// Makes the folder of pieces, if the command writes one: a confined process cannot. Throws Error(kOutput) where it
+/// cannot be made.
+void make_block_folder(const Settings& settings);
+
+/// Shares the blocks of the run with other processes. Once called, reconstruct writes folders only.
+void share_blocks(BlockTasks& tasks);
+bool has_other_processes();
+
+/// Runs reconstruct block by block. Returns the exit code.
+int run_blocks(const Settings& settings);
+
+}  // namespace regionmesh::cli

@@ -1,0 +1,81 @@
+// Models larger than memory: a volume cut into blocks, and a folder of pieces instead of a file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "regionmesh/mesh_file.h"
+#include "regionmesh/output_file.h"
+#include "regionmesh/reconstruct.h"
+#include "regionmesh/section_reader.h"
+
+namespace regionmesh {
+
+/// Names and values that have to be the same when a run goes on: the input's files and the options.
+using RunIdentity = std::vector<std::pair<std::string, std::string>>;
+
+struct BlockOptions {
+    std::filesystem::path folder;   // of the model; its parent exists
+    std::uint32_t block_cells = 0;  // along each axis; 0: from ReconstructOptions::memory
+    RunIdentity identity = {};
+    OutputOptions output = {};
+};
+
+/// How processes share the tasks of a run. All of them go through the same phases; between two phases they wait for
+/// each other.
+class BlockTasks {
+public:
+    virtual ~BlockTasks() = default;
+    /// Whether this process does what is done once: it reads the input and writes the manifest.
+    virtual bool is_first() const { return true; }
+    /// The number of processes.
+    virtual std::uint32_t processes() const { return 1; }
+    /// A task of this phase that no process has begun, from 0 to count - 1; nothing after the last one.
+    virtual std::optional<std::uint32_t> next(std::uint32_t count) {
+        return next_ < count ? std::optional(next_++) : std::nullopt;
+    }
+    /// Ends a phase: returns when all processes have come here.
+    virtual void end_phase() { next_ = 0; }
+
+private:
+    std::uint32_t next_ = 0;
+};
+
+struct BlockProgress {
+    const char* stage = "";
+    std::uint32_t done = 0, count = 0;  // blocks
+};
+
+struct BlockReport {
+    std::uint32_t pieces = 0, block_cells = 0;  // of the last pass
+    std::uint64_t initial_faces = 0, final_faces = 0, final_vertices = 0;
+    std::uint32_t made = 0, found = 0;  // pieces of all passes: by this process, and complete from an earlier run
+    std::string stopped;                // as Report::stopped
+    double error_bound = 0;
+    std::uint64_t peak_bytes = 0;  // of this process
+    double seconds = 0;
+};
+
+/// Reconstructs and simplifies the volume block by block, and writes the model into a folder of pieces with a manifest
+/// (docs/explanation/blocks.md). A run that was ended at any moment goes on: complete pieces are not made again. The
+/// bytes of the folder depend on the input and the options only, not on interruptions, threads or processes. Reads the
+/// input once, section by section. Throws Error(kInput) where the folder belongs to a run of another input or other
+/// options, for options that need the whole surface at once, and whatever the reader throws.
+BlockReport reconstruct_blocks(const std::function<std::unique_ptr<SectionReader>()>& open,
+                               const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,
+                               const std::function<void(const BlockProgress&)>& on_progress = {});
+
+/// Whether a folder holds a manifest of blocks.
+bool is_block_folder(const std::filesystem::path& folder);
+
+/// The whole model of a complete folder, in memory: vertices and faces in the order of the pieces, shared vertices
+/// once. Throws Error(kInput) for a folder that is not complete or is damaged.
+MeshFile read_block_folder(const std::filesystem::path& folder);
+
+}  // namespace regionmesh

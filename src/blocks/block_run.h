@@ -1,0 +1,74 @@
+// One run over a folder of pieces: passes over blocks, each made of the pieces of the pass before.
+#pragma once
+
+#include <optional>
+
+#include "blocks/block_faces.h"
+#include "blocks/manifest.h"
+#include "blocks/piece.h"
+#include "blocks/simplify_block.h"
+#include "blocks/staged_labels.h"
+#include "regionmesh/blocks.h"
+#include "stream/target.h"
+
+namespace regionmesh {
+
+using OpenSections = std::function<std::unique_ptr<SectionReader>()>;
+
+/// Pass 0 reconstructs the blocks and simplifies each up to a low threshold, its rim locked. Pass 1 simplifies blocks
+/// shifted by half a block, whose goals follow from a common threshold. Further passes take the last faces above the
+/// target out of a few blocks. One block needs pass 0 alone. A pass is complete when all of its pieces are; then the
+/// manifest says so, and the pieces before it go.
+class BlockRun {
+public:
+    BlockRun(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,
+             const std::function<void(const BlockProgress&)>& on_progress);
+
+    BlockReport run();
+
+private:
+    /// What a pass makes of a block.
+    using MakePiece = std::function<Piece(const PieceHeader&)>;
+
+    void begin();
+    void stage();
+    std::uint32_t default_block_cells(const SourceShape& shape, std::uint64_t faces) const;
+    void open_volume();
+    void run_passes();
+    void run_pass(std::uint32_t pass, const char* stage, const std::vector<std::uint32_t>& blocks,
+                  const MakePiece& make);
+    void end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
+    void remove_passes_before(std::uint32_t pass);
+    void reconstruct_pass();
+    void seam_pass(const std::vector<double>& shares);
+    void trim_passes();
+    void complete();
+
+    bool has_target() const { return target_.faces || target_.reduce; }
+    std::uint64_t target() const { return target_.of(manifest_.initial_faces); }
+    std::uint64_t face_count() const;
+    BlockGrid grid(std::uint32_t pass) const;
+    BlockSimplifyOptions simplify_options() const;
+    std::vector<PieceHeader> headers() const;
+    std::filesystem::path path_of(std::uint32_t pass, std::uint32_t block) const;
+    Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const std::vector<double>& shares,
+                 std::optional<std::uint64_t> goal);
+    void remove_parts();
+
+    const OpenSections& open_;
+    ReconstructOptions options_;
+    const BlockOptions& blocks_;
+    BlockTasks& tasks_;
+    const std::function<void(const BlockProgress&)>& on_progress_;
+    std::filesystem::path folder_;
+    std::uint64_t job_ = 0;
+    Manifest manifest_;
+    Target target_;
+    bool is_decimating_;
+    LabelTable labels_;
+    std::optional<StagedLabels> staged_;
+    std::optional<BlockVolume> volume_;
+    BlockReport report_;
+};
+
+}  // namespace regionmesh

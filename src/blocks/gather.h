@@ -1,0 +1,66 @@
+// Between pieces and the chunks that are simplified.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "blocks/block_grid.h"
+#include "blocks/piece.h"
+#include "blocks/simplify_block.h"
+
+namespace regionmesh {
+
+/// The block that a face belongs to: that of its centroid. Depends on the corners as a set only.
+std::uint32_t block_of(const BlockGrid& grid, const std::array<Vec3, 3>& corners);
+
+/// Numbers of vertices that several pieces may have, by their exact position.
+class SharedVertices {
+public:
+    /// The number of the position; `next`, which is noted, where it is new.
+    std::uint32_t number(Vec3 position, std::uint32_t next);
+    std::size_t size() const { return numbers_.size(); }
+
+private:
+    struct Hash {
+        std::size_t operator()(const std::array<std::uint64_t, 3>& bits) const;
+    };
+    std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, Hash> numbers_;
+};
+
+/// The faces of a block, out of the pieces of another plan of blocks.
+class BlockGatherer {
+public:
+    BlockGatherer(const BlockGrid& grid, std::uint32_t block)
+        : grid_(grid), block_(block), limits_(grid.limits(block)) {}
+
+    /// Whether a piece with this box may have faces that belong to the block or touch it.
+    bool needs(const Box& box) const;
+    /// Adds those faces. Pieces come in the order of their numbers. `keep` is the share of this piece's faces that the
+    /// goal has room for.
+    void add(const Piece& piece, double keep);
+    /// The sum over the block's own faces of the shares to keep.
+    double goal() const { return goal_; }
+    /// The faces, with the locked vertices as active ones: those of faces of other blocks, and corners of faces that
+    /// reach out of the block.
+    void take(BlockChunk& block);
+
+private:
+    std::uint32_t number(const PieceVertex& vertex, std::uint32_t& place);
+
+    const BlockGrid& grid_;
+    std::uint32_t block_;
+    Box limits_;
+    Chunk chunk_;
+    SharedVertices shared_;
+    std::vector<bool> is_locked_;
+    std::uint64_t other_faces_ = 0;
+    double goal_ = 0;
+};
+
+/// The block's own faces of a chunk as a piece; its vertices are in order of first use. Vertices that are locked, or on
+/// faces of other blocks, are shared.
+Piece piece_of(const BlockChunk& block, const BlockGrid& grid, const PieceHeader& header);
+
+}  // namespace regionmesh

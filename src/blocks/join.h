@@ -1,0 +1,21 @@
+// Pieces as one model.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "blocks/manifest.h"
+
+namespace regionmesh {
+
+/// The file of a piece: "pass-0-000017.piece".
+std::filesystem::path piece_path(const std::filesystem::path& folder, std::uint32_t pass, std::uint32_t block);
+
+/// The pass of a file with such a name.
+std::optional<std::uint32_t> pass_of(const std::string& name);
+
+/// Vertices of the whole model: those that several pieces share are counted once.
+std::uint64_t count_vertices(const Manifest& manifest, const std::filesystem::path& folder);
+
+}  // namespace regionmesh

@@ -1,0 +1,170 @@
+#include "blocks/manifest.h"
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "formats/input_file.h"
+#include "formats/report/json_parts.h"
+#include "formats/text/json_text.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFormat = "regionmesh blocks";
+constexpr int kVersion = 1;
+
+Json vec_json(const Vec3& v) { return {v.x, v.y, v.z}; }
+Vec3 vec_of(const nlohmann::json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+
+Json json_of(const Manifest& manifest) {
+    Json json{{"format", kFormat}, {"version", kVersion}};
+    Json& identity = json["run"] = Json::array();
+    for (const auto& [name, value] : manifest.identity) identity.push_back({name, value});
+    if (!manifest.is_staged) return json;
+    const Lattice& lattice = manifest.lattice;
+    json["source"] = manifest.source;
+    json["size"] = lattice.size;
+    json["spacing"] = vec_json(lattice.spacing);
+    json["origin"] = vec_json(lattice.origin);
+    json["direction"] = lattice.direction;
+    json["sweep"] = manifest.sweep.axes;
+    json["unsigned_labels"] = manifest.is_unsigned;
+    json["space"] = space_name(manifest.space);
+    Json& names = json["names"] = Json::array();
+    for (const auto& [label, name] : manifest.names) names.push_back({label, name});
+    json["background"] = manifest.background;
+    json["block_cells"] = manifest.block_cells;
+    json["scale_z"] = manifest.scale_z;
+    json["initial_faces"] = manifest.initial_faces;
+    json["passes"] = manifest.passes;
+    json["complete"] = manifest.is_complete;
+    json["vertices"] = manifest.vertices;
+    json["faces"] = manifest.faces;
+    json["stopped"] = manifest.stopped;
+    json["error_bound"] = manifest.error_bound;
+    Json& pieces = json["pieces"] = Json::array();
+    for (const PieceEntry& piece : manifest.pieces)
+        pieces.push_back({{"pass", piece.pass},
+                          {"vertices", piece.vertices},
+                          {"faces", piece.faces},
+                          {"crc32", fmt::format("{:08x}", piece.checksum)}});
+    return json;
+}
+
+Space space_of(const std::string& name) {
+    for (const Space space : {Space::kRas, Space::kLps})
+        if (name == space_name(space)) return space;
+    return Space::kUnknown;
+}
+
+PieceEntry piece_of(const nlohmann::json& json) {
+    return {json.at("pass"), json.at("vertices"), json.at("faces"),
+            static_cast<std::uint32_t>(std::stoul(json.at("crc32").get<std::string>(), nullptr, 16))};
+}
+
+Manifest manifest_of(const nlohmann::json& json) {
+    Manifest manifest;
+    for (const auto& pair : json.at("run")) manifest.identity.emplace_back(pair.at(0), pair.at(1));
+    manifest.is_staged = json.contains("size");
+    if (!manifest.is_staged) return manifest;
+    Lattice& lattice = manifest.lattice;
+    manifest.source = json.at("source");
+    lattice.size = json.at("size");
+    lattice.spacing = vec_of(json.at("spacing"));
+    lattice.origin = vec_of(json.at("origin"));
+    lattice.direction = json.at("direction");
+    manifest.sweep.axes = json.at("sweep");
+    manifest.is_unsigned = json.at("unsigned_labels");
+    manifest.space = space_of(json.at("space"));
+    for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
+    manifest.background = json.at("background").get<std::vector<InputLabel>>();
+    manifest.block_cells = json.at("block_cells");
+    manifest.scale_z = json.at("scale_z");
+    manifest.initial_faces = json.at("initial_faces");
+    manifest.passes = json.at("passes");
+    manifest.is_complete = json.at("complete");
+    manifest.vertices = json.at("vertices");
+    manifest.faces = json.at("faces");
+    manifest.stopped = json.at("stopped");
+    manifest.error_bound = json.at("error_bound");
+    for (const auto& piece : json.at("pieces")) manifest.pieces.push_back(piece_of(piece));
+    return manifest;
+}
+
+fs::path labels_path(const fs::path& folder) { return folder / "labels.bin"; }
+
+}  // namespace
+
+fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
+
+std::optional<Manifest> read_manifest(const fs::path& folder) {
+    const fs::path path = manifest_path(folder);
+    const auto json = formats::read_json(path);
+    if (!json) return {};
+    return formats::reading(path, [&] {
+        if (json->value("format", "") != kFormat) formats::fail(path, "is no manifest of blocks");
+        if (json->at("version") != kVersion)
+            formats::fail(path, "is of version " + json->at("version").dump() + ", and this program writes version " +
+                                    std::to_string(kVersion) + "; take the program that wrote it");
+        return manifest_of(*json);
+    });
+}
+
+void write_manifest(const Manifest& manifest, const fs::path& folder, const OutputOptions& options) {
+    OutputFile file(manifest_path(folder), options);
+    file.write(text_of(json_of(manifest)));
+    file.commit();
+}
+
+void require_same_run(const Manifest& there, const RunIdentity& identity, const fs::path& folder) {
+    const auto refuse = [&](const std::string& name, const std::string& was, const std::string& is) {
+        throw Error(ErrorCode::kInput, folder.string() + ": was begun with " + name + ' ' + was +
+                                           ", and this run has " + is +
+                                           "; give what it was begun with, or another folder");
+    };
+    const auto find = [](const RunIdentity& in, const std::string& name) -> const std::string* {
+        for (const auto& [other, value] : in)
+            if (other == name) return &value;
+        return nullptr;
+    };
+    for (const auto& [name, value] : there.identity) {
+        const std::string* const now = find(identity, name);
+        if (!now || *now != value) refuse(name, value, now ? *now : "none");
+    }
+    for (const auto& [name, value] : identity)
+        if (!find(there.identity, name)) refuse(name, "not given", value);
+}
+
+void write_labels(const LabelTable& labels, const fs::path& folder, const OutputOptions& options) {
+    OutputFile file(labels_path(folder), options);
+    for (Label label = 0; label < labels.size(); ++label) {
+        const InputLabel input = labels.input(label);
+        file.write({reinterpret_cast<const char*>(&input), sizeof(input)});
+    }
+    file.commit();
+}
+
+LabelTable read_labels(const Manifest& manifest, const fs::path& folder) {
+    const formats::InputFile file(labels_path(folder));
+    std::vector<InputLabel> inputs(file.size() / sizeof(InputLabel));
+    const auto bytes = std::as_writable_bytes(std::span(inputs));
+    if (file.read(0, bytes) != bytes.size()) formats::fail(file.path(), "ends early");
+    LabelTable labels(manifest.is_unsigned);
+    for (const InputLabel input : inputs) labels.dense(input);
+    return labels;
+}
+
+std::uint64_t job_of(const RunIdentity& identity) {
+    std::uint64_t hash = kVersion;
+    for (const auto& [name, value] : identity)
+        for (const std::string* text : {&name, &value}) {
+            for (const char c : *text) hash = mix64(hash ^ static_cast<unsigned char>(c));
+            hash = mix64(hash);
+        }
+    return hash;
+}
+
+}  // namespace regionmesh

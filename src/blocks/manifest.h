@@ -1,0 +1,61 @@
+// The manifest of a folder of pieces: what they are made of, and how far the run has come.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "regionmesh/blocks.h"
+#include "regionmesh/label_table.h"
+#include "regionmesh/lattice.h"
+
+namespace regionmesh {
+
+/// A complete piece.
+struct PieceEntry {
+    std::uint32_t pass = 0;
+    std::uint64_t vertices = 0, faces = 0;
+    std::uint32_t checksum = 0;
+};
+
+/// docs/explanation/blocks.md lists the keys of the file.
+struct Manifest {
+    RunIdentity identity;
+    bool is_staged = false;    // the labels are there; what follows is known
+    bool is_complete = false;  // the model is there
+    Lattice lattice;           // of the input
+    Sweep sweep;
+    std::string source;
+    bool is_unsigned = false;  // labels
+    Space space = Space::kUnknown;
+    LabelNames names;
+    std::vector<InputLabel> background;
+    std::uint32_t block_cells = 0;
+    double scale_z = 1;
+    std::uint64_t initial_faces = 0;  // counted on the labels
+    std::uint32_t passes = 0;         // complete ones
+    std::vector<PieceEntry> pieces;   // of the last pass that is complete, by block
+    std::string stopped;
+    double error_bound = 0;
+    std::uint64_t vertices = 0, faces = 0;  // of the whole model, once it is complete
+};
+
+std::filesystem::path manifest_path(const std::filesystem::path& folder);
+
+/// Nothing where there is no manifest. Throws Error(kInput) for one that is damaged or of another version.
+std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
+void write_manifest(const Manifest& manifest, const std::filesystem::path& folder, const OutputOptions& options);
+
+/// Throws Error(kInput) that names the first difference.
+void require_same_run(const Manifest& there, const RunIdentity& identity, const std::filesystem::path& folder);
+
+/// Files of 64-bit labels by dense label, in the folder.
+void write_labels(const LabelTable& labels, const std::filesystem::path& folder, const OutputOptions& options);
+LabelTable read_labels(const Manifest& manifest, const std::filesystem::path& folder);
+
+/// A hash of the identity: pieces of another run are not taken for those of this one.
+std::uint64_t job_of(const RunIdentity& identity);
+
+}  // namespace regionmesh

@@ -1,0 +1,118 @@
+#include "blocks/piece.h"
+
+#include <zlib.h>
+
+#include <bit>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+#include "formats/input_file.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+static_assert(std::endian::native == std::endian::little);
+
+template <class T>
+std::string_view bytes_of(std::span<const T> items) {
+    return {reinterpret_cast<const char*>(items.data()), items.size_bytes()};
+}
+
+std::uint32_t add_to(std::uint32_t checksum, std::string_view bytes) {
+    return static_cast<std::uint32_t>(::crc32_z(checksum, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+template <class T>
+std::uint64_t read_items(const formats::InputFile& file, std::uint64_t offset, std::span<T> items) {
+    const auto bytes = std::as_writable_bytes(items);
+    if (file.read(offset, bytes) != bytes.size())
+        formats::fail(file.path(), "the piece ends early; remove the file, and run again");
+    return offset + bytes.size();
+}
+
+PieceHeader header_of(const formats::InputFile& file) {
+    PieceHeader header;
+    if (file.size() < sizeof(header)) formats::fail(file.path(), "is no piece of a model");
+    read_items(file, 0, std::span(&header, 1));
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
+    if (header.magic != PieceHeader{}.magic || header.vertices >= kMost || header.faces >= kMost)
+        formats::fail(file.path(), "is no piece of a model");
+    const std::uint64_t size = sizeof(header) + header.vertices * sizeof(PieceVertex) +
+                               header.faces * sizeof(PieceFace) + sizeof(std::uint32_t);
+    if (file.size() != size)
+        formats::fail(file.path(), std::to_string(file.size()) + " bytes instead of " + std::to_string(size) +
+                                       "; remove the file, and run again");
+    return header;
+}
+
+}  // namespace
+
+std::uint32_t write_piece(Piece& piece, const fs::path& path, const OutputOptions& options) {
+    PieceHeader& header = piece.header;
+    header.vertices = piece.vertices.size();
+    header.faces = piece.faces.size();
+    header.box = {};
+    header.error_bound = 0;
+    for (const PieceVertex& vertex : piece.vertices) {
+        header.box.add(vertex.position);
+        header.error_bound = std::max(header.error_bound, vertex.error_bound);
+    }
+    OutputFile file(path, options);
+    std::uint32_t checksum = 0;
+    for (const std::string_view bytes :
+         {bytes_of(std::span<const PieceHeader>(&header, 1)), bytes_of(std::span<const PieceVertex>(piece.vertices)),
+          bytes_of(std::span<const PieceFace>(piece.faces))}) {
+        checksum = add_to(checksum, bytes);
+        file.write(bytes);
+    }
+    file.write(bytes_of(std::span<const std::uint32_t>(&checksum, 1)));
+    file.commit();
+    return checksum;
+}
+
+Piece read_piece(const fs::path& path) {
+    const formats::InputFile file(path);
+    Piece piece{header_of(file), {}, {}};
+    piece.vertices.resize(piece.header.vertices);
+    piece.faces.resize(piece.header.faces);
+    std::uint64_t at = read_items(file, sizeof(PieceHeader), std::span(piece.vertices));
+    at = read_items(file, at, std::span(piece.faces));
+    std::uint32_t written = 0, checksum = 0;
+    read_items(file, at, std::span(&written, 1));
+    checksum = add_to(checksum, bytes_of(std::span<const PieceHeader>(&piece.header, 1)));
+    checksum = add_to(checksum, bytes_of(std::span<const PieceVertex>(piece.vertices)));
+    checksum = add_to(checksum, bytes_of(std::span<const PieceFace>(piece.faces)));
+    if (checksum != written)
+        formats::fail(path, "the checksum does not fit: the file is damaged; remove it, and run again");
+    for (const PieceFace& face : piece.faces)
+        for (const std::uint32_t v : face.vertices)
+            if (v >= piece.vertices.size()) formats::fail(path, "a face has a vertex that is not there");
+    return piece;
+}
+
+PieceHeader read_piece_header(const fs::path& path) { return header_of(formats::InputFile(path)); }
+
+std::uint32_t read_checksum(const fs::path& path) {
+    const formats::InputFile file(path);
+    std::uint32_t checksum = 0;
+    if (file.size() < sizeof(checksum)) formats::fail(path, "is no piece of a model");
+    read_items(file, file.size() - sizeof(checksum), std::span(&checksum, 1));
+    return checksum;
+}
+
+std::optional<std::uint32_t> find_piece(const fs::path& path, const PieceHeader& like) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) return {};
+    try {
+        const PieceHeader header = read_piece(path).header;
+        if (header.job != like.job || header.pass != like.pass || header.block != like.block) return {};
+    } catch (const Error&) {
+        return {};  // made again
+    }
+    return read_checksum(path);
+}
+
+}  // namespace regionmesh

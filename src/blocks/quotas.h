@@ -1,0 +1,23 @@
+// How many faces each block keeps, so that the whole model has the number asked for.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "blocks/piece.h"
+
+namespace regionmesh {
+
+/// The share of its faces that each block keeps, so that all together keep about `target`: each what its sample keeps
+/// at one threshold, common to all blocks. The threshold follows from the sum of the histograms in the headers.
+std::vector<double> shares_at_common_threshold(std::span<const PieceHeader> pieces, double target);
+
+/// Faces to which some blocks go down when all have `faces` and more than `target`, by block: the excess comes out of
+/// the largest blocks, a hundredth of their faces each. Blocks at their limit give none. Collapses remove two faces at
+/// a time, or three at lines, so a block may end two below its goal: all together stay above the target even then, but
+/// for the last of them.
+std::vector<std::uint64_t> trimmed(std::span<const std::uint64_t> faces, const std::vector<bool>& is_at_limit,
+                                   std::uint64_t target);
+
+}  // namespace regionmesh

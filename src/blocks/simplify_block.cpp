@@ -1,0 +1,114 @@
+#include "blocks/simplify_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "regionmesh/limits.h"
+#include "simplify/collapse_edges.h"
+#include "simplify/mesh_chunk.h"
+#include "simplify/simplify_tiles.h"
+#include "simplify/threshold_passes.h"
+
+namespace regionmesh {
+namespace {
+
+/// Thresholds of trials begin at this cost, and each is larger by this factor.
+constexpr double kFirstTrial = 1e-3, kTrialStep = 4;
+
+/// Tiles of `side` cells; the walls of the outermost are those of the block.
+TileGrid grid_of(const BlockChunk& block, std::uint32_t side, std::uint32_t shift) {
+    return {.origin = block.lattice.origin,
+            .spacing = block.lattice.spacing,
+            .size = block.cells.size(),
+            .cells = {side, side, side},
+            .shift = {shift, shift, shift},
+            .first_cell = block.cells.low};
+}
+
+TilePlan plan_of(const BlockChunk& block) {
+    Lattice lattice = block.lattice;
+    for (int axis = 0; axis < 3; ++axis) lattice.size[axis] = block.cells.size()[axis] + 1;
+    return {.lattice = lattice,
+            .sweep = block.sweep,
+            .run_strips = kTileCells,
+            .tile_cells = kTileCells,
+            .first_cell = block.cells.low};
+}
+
+TileOptions tile_options(const BlockSimplifyOptions& options) {
+    return {.threshold = kTileThreshold,
+            .keep_share = 0,
+            .threads = options.threads,
+            .in_flight = options.in_flight,
+            .simplify = options.simplify};
+}
+
+/// Side in cells of tiles with about kTileFaces faces.
+std::uint32_t side_of_tiles(const BlockChunk& block) {
+    const auto size = block.cells.size();
+    const double cells = static_cast<double>(size[0]) * size[1] * size[2];
+    const double tiles = std::max(static_cast<double>(block.chunk.faces.size()) / kTileFaces, 1.0);
+    return static_cast<std::uint32_t>(std::max(std::ceil(std::cbrt(cells / tiles)), 8.0));
+}
+
+}  // namespace
+
+void simplify_low(BlockChunk& block, double share, const BlockSimplifyOptions& options) {
+    if (share * kFreeMargin >= 1) return;
+    TileOptions tiles = tile_options(options);
+    tiles.keep_share = std::min(share * kTileMargin, 1.0);
+    tiles.free_share = share > kFreeFrom ? share * kFreeMargin : 1;
+    const TileGrid grid = grid_of(block, kTileCells, 0);
+    TiledFaces faces(block.chunk, {}, grid, options.threads);
+    TileResult result = simplify_tiles(faces, tiles);
+    block.chunk = std::move(result.left);
+}
+
+double trial_threshold(int n) { return kFirstTrial * std::pow(kTrialStep, n); }
+
+std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block, double least,
+                                                        const BlockSimplifyOptions& options) {
+    std::array<double, kMostThresholdTrials> left{};
+    TileOptions tiles = tile_options(options);
+    const std::uint32_t side = side_of_tiles(block);
+    const TileGrid grid = grid_of(block, side, side / 2);
+    TiledFaces faces(block.chunk, {}, grid, options.threads);
+    std::vector<std::uint32_t> full, chosen;
+    for (std::uint32_t tile = 0; tile < grid.tile_count(); ++tile)
+        if (!faces.faces_of(tile).empty()) full.push_back(tile);
+    const std::uint32_t every = std::clamp(static_cast<std::uint32_t>(full.size()) / kSampledTiles, 1u, kSampledTiles);
+    for (std::uint32_t n = 0; n + every <= full.size(); n += every)
+        chosen.push_back(full[n + static_cast<std::uint32_t>(hash_unit(n, every) * every)]);
+    for (int n = 0; n < kMostThresholdTrials && !chosen.empty(); ++n) {
+        tiles.threshold = trial_threshold(n);
+        const TileCounts counts = try_tiles(faces, chosen, tiles);
+        // Locked vertices of tiles keep their resolution here, and not in the passes to come.
+        left[n] = std::min((static_cast<double>(counts.left_faces) + 1) / (static_cast<double>(counts.faces) + 1),
+                           (static_cast<double>(counts.left_inside) + 1) / (static_cast<double>(counts.inside) + 1));
+        if (left[n] < least) break;
+    }
+    return left;
+}
+
+bool simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options) {
+    const std::uint64_t goal = target + block.other_faces;
+    if (block.chunk.faces.size() <= goal) return false;
+    const PassOptions passes{.target_faces = target == 0 ? 0 : goal, .tiles = tile_options(options)};
+    simplify_in_passes(block.chunk, plan_of(block), passes);
+    Mesh mesh = mesh_of(block.chunk);
+    block.chunk.clear();
+    mesh.sort_spatially();
+    SimplifyOptions own = options.simplify;
+    own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
+    const TileGrid whole{.origin = block.lattice.origin,
+                         .spacing = block.lattice.spacing,
+                         .size = block.cells.size(),
+                         .cells = block.cells.size(),
+                         .first_cell = block.cells.low};
+    const CollapseResult done = collapse_edges(mesh, own, {.limits = whole.limits(0), .refresh = true});
+    block.chunk = take_chunk(mesh);
+    return done.stopped != StopReason::kTarget;
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,262 @@
+// Runs over a folder of pieces: the model, its recovery, and several processes.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <barrier>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <thread>
+
+#include "regionmesh/blocks.h"
+#include "regionmesh/check.h"
+#include "regionmesh/error.h"
+#include "regionmesh/voxelise.h"
+#include "support/digest.h"
+#include "support/runs.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An empty folder that goes with the test.
+class TestFolder {
+public:
+    TestFolder() {
+        static int number = 0;
+        path =
+            fs::temp_directory_path() / ("blocks_test." + std::to_string(::getpid()) + '.' + std::to_string(number++));
+        fs::remove_all(path);
+    }
+    ~TestFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    fs::path path;
+};
+
+test::ArrayVolume foam() { return test::grain_volume({45, 41, 38}, 25, 11); }
+
+ReconstructOptions options_for(std::optional<double> reduce) {
+    ReconstructOptions options{.reduce = reduce};
+    options.smooth.reach = 2;  // a halo smaller than the volume
+    return options;
+}
+
+BlockReport run_blocks(const fs::path& folder, const test::ArrayVolume& volume, const ReconstructOptions& options,
+                       BlockTasks& tasks, std::uint32_t cells = 17) {
+    const BlockOptions blocks{
+        .folder = folder, .block_cells = cells, .identity = {{"input", "foam"}}, .output = {.sync = false}};
+    return reconstruct_blocks([&] { return std::make_unique<test::ArrayVolume>(volume); }, options, blocks, tasks);
+}
+
+BlockReport run_blocks(const fs::path& folder, const test::ArrayVolume& volume, const ReconstructOptions& options) {
+    BlockTasks alone;
+    return run_blocks(folder, volume, options, alone);
+}
+
+/// The bytes of all files by their names.
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        std::ifstream stream(entry.path(), std::ios::binary);
+        files[fs::relative(entry.path(), folder)] = {std::istreambuf_iterator<char>(stream), {}};
+    }
+    return files;
+}
+
+void expect_lossless(MeshFile& model, test::ArrayVolume& volume) {
+    std::vector<Label> background;
+    for (const InputLabel label : *model.background) background.push_back(model.labels.dense(label));
+    test::expect_sound(check(model.mesh, {.background = background}));
+    volume.rewind();
+    const SampleAgreement samples = compare_samples(model.mesh, model.labels, background, volume);
+    EXPECT_EQ(samples.wrong, 0u);
+    EXPECT_EQ(samples.samples, 45u * 41 * 38);
+}
+
+TEST(BlockRun, without_decimation_has_as_many_faces_and_vertices_as_a_run_without_blocks) {
+    const TestFolder folder;
+    test::ArrayVolume volume = foam();
+    ReconstructOptions options = options_for({});
+    options.decimate = false;
+    const BlockReport report = run_blocks(folder.path, volume, options);
+    const Reconstruction whole = test::run(volume, options);
+    EXPECT_EQ(report.pieces, 3u * 3 * 3);
+    EXPECT_EQ(report.final_faces, whole.report.final_faces);
+    EXPECT_EQ(report.final_vertices, whole.report.final_vertices);
+    MeshFile model = read_block_folder(folder.path);
+    EXPECT_EQ(model.mesh.face_count(), whole.mesh.face_count());
+    EXPECT_EQ(model.mesh.vertex_count(), whole.mesh.vertex_count());
+    expect_lossless(model, volume);
+}
+
+TEST(BlockRun, reaches_the_target_exactly_and_keeps_every_sample) {
+    for (const double reduce : {0.5, 0.8, 0.95}) {
+        SCOPED_TRACE(reduce);
+        const TestFolder folder;
+        test::ArrayVolume volume = foam();
+        const BlockReport report = run_blocks(folder.path, volume, options_for(reduce));
+        const auto target = static_cast<std::uint64_t>(std::llround((1 - reduce) * double(report.initial_faces)));
+        MeshFile model = read_block_folder(folder.path);
+        EXPECT_EQ(report.final_faces, model.mesh.face_count());
+        if (report.stopped == "target") {
+            EXPECT_LE(report.final_faces, target);
+            EXPECT_GE(report.final_faces + 1, target);
+        } else {
+            EXPECT_GT(reduce, 0.9) << "topology leaves more of a small foam";
+        }
+        expect_lossless(model, volume);
+    }
+}
+
+TEST(BlockRun, keeps_to_the_largest_error) {
+    const TestFolder folder;
+    test::ArrayVolume volume = foam();
+    ReconstructOptions options = options_for({});
+    options.max_error = 0.2;
+    const BlockReport report = run_blocks(folder.path, volume, options);
+    EXPECT_LE(report.error_bound, 0.2);
+    EXPECT_GT(report.error_bound, 0.1);
+    EXPECT_LT(report.final_faces, report.initial_faces / 2);
+    EXPECT_EQ(report.stopped, "max_error");
+    MeshFile model = read_block_folder(folder.path);
+    expect_lossless(model, volume);
+}
+
+/// Ends the run, as if killed, before its n-th task.
+class EndingTasks : public BlockTasks {
+public:
+    struct Ended {};
+    explicit EndingTasks(int tasks) : left_(tasks) {}
+    std::optional<std::uint32_t> next(std::uint32_t count) override {
+        if (--left_ < 0) throw Ended();
+        return BlockTasks::next(count);
+    }
+
+private:
+    int left_;
+};
+
+TEST(BlockRun, goes_on_where_it_was_ended_and_leaves_the_same_bytes) {
+    const TestFolder whole, ended;
+    const test::ArrayVolume volume = foam();
+    const ReconstructOptions options = options_for(0.8);
+    const BlockReport report = run_blocks(whole.path, volume, options);
+    std::uint32_t found = 0, ends = 0;
+    for (;; ++ends) {
+        EndingTasks tasks(3 + 5 * static_cast<int>(ends));
+        try {
+            found += run_blocks(ended.path, volume, options, tasks).found;
+            break;
+        } catch (const EndingTasks::Ended&) {
+            ASSERT_LT(ends, 200u);
+        }
+    }
+    EXPECT_GT(ends, 5u);
+    EXPECT_GT(report.made, 2u * 27);
+    EXPECT_EQ(files_in(ended.path), files_in(whole.path));
+}
+
+TEST(BlockRun, makes_a_damaged_piece_again) {
+    const TestFolder whole, damaged;
+    const test::ArrayVolume volume = foam();
+    const ReconstructOptions options = options_for(0.8);
+    run_blocks(whole.path, volume, options);
+    EndingTasks tasks(20);
+    EXPECT_THROW(run_blocks(damaged.path, volume, options, tasks), EndingTasks::Ended);
+    const fs::path piece = damaged.path / "pass-0-000003.piece";
+    {
+        std::fstream stream(piece, std::ios::in | std::ios::out | std::ios::binary);
+        stream.seekp(1000);
+        stream.put('x');
+    }
+    fs::resize_file(damaged.path / "pass-0-000005.piece", 500);
+    const BlockReport report = run_blocks(damaged.path, volume, options);
+    EXPECT_EQ(report.found, 18u);
+    EXPECT_EQ(files_in(damaged.path), files_in(whole.path));
+}
+
+TEST(BlockRun, refuses_other_options_and_folders_with_other_files) {
+    const TestFolder folder, other;
+    const test::ArrayVolume volume = foam();
+    EndingTasks tasks(3);
+    EXPECT_THROW(run_blocks(folder.path, volume, options_for(0.8), tasks), EndingTasks::Ended);
+    BlockTasks alone;
+    const BlockOptions changed{.folder = folder.path, .block_cells = 17, .identity = {{"input", "crystal"}}};
+    const auto open = [&] { return std::make_unique<test::ArrayVolume>(volume); };
+    try {
+        reconstruct_blocks(open, options_for(0.8), changed, alone);
+        FAIL() << "a changed input was not noticed";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("was begun with input foam, and this run has crystal"),
+                  std::string::npos)
+            << error.what();
+    }
+    EXPECT_THROW(read_block_folder(folder.path), Error) << "it is not complete";
+    fs::create_directory(other.path);
+    std::ofstream(other.path / "notes.txt") << "mine";
+    EXPECT_THROW(run_blocks(other.path, volume, options_for(0.8)), Error);
+}
+
+/// Threads that stand for processes: one list of tasks.
+class SharedTasks {
+public:
+    explicit SharedTasks(std::uint32_t processes) : processes_(processes), barrier_(processes) {}
+
+    class Process final : public BlockTasks {
+    public:
+        Process(SharedTasks& shared, bool is_first) : shared_(shared), is_first_(is_first) {}
+        bool is_first() const override { return is_first_; }
+        std::uint32_t processes() const override { return shared_.processes_; }
+        std::optional<std::uint32_t> next(std::uint32_t count) override {
+            const std::uint32_t task = shared_.next_++;
+            return task < count ? std::optional(task) : std::nullopt;
+        }
+        void end_phase() override {
+            shared_.barrier_.arrive_and_wait();
+            shared_.next_ = 0;
+            shared_.barrier_.arrive_and_wait();
+        }
+
+    private:
+        SharedTasks& shared_;
+        bool is_first_;
+    };
+
+private:
+    std::uint32_t processes_;
+    std::barrier<> barrier_;
+    std::atomic<std::uint32_t> next_ = 0;
+};
+
+TEST(BlockRun, gives_the_same_bytes_for_any_number_of_processes) {
+    const TestFolder alone;
+    const test::ArrayVolume volume = foam();
+    const ReconstructOptions options = options_for(0.8);
+    run_blocks(alone.path, volume, options);
+    for (const std::uint32_t count : {2u, 3u}) {
+        const TestFolder folder;
+        SharedTasks shared(count);
+        std::vector<std::thread> processes;
+        std::atomic<std::uint32_t> made = 0, busy = 0;
+        for (std::uint32_t n = 0; n < count; ++n)
+            processes.emplace_back([&, n] {
+                SharedTasks::Process tasks(shared, n == 0);
+                const BlockReport report = run_blocks(folder.path, volume, options, tasks);
+                made += report.made;
+                busy += report.made > 0;
+            });
+        for (std::thread& process : processes) process.join();
+        EXPECT_GT(made.load(), 2u * 27);
+        EXPECT_EQ(busy.load(), count);
+        EXPECT_EQ(files_in(folder.path), files_in(alone.path));
+    }
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,159 @@
+// Folders of pieces, as a user makes them: killed runs, several processes, and what is refused.
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include "cli/program.h"
+#include "support/random.h"
+
+extern char** environ;
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BlockProgram : public Program {
+protected:
+    /// Arguments that reconstruct grains of 40 samples along each axis into a folder.
+    std::string grains(const std::string& folder) const {
+        const fs::path file = path("grains.raw");
+        if (!fs::exists(file)) {
+            const test::ArrayVolume volume = test::grain_volume({40, 40, 40}, 20, 5);
+            put_text(file, {volume.labels().begin(), volume.labels().end()});
+        }
+        return "reconstruct " + file.string() +
+               " --size 40,40,40 --type uint8 --smooth light --reduce 75% --block-size 14 -o " + out(folder);
+    }
+
+    std::map<std::string, std::string> files_in(const std::string& folder) const {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::directory_iterator(out(folder)))
+            files[entry.path().filename().string()] = text_of(entry.path());
+        return files;
+    }
+
+    /// Starts the program and kills it after a time; whether it was still at work.
+    bool run_and_kill(const std::string& arguments, std::chrono::microseconds after) const {
+        const std::string command = "exec '" + test::program() + "' " + arguments + " --quiet >/dev/null 2>&1";
+        std::string shell = "/bin/sh", flag = "-c", text = command;
+        char* const argv[] = {shell.data(), flag.data(), text.data(), nullptr};
+        pid_t process = 0;
+        EXPECT_EQ(::posix_spawn(&process, "/bin/sh", nullptr, nullptr, argv, environ), 0);
+        std::this_thread::sleep_for(after);
+        ::kill(process, SIGKILL);
+        int status = 0;
+        ::waitpid(process, &status, 0);
+        return WIFSIGNALED(status);
+    }
+};
+
+TEST_F(BlockProgram, goes_on_after_twenty_kills_and_leaves_the_same_bytes) {
+    const auto start = std::chrono::steady_clock::now();
+    const Ran whole = run(grains("whole"));
+    const auto time = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - start);
+    ASSERT_EQ(whole.code, 0) << whole.error;
+    EXPECT_THAT(whole.out, testing::HasSubstr("in 64 pieces of up to 14 cells"));
+    const std::uint64_t seed = 20;
+    test::Random random(seed);
+    int kills = 0;
+    for (int n = 0; n < 20; ++n)
+        kills += run_and_kill(grains("killed"),
+                              std::chrono::duration_cast<std::chrono::microseconds>(time * random.between(0.02, 0.2)));
+    EXPECT_GE(kills, 5) << "the run was complete too early, in " << time.count() << " us; seed " << seed;
+    const Ran last = run(grains("killed"));
+    ASSERT_EQ(last.code, 0) << last.error;
+    EXPECT_EQ(files_in("killed"), files_in("whole"));
+}
+
+TEST_F(BlockProgram, converts_checks_and_voxelises_a_folder) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    const std::string sections = " --sections " + path("grains.raw").string() + " --size 40,40,40 --type uint8";
+    const Ran checked = run("check " + out("model") + sections);
+    EXPECT_EQ(checked.code, 0) << checked.error;
+    EXPECT_THAT(checked.out, testing::HasSubstr("every one of 64000 samples keeps its label"));
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("a.vtp")).code, 0);
+    ASSERT_EQ(run("convert " + out("model/") + ' ' + out("b.vtp")).code, 0);
+    EXPECT_EQ(text_of(out("a.vtp")), text_of(out("b.vtp")));
+    EXPECT_THAT(run("info " + out("model")).out, testing::HasSubstr("faces"));
+    const Ran compared = run("compare " + out("model") + ' ' + out("a.vtp") + " --samples 1000");
+    EXPECT_EQ(compared.code, 0) << compared.error;
+}
+
+TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    const Ran other = run(grains("model") + " --min-quality 0.05");
+    EXPECT_EQ(other.code, 1);
+    EXPECT_EQ(std::ranges::count(other.error, '\n'), 1) << other.error;
+    EXPECT_THAT(other.error, testing::HasSubstr("was begun with --min-quality not given, and this run has 0.05"));
+    put_text(path("grains.raw"), std::string(64000, 'x'));
+    const Ran changed = run(grains("model"));
+    EXPECT_EQ(changed.code, 1);
+    EXPECT_THAT(changed.error, testing::HasSubstr("was begun with input grains.raw 64000 bytes"));
+}
+
+TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {
+    for (const auto& [options, said] : {std::pair("--html page.html", "--html: is for a model in one file"),
+                                        std::pair("--preserve-volume", "--preserve-volume needs the whole surface"),
+                                        std::pair("--smooth-filter taubin", "smoothed inside the lattice")}) {
+        const Ran ran = run(grains("model") + ' ' + options);
+        EXPECT_NE(ran.code, 0);
+        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
+        EXPECT_THAT(ran.error, testing::HasSubstr(said));
+        fs::remove_all(out("model"));
+    }
+}
+
+class MpiProgram : public BlockProgram {
+protected:
+    void SetUp() override {
+        BlockProgram::SetUp();
+        if (test::mpi_program().empty()) GTEST_SKIP() << "regionmesh-mpi was not built";
+    }
+
+    Ran run_ranks(int ranks, const std::string& arguments, const std::string& before = "") const {
+        const std::string command =
+            before +
+            " OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 300 mpirun --oversubscribe -n " +
+            std::to_string(ranks) + " '" + test::mpi_program() + "' " + arguments + " >'" + path("stdout").string() +
+            "' 2>'" + path("stderr").string() + "' </dev/null";
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(path("stdout")), text_of(path("stderr"))};
+    }
+};
+
+TEST_F(MpiProgram, gives_the_same_bytes_for_1_2_and_4_ranks_as_without_mpi) {
+    ASSERT_EQ(run(grains("alone")).code, 0);
+    for (const int ranks : {1, 2, 4}) {
+        const std::string folder = "ranks" + std::to_string(ranks);
+        const Ran ran = run_ranks(ranks, grains(folder));
+        ASSERT_EQ(ran.code, 0) << ran.error;
+        EXPECT_THAT(ran.out, testing::HasSubstr("in 64 pieces of up to 14 cells"));
+        EXPECT_EQ(files_in(folder), files_in("alone"));
+    }
+}
+
+TEST_F(MpiProgram, a_run_goes_on_with_ranks_where_one_process_was_killed) {
+    ASSERT_EQ(run(grains("alone")).code, 0);
+    run_and_kill(grains("killed"), std::chrono::milliseconds(300));
+    const Ran ran = run_ranks(2, grains("killed"));
+    ASSERT_EQ(ran.code, 0) << ran.error;
+    EXPECT_EQ(files_in("killed"), files_in("alone"));
+}
+
+TEST_F(MpiProgram, refuses_in_one_line_of_its_own) {
+    const Ran ran = run_ranks(2, "reconstruct " + path("grains.raw").string() + " -o " + out("model.vtp"));
+    EXPECT_NE(ran.code, 0);
+    EXPECT_THAT(ran.error, testing::HasSubstr("processes share the blocks of a folder"));
+    const Ran other = run_ranks(2, "check model.vtp");
+    EXPECT_NE(other.code, 0);
+    EXPECT_THAT(other.error, testing::HasSubstr("regionmesh-mpi: reconstruct is the command that ranks share"));
+}
+
+}  // namespace
+}  // namespace regionmesh
