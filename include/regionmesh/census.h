@@ -34,7 +34,7 @@ struct CensusOptions {
     bool cap = true;                        // as in ReconstructOptions
     std::vector<InputLabel> background{0};  // as in ReconstructOptions
     std::optional<Sweep> sweep = {};        // of tetrahedra
-    CellKind cells = CellKind::kCompact;    // of sections: kCompact or kTetrahedra
+    CellKind cells = CellKind::kCompact;    // of sections; kAuto counts as kCompact
 };
 
 /// Reads all sections. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader

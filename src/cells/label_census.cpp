@@ -28,7 +28,9 @@ LabelCensus::LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions optio
     : width_(lattice.size[sweep.axes[0]]),
       height_(lattice.size[sweep.axes[1]]),
       options_(std::move(options)),
-      mixed_(width_ - 1) {}
+      mixed_(width_ - 1) {
+    if (options_.cells == CellKind::kAuto) options_.cells = CellKind::kCompact;
+}
 
 void LabelCensus::add(std::span<const Label> low, std::span<const Label> high, bool is_last) {
     const bool is_capped = options_.cap && (is_first_ || is_last);

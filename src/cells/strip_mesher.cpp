@@ -32,6 +32,7 @@ StripMesher::StripMesher(const Lattice& lattice, Sweep sweep, StripOptions optio
     for (auto& row : rows_) row.assign(std::size_t{width_} * kRowSlots, 0);
     plan_tetrahedra();
     plan_triangles();
+    if (options_.cells == CellKind::kCompact) compact_cells_ = &CompactCells::get();
     plan_compact_cells();
 }
 
@@ -183,7 +184,7 @@ void StripMesher::mesh_in_tetrahedra(std::uint32_t i, std::uint32_t j) {
 void StripMesher::mesh_compact(std::uint32_t i, std::uint32_t j) {
     const auto labels = cell_labels(i, j);
     std::array<std::uint32_t, kCellSimplexCount> known{};  // vertex number + 1
-    compact_cells_.for_each_face(labels, [&](const CompactFace& face) {
+    compact_cells_->for_each_face(labels, [&](const CompactFace& face) {
         ChunkFace made;
         for (int n = 0; n < 3; ++n) {
             std::uint32_t& number = known[face.vertices[n]];
@@ -285,8 +286,7 @@ std::uint32_t StripMesher::make_vertex(const SimplexPlace& place, std::uint32_t 
             lattice_.origin[axis] + (options_.first[axis] + node + middle[a]) * lattice_.spacing[axis];
         if (along >> a & 1) continue;
         if (node == 0 && options_.is_side_of_whole(axis, false, size)) made.sides |= SideSet(1 << 2 * axis);
-        if (node + 1 == size && options_.is_side_of_whole(axis, true, size))
-            made.sides |= SideSet(1 << (2 * axis + 1));
+        if (node + 1 == size && options_.is_side_of_whole(axis, true, size)) made.sides |= SideSet(1 << (2 * axis + 1));
     }
     chunk_->vertices.push_back(made);
     return chunk_->carried + static_cast<std::uint32_t>(chunk_->vertices.size()) - 1;

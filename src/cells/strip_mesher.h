@@ -112,7 +112,7 @@ private:
     std::vector<std::uint32_t> rows_[2];
     std::vector<std::uint32_t> touched_[2];  // places in planes_ that are not 0
     MixedCells mixed_;                       // of a row of cells
-    const CompactCells& compact_cells_ = CompactCells::get();
+    const CompactCells* compact_cells_ = nullptr;  // for CellKind::kCompact
 };
 
 }  // namespace regionmesh

@@ -109,15 +109,11 @@ std::uint32_t LatticeLines::node_of(std::uint32_t vertex) const {
 /// An edge between two vertices in triangles or tetrahedra of the lattice is part of a line where faces of two
 /// interfaces meet in it; compact cells cut sheets along such edges, too.
 void LatticeLines::link(std::uint32_t chunk) {
-    struct Side {
-        std::uint32_t from, to;  // nodes
-        std::uint32_t order;
-        std::array<Label, 2> labels;
-    };
     const NumberRange own = window_.vertices_of(chunk);
     NumberRange faces = window_.faces_of(chunk);
     if (chunk + 1 < window_.chunk_end()) faces.end = window_.faces_of(chunk + 1).end;
-    std::vector<Side> sides;
+    std::vector<Side>& sides = sides_;
+    sides.clear();
     const auto add = [&](std::uint32_t from, std::uint32_t to, std::array<Label, 2> labels) {
         if (from < own.first || from >= own.end) return;
         if (labels[0] > labels[1]) std::swap(labels[0], labels[1]);

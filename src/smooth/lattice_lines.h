@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "base/sliding_array.h"
 #include "smooth/lattice_level.h"
@@ -57,7 +58,7 @@ public:
     }
 
     void drop_before(std::uint32_t chunk);
-    std::size_t bytes() const { return nodes_.bytes(); }
+    std::size_t bytes() const { return nodes_.bytes() + sides_.capacity() * sizeof(Side); }
 
 private:
     struct Node {
@@ -66,6 +67,13 @@ private:
         NearestPoint nearest;               // to the interfaces; from link() on `a` is the inverse, with the pull in it
         LatticeSimplex simplex;
         std::array<Vec3, 2> at;
+    };
+
+    /// A half of an edge of a face, from a vertex of a line to another.
+    struct Side {
+        std::uint32_t from, to;  // nodes
+        std::uint32_t order;
+        std::array<Label, 2> labels;
     };
 
     void end_links(Node& node) const;
@@ -77,6 +85,7 @@ private:
     LatticeMargins margins_;
     SlidingArray<Node> nodes_;                // by vertex
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
+    std::vector<Side> sides_;                 // of the chunk in link()
 };
 
 /// The simplex of a vertex in the window.

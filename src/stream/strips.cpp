@@ -4,13 +4,20 @@
 
 namespace regionmesh {
 
+namespace {
+
+/// Weights are rounded: they stay above the margin for which the faces are proved to be embedded.
+constexpr double kRoundedMargin = CompactCells::kInnerMargin + 1e-6;
+
+}  // namespace
+
 ChunkOrder strip_order(const SourceShape& shape, std::uint32_t extra) {
     return {.axis = shape.axis(),
             .thickness = shape.strip_thickness,
             .overlap = shape.strip_overlap,
             .extra = extra,
             .frame = {shape.lattice.origin, shape.lattice.spacing},
-            .inner_margin = shape.cells == CellKind::kCompact ? CompactCells::kInnerMargin : 0};
+            .inner_margin = shape.cells == CellKind::kCompact ? kRoundedMargin : 0};
 }
 
 std::uint32_t window_strips(const SmoothOptions& options, const ChunkOrder& order) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "cells/compact_cells.h"
@@ -15,7 +16,8 @@ namespace {
 
 using Edge = std::pair<NodeSet, NodeSet>;
 
-/// Sheets are cut one after the other; every choice is tried. A cell has at most 19 sheets, mostly with one cut each.
+/// Sheets are cut one after the other; every choice is tried. A cell has at most 19 sheets, mostly with one cut each,
+/// so that no cell comes near this number.
 constexpr int kMostChoices = 200000;
 
 static_assert(AnyPosition::kTenths == 10 * CompactCells::kInnerMargin);
@@ -136,7 +138,8 @@ private:
     }
 
     void choose(std::size_t sheet, double quality) {
-        if (quality <= best_quality_ || ++choices_ > kMostChoices) return;
+        if (quality <= best_quality_) return;
+        if (++choices_ > kMostChoices) throw std::logic_error("a cell has too many cuts for all to be tried");
         if (sheet == sheets_.size()) {
             best_quality_ = quality;
             best_.emplace();
