@@ -181,14 +181,12 @@ void BlockRun::open_volume() {
     static const struct NoBoxes final : LabelBoxes {
         void read(const IndexBox&, std::uint32_t, std::span<Label>) const override {}
     } none;
-    volume_.emplace(BlockVolume{.boxes = staged_ ? static_cast<const LabelBoxes&>(*staged_) : none,
-                                .shape = shape,
-                                .strips = {.cap = options_.cap,
-                                           .background = background,
-                                           .cells = shape.cells,
-                                           .cuts = is_smoothed ? QuadCuts::kCones : QuadCuts::kBestQuality},
-                                .labels = labels_,
-                                .background = background});
+    const StripOptions strips{.cap = options_.cap,
+                              .background = background,
+                              .cells = shape.cells,
+                              .cuts = is_smoothed ? QuadCuts::kCones : QuadCuts::kBestQuality};
+    const LabelBoxes& boxes = staged_ ? static_cast<const LabelBoxes&>(*staged_) : none;
+    volume_.emplace(BlockVolume{boxes, shape, strips, labels_, background});
 }
 
 void BlockRun::run_passes() {
