@@ -151,7 +151,8 @@ private:
         placement_->rank_halves(mesh_, around_, {&stays, 1}, half_costs_);
         const auto [cost, weight] = half_costs_.front();
         if (!(cost <= options_.max_cost) || cost > options_.max_error * options_.max_error * weight) return {};
-        return cost + kLengthShare * weight * length2(mesh_.position(stays) - mesh_.position(goes));
+        // Rounding may leave less than 0.
+        return std::max(cost, 0.0) + kLengthShare * weight * length2(mesh_.position(stays) - mesh_.position(goes));
     }
 
     /// Tests it as the mesh is now. Where the edge has become dearer it waits once more.
