@@ -44,6 +44,9 @@ public:
     /// outside all regions, or the first background label where there is one. False when all sections were handed out.
     bool next(std::span<Label> section);
 
+    /// Goes on with this section, which is not before the next one.
+    void skip_to(std::uint32_t section);
+
     /// Samples so far at which the surface contradicts itself: no region, or several, were entered once more than
     /// they were left. 0 for a closed surface. Such a sample is counted as outside.
     std::uint64_t contradictions() const { return contradictions_; }
@@ -91,6 +94,11 @@ struct SampleAgreement {
     /// Over all regions: 2 sum |A and B| / sum (|A| + |B|).
     double dice() const;
 };
+
+/// Adds a section of samples to the counts: as the sections have them, and as the model has them. Labels that only the
+/// sections have are added to `labels`.
+void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<Label>& background,
+                 std::span<const InputLabel> given, std::span<const Label> found);
 
 /// Voxelises the mesh on the lattice of the reader, and compares sample by sample. `labels` is the table of the mesh;
 /// labels that only the sections have are added to it. Reads the reader to its end. Throws what the reader throws.

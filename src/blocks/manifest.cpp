@@ -7,6 +7,7 @@
 #include "formats/report/json_parts.h"
 #include "formats/text/json_text.h"
 #include "regionmesh/error.h"
+#include "stream/section_faces.h"
 
 namespace regionmesh {
 namespace {
@@ -37,6 +38,7 @@ Json json_of(const Manifest& manifest) {
     for (const auto& [label, name] : manifest.names) names.push_back({label, name});
     json["background"] = manifest.background;
     json["block_cells"] = manifest.block_cells;
+    json["shift"] = manifest.shift;
     json["scale_z"] = manifest.scale_z;
     json["initial_faces"] = manifest.initial_faces;
     json["passes"] = manifest.passes;
@@ -82,6 +84,7 @@ Manifest manifest_of(const nlohmann::json& json) {
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
     manifest.background = json.at("background").get<std::vector<InputLabel>>();
     manifest.block_cells = json.at("block_cells");
+    manifest.shift = json.at("shift");
     manifest.scale_z = json.at("scale_z");
     manifest.initial_faces = json.at("initial_faces");
     manifest.passes = json.at("passes");
@@ -97,6 +100,22 @@ Manifest manifest_of(const nlohmann::json& json) {
 fs::path labels_path(const fs::path& folder) { return folder / "labels.bin"; }
 
 }  // namespace
+
+Manifest read_complete_manifest(const fs::path& folder) {
+    auto manifest = read_manifest(folder);
+    if (!manifest) formats::fail(folder, "has no manifest.json; it is no model in pieces");
+    if (!manifest->is_complete)
+        formats::fail(folder, "the model is not complete; run the command that began it once more");
+    return std::move(*manifest);
+}
+
+Lattice piece_lattice(const Manifest& manifest) {
+    VolumeInfo info;
+    info.source = manifest.source;
+    info.lattice = manifest.lattice;
+    info.sweep = manifest.sweep;
+    return section_shape(info, CellKind::kCompact, manifest.scale_z).lattice;
+}
 
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
 

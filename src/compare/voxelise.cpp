@@ -75,6 +75,12 @@ void Voxeliser::sort_faces() {
         if (mesh_.is_alive(FaceId{f})) order_[place_of[first_section(FaceId{f})]++] = f;
 }
 
+void Voxeliser::skip_to(std::uint32_t section) {
+    section = std::clamp(section, section_, size_[2]);
+    active_.insert(active_.end(), order_.begin() + start_[section_], order_.begin() + start_[section]);
+    section_ = section;
+}
+
 bool Voxeliser::next(std::span<Label> section) {
     if (section_ == size_[2]) return false;
     crossings_.clear();
@@ -167,6 +173,22 @@ double SampleAgreement::dice() const {
     return all.dice();
 }
 
+void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<Label>& background,
+                 std::span<const InputLabel> given, std::span<const Label> found) {
+    for (std::size_t n = 0; n < given.size(); ++n) {
+        Label label = labels.dense(given[n]);
+        if (std::ranges::find(background, label) != background.end()) label = background.front();
+        if (counts.regions.size() < labels.size()) counts.regions.resize(labels.size());
+        ++counts.regions[label].in_sections;
+        if (!is_exterior(found[n])) ++counts.regions[found[n]].in_model;
+        if (found[n] == label)
+            ++counts.regions[label].in_both;
+        else
+            ++counts.wrong;
+    }
+    counts.samples += given.size();
+}
+
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
                                 SectionReader& reader) {
     const VolumeInfo& info = reader.info();
@@ -175,20 +197,7 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
     std::vector<InputLabel> given(samples);
     std::vector<Label> found(samples);
     SampleAgreement result;
-    while (reader.next(given) && voxeliser.next(found)) {
-        for (std::size_t n = 0; n < samples; ++n) {
-            Label label = labels.dense(given[n]);
-            if (std::ranges::find(background, label) != background.end()) label = background.front();
-            if (result.regions.size() < labels.size()) result.regions.resize(labels.size());
-            ++result.regions[label].in_sections;
-            if (!is_exterior(found[n])) ++result.regions[found[n]].in_model;
-            if (found[n] == label)
-                ++result.regions[label].in_both;
-            else
-                ++result.wrong;
-        }
-        result.samples += samples;
-    }
+    while (reader.next(given) && voxeliser.next(found)) add_samples(result, labels, background, given, found);
     result.contradictions = voxeliser.contradictions();
     return result;
 }
