@@ -130,6 +130,7 @@ void BlockRun::stage() {
     manifest_.sweep = info.sweep;
     manifest_.source = info.source;
     manifest_.is_unsigned = labels.is_unsigned();
+    manifest_.label_count = labels.size();
     manifest_.space = info.space;
     manifest_.names = info.names;
     manifest_.background = options_.background;

@@ -18,7 +18,12 @@ Piece read_entry(const Manifest& manifest, const fs::path& folder, std::uint32_t
     const fs::path path = piece_path(folder, entry.pass, block);
     if (read_checksum(path) != entry.checksum)
         formats::fail(path, "is not the piece that the manifest names; remove the folder, and run again");
-    return read_piece(path);
+    Piece piece = read_piece(path);
+    for (const PieceFace& face : piece.faces)
+        for (const Label label : face.labels)
+            if (label >= manifest.label_count && !(is_exterior(label) && side_of(label) < kSideCount))
+                formats::fail(path, "a face has a label that the folder does not have");
+    return piece;
 }
 
 fs::path piece_path(const fs::path& folder, std::uint32_t pass, std::uint32_t block) {

@@ -28,7 +28,8 @@ struct Manifest {
     Lattice lattice;           // of the input
     Sweep sweep;
     std::string source;
-    bool is_unsigned = false;  // labels
+    bool is_unsigned = false;       // labels
+    std::uint64_t label_count = 0;  // in labels.bin
     Space space = Space::kUnknown;
     LabelNames names;
     std::vector<InputLabel> background;
