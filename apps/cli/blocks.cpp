@@ -86,12 +86,23 @@ bool writes_blocks(const Settings& settings) {
     return settings.block_cells || settings.output.ends_with('/') || is_block_folder(settings.output);
 }
 
+bool is_written_in_pieces(const std::string& output) {
+    const fs::path path = fs::path(output).has_filename() ? fs::path(output) : fs::path(output).parent_path();
+    return path.extension() == ".pvtp" || path.extension() == ".precomputed";
+}
+
 void make_block_folder(const Settings& settings) {
-    if (settings.output.empty() || settings.inputs.empty() || !writes_blocks(settings)) return;
-    std::error_code error;
+    if (settings.output.empty()) return;
     fs::path folder = settings.output;
     if (!folder.has_filename()) folder = folder.parent_path();
-    if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);
+    const bool is_model = !settings.inputs.empty() && writes_blocks(settings);
+    const bool is_precomputed = !settings.models.empty() && folder.extension() == ".precomputed";
+    if (!is_model && !is_precomputed) return;
+    std::error_code error;
+    for (const fs::path& path : {folder, folder / "names"}) {
+        if (path != folder && !is_precomputed) continue;
+        if (!fs::is_directory(path, error)) fs::create_directory(path, error);
+    }
     if (error)
         throw Error(ErrorCode::kOutput, settings.output + ": cannot be made: " + error.message() +
                                             "; name a folder in one that exists and may be written");

@@ -9,8 +9,11 @@ namespace regionmesh::cli {
 /// Whether the output of reconstruct is a folder of pieces: --block-size is given, or --output names a folder.
 bool writes_blocks(const Settings& settings);
 
-/// Makes the folder of pieces, if the command writes one: a confined process cannot. Throws Error(kOutput) where it
-/// cannot be made.
+/// Whether convert writes this output piece by piece: .pvtp, and folders .precomputed.
+bool is_written_in_pieces(const std::string& output);
+
+/// Makes the folder of pieces, or one .precomputed, if the command writes one: a confined process cannot. Throws
+/// Error(kOutput) where it cannot be made.
 void make_block_folder(const Settings& settings);
 
 /// Shares the blocks of the run with other processes. Once called, reconstruct writes folders only.

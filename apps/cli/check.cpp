@@ -5,6 +5,7 @@
 #include "output.h"
 #include "page_output.h"
 #include "printable.h"
+#include "regionmesh/blocks.h"
 #include "restore_background.h"
 
 namespace regionmesh::cli {
@@ -61,6 +62,40 @@ void print_samples(const SampleAgreement& samples) {
                    samples.dice());
 }
 
+/// Piece by piece: memory never holds the model.
+int check_folder(const Settings& given) {
+    const std::string& path = given.models.front();
+    MeshFile file = describe_block_folder(path);
+    const Settings settings = settings_for(given, file);
+    CheckOptions options = check_options(settings, file.labels);
+    options.threads = settings.reconstruct.threads;
+    std::optional<SampleAgreement> samples;
+    if (!settings.sections.empty()) {
+        const auto reader = open_lattice(settings, settings.sections);
+        options.oracle = translate(count_labels(*reader, census_options(settings)), file.labels);
+        if (!has_lattice_of(path, reader->info()))
+            throw Error(ErrorCode::kInput, settings.sections.front() + ": its samples do not lie where those of " +
+                                               path + " do; give the volume that the model was made from");
+        reader->rewind();
+        samples = compare_block_samples(path, file.labels, options.background, *reader);
+    }
+    const CheckReport report = check_block_folder(path, options);
+    if (!settings.json.empty())
+        write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr),
+                   settings.writing);
+    if (!settings.quiet) {
+        print_findings(path, report);
+        if (samples) print_samples(*samples);
+    }
+    return exit_code(report);
+}
+
+/// Whether the whole model is asked for: its page or its tables.
+bool needs_whole(const Settings& settings) {
+    return !settings.html.empty() || !settings.regions.empty() || !settings.interfaces.empty() ||
+           !settings.lines.empty();
+}
+
 }  // namespace
 
 int run_check(const Settings& given) {
@@ -68,6 +103,7 @@ int run_check(const Settings& given) {
     const std::string& path = given.models.front();
     for (const std::string& file : {given.json, given.regions, given.interfaces, given.lines})
         if (!file.empty()) require_writable(file, given.writing);
+    if (is_block_folder(path) && !needs_whole(given)) return check_folder(given);
     MeshFile file = read_model(path, given.surface);
     if (lacks_background(given, file)) {
         const auto reader = open_lattice(settings_for(given, file), given.sections);

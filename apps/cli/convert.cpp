@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "blocks.h"
 #include "commands.h"
 #include "input.h"
 #include "output.h"
@@ -7,7 +8,29 @@
 
 namespace regionmesh::cli {
 
+namespace {
+
+/// From a folder of pieces, without the whole model in memory. Whether the output is of such a format.
+bool convert_pieces(const Settings& settings) {
+    const std::string& folder = settings.models.front();
+    if (!is_written_in_pieces(settings.output)) return false;
+    if (!is_block_folder(folder))
+        throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
+                                           " is none; name a model such as model.vtp");
+    if (settings.output.ends_with(".pvtp")) {
+        const std::size_t files = write_vtp_pieces(folder, settings.output, settings.writing).size();
+        if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
+    } else {
+        const std::uint64_t regions = write_precomputed(folder, settings.output, settings.metres, settings.writing);
+        if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(regions, "region"));
+    }
+    return true;
+}
+
+}  // namespace
+
 int run_convert(const Settings& given) {
+    if (convert_pieces(given)) return kGood;
     require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);

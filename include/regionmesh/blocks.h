@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "regionmesh/check.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/reconstruct.h"
 #include "regionmesh/section_reader.h"
+#include "regionmesh/voxelise.h"
 
 namespace regionmesh {
 
@@ -73,6 +75,35 @@ BlockReport reconstruct_blocks(const std::function<std::unique_ptr<SectionReader
 
 /// Whether a folder holds a manifest of blocks.
 bool is_block_folder(const std::filesystem::path& folder);
+
+/// What a complete folder says besides its surface: `mesh` is empty. Throws like read_block_folder().
+MeshFile describe_block_folder(const std::filesystem::path& folder);
+
+/// Checks a complete folder piece by piece, with the faces of others round each: seams are checked as all else. Holds
+/// one piece and its surroundings. Does not count the components of regions, which are 0, nor look at nesting. Dense
+/// labels are those of describe_block_folder(). Throws like read_block_folder().
+CheckReport check_block_folder(const std::filesystem::path& folder, const CheckOptions& options = {});
+
+/// compare_samples() in layers of pieces along the sweep of the reader: holds one layer. Requires a reader with the
+/// lattice of the folder (has_lattice_of()).
+SampleAgreement compare_block_samples(const std::filesystem::path& folder, LabelTable& labels,
+                                      const std::vector<Label>& background, SectionReader& reader);
+
+/// Whether the samples of a volume lie where those did that the model of the folder was made from.
+bool has_lattice_of(const std::filesystem::path& folder, const VolumeInfo& volume);
+
+/// Writes each piece of a complete folder as NAME-NNNNNN.vtp beside `path`, NAME.pvtp, which ParaView opens as one
+/// model. Holds one piece. NodeType of a vertex on a seam counts the labels in its piece. Returns the files written.
+std::vector<std::filesystem::path> write_vtp_pieces(const std::filesystem::path& folder,
+                                                    const std::filesystem::path& path,
+                                                    const OutputOptions& options = {});
+
+/// Writes the regions of a complete folder, but the background, as meshes for Neuroglancer: a folder that its data
+/// source `precomputed` reads, single-resolution, with one fragment for each region and piece. Requires the folder
+/// `output` and `names` in it. Coordinates are single precision, in nanometres: `metres` is the unit of the model in
+/// metres. Holds one piece. Returns the number of regions.
+std::uint64_t write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output, double metres,
+                                const OutputOptions& options = {});
 
 /// The whole model of a complete folder, in memory: vertices and faces in the order of the pieces, shared vertices
 /// once. Throws Error(kInput) for a folder that is not complete or is damaged.

@@ -48,6 +48,9 @@ public:
     /// many: fewer than asked at the end.
     std::uint32_t next(std::span<const std::span<Label>> sections, std::uint32_t threads);
 
+    /// Goes on with this section, which is not before the next one.
+    void skip_to(std::uint32_t section);
+
     /// Samples so far at which the surface contradicts itself: no region, or several, were entered once more than
     /// they were left. 0 for a closed surface. Such a sample is counted as outside.
     std::uint64_t contradictions() const { return contradictions_; }
@@ -70,7 +73,7 @@ private:
 
     Vec3 place(VertexId v) const;
     void sort_faces();
-    void activate(std::uint32_t first, std::uint32_t end);
+    void activate(std::uint32_t first, std::uint32_t begin, std::uint32_t end);
     void label_section(std::uint32_t section, std::span<Label> labels, Scratch& scratch) const;
     void cross(FaceId f, std::uint32_t section, std::vector<Crossing>& crossings) const;
     void label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels,
@@ -109,6 +112,11 @@ struct SampleAgreement {
     /// Over all regions: 2 sum |A and B| / sum (|A| + |B|).
     double dice() const;
 };
+
+/// Adds a section of samples to the counts: as the sections have them, and as the model has them. Labels that only the
+/// sections have are added to `labels`.
+void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<Label>& background,
+                 std::span<const InputLabel> given, std::span<const Label> found);
 
 /// Voxelises the mesh on the lattice of the reader, and compares sample by sample. `labels` is the table of the mesh;
 /// labels that only the sections have are added to it. Reads the reader to its end, on at most `threads` threads (0:

@@ -130,6 +130,7 @@ void BlockRun::stage() {
     manifest_.sweep = info.sweep;
     manifest_.source = info.source;
     manifest_.is_unsigned = labels.is_unsigned();
+    manifest_.label_count = labels.size();
     manifest_.space = info.space;
     manifest_.names = info.names;
     manifest_.background = options_.background;
@@ -256,6 +257,7 @@ void BlockRun::run_pass(std::uint32_t pass, const char* stage, const std::vector
 /// Notes the pieces of a pass in the manifest: from then on those before them are not needed.
 void BlockRun::end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks) {
     const std::uint32_t count = grid(pass).count();
+    manifest_.shift = pass > 0 && manifest_.pieces.size() != 1 ? manifest_.block_cells / 2 : 0;
     if (manifest_.pieces.size() != count || blocks.size() == count) manifest_.pieces.assign(count, {});
     for (const std::uint32_t block : blocks) {
         const fs::path path = path_of(pass, block);

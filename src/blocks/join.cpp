@@ -11,20 +11,20 @@
 #include "stream/place_in_space.h"
 
 namespace regionmesh {
-namespace {
-
 namespace fs = std::filesystem;
 
-/// Reads a piece of the manifest, which also has its checksum.
 Piece read_entry(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
     const PieceEntry& entry = manifest.pieces[block];
     const fs::path path = piece_path(folder, entry.pass, block);
     if (read_checksum(path) != entry.checksum)
         formats::fail(path, "is not the piece that the manifest names; remove the folder, and run again");
-    return read_piece(path);
+    Piece piece = read_piece(path);
+    for (const PieceFace& face : piece.faces)
+        for (const Label label : face.labels)
+            if (label >= manifest.label_count && !(is_exterior(label) && side_of(label) < kSideCount))
+                formats::fail(path, "a face has a label that the folder does not have");
+    return piece;
 }
-
-}  // namespace
 
 fs::path piece_path(const fs::path& folder, std::uint32_t pass, std::uint32_t block) {
     return folder / fmt::format("pass-{}-{:06}.piece", pass, block);
@@ -57,21 +57,24 @@ bool is_block_folder(const fs::path& folder) {
            read_manifest(folder).has_value();
 }
 
+MeshFile describe_block_folder(const fs::path& folder) {
+    const Manifest manifest = read_complete_manifest(folder);
+    MeshFile file{.mesh = {}, .labels = read_labels(manifest, folder)};
+    file.names = manifest.names;
+    file.space = manifest.space;
+    file.background = manifest.background;
+    return file;
+}
+
 MeshFile read_block_folder(const fs::path& folder) {
-    const auto manifest = read_manifest(folder);
-    if (!manifest) formats::fail(folder, "has no manifest.json; it is no model in pieces");
-    if (!manifest->is_complete)
-        formats::fail(folder, "the model is not complete; run the command that began it once more");
-    MeshFile file{.mesh = {}, .labels = read_labels(*manifest, folder)};
-    file.names = manifest->names;
-    file.space = manifest->space;
-    file.background = manifest->background;
-    require_mesh_size("the model in pieces", manifest->vertices, manifest->faces);
-    file.mesh.reserve(manifest->vertices, manifest->faces);
+    const Manifest manifest = read_complete_manifest(folder);
+    MeshFile file = describe_block_folder(folder);
+    require_mesh_size("the model in pieces", manifest.vertices, manifest.faces);
+    file.mesh.reserve(manifest.vertices, manifest.faces);
     SharedVertices shared;
     std::vector<VertexId> ids;
-    for (std::uint32_t block = 0; block < manifest->pieces.size(); ++block) {
-        const Piece piece = read_entry(*manifest, folder, block);
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
+        const Piece piece = read_entry(manifest, folder, block);
         ids.clear();
         for (const PieceVertex& vertex : piece.vertices) {
             const std::uint32_t next = file.mesh.vertex_end();
@@ -83,8 +86,8 @@ MeshFile read_block_folder(const fs::path& folder) {
             file.mesh.add_face(ids[face.vertices[0]], ids[face.vertices[1]], ids[face.vertices[2]], face.labels[0],
                                face.labels[1]);
     }
-    unscale_z(file.mesh, manifest->scale_z);
-    place_in_space(file.mesh, manifest->lattice);
+    unscale_z(file.mesh, manifest.scale_z);
+    place_in_space(file.mesh, manifest.lattice);
     return file;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "blocks/manifest.h"
+#include "blocks/piece.h"
 
 namespace regionmesh {
 
@@ -14,6 +15,9 @@ std::filesystem::path piece_path(const std::filesystem::path& folder, std::uint3
 
 /// The pass of a file with such a name.
 std::optional<std::uint32_t> pass_of(const std::string& name);
+
+/// Reads a piece of the manifest, which also has its checksum.
+Piece read_entry(const Manifest& manifest, const std::filesystem::path& folder, std::uint32_t block);
 
 /// Vertices of the whole model: those that several pieces share are counted once.
 std::uint64_t count_vertices(const Manifest& manifest, const std::filesystem::path& folder);

@@ -1,12 +1,15 @@
 #include "blocks/manifest.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "base/hash.h"
+#include "blocks/block_grid.h"
 #include "formats/input_file.h"
 #include "formats/report/json_parts.h"
 #include "formats/text/json_text.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
+#include "stream/section_faces.h"
 
 namespace regionmesh {
 namespace {
@@ -32,11 +35,13 @@ Json json_of(const Manifest& manifest) {
     json["direction"] = lattice.direction;
     json["sweep"] = manifest.sweep.axes;
     json["unsigned_labels"] = manifest.is_unsigned;
+    json["labels"] = manifest.label_count;
     json["space"] = space_name(manifest.space);
     Json& names = json["names"] = Json::array();
     for (const auto& [label, name] : manifest.names) names.push_back({label, name});
     json["background"] = manifest.background;
     json["block_cells"] = manifest.block_cells;
+    json["shift"] = manifest.shift;
     json["scale_z"] = manifest.scale_z;
     json["initial_faces"] = manifest.initial_faces;
     json["passes"] = manifest.passes;
@@ -47,10 +52,8 @@ Json json_of(const Manifest& manifest) {
     json["error_bound"] = manifest.error_bound;
     Json& pieces = json["pieces"] = Json::array();
     for (const PieceEntry& piece : manifest.pieces)
-        pieces.push_back({{"pass", piece.pass},
-                          {"vertices", piece.vertices},
-                          {"faces", piece.faces},
-                          {"crc32", fmt::format("{:08x}", piece.checksum)}});
+        pieces.push_back(
+            {{"pass", piece.pass}, {"vertices", piece.vertices}, {"faces", piece.faces}, {"crc32", piece.checksum}});
     return json;
 }
 
@@ -61,8 +64,7 @@ Space space_of(const std::string& name) {
 }
 
 PieceEntry piece_of(const nlohmann::json& json) {
-    return {json.at("pass"), json.at("vertices"), json.at("faces"),
-            static_cast<std::uint32_t>(std::stoul(json.at("crc32").get<std::string>(), nullptr, 16))};
+    return {json.at("pass"), json.at("vertices"), json.at("faces"), json.at("crc32")};
 }
 
 Manifest manifest_of(const nlohmann::json& json) {
@@ -78,10 +80,12 @@ Manifest manifest_of(const nlohmann::json& json) {
     lattice.direction = json.at("direction");
     manifest.sweep.axes = json.at("sweep");
     manifest.is_unsigned = json.at("unsigned_labels");
+    manifest.label_count = json.at("labels");
     manifest.space = space_of(json.at("space"));
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
     manifest.background = json.at("background").get<std::vector<InputLabel>>();
     manifest.block_cells = json.at("block_cells");
+    manifest.shift = json.at("shift");
     manifest.scale_z = json.at("scale_z");
     manifest.initial_faces = json.at("initial_faces");
     manifest.passes = json.at("passes");
@@ -97,6 +101,28 @@ Manifest manifest_of(const nlohmann::json& json) {
 fs::path labels_path(const fs::path& folder) { return folder / "labels.bin"; }
 
 }  // namespace
+
+Manifest read_complete_manifest(const fs::path& folder) {
+    auto manifest = read_manifest(folder);
+    if (!manifest) formats::fail(folder, "has no manifest.json; it is no model in pieces");
+    if (!manifest->is_complete)
+        formats::fail(folder, "the model is not complete; run the command that began it once more");
+    require_lattice(folder.string(), manifest->lattice);
+    const auto& size = manifest->lattice.size;
+    const bool has_cells = *std::min_element(size.begin(), size.end()) >= 2 && manifest->shift < manifest->block_cells;
+    if (!has_cells || !(manifest->scale_z > 0) ||
+        BlockGrid(piece_lattice(*manifest), manifest->block_cells, manifest->shift).count() != manifest->pieces.size())
+        formats::fail(manifest_path(folder), "sizes and pieces do not fit together; the file is damaged");
+    return std::move(*manifest);
+}
+
+Lattice piece_lattice(const Manifest& manifest) {
+    VolumeInfo info;
+    info.source = manifest.source;
+    info.lattice = manifest.lattice;
+    info.sweep = manifest.sweep;
+    return section_shape(info, CellKind::kCompact, manifest.scale_z).lattice;
+}
 
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }
 
@@ -149,11 +175,14 @@ void write_labels(const LabelTable& labels, const fs::path& folder, const Output
 
 LabelTable read_labels(const Manifest& manifest, const fs::path& folder) {
     const formats::InputFile file(labels_path(folder));
-    std::vector<InputLabel> inputs(file.size() / sizeof(InputLabel));
+    if (file.size() != manifest.label_count * sizeof(InputLabel))
+        formats::fail(file.path(), "has not the labels that the manifest counts; the file is damaged");
+    std::vector<InputLabel> inputs(manifest.label_count);
     const auto bytes = std::as_writable_bytes(std::span(inputs));
     if (file.read(0, bytes) != bytes.size()) formats::fail(file.path(), "ends early");
     LabelTable labels(manifest.is_unsigned);
     for (const InputLabel input : inputs) labels.dense(input);
+    if (labels.size() != manifest.label_count) formats::fail(file.path(), "has a label twice; the file is damaged");
     return labels;
 }
 

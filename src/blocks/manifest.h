@@ -28,11 +28,13 @@ struct Manifest {
     Lattice lattice;           // of the input
     Sweep sweep;
     std::string source;
-    bool is_unsigned = false;  // labels
+    bool is_unsigned = false;       // labels
+    std::uint64_t label_count = 0;  // in labels.bin
     Space space = Space::kUnknown;
     LabelNames names;
     std::vector<InputLabel> background;
     std::uint32_t block_cells = 0;
+    std::uint32_t shift = 0;  // cells by which the first blocks of `pieces` are shorter
     double scale_z = 1;
     std::uint64_t initial_faces = 0;  // counted on the labels
     std::uint32_t passes = 0;         // complete ones
@@ -41,6 +43,12 @@ struct Manifest {
     double error_bound = 0;
     std::uint64_t vertices = 0, faces = 0;  // of the whole model, once it is complete
 };
+
+/// The manifest of a complete folder. Throws Error(kInput) for another.
+Manifest read_complete_manifest(const std::filesystem::path& folder);
+
+/// The lattice in which pieces have their positions: along the axes, with z scaled.
+Lattice piece_lattice(const Manifest& manifest);
 
 std::filesystem::path manifest_path(const std::filesystem::path& folder);
 

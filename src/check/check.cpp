@@ -14,20 +14,20 @@ constexpr std::array<const char*, kViolationKindCount> kKindNames{
     "duplicate_face", "degenerate_face",  "coincident_vertices", "unused_vertex",  "crossing_faces",
     "euler",          "quadruple_points", "region_pairs",        "nesting",        "non_generic_vertex"};
 
-void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report) {
-    for (Label label = 0; label < regions.size(); ++label) {
-        if (!(regions[label].area > 0) || options.is_background(label)) continue;
-        report.regions.push_back(regions[label]);
-        report.regions.back().label = label;
-    }
-}
-
 }  // namespace
 
 const char* to_string(ViolationKind kind) { return kKindNames[static_cast<int>(kind)]; }
 
 std::uint64_t CheckReport::violation_count() const {
     return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report) {
+    for (Label label = 0; label < regions.size(); ++label) {
+        if (!(regions[label].area > 0) || options.is_background(label)) continue;
+        report.regions.push_back(regions[label]);
+        report.regions.back().label = label;
+    }
 }
 
 CheckReport check(const Mesh& mesh, const CheckOptions& options) {

@@ -1,11 +1,11 @@
 // Tests and measures of single faces: degenerate faces, area, quality, pairs of regions.
 #include <algorithm>
-#include <unordered_set>
 
 #include "base/exact_predicates.h"
 #include "base/hash.h"
 #include "base/parallel_for.h"
 #include "base/triangle.h"
+#include "check/check_parts.h"
 #include "check/findings.h"
 #include "check/quality_sum.h"
 #include "check/region_sums.h"
@@ -39,13 +39,19 @@ struct FaceChunk {
     std::vector<std::uint64_t> pairs;
 };
 
-FaceChunk look_at_faces(const Mesh& mesh, Vec3 origin, std::uint32_t listed, std::uint32_t first, std::uint32_t end) {
+/// Some faces of a mesh: those of a part, or all.
+struct FaceRange {
+    std::uint32_t first, end;
+    const MeshPart* part;
+};
+
+FaceChunk look_at_faces(const Mesh& mesh, Vec3 origin, std::uint32_t listed, const FaceRange& range) {
     FaceChunk chunk{.findings = Findings(listed), .quality = {}, .regions = {}, .pairs = {}};
     RegionSums regions;
     PairList pairs;
-    for (std::uint32_t n = first; n < end; ++n) {
+    for (std::uint32_t n = range.first; n < range.end; ++n) {
         const FaceId f{n};
-        if (!mesh.is_alive(f)) continue;
+        if (!mesh.is_alive(f) || (range.part && !range.part->has(f))) continue;
         const auto p = mesh.corners(f);
         const auto& labels = mesh[f].labels;
         if (labels[0] == labels[1] || is_degenerate({p[0], p[1], p[2]}))
@@ -71,24 +77,30 @@ FaceChunk look_at_faces(const Mesh& mesh, Vec3 origin, std::uint32_t listed, std
 
 }  // namespace
 
+void sum_faces(const Mesh& mesh, const CheckOptions& options, const MeshPart* part, Vec3 origin, FaceTotals& totals,
+               Findings& findings) {
+    for_chunks(
+        mesh.face_end(), kCheckChunk, options.threads,
+        [&](std::uint32_t first, std::uint32_t end) {
+            return look_at_faces(mesh, origin, options.listed, {first, end, part});
+        },
+        [&](FaceChunk&& chunk) {
+            findings.append(std::move(chunk.findings));
+            totals.quality.append(chunk.quality);
+            add_to(totals.regions, chunk.regions);
+            totals.pairs.insert(chunk.pairs.begin(), chunk.pairs.end());
+        });
+}
+
 void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings) {
     // Volumes are measured from the middle of the box, to reduce rounding.
     const Box extent = extent_of(mesh, options.threads);
-    const Vec3 origin = 0.5 * (extent.low + extent.high);
-    QualitySum quality;
-    std::unordered_set<std::uint64_t> pairs;
-    for_chunks(
-        mesh.face_end(), kCheckChunk, options.threads,
-        [&](std::uint32_t first, std::uint32_t end) { return look_at_faces(mesh, origin, options.listed, first, end); },
-        [&](FaceChunk&& chunk) {
-            findings.append(std::move(chunk.findings));
-            quality.append(chunk.quality);
-            add_to(regions, chunk.regions);
-            pairs.insert(chunk.pairs.begin(), chunk.pairs.end());
-        });
-    report.quality = quality.report();
-    report.region_pairs = pairs.size();
+    FaceTotals totals{.quality = {}, .regions = std::move(regions), .pairs = {}};
+    sum_faces(mesh, options, nullptr, 0.5 * (extent.low + extent.high), totals, findings);
+    regions = std::move(totals.regions);
+    report.quality = totals.quality.report();
+    report.region_pairs = totals.pairs.size();
 }
 
 }  // namespace regionmesh

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/mesh_part.h"
 #include "mesh/sorted_face_tree.h"
 #include "regionmesh/check.h"
 
@@ -29,6 +30,12 @@ public:
         for (Violation& violation : later.violations_)
             if (listed[static_cast<int>(violation.kind)]++ < listed_) violations_.push_back(std::move(violation));
         for (int kind = 0; kind < kViolationKindCount; ++kind) counts_[kind] += later.counts_[kind];
+    }
+
+    /// The findings of a report, before anything else.
+    void take_from(CheckReport&& report) {
+        counts_ = report.counts;
+        violations_ = std::move(report.violations);
     }
 
     void move_to(CheckReport& report) {
@@ -62,15 +69,19 @@ inline std::string region_name(const CheckOptions& options, Label label) {
     return "region " + (options.label_text ? options.label_text(label) : std::to_string(label) + " (dense)");
 }
 
-/// The parts of check(). Each reads the mesh and adds its findings. `regions` is by dense label.
+/// The parts of check(). Each reads the mesh, or what belongs to a part of it, and adds its findings. `regions` is by
+/// dense label.
 void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings);
 void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
-                 Findings& findings);
-void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findings);
-void check_crossing(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree& tree, Findings& findings);
+                 Findings& findings, const MeshPart* part = nullptr);
+void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findings, const MeshPart* part = nullptr);
+void check_crossing(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree& tree, Findings& findings,
+                    const MeshPart* part = nullptr);
 /// `tree` may be null; the function then builds one if it needs it.
 void check_nesting(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree* tree, Findings& findings);
+/// Lists the regions that have faces, without the background.
+void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report);
 void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings);
 /// Adds the place and the labels of a violation, and appends the place to its sentence.
 void place_violation(const Mesh& mesh, Violation& violation);

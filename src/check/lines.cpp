@@ -28,28 +28,33 @@ void gather_line_neighbours(const Mesh& mesh, VertexId v, std::vector<VertexId>&
 
 }  // namespace
 
-LineReport measure_lines(const Mesh& mesh) {
-    LineReport report;
+LineReport LineTotals::report() const {
+    LineReport report{.edges = edges, .length = length};
+    if (turns > 0) report.mean_turning_angle = turned / static_cast<double>(turns) * 180 / std::numbers::pi;
+    return report;
+}
+
+LineTotals sum_lines(const Mesh& mesh, const MeshPart* part) {
+    LineTotals totals;
     std::vector<VertexId> ends;
-    double turned = 0;
-    std::uint64_t turns = 0;
     for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n) {
         const VertexId v{n};
-        if (!mesh.is_alive(v) || vertex_labels(mesh, v).size() < 3) continue;
+        if (!mesh.is_alive(v) || (part && !part->has(v)) || vertex_labels(mesh, v).size() < 3) continue;
         gather_line_neighbours(mesh, v, ends);
         const Vec3 p = mesh.position(v);
         for (VertexId w : ends) {
             if (w < v) continue;
-            ++report.edges;
-            report.length += length(mesh.position(w) - p);
+            ++totals.edges;
+            totals.length += length(mesh.position(w) - p);
         }
         if (ends.size() != 2) continue;
         const Vec3 in = p - mesh.position(ends[0]), out = mesh.position(ends[1]) - p;
-        turned += std::atan2(length(cross(in, out)), dot(in, out));
-        ++turns;
+        totals.turned += std::atan2(length(cross(in, out)), dot(in, out));
+        ++totals.turns;
     }
-    if (turns > 0) report.mean_turning_angle = turned / static_cast<double>(turns) * 180 / std::numbers::pi;
-    return report;
+    return totals;
 }
+
+LineReport measure_lines(const Mesh& mesh) { return sum_lines(mesh, nullptr).report(); }
 
 }  // namespace regionmesh

@@ -41,7 +41,7 @@ std::vector<KeyedIndex> sort_by_hash(const Mesh& mesh, std::uint32_t threads) {
 
 }  // namespace
 
-void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findings) {
+void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findings, const MeshPart* part) {
     const std::vector<KeyedIndex> sorted = sort_by_hash(mesh, options.threads);
     std::vector<std::pair<VertexId, VertexId>> found;
     std::vector<VertexId> same;
@@ -55,7 +55,8 @@ void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findi
             return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
         });
         for (std::size_t n = 1; n < same.size(); ++n)
-            if (mesh.position(same[n - 1]) == mesh.position(same[n])) found.push_back({same[n - 1], same[n]});
+            if (mesh.position(same[n - 1]) == mesh.position(same[n]) && (!part || part->has(same[n])))
+                found.push_back({same[n - 1], same[n]});
     }
     std::sort(found.begin(), found.end());
     for (const auto& [a, b] : found)

@@ -28,9 +28,9 @@ public:
     StarCheck(const Mesh& mesh, const CheckOptions& options, UnionFind& sheets)
         : mesh_(mesh), options_(options), sheets_(sheets), generic_(mesh, options), findings_(options.listed) {}
 
-    StarChunk run(std::uint32_t first, std::uint32_t end) {
+    StarChunk run(std::uint32_t first, std::uint32_t end, const MeshPart* part) {
         for (std::uint32_t v = first; v < end; ++v)
-            if (mesh_.is_alive(VertexId{v})) look_at_vertex(VertexId{v});
+            if (mesh_.is_alive(VertexId{v}) && (!part || part->has(VertexId{v}))) look_at_vertex(VertexId{v});
         return {std::move(findings_), regions_.take(), quadruple_points_inside_};
     }
 
@@ -278,16 +278,17 @@ std::vector<RegionReport> count_components(const Mesh& mesh, const UnionFind& sh
 }  // namespace
 
 void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
-                 Findings& findings) {
+                 Findings& findings, const MeshPart* part) {
     UnionFind sheets(2 * mesh.face_end());
     for_chunks(
         mesh.vertex_end(), kCheckChunk, options.threads,
-        [&](std::uint32_t first, std::uint32_t end) { return StarCheck(mesh, options, sheets).run(first, end); },
+        [&](std::uint32_t first, std::uint32_t end) { return StarCheck(mesh, options, sheets).run(first, end, part); },
         [&](StarChunk&& chunk) {
             findings.append(std::move(chunk.findings));
             add_to(regions, chunk.regions);
             report.quadruple_points_inside += chunk.quadruple_points_inside;
         });
+    if (part) return;  // of which the whole may join what looks separate
     for_chunks(
         mesh.face_end(), kCheckChunk, options.threads,
         [&](std::uint32_t first, std::uint32_t end) { return count_components(mesh, sheets, first, end); },

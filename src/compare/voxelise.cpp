@@ -94,10 +94,11 @@ void Voxeliser::sort_faces() {
         if (mesh_.is_alive(FaceId{f})) order_[place_of[first_section(FaceId{f})]++] = FaceId{f};
 }
 
-/// Finds the faces that may reach sections from `first` to before `end`.
-void Voxeliser::activate(std::uint32_t first, std::uint32_t end) {
+/// Adds the faces that begin at sections from `begin` to before `end`, and keeps those that may reach `first` or
+/// beyond.
+void Voxeliser::activate(std::uint32_t first, std::uint32_t begin, std::uint32_t end) {
     std::erase_if(active_, [&](const ActiveFace& active) { return active.end <= first; });
-    for (std::uint32_t n = start_[first]; n < start_[end]; ++n) {
+    for (std::uint32_t n = start_[begin]; n < start_[end]; ++n) {
         double high = -HUGE_VAL;
         for (const VertexId v : mesh_[order_[n]].vertices) high = std::max(high, place(v).z);
         const std::uint32_t face_end = end_at_or_below(2, high);
@@ -105,12 +106,18 @@ void Voxeliser::activate(std::uint32_t first, std::uint32_t end) {
     }
 }
 
+void Voxeliser::skip_to(std::uint32_t section) {
+    section = std::clamp(section, section_, size_[2]);
+    activate(section, section_, section);
+    section_ = section;
+}
+
 bool Voxeliser::next(std::span<Label> section) { return next(std::span(&section, 1), 1) == 1; }
 
 std::uint32_t Voxeliser::next(std::span<const std::span<Label>> sections, std::uint32_t threads) {
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(sections.size(), size_[2] - section_));
     if (count == 0) return 0;
-    activate(section_, section_ + count);
+    activate(section_, section_, section_ + count);
     scratch_.resize(std::max<std::size_t>(scratch_.size(), count));
     parallel_for(count, threads, [&](std::uint32_t n) { label_section(section_ + n, sections[n], scratch_[n]); });
     section_ += count;
@@ -204,27 +211,33 @@ double SampleAgreement::dice() const {
 
 namespace {
 
+/// Counts runs of samples with one label in both.
+void count_runs(SampleAgreement& counts, const std::vector<Label>& background, std::span<const Label> given,
+                std::span<const Label> found) {
+    for (std::size_t n = 0; n < given.size();) {
+        const std::size_t first = n;
+        while (n < given.size() && given[n] == given[first] && found[n] == found[first]) ++n;
+        const std::size_t run = n - first;
+        const bool is_background = std::ranges::find(background, given[first]) != background.end();
+        const Label in_section = is_background ? background.front() : given[first], in_model = found[first];
+        counts.regions[in_section].in_sections += run;
+        if (!is_exterior(in_model)) counts.regions[in_model].in_model += run;
+        (in_model == in_section ? counts.regions[in_section].in_both : counts.wrong) += run;
+    }
+    counts.samples += given.size();
+}
+
+/// The dense labels of a section; new ones are added to the table.
+void make_dense(std::span<const InputLabel> input, LabelTable& labels, std::vector<Label>& dense) {
+    dense.resize(input.size());
+    for (std::size_t n = 0; n < input.size(); ++n)
+        dense[n] = n > 0 && input[n] == input[n - 1] ? dense[n - 1] : labels.dense(input[n]);
+}
+
 /// Room for one section at a time, as given and as found in the model.
 struct ComparedSection {
     std::vector<Label> given, found;
     SampleAgreement agreement;  // of all sections that were here
-
-    /// Counts runs of samples with one label in both.
-    void compare(const std::vector<Label>& background, std::size_t label_count) {
-        agreement.regions.resize(label_count);
-        auto& regions = agreement.regions;
-        for (std::size_t n = 0; n < given.size();) {
-            const std::size_t first = n;
-            while (n < given.size() && given[n] == given[first] && found[n] == found[first]) ++n;
-            const std::size_t run = n - first;
-            const bool is_background = std::ranges::find(background, given[first]) != background.end();
-            const Label in_section = is_background ? background.front() : given[first], in_model = found[first];
-            regions[in_section].in_sections += run;
-            if (!is_exterior(in_model)) regions[in_model].in_model += run;
-            (in_model == in_section ? regions[in_section].in_both : agreement.wrong) += run;
-        }
-        agreement.samples += given.size();
-    }
 };
 
 void add(SampleAgreement& sum, const SampleAgreement& part) {
@@ -240,6 +253,14 @@ void add(SampleAgreement& sum, const SampleAgreement& part) {
 
 }  // namespace
 
+void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<Label>& background,
+                 std::span<const InputLabel> given, std::span<const Label> found) {
+    std::vector<Label> dense;
+    make_dense(given, labels, dense);
+    counts.regions.resize(std::max(counts.regions.size(), labels.size()));
+    count_runs(counts, background, dense, found);
+}
+
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
                                 SectionReader& reader, std::uint32_t threads) {
     constexpr std::uint32_t kMostSections = 4;  // in hand: each takes eight bytes a sample
@@ -252,10 +273,8 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
     SampleAgreement result;
     const auto read = [&](ComparedSection& section) {
         if (!reader.next(input)) return false;
-        section.given.resize(samples);
+        make_dense(input, labels, section.given);
         section.found.resize(samples);
-        for (std::size_t n = 0; n < samples; ++n)
-            section.given[n] = n > 0 && input[n] == input[n - 1] ? section.given[n - 1] : labels.dense(input[n]);
         return true;
     };
     do {
@@ -263,8 +282,11 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
         while (found.size() < sections.size() && read(sections[found.size()]))
             found.push_back(sections[found.size()].found);
         found.resize(voxeliser.next(found, threads));
-        parallel_for(static_cast<std::uint32_t>(found.size()), threads,
-                     [&](std::uint32_t n) { sections[n].compare(background, labels.size()); });
+        parallel_for(static_cast<std::uint32_t>(found.size()), threads, [&](std::uint32_t n) {
+            auto& [given, in_model, agreement] = sections[n];
+            agreement.regions.resize(labels.size());
+            count_runs(agreement, background, given, in_model);
+        });
     } while (found.size() == sections.size());
     for (const ComparedSection& section : sections) add(result, section.agreement);
     result.contradictions = voxeliser.contradictions();

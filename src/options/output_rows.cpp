@@ -35,6 +35,15 @@ Rows output_rows() {
                      .is_output = true,
                      .letter = 'o'},
                     [](Settings& s) { return &s.output; }),
+        option(
+            {.name = "block-size",
+             .help = "cells along each axis of a block, for models larger than memory: the output is a folder of "
+                     "pieces, and a run that was ended goes on; from --memory if not given and --output is a folder",
+             .group = kGroup,
+             .commands = kReconstruct,
+             .unit = "cells",
+             .inputs = kVolumeInput},
+            [](Settings& s) { return &s.block_cells; }, kBlockCells),
         file_option({.name = "names",
                      .help = "table of labels, names and colours (.csv .tsv .txt .xml), instead of those in the input",
                      .group = kGroup,
@@ -154,15 +163,6 @@ Rows run_rows() {
              .group = kGroup,
              .commands = kReconstruct},
             {"plan", "hard"}, [](Settings& s, std::size_t word) { s.memory_is_hard = word == 1; }),
-        option(
-            {.name = "block-size",
-             .help = "cells along each axis of a block, for models larger than memory: the output is a folder of "
-                     "pieces, and a run that was ended goes on; from --memory if not given and --output is a folder",
-             .group = kGroup,
-             .commands = kReconstruct,
-             .unit = "cells",
-             .inputs = kVolumeInput},
-            [](Settings& s) { return &s.block_cells; }, kBlockCells),
         option({.name = "face-budget",
                 .help = "largest number of faces in memory at a time; derived from --memory if not given",
                 .group = kGroup,

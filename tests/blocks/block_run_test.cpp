@@ -203,6 +203,37 @@ TEST(BlockRun, refuses_other_options_and_folders_with_other_files) {
     EXPECT_THROW(run_blocks(other.path, volume, options_for(0.8)), Error);
 }
 
+/// Replaces the first `old` in a file.
+void replace_in(const fs::path& path, const std::string& old, const std::string& by) {
+    std::ifstream in(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::size_t at = text.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    text.replace(at, old.size(), by);
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+TEST(BlockRun, damaged_folders_are_refused) {
+    const TestFolder folder;
+    const test::ArrayVolume volume = foam();
+    run_blocks(folder.path, volume, options_for(0.8));
+    EXPECT_NO_THROW(describe_block_folder(folder.path));
+    const fs::path manifest = folder.path / "manifest.json", kept = folder.path / "kept";
+    fs::copy_file(manifest, kept);
+    for (const auto& [old, by] :
+         {std::pair("\"block_cells\": 17", "\"block_cells\": 0"),
+          std::pair("\"block_cells\": 17", "\"block_cells\": 5"), std::pair("\"shift\": 8", "\"shift\": 17"),
+          std::pair("\"scale_z\": 1.0", "\"scale_z\": 0.0"), std::pair("\"labels\": 2", "\"labels\": 3"),
+          std::pair("\"version\": 1", "\"version\": 2"), std::pair("\"crc32\": ", "\"crc32\": 1"),
+          std::pair("\"sweep\"", "\"swept\"")}) {
+        SCOPED_TRACE(by);
+        replace_in(manifest, old, by);
+        EXPECT_THROW(read_block_folder(folder.path), Error);
+        fs::copy_file(kept, manifest, fs::copy_options::overwrite_existing);
+    }
+    EXPECT_NO_THROW(read_block_folder(folder.path));
+}
+
 /// Threads that stand for processes: one list of tasks.
 class SharedTasks {
 public:

@@ -1,14 +1,18 @@
 // Folders of pieces, as a user makes them: killed runs, several processes, and what is refused.
+#include "regionmesh/blocks.h"
+
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
 #include <chrono>
+#include <cstring>
 #include <map>
 #include <thread>
 
 #include "cli/program.h"
+#include "regionmesh/check.h"
 #include "support/random.h"
 
 extern char** environ;
@@ -83,6 +87,63 @@ TEST_F(BlockProgram, converts_checks_and_voxelises_a_folder) {
     EXPECT_THAT(run("info " + out("model")).out, testing::HasSubstr("faces"));
     const Ran compared = run("compare " + out("model") + ' ' + out("a.vtp") + " --samples 1000");
     EXPECT_EQ(compared.code, 0) << compared.error;
+}
+
+TEST_F(BlockProgram, converts_a_folder_piece_by_piece_for_paraview) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    const Ran ran = run("convert " + out("model") + ' ' + out("m.pvtp"));
+    ASSERT_EQ(ran.code, 0) << ran.error;
+    const MeshFile whole = read_block_folder(out("model"));
+    const std::string list = text_of(out("m.pvtp"));
+    std::uint64_t faces = 0, files = 0;
+    for (const auto& entry : fs::directory_iterator(path("out"))) {
+        if (entry.path().extension() != ".vtp") continue;
+        EXPECT_THAT(list, testing::HasSubstr("<Piece Source=\"" + entry.path().filename().string() + "\"/>"));
+        faces += read_mesh(entry.path()).mesh.face_count();
+        ++files;
+    }
+    EXPECT_EQ(faces, whole.mesh.face_count());
+    EXPECT_GT(files, 30u);
+}
+
+/// The numbers of a file.
+template <class T>
+std::vector<T> numbers_in(std::string_view text) {
+    std::vector<T> numbers(text.size() / sizeof(T));
+    std::memcpy(numbers.data(), text.data(), numbers.size() * sizeof(T));
+    return numbers;
+}
+
+TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    const Ran ran = run("convert " + out("model") + ' ' + out("m.precomputed") + " --units um");
+    ASSERT_EQ(ran.code, 0) << ran.error;
+    EXPECT_THAT(ran.out, testing::HasSubstr("19 regions"));  // label 0 is background
+    const fs::path folder = out("m.precomputed");
+    EXPECT_THAT(text_of(folder / "info"), testing::HasSubstr("\"@type\": \"neuroglancer_legacy_mesh\""));
+    EXPECT_THAT(text_of(folder / "names" / "info"), testing::HasSubstr("\"neuroglancer_segment_properties\""));
+    const MeshFile whole = read_block_folder(out("model"));
+    CheckOptions options;
+    options.background = {0};
+    for (const RegionReport& region : check(whole.mesh, options).regions) {
+        const std::string label = whole.labels.text(whole.labels.input(region.label));
+        const std::string list = text_of(folder / (label + ":0"));
+        double volume = 0;
+        for (std::size_t at = list.find(label + ":0:"); at != std::string::npos;
+             at = list.find(label + ":0:", at + 1)) {
+            const std::string name = list.substr(at, list.find('"', at) - at), bytes = text_of(folder / name);
+            const std::size_t count = numbers_in<std::uint32_t>(bytes).at(0), corners = 4 + 12 * count;
+            const auto p = numbers_in<float>(std::string_view(bytes).substr(4, 12 * count));
+            const auto faces = numbers_in<std::uint32_t>(std::string_view(bytes).substr(corners));
+            const auto at_corner = [&](std::uint32_t v) { return Vec3{p.at(3 * v), p.at(3 * v + 1), p.at(3 * v + 2)}; };
+            for (std::size_t f = 0; f + 2 < faces.size(); f += 3)
+                volume += dot(at_corner(faces[f]), cross(at_corner(faces[f + 1]), at_corner(faces[f + 2]))) / 6;
+        }
+        EXPECT_NEAR(volume / 1e9, region.volume, 1e-3 * region.volume) << label;  // micrometres to nanometres, cubed
+    }
+    const Ran other = run("convert " + out("m.precomputed") + ' ' + out("again.precomputed"));
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.error, testing::HasSubstr("is written from a folder of pieces"));
 }
 
 TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {

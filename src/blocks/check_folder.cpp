@@ -1,0 +1,149 @@
+// Checks of models that memory does not hold at once.
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "blocks/gather.h"
+#include "blocks/join.h"
+#include "check/check_parts.h"
+#include "regionmesh/blocks.h"
+#include "regionmesh/process.h"
+#include "stream/place_in_space.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A complete folder, and where its pieces lie.
+struct Folder {
+    fs::path path;
+    Manifest manifest = read_complete_manifest(path);
+    BlockGrid grid{piece_lattice(manifest), manifest.block_cells, manifest.shift};
+    std::vector<Box> boxes = read_boxes();
+
+    std::vector<Box> read_boxes() const {
+        std::vector<Box> found;
+        for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
+            found.push_back(read_piece_header(piece_path(path, manifest.pieces[block].pass, block)).box);
+        return found;
+    }
+    /// Moves a mesh of faces of the pieces to its place.
+    void place(Mesh& mesh) const {
+        unscale_z(mesh, manifest.scale_z);
+        place_in_space(mesh, manifest.lattice);
+    }
+};
+
+/// The faces that touch a block. Vertices are numbered by their position: in the same order in all parts.
+Mesh read_part(const Folder& folder, std::uint32_t block, MeshPart& part) {
+    BlockGatherer gatherer(folder.grid, block);
+    for (std::uint32_t n = 0; n < folder.boxes.size(); ++n)
+        if (!folder.boxes[n].is_empty() && gatherer.needs(folder.boxes[n]))
+            gatherer.add(read_entry(folder.manifest, folder.path, n), 0);
+    BlockChunk gathered;
+    gatherer.take(gathered);
+    const Chunk& chunk = gathered.chunk;
+    std::vector<std::uint32_t> order(chunk.vertices.size()), number(chunk.vertices.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const Vec3 &p = chunk.vertices[a].position, &q = chunk.vertices[b].position;
+        return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+    });
+    Mesh mesh;
+    mesh.reserve(chunk.vertices.size(), chunk.faces.size());
+    part = {.number = block, .of_vertex = {}, .of_face = {}};
+    for (std::uint32_t n = 0; n < order.size(); ++n) {
+        const ChunkVertex& vertex = chunk.vertices[order[n]];
+        number[order[n]] = n;
+        mesh.add_vertex(vertex.position, vertex.sides);
+        part.of_vertex.push_back(folder.grid.block_at(vertex.position));
+    }
+    for (const auto& [v, labels] : chunk.faces) {
+        mesh.add_face(VertexId{number[v[0]]}, VertexId{number[v[1]]}, VertexId{number[v[2]]}, labels[0], labels[1]);
+        part.of_face.push_back(block_of(folder.grid, {chunk.vertices[v[0]].position, chunk.vertices[v[1]].position,
+                                                      chunk.vertices[v[2]].position}));
+    }
+    folder.place(mesh);
+    return mesh;
+}
+
+/// The faces that reach into a range of coordinates along an axis, each with vertices of its own piece.
+Mesh read_layer(const Folder& folder, int axis, double low, double high) {
+    Mesh mesh;
+    for (std::uint32_t n = 0; n < folder.boxes.size(); ++n) {
+        const Box& box = folder.boxes[n];
+        if (box.is_empty() || box.high[axis] < low || box.low[axis] > high) continue;
+        const Piece piece = read_entry(folder.manifest, folder.path, n);
+        std::vector<VertexId> ids(piece.vertices.size(), kNoVertex);
+        for (const PieceFace& face : piece.faces) {
+            Box own;
+            for (const std::uint32_t v : face.vertices) own.add(piece.vertices[v].position);
+            if (own.high[axis] < low || own.low[axis] > high) continue;
+            for (const std::uint32_t v : face.vertices)
+                if (ids[v] == kNoVertex) ids[v] = mesh.add_vertex(piece.vertices[v].position);
+            mesh.add_face(ids[face.vertices[0]], ids[face.vertices[1]], ids[face.vertices[2]], face.labels[0],
+                          face.labels[1]);
+        }
+    }
+    folder.place(mesh);
+    return mesh;
+}
+
+bool is_same(const Lattice& a, const Lattice& b) {
+    return a.size == b.size && a.spacing == b.spacing && a.origin == b.origin && a.direction == b.direction;
+}
+
+}  // namespace
+
+CheckReport check_block_folder(const fs::path& path, const CheckOptions& options) {
+    const Folder folder{path};
+    Box extent;
+    for (const Box& box : folder.boxes) extent.join(box);
+    Mesh middle;
+    middle.add_vertex(0.5 * (extent.low + extent.high));
+    folder.place(middle);
+    PartsCheck parts(options, middle.position(VertexId{0}));
+    for (std::uint32_t block = 0; block < folder.boxes.size(); ++block) {
+        MeshPart part;
+        const Mesh mesh = read_part(folder, block, part);
+        parts.add(mesh, part);
+    }
+    return parts.finish();
+}
+
+bool has_lattice_of(const fs::path& folder, const VolumeInfo& volume) {
+    return is_same(read_complete_manifest(folder).lattice, volume.lattice);
+}
+
+SampleAgreement compare_block_samples(const fs::path& path, LabelTable& labels, const std::vector<Label>& background,
+                                      SectionReader& reader) {
+    const Folder folder{path};
+    const VolumeInfo& info = reader.info();
+    const Lattice lattice = piece_lattice(folder.manifest);
+    const int axis = info.sweep.axes[2];
+    const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
+    std::vector<InputLabel> given(samples);
+    std::vector<Label> found(samples);
+    SampleAgreement result;
+    const std::uint32_t layers = folder.grid.counts()[axis],
+                        step = axis == 0   ? 1
+                               : axis == 1 ? folder.grid.counts()[0]
+                                           : folder.grid.counts()[0] * folder.grid.counts()[1];
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const IndexBox cells = folder.grid.cells(layer * step);
+        const std::uint32_t first = cells.low[axis];
+        const std::uint32_t end = layer + 1 < layers ? cells.high[axis] : info.lattice.size[axis];
+        // A section more on each side, for rounding of positions turned in space.
+        const auto at = [&](double section) { return lattice.origin[axis] + section * lattice.spacing[axis]; };
+        const Mesh mesh = read_layer(folder, axis, at(first - 1.0), at(end));
+        Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background});
+        voxeliser.skip_to(first);
+        for (std::uint32_t section = first; section < end; ++section)
+            if (reader.next(given) && voxeliser.next(found)) add_samples(result, labels, background, given, found);
+        result.contradictions += voxeliser.contradictions();
+    }
+    return result;
+}
+
+}  // namespace regionmesh
