@@ -381,12 +381,12 @@ class Mesh:
         Parameters
         ----------
         path : path
-            .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .dream3d
+            .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .3mf .dream3d
         per_region : bool
             .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
             name.
         units : {"m", "mm", "um", "nm"}
-            The unit of length of the model: .glb files are in metres and are scaled.
+            The unit of length of the model: .glb files are in metres and are scaled, .3mf files say the unit.
 
         Returns
         -------

@@ -129,9 +129,11 @@ def test_simplify_makes_a_new_mesh(filled):
     np.testing.assert_array_equal(fewer.regions["voxels"], filled.regions["voxels"])
 
 
-def test_simplify_is_that_of_the_program(filled, tmp_path):
-    filled.save(tmp_path / "a.vtp")
-    direct = filled.simplify(target_faces=600, keep_samples=False)
+def test_simplify_is_that_of_the_program(grains, tmp_path):
+    # A file turns the faces of compact cells, and then sums over their corners are rounded differently.
+    model = regionmesh.reconstruct(grains, background=None, spacing=(1, 1, 2), reduce=0.4, cells="tetrahedra")
+    model.save(tmp_path / "a.vtp")
+    direct = model.simplify(target_faces=600, keep_samples=False)
     loaded = regionmesh.load(tmp_path / "a.vtp", background=None).simplify(target_faces=600)
     np.testing.assert_array_equal(direct.points, loaded.points)
     np.testing.assert_array_equal(direct.faces, loaded.faces)
@@ -223,7 +225,9 @@ def test_check_reads_files_and_sections(filled, grains, tmp_path):
 
 
 def test_a_hole_is_found(mesh):
-    open_model = regionmesh.from_arrays(mesh.points, mesh.faces[::2], mesh.labels[::2])
+    x = mesh.points[mesh.faces, 0].mean(axis=1)
+    kept = x > (x.min() + x.max()) / 2  # lines of samples along x leave regions that they have not entered
+    open_model = regionmesh.from_arrays(mesh.points, mesh.faces[kept], mesh.labels[kept])
     assert not open_model.certified
     assert "open_edge" in {violation["kind"] for violation in open_model.violations}
     assert "violations" in repr(open_model)
