@@ -21,7 +21,8 @@ bool convert_pieces(const Settings& settings) {
         const std::size_t files = write_vtp_pieces(folder, settings.output, settings.writing).size();
         if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
     } else {
-        const std::uint64_t regions = write_precomputed(folder, settings.output, settings.metres, settings.writing);
+        const std::uint64_t regions =
+            write_precomputed(folder, settings.output, settings.metres.value_or(1), settings.writing);
         if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(regions, "region"));
     }
     return true;

@@ -257,7 +257,7 @@ void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<
                  std::span<const InputLabel> given, std::span<const Label> found) {
     std::vector<Label> dense;
     make_dense(given, labels, dense);
-    counts.regions.resize(std::max(counts.regions.size(), labels.size()));
+    counts.regions.resize(std::max<std::size_t>(counts.regions.size(), labels.size()));
     count_runs(counts, background, dense, found);
 }
 
