@@ -327,8 +327,17 @@ Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>
 
 void BlockRun::seam_pass(const std::vector<double>& shares) {
     const std::vector<PieceHeader> before = headers();
-    std::vector<std::uint32_t> all(grid(1).count());
+    const BlockGrid blocks = grid(1);
+    // Blocks with many faces round them first: they take longest, and ranks then end at about the same time.
+    std::vector<std::uint64_t> faces(blocks.count());
+    for (std::uint32_t block = 0; block < blocks.count(); ++block) {
+        const BlockGatherer gatherer(blocks, block);
+        for (const PieceHeader& piece : before)
+            if (piece.faces > 0 && gatherer.needs(piece.box)) faces[block] += piece.faces;
+    }
+    std::vector<std::uint32_t> all(blocks.count());
     std::iota(all.begin(), all.end(), 0);
+    std::ranges::stable_sort(all, [&](std::uint32_t a, std::uint32_t b) { return faces[a] > faces[b]; });
     run_pass(1, "seams", all, [&](const PieceHeader& header) { return remade(header, before, shares, {}); });
 }
 

@@ -285,8 +285,7 @@ std::uint32_t StripMesher::make_vertex(const SimplexPlace& place, std::uint32_t 
             lattice_.origin[axis] + (options_.first[axis] + node + middle[a]) * lattice_.spacing[axis];
         if (along >> a & 1) continue;
         if (node == 0 && options_.is_side_of_whole(axis, false, size)) made.sides |= SideSet(1 << 2 * axis);
-        if (node + 1 == size && options_.is_side_of_whole(axis, true, size))
-            made.sides |= SideSet(1 << (2 * axis + 1));
+        if (node + 1 == size && options_.is_side_of_whole(axis, true, size)) made.sides |= SideSet(1 << (2 * axis + 1));
     }
     chunk_->vertices.push_back(made);
     return chunk_->carried + static_cast<std::uint32_t>(chunk_->vertices.size()) - 1;
