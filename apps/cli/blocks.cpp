@@ -98,6 +98,10 @@ void make_block_folder(const Settings& settings) {
     const bool is_model = !settings.inputs.empty() && writes_blocks(settings);
     const bool is_precomputed = !settings.models.empty() && folder.extension() == ".precomputed";
     if (!is_model && !is_precomputed) return;
+    for (const std::vector<std::string>* files : {&settings.inputs, &settings.models})
+        for (const std::string& file : *files)
+            if (std::error_code missing; file.find(':') == std::string::npos && !fs::exists(file, missing))
+                return;  // the command says so, and leaves nothing behind
     std::error_code error;
     for (const fs::path& path : {folder, folder / "names"}) {
         if (path != folder && !is_precomputed) continue;

@@ -100,7 +100,13 @@ std::vector<std::string> arguments_of(int argc, char** argv, int rank) {
     if (argc < 2 || arguments[1] != "reconstruct") return arguments;
     if (!has(arguments, "--threads")) arguments.emplace_back("--threads=1");
     if (!has(arguments, "--no-sandbox")) arguments.emplace_back("--no-sandbox");
-    if (rank > 0 && !has(arguments, "--quiet")) arguments.emplace_back("--quiet");
+    if (rank == 0) return arguments;
+    if (!has(arguments, "--quiet")) arguments.emplace_back("--quiet");
+    // One rank writes the log.
+    for (auto at = arguments.begin(); at != arguments.end();) {
+        const bool is_log = *at == "--log", has_value = is_log && at + 1 != arguments.end();
+        at = is_log || at->starts_with("--log=") ? arguments.erase(at, at + (has_value ? 2 : 1)) : at + 1;
+    }
     return arguments;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,6 +84,13 @@ MeshFile describe_block_folder(const std::filesystem::path& folder);
 /// one piece and its surroundings. Does not count the components of regions, which are 0, nor look at nesting. Dense
 /// labels are those of describe_block_folder(). Throws like read_block_folder().
 CheckReport check_block_folder(const std::filesystem::path& folder, const CheckOptions& options = {});
+
+/// Calls on_section with the labels of each section of samples, as Voxeliser::next() gives them, along the sweep of the
+/// volume, and returns Voxeliser::contradictions(). Holds one layer of pieces. Requires a volume with the lattice of
+/// the folder (has_lattice_of()).
+std::uint64_t voxelise_block_folder(const std::filesystem::path& folder, const VolumeInfo& volume,
+                                    const std::vector<Label>& background,
+                                    const std::function<void(std::span<const Label>)>& on_section);
 
 /// compare_samples() in layers of pieces along the sweep of the reader: holds one layer. Requires a reader with the
 /// lattice of the folder (has_lattice_of()).

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "blocks/block_size.h"
 #include "blocks/gather.h"
 #include "blocks/join.h"
 #include "blocks/own_faces.h"
@@ -16,7 +17,6 @@
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/process.h"
-#include "stream/footprint.h"
 #include "stream/plan.h"
 #include "stream/section_faces.h"
 #include "stream/stage_options.h"
@@ -27,14 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Blocks are not made smaller than this number of cells for memory: nearly all of their faces would be on the rim.
-constexpr std::uint32_t kFewestCells = 64;
-/// Bytes for each face of a block before simplification, and for each in the window of smoothing.
-constexpr double kBlockBytesPerFace = kChunkBytesPerFace + kTilesBytesPerFace, kWindowBytes = 140;
-/// A block may have more faces than the mean.
-constexpr double kUneven = 2;
-/// Sections that the window of smoothing holds, about.
-constexpr double kWindowSections = 64;
 /// The labels of the volume, while blocks are reconstructed.
 constexpr const char* kLabels = "volume.labels";
 /// Passes that trim the last faces, at most.
@@ -89,27 +81,29 @@ BlockReport BlockRun::run() {
 }
 
 void BlockRun::begin() {
+    const auto there = read_manifest(folder_);
+    if (there) {
+        require_same_run(*there, blocks_.identity, folder_);
+        manifest_ = *there;
+    }
+    if (manifest_.is_staged) return;
+    // Nothing is written for an input that cannot be read.
+    const std::unique_ptr<SectionReader> reader = open_();
     std::error_code error;
     if (!fs::is_directory(folder_, error)) fs::create_directory(folder_, error);
     if (error) throw Error(ErrorCode::kOutput, folder_.string() + ": cannot be made: " + error.message());
-    if (const auto there = read_manifest(folder_)) {
-        require_same_run(*there, blocks_.identity, folder_);
-        manifest_ = *there;
-    } else {
-        if (!fs::is_empty(folder_, error))
-            throw Error(ErrorCode::kOutput, folder_.string() + ": holds other files; name an empty or a new folder");
-        manifest_.identity = blocks_.identity;
-        write_manifest(manifest_, folder_, blocks_.output);
-    }
-    if (!manifest_.is_staged) stage();
+    if (!there && !fs::is_empty(folder_, error))
+        throw Error(ErrorCode::kOutput, folder_.string() + ": holds other files; name an empty or a new folder");
+    manifest_.identity = blocks_.identity;
+    if (!there) write_manifest(manifest_, folder_, blocks_.output);
+    stage(*reader);
 }
 
 /// Reads the input once: counts its faces and writes its labels.
-void BlockRun::stage() {
-    const std::unique_ptr<SectionReader> reader = open_();
+void BlockRun::stage(SectionReader& reader) {
     std::optional<RoomReader> cleaned;
-    if (options_.room > 0) cleaned.emplace(*reader, options_.room, options_.threads);
-    SectionReader& sections = cleaned ? static_cast<SectionReader&>(*cleaned) : *reader;
+    if (options_.room > 0) cleaned.emplace(reader, options_.room, options_.threads);
+    SectionReader& sections = cleaned ? static_cast<SectionReader&>(*cleaned) : reader;
     const VolumeInfo info = sections.info();
     require_lattice(info.source, info.lattice);
     require_fit(info.source, options_);
@@ -137,35 +131,9 @@ void BlockRun::stage() {
     manifest_.scale_z = shape.scale_z;
     manifest_.initial_faces = census.face_count();
     manifest_.block_cells =
-        blocks_.block_cells > 0 ? blocks_.block_cells : default_block_cells(shape, census.face_count());
+        blocks_.block_cells > 0 ? blocks_.block_cells : default_block_cells(shape, census.face_count(), options_);
+    require_block_count(info, manifest_.block_cells);
     write_manifest(manifest_, folder_, blocks_.output);
-}
-
-/// The largest blocks that the memory has room for, of about equal size along the longest axis.
-std::uint32_t BlockRun::default_block_cells(const SourceShape& shape, std::uint64_t faces) const {
-    const auto& size = shape.lattice.size;
-    const double samples = static_cast<double>(size[0]) * size[1] * size[2];
-    const double density = static_cast<double>(faces) / samples;
-    const std::array<std::uint32_t, 3> halo = halo_of(shape, options_);
-    const auto bytes = [&](double cells) {
-        double with_halo[3], section = 1, block = 1;
-        for (int n = 0; n < 3; ++n) {
-            const int axis = shape.sweep.axes[n];
-            with_halo[n] = std::min(cells + 1 + 2.0 * halo[axis], static_cast<double>(size[axis]));
-            block *= std::min(cells, static_cast<double>(size[axis]));
-            if (n < 2) section *= with_halo[n];
-        }
-        const double per_sample = 2 * sizeof(Label) + static_cast<double>(StripMesher::kBytesPerSample);
-        return static_cast<double>(kProcessBytes) + section * per_sample +
-               kUneven * density *
-                   (block * kBlockBytesPerFace + section * std::min(kWindowSections, with_halo[2]) * kWindowBytes);
-    };
-    const std::uint32_t longest = std::max({size[0], size[1], size[2]}) - 1;
-    std::uint32_t cells = std::max(longest, kFewestCells);
-    while (cells > kFewestCells && bytes(cells) > static_cast<double>(options_.memory)) cells = cells * 15 / 16;
-    cells = std::max(cells, kFewestCells);
-    const std::uint32_t count = (longest + cells - 1) / cells;
-    return std::max((longest + count - 1) / count, 2u);
 }
 
 void BlockRun::open_volume() {
@@ -325,8 +293,17 @@ Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>
 
 void BlockRun::seam_pass(const std::vector<double>& shares) {
     const std::vector<PieceHeader> before = headers();
-    std::vector<std::uint32_t> all(grid(1).count());
+    const BlockGrid blocks = grid(1);
+    // Blocks with many faces round them first: they take longest, and ranks then end at about the same time.
+    std::vector<std::uint64_t> faces(blocks.count());
+    for (std::uint32_t block = 0; block < blocks.count(); ++block) {
+        const BlockGatherer gatherer(blocks, block);
+        for (const PieceHeader& piece : before)
+            if (piece.faces > 0 && gatherer.needs(piece.box)) faces[block] += piece.faces;
+    }
+    std::vector<std::uint32_t> all(blocks.count());
     std::iota(all.begin(), all.end(), 0);
+    std::ranges::stable_sort(all, [&](std::uint32_t a, std::uint32_t b) { return faces[a] > faces[b]; });
     run_pass(1, "seams", all, [&](const PieceHeader& header) { return remade(header, before, shares, {}); });
 }
 

@@ -31,8 +31,7 @@ private:
     using MakePiece = std::function<Piece(const PieceHeader&)>;
 
     void begin();
-    void stage();
-    std::uint32_t default_block_cells(const SourceShape& shape, std::uint64_t faces) const;
+    void stage(SectionReader& reader);
     void open_volume();
     void run_passes();
     void run_pass(std::uint32_t pass, const char* stage, const std::vector<std::uint32_t>& blocks,

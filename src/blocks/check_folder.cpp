@@ -116,33 +116,39 @@ bool has_lattice_of(const fs::path& folder, const VolumeInfo& volume) {
     return is_same(read_complete_manifest(folder).lattice, volume.lattice);
 }
 
-SampleAgreement compare_block_samples(const fs::path& path, LabelTable& labels, const std::vector<Label>& background,
-                                      SectionReader& reader) {
+std::uint64_t voxelise_block_folder(const fs::path& path, const VolumeInfo& volume,
+                                    const std::vector<Label>& background,
+                                    const std::function<void(std::span<const Label>)>& on_section) {
     const Folder folder{path};
-    const VolumeInfo& info = reader.info();
     const Lattice lattice = piece_lattice(folder.manifest);
-    const int axis = info.sweep.axes[2];
-    const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
-    std::vector<InputLabel> given(samples);
-    std::vector<Label> found(samples);
-    SampleAgreement result;
-    const std::uint32_t layers = folder.grid.counts()[axis],
-                        step = axis == 0   ? 1
-                               : axis == 1 ? folder.grid.counts()[0]
-                                           : folder.grid.counts()[0] * folder.grid.counts()[1];
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+    const int axis = volume.sweep.axes[2];
+    std::vector<Label> found(std::size_t{volume.lattice.size[volume.sweep.axes[0]]} *
+                             volume.lattice.size[volume.sweep.axes[1]]);
+    const auto counts = folder.grid.counts();
+    const std::uint32_t step = axis == 0 ? 1 : axis == 1 ? counts[0] : counts[0] * counts[1];
+    std::uint64_t contradictions = 0;
+    for (std::uint32_t layer = 0; layer < counts[axis]; ++layer) {
         const IndexBox cells = folder.grid.cells(layer * step);
         const std::uint32_t first = cells.low[axis];
-        const std::uint32_t end = layer + 1 < layers ? cells.high[axis] : info.lattice.size[axis];
+        const std::uint32_t end = layer + 1 < counts[axis] ? cells.high[axis] : volume.lattice.size[axis];
         // A section more on each side, for rounding of positions turned in space.
         const auto at = [&](double section) { return lattice.origin[axis] + section * lattice.spacing[axis]; };
         const Mesh mesh = read_layer(folder, axis, at(first - 1.0), at(end));
-        Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background});
+        Voxeliser voxeliser(mesh, {.lattice = volume.lattice, .sweep = volume.sweep, .background = background});
         voxeliser.skip_to(first);
-        for (std::uint32_t section = first; section < end; ++section)
-            if (reader.next(given) && voxeliser.next(found)) add_samples(result, labels, background, given, found);
-        result.contradictions += voxeliser.contradictions();
+        for (std::uint32_t section = first; section < end && voxeliser.next(found); ++section) on_section(found);
+        contradictions += voxeliser.contradictions();
     }
+    return contradictions;
+}
+
+SampleAgreement compare_block_samples(const fs::path& path, LabelTable& labels, const std::vector<Label>& background,
+                                      SectionReader& reader) {
+    std::vector<InputLabel> given(std::size_t{reader.section_width()} * reader.section_height());
+    SampleAgreement result;
+    result.contradictions = voxelise_block_folder(path, reader.info(), background, [&](std::span<const Label> found) {
+        if (reader.next(given)) add_samples(result, labels, background, given, found);
+    });
     return result;
 }
 

@@ -7,7 +7,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu}, kBlockCells{4, 1u << 20};
+constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu}, kBlockCells{1, 1u << 20};
 
 std::string_view output_help() {
     static const std::string text =

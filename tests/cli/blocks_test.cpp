@@ -84,6 +84,12 @@ TEST_F(BlockProgram, converts_checks_and_voxelises_a_folder) {
     ASSERT_EQ(run("convert " + out("model") + ' ' + out("a.vtp")).code, 0);
     ASSERT_EQ(run("convert " + out("model/") + ' ' + out("b.vtp")).code, 0);
     EXPECT_EQ(text_of(out("a.vtp")), text_of(out("b.vtp")));
+    const std::string like = " --like" + sections.substr(sections.find(' ', 1));
+    for (const char* from : {"model", "a.vtp"}) {  // the first piece by piece
+        const Ran voxelised = run("voxelise " + out(from) + like + " -o " + out(std::string(from) + ".raw"));
+        ASSERT_EQ(voxelised.code, 0) << voxelised.error;
+        EXPECT_EQ(text_of(out(std::string(from) + ".raw")), text_of(path("grains.raw")));
+    }
     EXPECT_THAT(run("info " + out("model")).out, testing::HasSubstr("faces"));
     const Ran compared = run("compare " + out("model") + ' ' + out("a.vtp") + " --samples 1000");
     EXPECT_EQ(compared.code, 0) << compared.error;
