@@ -110,8 +110,8 @@ private:
     Chunk* chunk_ = nullptr;
     std::vector<std::uint32_t> planes_[2];  // vertex number + 1, 0 for none yet
     std::vector<std::uint32_t> rows_[2];
-    std::vector<std::uint32_t> touched_[2];  // places in planes_ that are not 0
-    MixedCells mixed_;                       // of a row of cells
+    std::vector<std::uint32_t> touched_[2];        // places in planes_ that are not 0
+    MixedCells mixed_;                             // of a row of cells
     const CompactCells* compact_cells_ = nullptr;  // for CellKind::kCompact
 };
 
