@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "blocks/join.h"
@@ -87,13 +88,16 @@ TEST_F(CheckFolder, finds_a_face_that_is_missing_and_one_that_was_moved) {
     EXPECT_EQ(open.counts[int(ViolationKind::kOpenEdge)], whole.counts[int(ViolationKind::kOpenEdge)]);
     EXPECT_EQ(open.counts[int(ViolationKind::kEuler)], whole.counts[int(ViolationKind::kEuler)]);
     make(test::grain_volume({30, 28, 27}, 12, 4), 0.5);
-    change_piece(4, [](Piece& piece) {
-        for (PieceVertex& vertex : piece.vertices)
-            if (!vertex.is_shared && vertex.sides == 0) {
-                vertex.position = vertex.position + Vec3{4, 0.3, 0.2};
-                break;
-            }
+    // The first vertex of the fullest piece that is on no rim.
+    const auto& pieces = read_manifest(folder_)->pieces;
+    const auto fullest = std::ranges::max_element(pieces, {}, &PieceEntry::faces) - pieces.begin();
+    change_piece(static_cast<std::uint32_t>(fullest), [](Piece& piece) {
+        const auto inside =
+            std::ranges::find_if(piece.vertices, [](const PieceVertex& v) { return v.is_shared == 0 && v.sides == 0; });
+        ASSERT_NE(inside, piece.vertices.end());
+        inside->position = Vec3{29, 27, 26} - inside->position;  // at the other end of the volume
     });
+    EXPECT_GT(check(read_block_folder(folder_).mesh, options).counts[int(ViolationKind::kCrossingFaces)], 0u);
     EXPECT_GT(check_block_folder(folder_, options).counts[int(ViolationKind::kCrossingFaces)], 0u);
 }
 
