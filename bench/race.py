@@ -119,7 +119,7 @@ def write_full(case, setting):
 
 
 def write_tetrahedra(case, setting):
-    """That of the same samples in five tetrahedra a cell, as tetrahedra.ply."""
+    """That of the same samples with --cells tetrahedra, as tetrahedra.ply."""
     write = setting.but(options=(*setting.options, "--cells", "tetrahedra"))
     run([write.program, "reconstruct", case.path, "-o", write.at("tetrahedra.ply"), "--no-decimate", *common(write)])
 

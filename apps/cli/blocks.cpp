@@ -22,13 +22,19 @@ namespace fs = std::filesystem;
 BlockTasks* shared_tasks = nullptr;
 
 /// Options that do not change the model: a run may go on with others.
-constexpr std::array<std::string_view, 14> kFree{"input",   "output",  "threads",    "memory",         "memory-limit",
-                                                 "log",     "quiet",   "verbose",    "config",         "force",
-                                                 "sandbox", "no-sync", "no-sandbox", "require-sandbox"};
+constexpr std::array<std::string_view, 13> kFree{"input",   "output",     "threads",        "memory", "memory-limit",
+                                                 "log",     "quiet",      "verbose",        "config", "force",
+                                                 "no-sync", "no-sandbox", "require-sandbox"};
 
 /// Options of a model in one file.
 constexpr std::array<std::string_view, 9> kOneFile{"report",     "html",        "regions", "interfaces",   "lines",
                                                    "per-region", "face-budget", "units",   "preview-faces"};
+
+/// The folder that --output names, without a / at its end.
+fs::path folder_of(const std::string& output) {
+    const fs::path path = output;
+    return path.has_filename() ? path : path.parent_path();
+}
 
 /// "82,131 bytes, changed at 1700000000.5": a file that differs is another input.
 std::string state_of(const fs::path& path) {
@@ -87,14 +93,13 @@ bool writes_blocks(const Settings& settings) {
 }
 
 bool is_written_in_pieces(const std::string& output) {
-    const fs::path path = fs::path(output).has_filename() ? fs::path(output) : fs::path(output).parent_path();
+    const fs::path path = folder_of(output);
     return path.extension() == ".pvtp" || path.extension() == ".precomputed";
 }
 
 void make_block_folder(const Settings& settings) {
     if (settings.output.empty()) return;
-    fs::path folder = settings.output;
-    if (!folder.has_filename()) folder = folder.parent_path();
+    const fs::path folder = folder_of(settings.output);
     const bool is_model = !settings.inputs.empty() && writes_blocks(settings);
     const bool is_precomputed = !settings.models.empty() && folder.extension() == ".precomputed";
     if (!is_model && !is_precomputed) return;
@@ -120,11 +125,10 @@ int run_blocks(const Settings& settings) {
     BlockTasks alone;
     BlockTasks& tasks = shared_tasks ? *shared_tasks : alone;
     require_fit_of_blocks(settings);
-    BlockOptions blocks{.folder = settings.output,
-                        .block_cells = settings.block_cells.value_or(0),
-                        .identity = identity_of(settings),
-                        .output = settings.writing};
-    if (!blocks.folder.has_filename()) blocks.folder = blocks.folder.parent_path();
+    const BlockOptions blocks{.folder = folder_of(settings.output),
+                              .block_cells = settings.block_cells.value_or(0),
+                              .identity = identity_of(settings),
+                              .output = settings.writing};
     ProgressLine line(settings.quiet || !tasks.is_first());
     const BlockReport report = reconstruct_blocks(
         [&] { return open_lattice(settings, settings.inputs); }, settings.reconstruct, blocks, tasks,

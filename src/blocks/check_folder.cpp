@@ -59,10 +59,10 @@ Mesh read_part(const Folder& folder, std::uint32_t block, MeshPart& part) {
         mesh.add_vertex(vertex.position, vertex.sides);
         part.of_vertex.push_back(folder.grid.block_at(vertex.position));
     }
-    for (const auto& [v, labels] : chunk.faces) {
+    for (const ChunkFace& face : chunk.faces) {
+        const auto& [v, labels] = face;
         mesh.add_face(VertexId{number[v[0]]}, VertexId{number[v[1]]}, VertexId{number[v[2]]}, labels[0], labels[1]);
-        part.of_face.push_back(block_of(folder.grid, {chunk.vertices[v[0]].position, chunk.vertices[v[1]].position,
-                                                      chunk.vertices[v[2]].position}));
+        part.of_face.push_back(block_of(folder.grid, chunk, face));
     }
     folder.place(mesh);
     return mesh;

@@ -45,6 +45,12 @@ std::uint32_t block_of(const BlockGrid& grid, const std::array<Vec3, 3>& corners
     return grid.block_at(centroid);
 }
 
+std::uint32_t block_of(const BlockGrid& grid, const Chunk& chunk, const ChunkFace& face) {
+    const auto& v = face.vertices;
+    return block_of(grid,
+                    {chunk.vertices[v[0]].position, chunk.vertices[v[1]].position, chunk.vertices[v[2]].position});
+}
+
 std::size_t SharedVertices::Hash::operator()(const std::array<std::uint64_t, 3>& bits) const {
     return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]);
 }
@@ -102,11 +108,10 @@ Piece piece_of(const BlockChunk& block, const BlockGrid& grid, const PieceHeader
     for (const std::uint32_t v : chunk.active) is_shared[v] = true;
     std::vector<std::uint32_t> numbers(chunk.vertices.size(), kNone);
     Piece piece{header, {}, {}};
-    for (const auto& [v, labels] : chunk.faces) {
-        if (block_of(grid, {chunk.vertices[v[0]].position, chunk.vertices[v[1]].position,
-                            chunk.vertices[v[2]].position}) != header.block)
-            continue;
-        PieceFace face{{}, labels};
+    for (const ChunkFace& of_chunk : chunk.faces) {
+        if (block_of(grid, chunk, of_chunk) != header.block) continue;
+        const auto& v = of_chunk.vertices;
+        PieceFace face{{}, of_chunk.labels};
         for (int n = 0; n < 3; ++n) {
             std::uint32_t& number = numbers[v[n]];
             if (number == kNone) {

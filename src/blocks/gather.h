@@ -15,6 +15,9 @@ namespace regionmesh {
 /// The block that a face belongs to: that of its centroid. Depends on the corners as a set only.
 std::uint32_t block_of(const BlockGrid& grid, const std::array<Vec3, 3>& corners);
 
+/// The same of a chunk that carries no vertices.
+std::uint32_t block_of(const BlockGrid& grid, const Chunk& chunk, const ChunkFace& face);
+
 /// Numbers of vertices that several pieces may have, by their exact position.
 class SharedVertices {
 public:

@@ -147,12 +147,12 @@ private:
 
     /// None above the largest cost or error.
     std::optional<double> rank_of_half(VertexId goes, VertexId stays) {
-        gather_vertex(mesh_, goes, around_);
-        placement_->rank_halves(mesh_, around_, {&stays, 1}, half_costs_);
-        const auto [cost, weight] = half_costs_.front();
-        if (!(cost <= options_.max_cost) || cost > options_.max_error * options_.max_error * weight) return {};
+        placement_->rank_halves(mesh_, goes, {&stays, 1}, half_costs_);
+        const HalfCost& half = half_costs_.front();
+        if (!half.is_within(options_.max_cost, options_.max_error)) return {};
         // Rounding may leave less than 0.
-        return std::max(cost, 0.0) + kLengthShare * weight * length2(mesh_.position(stays) - mesh_.position(goes));
+        return std::max(half.cost, 0.0) +
+               kLengthShare * half.weight * length2(mesh_.position(stays) - mesh_.position(goes));
     }
 
     /// Tests it as the mesh is now. Where the edge has become dearer it waits once more.
@@ -184,7 +184,6 @@ private:
     Candidates candidates_;
     HalfCandidates halves_;
     Collapse collapse_;
-    EdgeStar around_;                   // of a vertex that may go
     std::vector<HalfCost> half_costs_;  // of one edge
     CollapseResult result_;
     std::uint64_t steps_ = 0;

@@ -11,8 +11,8 @@
 namespace regionmesh {
 
 /// Where the best place of an edge is refused, `goes` may still go to `stays`, which stays where it is: at a cost that
-/// is no less, so that its turn comes later. Cheapest first; ties go to the lower ids. What the mesh has made of an
-/// edge meanwhile is not known here.
+/// is no less, so that its turn comes later. Cheapest first; ties go to the lower ids. The mesh may have changed since
+/// an edge was added: the caller looks at it again.
 class HalfCandidates {
 public:
     struct Edge {

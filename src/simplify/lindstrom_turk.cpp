@@ -86,8 +86,7 @@ public:
     explicit LindstromTurk(double scale) : unit_(3 / (std::sqrt(3.0) / 4 * scale * scale)) {}
 
     void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) override;
-    void rank_halves(const Mesh& mesh, const EdgeStar& around, std::span<const VertexId> to,
-                     std::vector<HalfCost>& costs) override;
+    void rank_halves(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<HalfCost>& costs) override;
     Places place(const Mesh& mesh, const EdgeStar& star) override;
     void collapse(const Mesh&, const EdgeStar&, Vec3) override {}
     double prepass_cost() const override { return kPrepassVolumeCost; }
@@ -224,14 +223,14 @@ void LindstromTurk::rank(const Mesh& mesh, VertexId v, std::span<const VertexId>
     }
 }
 
-void LindstromTurk::rank_halves(const Mesh& mesh, const EdgeStar& around, std::span<const VertexId> to,
+void LindstromTurk::rank_halves(const Mesh& mesh, VertexId v, std::span<const VertexId> to,
                                 std::vector<HalfCost>& costs) {
     keeps_areas_ = false;
-    begin(around.at_goes);
-    add_star(mesh, around.goes, kNoVertex);
+    begin(mesh.position(v));
+    add_star(mesh, v, kNoVertex);
     costs.clear();
-    for (VertexId v : to) {
-        const Vec3 step = mesh.position(v) - around.at_goes;
+    for (VertexId w : to) {
+        const Vec3 step = mesh.position(w) - mesh.position(v);
         const double length_2 = length2(step);
         costs.push_back({unit_ * std::max(volume_.at(step) + length_2 * area_.at(step), 0.0),
                          unit_ * (volume_.weight() + length_2 * area_.weight())});

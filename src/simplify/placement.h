@@ -19,6 +19,11 @@ struct EdgeCost {
 /// The same for a vertex that goes to a neighbour, which stays where it is.
 struct HalfCost {
     double cost, weight;
+
+    /// `max_error` is a distance: the bound on the mean squared distance is its square.
+    bool is_within(double max_cost, double max_error) const {
+        return cost <= max_cost && !(cost > max_error * max_error * weight);
+    }
 };
 
 /// One instance serves one mesh from its first collapse to its last. Calls come from one thread.
@@ -29,8 +34,8 @@ public:
     /// Costs of the edges from v to each of `to`, in floats: to rank by. `costs` gets a multiple of four.
     virtual void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) = 0;
 
-    /// Costs where the vertex of `around` (gather_vertex) goes to each of `to`.
-    virtual void rank_halves(const Mesh& mesh, const EdgeStar& around, std::span<const VertexId> to,
+    /// Costs where v goes to each of `to`.
+    virtual void rank_halves(const Mesh& mesh, VertexId v, std::span<const VertexId> to,
                              std::vector<HalfCost>& costs) = 0;
 
     /// Where the merged vertex of a star goes (gather). On sides of the box it keeps the coordinates of `stays`, and in

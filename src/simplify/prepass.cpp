@@ -89,10 +89,9 @@ void Prepass::find_targets(VertexId v) {
     gather_vertex(mesh_, v, around_);
     if (around_.face_count() > kMostPrepassFaces) return;
     gather_ends(v);
-    placement_.rank_halves(mesh_, around_, ends_, costs_);
+    placement_.rank_halves(mesh_, v, ends_, costs_);
     for (std::size_t n = 0; n < ends_.size(); ++n) {
-        const auto [cost, weight] = costs_[n];
-        if (!(cost <= max_cost_) || cost > options_.max_error * options_.max_error * weight) continue;
+        if (!costs_[n].is_within(max_cost_, options_.max_error)) continue;
         const double quality3 = fan_quality3(around_, ends_[n], mesh_.position(ends_[n]), collapse_.bounds);
         if (quality3 > 0) targets_.push_back({ends_[n], quality3});
     }

@@ -15,14 +15,14 @@ public:
     void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) override {
         find_edge_costs(mesh, quadrics_, v, to, costs);
     }
-    void rank_halves(const Mesh& mesh, const EdgeStar& around, std::span<const VertexId> to,
+    void rank_halves(const Mesh& mesh, VertexId v, std::span<const VertexId> to,
                      std::vector<HalfCost>& costs) override {
-        const Quadric own = quadrics_[around.goes].unpack();
+        const Quadric own = quadrics_[v].unpack();
         costs.clear();
-        for (VertexId v : to) {
-            const PackedQuadric& other = quadrics_[v];
+        for (VertexId w : to) {
+            const PackedQuadric& other = quadrics_[w];
             costs.push_back(
-                {own.at(mesh.position(v) - around.at_goes) + other.c, own.weight() + other.xx + other.yy + other.zz});
+                {own.at(mesh.position(w) - mesh.position(v)) + other.c, own.weight() + other.xx + other.yy + other.zz});
         }
     }
     Places place(const Mesh& mesh, const EdgeStar& star) override;

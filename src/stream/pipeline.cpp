@@ -122,16 +122,14 @@ void count_samples(Reconstruction& result, SectionFaces& source, const Reconstru
     if (!options.cap || !source.rewind()) return;
     const std::uint32_t strips = source.shape().strip_count;
     if (on_progress) on_progress({"samples", strips, strips, 0, result.mesh.face_count(), 0.99});
-    double& seconds = result.report.seconds["samples"];
+    RunLog log(result, on_progress);
     {
-        const Timer timer(seconds);
+        const StageTimer timer = log.time("samples");
         result.report.samples =
             compare_samples(result.mesh, result.labels, result.background, source.reader(), options.threads);
     }
-    result.report.seconds["total"] += seconds;
-    const ResidentBytes bytes = resident_bytes();
-    result.report.stage_bytes["samples"] = bytes.peak > result.report.peak_bytes ? bytes.peak : bytes.now;
-    result.report.peak_bytes = bytes.peak;
+    result.report.seconds["total"] += result.report.seconds["samples"];
+    result.report.peak_bytes = peak_resident_bytes();
 }
 
 }  // namespace

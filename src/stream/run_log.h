@@ -113,7 +113,7 @@ private:
     ProgressShares shares_;
     std::thread::id thread_ = std::this_thread::get_id();
     std::size_t most_bytes_ = 0;
-    std::uint64_t peak_ = 0;  // resident, at the last look
+    std::uint64_t peak_ = result_.report.peak_bytes;  // resident, at the last look
     std::chrono::steady_clock::time_point next_look_;
 };
 

@@ -155,6 +155,14 @@ std::unique_ptr<ByteStream> open_inflated(const fs::path& path, Encoding& encodi
     return std::make_unique<DeflateStream>(std::move(file));
 }
 
+std::vector<std::byte> read_header(const fs::path& path, Encoding& encoding, std::size_t least, std::size_t most) {
+    const auto stream = open_inflated(path, encoding);
+    std::vector<std::byte> bytes(most);
+    bytes.resize(stream->read(bytes));
+    if (encoding == Encoding::kDeflated && bytes.size() < least) fail(path, stream->problem());
+    return bytes;
+}
+
 fs::path file_beside(const fs::path& header, std::string_view name) { return header.parent_path() / name; }
 
 std::vector<fs::path> listed_files(const fs::path& header, std::string_view text) {

@@ -48,6 +48,11 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
 /// The bytes of a file from its start, inflated if it is gzipped, whatever its name. `encoding` becomes kDeflated then.
 std::unique_ptr<ByteStream> open_inflated(const std::filesystem::path& path, Encoding& encoding);
 
+/// At most `most` bytes from the start of such a file; fewer where it ends. Throws where one that is gzipped ends, or
+/// is damaged, before `least`.
+std::vector<std::byte> read_header(const std::filesystem::path& path, Encoding& encoding, std::size_t least,
+                                   std::size_t most);
+
 /// Sets the names and colours of labels from a table beside the file, if there is one.
 void take_table_beside(ArrayFile& array);
 

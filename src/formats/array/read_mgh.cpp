@@ -84,10 +84,7 @@ private:
 
 std::unique_ptr<SectionReader> open_mgh(const std::filesystem::path& path, const ReadOptions& options) {
     ArrayFile array{.format = "mgh", .source = path, .remedy = "decompress the file first (mri_convert a.mgz a.mgh)"};
-    const auto stream = open_inflated(path, array.encoding);
-    std::vector<std::byte> bytes(kHeaderBytes);
-    bytes.resize(stream->read(bytes));
-    if (array.encoding == Encoding::kDeflated && bytes.size() < kHeaderBytes) fail(path, stream->problem());
+    const std::vector<std::byte> bytes = read_header(path, array.encoding, kHeaderBytes, kHeaderBytes);
     const Header header(path, bytes);
     array.sample = {header.type(), true};
     array.lattice.size = header.size();

@@ -199,11 +199,7 @@ Header parse_header(const std::filesystem::path& path, std::span<const std::byte
 
 std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, const ReadOptions& options) {
     ArrayFile array{.format = "nifti", .source = path, .remedy = "decompress the file first (gunzip)"};
-    const auto stream = open_inflated(path, array.encoding);
-    std::vector<std::byte> bytes(kNifti2HeaderBytes);
-    bytes.resize(stream->read(bytes));
-    if (array.encoding == Encoding::kDeflated && bytes.size() < std::size_t{kNifti1HeaderBytes})
-        fail(path, stream->problem());
+    const std::vector<std::byte> bytes = read_header(path, array.encoding, kNifti1HeaderBytes, kNifti2HeaderBytes);
     const Header header = parse_header(path, bytes);
     array.sample = {sample_type(path, header.at(kDatatype)), header.is_big_endian};
     array.lattice.size = volume_size(path, header);
