@@ -1,6 +1,7 @@
 // Maps the labels of the input to dense labels, and back.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -20,6 +21,11 @@ public:
         if (is_new) labels_.push_back(label);
         last_ = label;
         return last_dense_ = place->second;
+    }
+    /// Nothing for a label that is not in the table.
+    std::optional<Label> find(InputLabel label) const {
+        const auto place = dense_.find(label);
+        return place == dense_.end() ? std::nullopt : std::optional(place->second);
     }
     InputLabel input(Label dense) const { return labels_[dense]; }
     std::uint32_t size() const { return static_cast<std::uint32_t>(labels_.size()); }

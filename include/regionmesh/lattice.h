@@ -16,8 +16,31 @@ struct Lattice {
     Vec3 origin{0, 0, 0};
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
+    /// The place of a sample by its indices, which need not be whole.
+    Vec3 place_of(const std::array<double, 3>& index) const {
+        const Vec3 along{index[0] * spacing.x, index[1] * spacing.y, index[2] * spacing.z};
+        const auto& d = direction;
+        return origin +
+               Vec3{dot({d[0], d[1], d[2]}, along), dot({d[3], d[4], d[5]}, along), dot({d[6], d[7], d[8]}, along)};
+    }
     bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
 };
+
+/// Cells, or samples, from `low` to `high` - 1 along x, y, z.
+struct IndexBox {
+    std::array<std::uint32_t, 3> low{}, high{};
+
+    std::array<std::uint32_t, 3> size() const { return {high[0] - low[0], high[1] - low[1], high[2] - low[2]}; }
+    friend bool operator==(const IndexBox&, const IndexBox&) = default;
+};
+
+/// The lattice of the samples of a box.
+inline Lattice cropped(const Lattice& whole, const IndexBox& box) {
+    Lattice part = whole;
+    part.size = box.size();
+    part.origin = whole.place_of({double(box.low[0]), double(box.low[1]), double(box.low[2])});
+    return part;
+}
 
 /// A factor of z that follows from the input: for sections the power of two that makes samples as far apart along z as
 /// along x and y, for drill holes that which makes points along a hole as far apart as holes are.

@@ -22,6 +22,7 @@ StripOptions strips_of(const BlockVolume& volume, const IndexBox& samples) {
 BlockFaces::BlockFaces(const BlockVolume& volume, const IndexBox& samples)
     : volume_(volume),
       samples_(samples),
+      sections_(volume.boxes.open(samples)),
       shape_(shape_of(volume, samples)),
       mesher_(shape_.lattice, shape_.sweep, strips_of(volume, samples)) {
     const auto& size = shape_.lattice.size;
@@ -34,15 +35,12 @@ double BlockFaces::low_of(std::uint32_t strip) const {
     return shape_.lattice.origin[axis] + (samples_.low[axis] + strip) * shape_.lattice.spacing[axis];
 }
 
-void BlockFaces::read(std::uint32_t section, std::vector<Label>& to) const {
-    volume_.boxes.read(samples_, samples_.low[shape_.axis()] + section, to);
-}
-
 bool BlockFaces::advance() {
     if (strips_ == shape_.strip_count) return false;
-    if (strips_ == 0) read(0, high_);
+    if (strips_ == 0) sections_->next(high_);
     low_.swap(high_);
-    read(++strips_, high_);
+    sections_->next(high_);
+    ++strips_;
     return true;
 }
 

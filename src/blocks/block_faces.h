@@ -9,7 +9,7 @@ namespace regionmesh {
 
 /// What all blocks of a volume share.
 struct BlockVolume {
-    const LabelBoxes& boxes;
+    const LabelBoxes& boxes;        // of dense labels
     SourceShape shape;              // of the whole
     StripOptions strips;            // likewise; `first` and `whole` are set for each box
     const LabelTable& labels;       // of the whole
@@ -36,10 +36,9 @@ public:
     void place(Mesh&) const override {}
 
 private:
-    void read(std::uint32_t section, std::vector<Label>& to) const;
-
     const BlockVolume& volume_;
     IndexBox samples_;
+    std::unique_ptr<BoxSections> sections_;
     SourceShape shape_;  // origin and spacing of the whole, size of the box
     StripMesher mesher_;
     std::vector<Label> low_, high_;

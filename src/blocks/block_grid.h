@@ -10,14 +10,6 @@
 
 namespace regionmesh {
 
-/// Cells, or samples, from `low` to `high` - 1 along x, y, z.
-struct IndexBox {
-    std::array<std::uint32_t, 3> low{}, high{};
-
-    std::array<std::uint32_t, 3> size() const { return {high[0] - low[0], high[1] - low[1], high[2] - low[2]}; }
-    friend bool operator==(const IndexBox&, const IndexBox&) = default;
-};
-
 /// Blocks of `block` cells along each axis, numbered with x fastest; the first of an axis is `shift` cells shorter, the
 /// last ends with the volume. A face belongs to the block that its centroid lies in.
 class BlockGrid {
@@ -35,13 +27,53 @@ public:
     std::uint32_t count() const { return grid_.tile_count(); }
     std::array<std::uint32_t, 3> counts() const { return {grid_.count(0), grid_.count(1), grid_.count(2)}; }
     std::uint32_t block_at(Vec3 centroid) const { return grid_.tile_at(centroid); }
+    /// Whether a box has a point that block_at() puts into the block, or touches its walls.
+    bool reaches(const Box& box, std::uint32_t block) const {
+        const auto from = place(block_at(box.low)), to = place(block_at(box.high)), own = place(block);
+        const Box walls = limits(block);
+        bool has_point = true, is_touching = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            has_point = has_point && from[axis] <= own[axis] && own[axis] <= to[axis];
+            is_touching = is_touching && walls.low[axis] <= box.high[axis] && box.low[axis] <= walls.high[axis];
+        }
+        return has_point || is_touching;
+    }
     /// Its walls, exactly where the samples lie.
     Box limits(std::uint32_t block) const { return grid_.limits(block); }
+    Box limits(const IndexBox& blocks) const {
+        const auto& [x, y, z] = blocks.high;
+        return {limits(number(blocks.low)).low, limits(number({x - 1, y - 1, z - 1})).high};
+    }
 
-    /// The cells of a block.
+    /// Where a block lies, in blocks along x, y, z.
+    std::array<std::uint32_t, 3> place(std::uint32_t block) const {
+        return {block % grid_.count(0), block / grid_.count(0) % grid_.count(1),
+                block / grid_.count(0) / grid_.count(1)};
+    }
+    std::uint32_t number(const std::array<std::uint32_t, 3>& place) const {
+        return (place[2] * grid_.count(1) + place[1]) * grid_.count(0) + place[0];
+    }
+
+    /// Calls visit(block) for all blocks of a box of them, in their order.
+    template <class Visit>
+    void for_blocks(const IndexBox& blocks, Visit&& visit) const {
+        for (std::uint32_t z = blocks.low[2]; z < blocks.high[2]; ++z)
+            for (std::uint32_t y = blocks.low[1]; y < blocks.high[1]; ++y)
+                for (std::uint32_t x = blocks.low[0]; x < blocks.high[0]; ++x) visit(number({x, y, z}));
+    }
+
+    /// Number of blocks of a box of them.
+    static std::uint32_t count(const IndexBox& blocks) {
+        const auto [x, y, z] = blocks.size();
+        return x * y * z;
+    }
+
+    /// The cells of a block, and of a box of blocks.
     IndexBox cells(std::uint32_t block) const {
-        const std::array<std::uint32_t, 3> place{block % grid_.count(0), block / grid_.count(0) % grid_.count(1),
-                                                 block / grid_.count(0) / grid_.count(1)};
+        const auto [x, y, z] = place(block);
+        return cells({{x, y, z}, {x + 1, y + 1, z + 1}});
+    }
+    IndexBox cells(const IndexBox& blocks) const {
         IndexBox box;
         for (int axis = 0; axis < 3; ++axis) {
             const auto wall = [&](std::uint32_t n) {
@@ -49,8 +81,8 @@ public:
                 return static_cast<std::uint32_t>(
                     std::min<std::uint64_t>(at - std::min<std::uint64_t>(at, grid_.shift[axis]), grid_.size[axis]));
             };
-            box.low[axis] = wall(place[axis]);
-            box.high[axis] = wall(place[axis] + 1);
+            box.low[axis] = wall(blocks.low[axis]);
+            box.high[axis] = wall(blocks.high[axis]);
         }
         return box;
     }

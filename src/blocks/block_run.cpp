@@ -7,12 +7,13 @@
 #include <numeric>
 #include <set>
 
+#include "blocks/begin_run.h"
 #include "blocks/block_size.h"
 #include "blocks/gather.h"
 #include "blocks/join.h"
 #include "blocks/own_faces.h"
 #include "blocks/quotas.h"
-#include "cells/label_census.h"
+#include "blocks/staged_labels.h"
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
@@ -20,26 +21,19 @@
 #include "stream/plan.h"
 #include "stream/section_faces.h"
 #include "stream/stage_options.h"
-#include "volume/room_reader.h"
 
 namespace regionmesh {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The labels of the volume, while blocks are reconstructed.
-constexpr const char* kLabels = "volume.labels";
 /// Passes that trim the last faces, at most.
 constexpr std::uint32_t kMostTrims = 8;
 
-void require_fit(const std::string& source, const ReconstructOptions& options) {
-    const auto refuse = [&](const char* what) {
-        throw Error(ErrorCode::kInput,
-                    source + ": " + what + " needs the whole surface at once, which blocks do not have; leave it out");
-    };
-    if (options.preserve_volume) refuse("--preserve-volume");
-    if (options.improve) refuse("--improve");
-}
+/// The boxes of a volume whose blocks are all there.
+struct NoBoxes final : LabelBoxes {
+    std::unique_ptr<BoxSections> open(const IndexBox&) const override { return nullptr; }
+};
 
 }  // namespace
 
@@ -57,7 +51,7 @@ BlockRun::BlockRun(const OpenSections& open, const ReconstructOptions& options, 
 BlockReport BlockRun::run() {
     {
         const Timer timer(report_.seconds);
-        if (tasks_.is_first()) begin();
+        if (tasks_.is_first()) begin_run(open_, options_, blocks_, on_progress_);
         tasks_.end_phase();
         manifest_ = *read_manifest(folder_);
         job_ = job_of(manifest_.identity);
@@ -80,62 +74,6 @@ BlockReport BlockRun::run() {
     return report_;
 }
 
-void BlockRun::begin() {
-    const auto there = read_manifest(folder_);
-    if (there) {
-        require_same_run(*there, blocks_.identity, folder_);
-        manifest_ = *there;
-    }
-    if (manifest_.is_staged) return;
-    // Nothing is written for an input that cannot be read.
-    const std::unique_ptr<SectionReader> reader = open_();
-    std::error_code error;
-    if (!fs::is_directory(folder_, error)) fs::create_directory(folder_, error);
-    if (error) throw Error(ErrorCode::kOutput, folder_.string() + ": cannot be made: " + error.message());
-    if (!there && !fs::is_empty(folder_, error))
-        throw Error(ErrorCode::kOutput, folder_.string() + ": holds other files; name an empty or a new folder");
-    manifest_.identity = blocks_.identity;
-    if (!there) write_manifest(manifest_, folder_, blocks_.output);
-    stage(*reader);
-}
-
-/// Reads the input once: counts its faces and writes its labels.
-void BlockRun::stage(SectionReader& reader) {
-    std::optional<RoomReader> cleaned;
-    if (options_.room > 0) cleaned.emplace(reader, options_.room, options_.threads);
-    SectionReader& sections = cleaned ? static_cast<SectionReader&>(*cleaned) : reader;
-    const VolumeInfo info = sections.info();
-    require_lattice(info.source, info.lattice);
-    require_fit(info.source, options_);
-    const SourceShape shape = section_shape(info, cell_kind(options_), section_scale(info, options_));
-    halo_of(shape, options_);  // refuses other filters before the work
-    LabelTable labels = table_for(info);
-    const std::vector<Label> background = dense_background(options_.background, labels);
-    LabelCensus census(info.lattice, info.sweep, {.cap = options_.cap, .background = background, .cells = shape.cells});
-    std::uint32_t strips = 0;
-    StagedLabels::write(sections, labels, folder_ / kLabels, blocks_.output,
-                        [&](std::span<const Label> low, std::span<const Label> high, bool is_last) {
-                            census.add(low, high, is_last);
-                            if (on_progress_) on_progress_({"read", ++strips, shape.strip_count});
-                        });
-    write_labels(labels, folder_, blocks_.output);
-    manifest_.is_staged = true;
-    manifest_.lattice = info.lattice;
-    manifest_.sweep = info.sweep;
-    manifest_.source = info.source;
-    manifest_.is_unsigned = labels.is_unsigned();
-    manifest_.label_count = labels.size();
-    manifest_.space = info.space;
-    manifest_.names = info.names;
-    manifest_.background = options_.background;
-    manifest_.scale_z = shape.scale_z;
-    manifest_.initial_faces = census.face_count();
-    manifest_.block_cells =
-        blocks_.block_cells > 0 ? blocks_.block_cells : default_block_cells(shape, census.face_count(), options_);
-    require_block_count(info, manifest_.block_cells);
-    write_manifest(manifest_, folder_, blocks_.output);
-}
-
 void BlockRun::open_volume() {
     VolumeInfo info;
     info.source = manifest_.source;
@@ -145,17 +83,18 @@ void BlockRun::open_volume() {
     labels_ = read_labels(manifest_, folder_);
     const std::vector<Label> background = dense_background(manifest_.background, labels_);
     const SourceShape shape = section_shape(info, cell_kind(options_), manifest_.scale_z);
-    if (manifest_.passes == 0) staged_.emplace(folder_ / kLabels, manifest_.lattice, manifest_.sweep);
+    if (manifest_.passes > 0)
+        boxes_ = std::make_unique<NoBoxes>();
+    else if (manifest_.is_in_place)
+        boxes_ = std::make_unique<LabelsInPlace>(open_, labels_);
+    else
+        boxes_ = std::make_unique<StagedLabels>(folder_ / kStagedLabels, manifest_.lattice, manifest_.sweep);
     target_.total = manifest_.initial_faces;
-    static const struct NoBoxes final : LabelBoxes {
-        void read(const IndexBox&, std::uint32_t, std::span<Label>) const override {}
-    } none;
     const StripOptions strips{.cap = options_.cap,
                               .background = background,
                               .cells = shape.cells,
                               .cuts = is_smoothed ? QuadCuts::kCones : QuadCuts::kBestQuality};
-    const LabelBoxes& boxes = staged_ ? static_cast<const LabelBoxes&>(*staged_) : none;
-    volume_.emplace(BlockVolume{boxes, shape, strips, labels_, background});
+    volume_.emplace(BlockVolume{*boxes_, shape, strips, labels_, background});
 }
 
 void BlockRun::run_passes() {
@@ -194,36 +133,50 @@ std::vector<PieceHeader> BlockRun::headers() const {
     return found;
 }
 
+PieceHeader BlockRun::header_of(std::uint32_t pass, std::uint32_t block) const {
+    PieceHeader header;
+    header.job = job_;
+    header.pass = pass;
+    header.block = block;
+    return header;
+}
+
+/// Whether the piece was made before, by this run or by one that was ended.
+bool BlockRun::is_there(const PieceHeader& header) {
+    const bool is_found = find_piece(path_of(header.pass, header.block), header).has_value();
+    if (is_found) ++report_.found;
+    return is_found;
+}
+
+void BlockRun::keep(Piece piece) {
+    write_piece(piece, path_of(piece.header.pass, piece.header.block), blocks_.output);
+    ++report_.made;
+}
+
 /// Makes the pieces that are not there, shared with other processes.
 void BlockRun::run_pass(std::uint32_t pass, const char* stage, const std::vector<std::uint32_t>& blocks,
                         const MakePiece& make) {
     const auto count = static_cast<std::uint32_t>(blocks.size());
     if (on_progress_) on_progress_({stage, 0, count});
     while (const auto task = tasks_.next(count)) {
-        const std::uint32_t block = blocks[*task];
-        PieceHeader header;
-        header.job = job_;
-        header.pass = pass;
-        header.block = block;
-        const fs::path path = path_of(pass, block);
-        if (find_piece(path, header)) {
-            ++report_.found;
-        } else {
-            Piece piece = make(header);
-            write_piece(piece, path, blocks_.output);
-            ++report_.made;
-        }
+        const PieceHeader header = header_of(pass, blocks[*task]);
+        if (!is_there(header)) keep(make(header));
         give_back_freed_memory();
         if (on_progress_) on_progress_({stage, *task + 1, count});
     }
+    end_pass(pass, blocks);
+}
+
+/// When all processes have come here: notes the pieces of a pass in the manifest. From then on those before them are
+/// not needed.
+void BlockRun::end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks) {
     tasks_.end_phase();
-    if (tasks_.is_first()) end_pass(pass, blocks);
+    if (tasks_.is_first()) note_pieces(pass, blocks);
     tasks_.end_phase();
     manifest_ = *read_manifest(folder_);
 }
 
-/// Notes the pieces of a pass in the manifest: from then on those before them are not needed.
-void BlockRun::end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks) {
+void BlockRun::note_pieces(std::uint32_t pass, const std::vector<std::uint32_t>& blocks) {
     const std::uint32_t count = grid(pass).count();
     manifest_.shift = pass > 0 && manifest_.pieces.size() != 1 ? manifest_.block_cells / 2 : 0;
     if (manifest_.pieces.size() != count || blocks.size() == count) manifest_.pieces.assign(count, {});
@@ -243,7 +196,7 @@ void BlockRun::remove_passes_before(std::uint32_t pass) {
     for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block)
         used.insert(path_of(manifest_.pieces[block].pass, block).filename());
     std::error_code ignored;
-    std::vector<fs::path> unused{folder_ / kLabels};
+    std::vector<fs::path> unused{folder_ / kStagedLabels};
     for (const auto& entry : fs::directory_iterator(folder_)) {
         const std::string name = entry.path().filename();
         const auto number = pass_of(name);
@@ -254,24 +207,62 @@ void BlockRun::remove_passes_before(std::uint32_t pass) {
 
 void BlockRun::reconstruct_pass() {
     const BlockGrid blocks = grid(0);
+    const std::vector<IndexBox> sweeps =
+        plan_sweeps(blocks, volume_->shape, manifest_.initial_faces, options_, tasks_.processes());
     std::vector<std::uint32_t> all(blocks.count());
     std::iota(all.begin(), all.end(), 0);
-    run_pass(0, "reconstruct", all, [&](PieceHeader header) {
-        BlockChunk block{.cells = blocks.cells(header.block),
-                         .lattice = volume_->shape.lattice,
-                         .sweep = manifest_.sweep,
-                         .chunk = own_faces(*volume_, blocks, header.block, options_)};
-        header.initial_faces = block.chunk.faces.size();
-        if (is_decimating_) simplify_low(block, target_.share(), simplify_options());
-        if (is_decimating_ && (blocks.count() == 1 || !has_target())) {
-            header.is_at_limit = simplify_to(block, has_target() ? target() : 0, simplify_options());
-        } else if (is_decimating_) {
-            const double left = static_cast<double>(block.chunk.faces.size()) + 1;
-            const double share = target_.share() * static_cast<double>(header.initial_faces) / left;
-            header.left = try_thresholds(block, std::min(share, 1.0) / 2, simplify_options());
-        }
-        return piece_of(block, blocks, header);
+    std::vector<std::uint32_t> before{0};  // blocks of the sweeps before
+    for (const IndexBox& sweep : sweeps) before.push_back(before.back() + BlockGrid::count(sweep));
+    if (on_progress_) on_progress_({"reconstruct", 0, blocks.count()});
+    while (const auto task = tasks_.next(static_cast<std::uint32_t>(sweeps.size())))
+        sweep_blocks(blocks, sweeps[*task], before[*task]);
+    end_pass(0, all);
+}
+
+/// Makes the pieces of a box of blocks that are not there; `done` blocks come before it.
+void BlockRun::sweep_blocks(const BlockGrid& blocks, IndexBox sweep, std::uint32_t done) {
+    // Layers of blocks that are all there need not be swept again.
+    const int axis = volume_->shape.axis();
+    std::set<std::uint32_t> missing;
+    blocks.for_blocks(sweep, [&](std::uint32_t block) {
+        if (!is_there(header_of(0, block))) missing.insert(block);
     });
+    if (missing.empty()) return;
+    done += BlockGrid::count(sweep);
+    std::uint32_t low = sweep.high[axis], high = 0;
+    for (const std::uint32_t block : missing) {
+        const std::uint32_t layer = blocks.place(block)[axis];
+        low = std::min(low, layer);
+        high = std::max(high, layer + 1);
+    }
+    sweep.low[axis] = low;
+    sweep.high[axis] = high;
+    done -= BlockGrid::count(sweep);
+    OwnFaces faces(*volume_, blocks, sweep, options_);
+    Chunk own;
+    while (const auto block = faces.next(own)) {
+        if (missing.contains(*block)) keep(reconstructed(blocks, header_of(0, *block), std::move(own)));
+        give_back_freed_memory();
+        if (on_progress_) on_progress_({"reconstruct", ++done, blocks.count()});
+    }
+}
+
+/// Pass 0 of a block.
+Piece BlockRun::reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk faces) {
+    BlockChunk block{.cells = blocks.cells(header.block),
+                     .lattice = volume_->shape.lattice,
+                     .sweep = manifest_.sweep,
+                     .chunk = std::move(faces)};
+    header.initial_faces = block.chunk.faces.size();
+    if (is_decimating_) simplify_low(block, target_.share(), simplify_options());
+    if (is_decimating_ && (blocks.count() == 1 || !has_target())) {
+        header.is_at_limit = simplify_to(block, has_target() ? target() : 0, simplify_options());
+    } else if (is_decimating_) {
+        const double left = static_cast<double>(block.chunk.faces.size()) + 1;
+        const double share = target_.share() * static_cast<double>(header.initial_faces) / left;
+        header.left = try_thresholds(block, std::min(share, 1.0) / 2, simplify_options());
+    }
+    return piece_of(block, blocks, header);
 }
 
 /// A block out of the pieces of the pass before, simplified to `goal` faces, or else to the shares of theirs.

@@ -3,17 +3,15 @@
 
 #include <optional>
 
+#include "blocks/begin_run.h"
 #include "blocks/block_faces.h"
 #include "blocks/manifest.h"
 #include "blocks/piece.h"
 #include "blocks/simplify_block.h"
-#include "blocks/staged_labels.h"
 #include "regionmesh/blocks.h"
 #include "stream/target.h"
 
 namespace regionmesh {
-
-using OpenSections = std::function<std::unique_ptr<SectionReader>()>;
 
 /// Pass 0 reconstructs the blocks and simplifies each up to a low threshold, its rim locked. Pass 1 simplifies blocks
 /// shifted by half a block, whose goals follow from a common threshold. Further passes take the last faces above the
@@ -22,7 +20,7 @@ using OpenSections = std::function<std::unique_ptr<SectionReader>()>;
 class BlockRun {
 public:
     BlockRun(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,
-             const std::function<void(const BlockProgress&)>& on_progress);
+             const OnBlocks& on_progress);
 
     BlockReport run();
 
@@ -30,15 +28,19 @@ private:
     /// What a pass makes of a block.
     using MakePiece = std::function<Piece(const PieceHeader&)>;
 
-    void begin();
-    void stage(SectionReader& reader);
     void open_volume();
     void run_passes();
     void run_pass(std::uint32_t pass, const char* stage, const std::vector<std::uint32_t>& blocks,
                   const MakePiece& make);
+    PieceHeader header_of(std::uint32_t pass, std::uint32_t block) const;
+    bool is_there(const PieceHeader& header);
+    void keep(Piece piece);
+    void note_pieces(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
     void end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
     void remove_passes_before(std::uint32_t pass);
     void reconstruct_pass();
+    void sweep_blocks(const BlockGrid& blocks, IndexBox sweep, std::uint32_t done);
+    Piece reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk faces);
     void seam_pass(const std::vector<double>& shares);
     void trim_passes();
     void complete();
@@ -58,14 +60,14 @@ private:
     ReconstructOptions options_;
     const BlockOptions& blocks_;
     BlockTasks& tasks_;
-    const std::function<void(const BlockProgress&)>& on_progress_;
+    const OnBlocks& on_progress_;
     std::filesystem::path folder_;
     std::uint64_t job_ = 0;
     Manifest manifest_;
     Target target_;
     bool is_decimating_;
     LabelTable labels_;
-    std::optional<StagedLabels> staged_;
+    std::unique_ptr<LabelBoxes> boxes_;
     std::optional<BlockVolume> volume_;
     BlockReport report_;
 };

@@ -16,41 +16,100 @@ namespace {
 
 /// Blocks are not made smaller than this number of cells for memory: nearly all of their faces would be on the rim.
 constexpr std::uint32_t kFewestCells = 64;
-/// Bytes for each face of a block before simplification, and for each in the window of smoothing.
-constexpr double kBlockBytesPerFace = kChunkBytesPerFace + kTilesBytesPerFace, kWindowBytes = 140;
+/// Bytes for each face in the window of smoothing.
+constexpr double kWindowBytes = 140;
 /// A block may have more faces than the mean.
 constexpr double kUneven = 2;
 /// Sections that the window of smoothing holds, about.
 constexpr double kWindowSections = 64;
 /// Most blocks.
 constexpr double kMostBlocks = 10e6;
+/// Sweeps for each process, at least, so that all end at about the same time.
+constexpr std::uint32_t kSweepsPerProcess = 3;
+
+/// Bytes that a process takes which sweeps over blocks.
+class SweepBytes {
+public:
+    SweepBytes(const SourceShape& shape, std::uint64_t faces, const ReconstructOptions& options)
+        : shape_(shape), halo_(halo_of(shape, options)) {
+        const auto& size = shape.lattice.size;
+        faces_per_cell_ = kUneven * static_cast<double>(faces) / (static_cast<double>(size[0]) * size[1] * size[2]);
+    }
+
+    /// Of a box of `cells` cells, in blocks of `block`: it holds the window of smoothing, one layer of blocks along the
+    /// sweep, and one block that is simplified.
+    double of(const std::array<double, 3>& cells, double block) const {
+        double section = 1, sections = 0, layer = 1, one = 1;
+        for (int n = 0; n < 3; ++n) {
+            const int axis = shape_.sweep.axes[n];
+            const double size = shape_.lattice.size[axis];
+            const double with_halo = std::min(cells[axis] + 1 + 2.0 * halo_[axis], size);
+            one *= std::min(block, size);
+            layer *= std::min(n < 2 ? cells[axis] : block, size);
+            if (n < 2)
+                section *= with_halo;
+            else
+                sections = std::min(with_halo, kWindowSections);
+        }
+        constexpr double kPerSample = 2 * sizeof(Label) + static_cast<double>(StripMesher::kBytesPerSample);
+        return static_cast<double>(kProcessBytes) + section * kPerSample +
+               faces_per_cell_ *
+                   (section * sections * kWindowBytes + layer * kChunkBytesPerFace + one * kTilesBytesPerFace);
+    }
+
+private:
+    const SourceShape& shape_;
+    std::array<std::uint32_t, 3> halo_;
+    double faces_per_cell_;
+};
+
+/// Boxes of `side` blocks, the last along each axis cut by the volume.
+std::vector<IndexBox> boxes_of(const std::array<std::uint32_t, 3>& side, const std::array<std::uint32_t, 3>& counts) {
+    std::vector<IndexBox> boxes;
+    for (std::uint32_t z = 0; z < counts[2]; z += side[2])
+        for (std::uint32_t y = 0; y < counts[1]; y += side[1])
+            for (std::uint32_t x = 0; x < counts[0]; x += side[0])
+                boxes.push_back({{x, y, z},
+                                 {std::min(x + side[0], counts[0]), std::min(y + side[1], counts[1]),
+                                  std::min(z + side[2], counts[2])}});
+    return boxes;
+}
 
 }  // namespace
 
 std::uint32_t default_block_cells(const SourceShape& shape, std::uint64_t faces, const ReconstructOptions& options) {
+    const SweepBytes bytes(shape, faces, options);
     const auto& size = shape.lattice.size;
-    const double samples = static_cast<double>(size[0]) * size[1] * size[2];
-    const double density = static_cast<double>(faces) / samples;
-    const std::array<std::uint32_t, 3> halo = halo_of(shape, options);
-    const auto bytes = [&](double cells) {
-        double with_halo[3], section = 1, block = 1;
-        for (int n = 0; n < 3; ++n) {
-            const int axis = shape.sweep.axes[n];
-            with_halo[n] = std::min(cells + 1 + 2.0 * halo[axis], static_cast<double>(size[axis]));
-            block *= std::min(cells, static_cast<double>(size[axis]));
-            if (n < 2) section *= with_halo[n];
-        }
-        const double per_sample = 2 * sizeof(Label) + static_cast<double>(StripMesher::kBytesPerSample);
-        return static_cast<double>(kProcessBytes) + section * per_sample +
-               kUneven * density *
-                   (block * kBlockBytesPerFace + section * std::min(kWindowSections, with_halo[2]) * kWindowBytes);
-    };
     const std::uint32_t longest = std::max({size[0], size[1], size[2]}) - 1;
     std::uint32_t cells = std::max(longest, kFewestCells);
-    while (cells > kFewestCells && bytes(cells) > static_cast<double>(options.memory)) cells = cells * 15 / 16;
+    const auto fits = [&](double side) {
+        return bytes.of({side, side, side}, side) <= static_cast<double>(options.memory);
+    };
+    while (cells > kFewestCells && !fits(cells)) cells = cells * 15 / 16;
     cells = std::max(cells, kFewestCells);
     const std::uint32_t count = (longest + cells - 1) / cells;
     return std::max((longest + count - 1) / count, 2u);
+}
+
+std::vector<IndexBox> plan_sweeps(const BlockGrid& grid, const SourceShape& shape, std::uint64_t faces,
+                                  const ReconstructOptions& options, std::uint32_t processes) {
+    const SweepBytes bytes(shape, faces, options);
+    const double block = grid.cells({{0, 0, 0}, {1, 1, 1}}).size()[0];
+    const std::array<std::uint32_t, 3> counts = grid.counts();
+    std::array<std::uint32_t, 3> side = counts;
+    std::vector<IndexBox> sweeps = boxes_of(side, counts);
+    for (;;) {
+        const auto cells = grid.cells(sweeps.front()).size();
+        const bool is_fit =
+            bytes.of({double(cells[0]), double(cells[1]), double(cells[2])}, block) <= double(options.memory);
+        if (is_fit && (processes == 1 || sweeps.size() >= std::size_t{processes} * kSweepsPerProcess)) return sweeps;
+        int longest = shape.sweep.axes[0];
+        for (const int axis : shape.sweep.axes)
+            if (side[axis] > side[longest] && (is_fit || axis != shape.axis())) longest = axis;
+        if (side[longest] == 1) return sweeps;
+        side[longest] = (side[longest] + 1) / 2;
+        sweeps = boxes_of(side, counts);
+    }
 }
 
 void require_block_count(const VolumeInfo& volume, std::uint32_t cells) {

@@ -1,8 +1,10 @@
-// How large blocks are.
+// How large blocks are, and which of them are reconstructed together.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "blocks/block_grid.h"
 #include "regionmesh/reconstruct.h"
 #include "stream/face_source.h"
 
@@ -11,6 +13,11 @@ namespace regionmesh {
 /// Cells along an axis of the largest blocks that the memory of the options has room for, of about equal size along the
 /// longest axis. `faces` is their number before simplification.
 std::uint32_t default_block_cells(const SourceShape& shape, std::uint64_t faces, const ReconstructOptions& options);
+
+/// Boxes of blocks, each swept in one go (OwnFaces): as large as memory has room for, and a few for each process where
+/// there are several. Their order and size do not change the faces.
+std::vector<IndexBox> plan_sweeps(const BlockGrid& grid, const SourceShape& shape, std::uint64_t faces,
+                                  const ReconstructOptions& options, std::uint32_t processes);
 
 /// Throws Error(kInput) where there would be too many blocks, each of which is a file.
 void require_block_count(const VolumeInfo& volume, std::uint32_t cells);

@@ -52,7 +52,9 @@ Mesh read_part(const Folder& folder, std::uint32_t block, MeshPart& part) {
     });
     Mesh mesh;
     mesh.reserve(chunk.vertices.size(), chunk.faces.size());
-    part = {.number = block, .of_vertex = {}, .of_face = {}};
+    part = {.number = block, .of_vertex = {}, .of_face = {}, .low_of_face = {}, .at = [&](Vec3 place) {
+                return folder.grid.block_at(place);
+            }};
     for (std::uint32_t n = 0; n < order.size(); ++n) {
         const ChunkVertex& vertex = chunk.vertices[order[n]];
         number[order[n]] = n;
@@ -63,6 +65,9 @@ Mesh read_part(const Folder& folder, std::uint32_t block, MeshPart& part) {
         const auto& [v, labels] = face;
         mesh.add_face(VertexId{number[v[0]]}, VertexId{number[v[1]]}, VertexId{number[v[2]]}, labels[0], labels[1]);
         part.of_face.push_back(block_of(folder.grid, chunk, face));
+        Box box;
+        for (const std::uint32_t n : v) box.add(chunk.vertices[n].position);
+        part.low_of_face.push_back(box.low);
     }
     folder.place(mesh);
     return mesh;

@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
-bool touches(const Box& a, const Box& b) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
-    return true;
-}
-
 bool is_within(const Box& inner, const Box& outer) {
     for (int axis = 0; axis < 3; ++axis)
         if (inner.low[axis] < outer.low[axis] || inner.high[axis] > outer.high[axis]) return false;
@@ -60,7 +54,7 @@ std::uint32_t SharedVertices::number(Vec3 position, std::uint32_t next) {
     return numbers_.try_emplace({bits(position.x), bits(position.y), bits(position.z)}, next).first->second;
 }
 
-bool BlockGatherer::needs(const Box& box) const { return touches(box, limits_); }
+bool BlockGatherer::needs(const Box& box) const { return grid_.reaches(box, block_); }
 
 std::uint32_t BlockGatherer::number(const PieceVertex& vertex, std::uint32_t& place) {
     if (place != kNone) return place;
@@ -80,7 +74,7 @@ void BlockGatherer::add(const Piece& piece, double keep) {
     for (const PieceFace& face : piece.faces) {
         const std::array<Vec3, 3> corners = corners_of(piece, face);
         const Box box = box_of(corners);
-        if (!touches(box, limits_)) continue;
+        if (!grid_.reaches(box, block_)) continue;
         const bool is_own = block_of(grid_, corners) == block_;
         ChunkFace made{{}, face.labels};
         for (int n = 0; n < 3; ++n)

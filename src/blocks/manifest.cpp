@@ -26,8 +26,9 @@ Json json_of(const Manifest& manifest) {
     Json json{{"format", kFormat}, {"version", kVersion}};
     Json& identity = json["run"] = Json::array();
     for (const auto& [name, value] : manifest.identity) identity.push_back({name, value});
-    if (!manifest.is_staged) return json;
+    if (!manifest.is_surveyed) return json;
     const Lattice& lattice = manifest.lattice;
+    json["in_place"] = manifest.is_in_place;
     json["source"] = manifest.source;
     json["size"] = lattice.size;
     json["spacing"] = vec_json(lattice.spacing);
@@ -70,9 +71,10 @@ PieceEntry piece_of(const nlohmann::json& json) {
 Manifest manifest_of(const nlohmann::json& json) {
     Manifest manifest;
     for (const auto& pair : json.at("run")) manifest.identity.emplace_back(pair.at(0), pair.at(1));
-    manifest.is_staged = json.contains("size");
-    if (!manifest.is_staged) return manifest;
+    manifest.is_surveyed = json.contains("size");
+    if (!manifest.is_surveyed) return manifest;
     Lattice& lattice = manifest.lattice;
+    manifest.is_in_place = json.at("in_place");
     manifest.source = json.at("source");
     lattice.size = json.at("size");
     lattice.spacing = vec_of(json.at("spacing"));

@@ -22,24 +22,25 @@ struct PieceEntry {
 
 /// docs/explanation/blocks.md lists the keys of the file.
 struct Manifest {
-    RunIdentity identity;
-    bool is_staged = false;    // the labels are there; what follows is known
+    RunIdentity identity = {};
+    bool is_surveyed = false;  // the labels are known, and what follows
     bool is_complete = false;  // the model is there
-    Lattice lattice;           // of the input
-    Sweep sweep;
-    std::string source;
+    bool is_in_place = false;  // labels are read out of the input, not out of a copy
+    Lattice lattice = {};      // of the input
+    Sweep sweep = {};
+    std::string source = {};
     bool is_unsigned = false;       // labels
     std::uint64_t label_count = 0;  // in labels.bin
     Space space = Space::kUnknown;
-    LabelNames names;
-    std::vector<InputLabel> background;
+    LabelNames names = {};
+    std::vector<InputLabel> background = {};
     std::uint32_t block_cells = 0;
     std::uint32_t shift = 0;  // cells by which the first blocks of `pieces` are shorter
     double scale_z = 1;
-    std::uint64_t initial_faces = 0;  // counted on the labels
-    std::uint32_t passes = 0;         // complete ones
-    std::vector<PieceEntry> pieces;   // of the last pass that is complete, by block
-    std::string stopped;
+    std::uint64_t initial_faces = 0;      // counted on the labels
+    std::uint32_t passes = 0;             // complete ones
+    std::vector<PieceEntry> pieces = {};  // of the last pass that is complete, by block
+    std::string stopped = {};
     double error_bound = 0;
     std::uint64_t vertices = 0, faces = 0;  // of the whole model, once it is complete
 };

@@ -15,6 +15,8 @@ namespace {
 
 /// Thresholds of trials begin at this cost, and each is larger by this factor.
 constexpr double kFirstTrial = 1e-3, kTrialStep = 4;
+/// They end at this multiple of the least share: tiles stop at that share themselves.
+constexpr double kNearLeast = 1.1;
 
 /// Tiles of `side` cells; the walls of the outermost are those of the block.
 TileGrid grid_of(const BlockChunk& block, std::uint32_t side, std::uint32_t shift) {
@@ -69,24 +71,30 @@ double trial_threshold(int n) { return kFirstTrial * std::pow(kTrialStep, n); }
 
 std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block, double least,
                                                         const BlockSimplifyOptions& options) {
-    std::array<double, kMostThresholdTrials> left{};
     TileOptions tiles = tile_options(options);
     const std::uint32_t side = side_of_tiles(block);
     const TileGrid grid = grid_of(block, side, side / 2);
     TiledFaces faces(block.chunk, {}, grid, options.threads);
+    std::array<double, kMostThresholdTrials> left{};
     std::vector<std::uint32_t> full, chosen;
     for (std::uint32_t tile = 0; tile < grid.tile_count(); ++tile)
         if (!faces.faces_of(tile).empty()) full.push_back(tile);
     const std::uint32_t every = std::clamp(static_cast<std::uint32_t>(full.size()) / kSampledTiles, 1u, kSampledTiles);
     for (std::uint32_t n = 0; n + every <= full.size(); n += every)
         chosen.push_back(full[n + static_cast<std::uint32_t>(hash_unit(n, every) * every)]);
-    for (int n = 0; n < kMostThresholdTrials && !chosen.empty(); ++n) {
-        tiles.threshold = trial_threshold(n);
-        const TileCounts counts = try_tiles(faces, chosen, tiles);
+    if (chosen.empty()) return left;
+    std::array<double, kMostThresholdTrials> thresholds;
+    for (int n = 0; n < kMostThresholdTrials; ++n) thresholds[n] = trial_threshold(n);
+    tiles.keep_share = least;
+    const std::vector<TileCounts> counts = regionmesh::try_thresholds(faces, chosen, tiles, thresholds);
+    const auto share = [](std::uint64_t some, std::uint64_t of) {
+        return (static_cast<double>(some) + 1) / (static_cast<double>(of) + 1);
+    };
+    for (int n = 0; n < kMostThresholdTrials; ++n) {
         // Locked vertices of tiles keep their resolution here, and not in the passes to come.
-        left[n] = std::min((static_cast<double>(counts.left_faces) + 1) / (static_cast<double>(counts.faces) + 1),
-                           (static_cast<double>(counts.left_inside) + 1) / (static_cast<double>(counts.inside) + 1));
-        if (left[n] < least) break;
+        left[n] =
+            std::min(share(counts[n].left_faces, counts[n].faces), share(counts[n].left_inside, counts[n].inside));
+        if (left[n] < kNearLeast * least) break;
     }
     return left;
 }

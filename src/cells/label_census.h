@@ -18,6 +18,7 @@ namespace regionmesh {
 /// visited. Faces are counted by case, without making them.
 class LabelCensus {
 public:
+    /// Of a part of a volume (StripOptions::first) only faces are counted rightly; it has whole strips along the sweep.
     LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions options);
 
     /// Counts the strip between two consecutive sections; `is_last` when `high` is the last section.
@@ -42,7 +43,8 @@ private:
 
     std::uint32_t width_, height_;
     StripOptions options_;
-    MixedCells mixed_;  // of a row of cells
+    unsigned sides_ = 0;  // those along the sections that are sides of the whole volume, a bit for each
+    MixedCells mixed_;    // of a row of cells
     bool is_first_ = true;
     std::uint64_t faces_ = 0;
     std::uint64_t quadruple_points_ = 0;

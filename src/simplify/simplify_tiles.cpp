@@ -11,24 +11,49 @@
 namespace regionmesh {
 namespace {
 
+/// Collapses the edges of a tile that is taken out, up to a threshold.
+VerdictCounts collapse_up_to(double threshold, Mesh& mesh, std::uint32_t target_faces, const Box& limits,
+                             const TileOptions& options) {
+    SimplifyOptions own = options.simplify;
+    own.on_progress = {};
+    own.target_faces = target_faces;
+    own.max_cost = std::min(options.simplify.max_cost, threshold * std::pow(own.scale, 4));
+    return collapse_edges(mesh, own, {.limits = limits, .refresh = false}).verdicts;
+}
+
 /// First what is free, where that may go further than the rest.
 VerdictCounts simplify_tile(Tile& tile, TiledFaces& faces, std::uint32_t number, const TileOptions& options) {
     tile.take_out(faces, number);
-    Mesh& mesh = tile.mesh();
-    SimplifyOptions own = options.simplify;
-    own.on_progress = {};
-    const CollapseBounds bounds{.limits = faces.grid().limits(number), .refresh = false};
-    const std::uint32_t face_count = mesh.face_count();
+    const Box limits = faces.grid().limits(number);
+    const std::uint32_t face_count = tile.mesh().face_count();
+    const auto faces_at = [&](double share) { return static_cast<std::uint32_t>(std::ceil(share * face_count)); };
     VerdictCounts verdicts{};
-    const auto simplify_to = [&](double share, double threshold) {
-        own.target_faces = static_cast<std::uint32_t>(std::ceil(share * face_count));
-        own.max_cost = std::min(options.simplify.max_cost, threshold * std::pow(own.scale, 4));
-        add(verdicts, collapse_edges(mesh, own, bounds).verdicts);
-    };
-    if (options.free_share < options.keep_share) simplify_to(options.free_share, kFreeCost);
-    simplify_to(options.keep_share, options.threshold);
+    if (options.free_share < options.keep_share)
+        verdicts = collapse_up_to(kFreeCost, tile.mesh(), faces_at(options.free_share), limits, options);
+    add(verdicts, collapse_up_to(options.threshold, tile.mesh(), faces_at(options.keep_share), limits, options));
     tile.note_left(faces, number);
     return verdicts;
+}
+
+/// What a tile has left after each of the thresholds.
+std::vector<TileCounts> counts_at(std::span<const double> thresholds, Tile& tile, TiledFaces& faces,
+                                  std::uint32_t number, const TileOptions& options) {
+    tile.take_out(faces, number);
+    const Mesh& mesh = tile.mesh();
+    const std::uint32_t mesh_faces = mesh.face_count(), mesh_vertices = mesh.vertex_count();
+    const std::uint64_t own_faces = faces.faces_of(number).size(), inside = tile.inside_count();
+    const auto target = static_cast<std::uint32_t>(std::ceil(options.keep_share * mesh_faces));
+    std::vector<TileCounts> counts;
+    for (const double threshold : thresholds) {
+        if (mesh.face_count() > target)
+            collapse_up_to(threshold, tile.mesh(), target, faces.grid().limits(number), options);
+        counts.push_back({.faces = own_faces,
+                          .left_faces = own_faces - (mesh_faces - mesh.face_count()),
+                          .inside = inside,
+                          .left_inside = inside - (mesh_vertices - mesh.vertex_count())});
+    }
+    tile.note_left(faces, number);
+    return counts;
 }
 
 }  // namespace
@@ -93,6 +118,27 @@ TileCounts try_tiles(TiledFaces& faces, std::span<const std::uint32_t> numbers, 
     };
     parallel_in_order(static_cast<std::uint32_t>(numbers.size()), in_flight, options.threads, {work, finish});
     return counts;
+}
+
+std::vector<TileCounts> try_thresholds(TiledFaces& faces, std::span<const std::uint32_t> numbers,
+                                       const TileOptions& options, std::span<const double> thresholds) {
+    std::vector<TileCounts> sums(thresholds.size());
+    const std::uint32_t in_flight = tiles_in_flight(faces, numbers, options);
+    std::vector<Tile> tiles(in_flight);
+    std::vector<std::vector<TileCounts>> counts(in_flight);
+    const auto work = [&](std::uint32_t n, std::uint32_t place) {
+        counts[place] = counts_at(thresholds, tiles[place], faces, numbers[n], options);
+    };
+    const auto finish = [&](std::uint32_t, std::uint32_t place) {
+        for (std::size_t n = 0; n < sums.size(); ++n) {
+            sums[n].faces += counts[place][n].faces;
+            sums[n].left_faces += counts[place][n].left_faces;
+            sums[n].inside += counts[place][n].inside;
+            sums[n].left_inside += counts[place][n].left_inside;
+        }
+    };
+    parallel_in_order(static_cast<std::uint32_t>(numbers.size()), in_flight, options.threads, {work, finish});
+    return sums;
 }
 
 }  // namespace regionmesh

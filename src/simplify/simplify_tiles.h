@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "mesh/chunk.h"
 #include "regionmesh/limits.h"
@@ -45,5 +46,8 @@ struct TileCounts {
 };
 /// Simplifies some tiles and leaves them as they were.
 TileCounts try_tiles(TiledFaces& faces, std::span<const std::uint32_t> tiles, const TileOptions& options);
+/// The same at several thresholds, which rise: each goes on from the one before. A tile ends at `keep_share`.
+std::vector<TileCounts> try_thresholds(TiledFaces& faces, std::span<const std::uint32_t> tiles,
+                                       const TileOptions& options, std::span<const double> thresholds);
 
 }  // namespace regionmesh

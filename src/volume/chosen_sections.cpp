@@ -13,21 +13,11 @@ std::uint64_t held_by(const SectionReader& reader) {
     return reader.info().held_bytes ? reader.info().held_bytes : section;
 }
 
-/// The place of a sample by its indices, which need not be whole.
-Vec3 place_of(const Lattice& lattice, const std::array<double, 3>& index) {
-    const Vec3 along{index[0] * lattice.spacing.x, index[1] * lattice.spacing.y, index[2] * lattice.spacing.z};
-    const auto& d = lattice.direction;
-    return lattice.origin +
-           Vec3{dot({d[0], d[1], d[2]}, along), dot({d[3], d[4], d[5]}, along), dot({d[6], d[7], d[8]}, along)};
-}
-
 class CroppedSections : public SectionReader {
 public:
-    CroppedSections(ReaderPointer reader, const SampleBox& box)
+    CroppedSections(ReaderPointer reader, const IndexBox& box)
         : reader_(std::move(reader)), box_(box), info_(reader_->info()) {
-        Lattice& lattice = info_.lattice;
-        for (int axis = 0; axis < 3; ++axis) lattice.size[axis] = box.high[axis] - box.low[axis];
-        lattice.origin = place_of(lattice, {double(box.low[0]), double(box.low[1]), double(box.low[2])});
+        info_.lattice = cropped(info_.lattice, box);
         info_.can_sweep = {};
         info_.can_sweep[info_.sweep.axes[2]] = true;
         whole_.resize(std::size_t{reader_->section_width()} * reader_->section_height());
@@ -57,7 +47,7 @@ public:
 
 private:
     ReaderPointer reader_;
-    SampleBox box_;
+    IndexBox box_;
     VolumeInfo info_;
     std::vector<InputLabel> whole_;  // one section of the reader
     std::uint32_t skipped_ = 0, section_ = 0;
@@ -77,6 +67,7 @@ public:
     }
 
     void rewind() override { reader_->rewind(); }
+    bool crop(const IndexBox& box) override { return reader_->crop(box); }
 
 private:
     InputLabel relabelled(InputLabel label) {
@@ -118,7 +109,7 @@ public:
     DownsampledSections(ReaderPointer reader, const std::array<std::uint32_t, 3>& factors, InputLabel rest)
         : reader_(std::move(reader)), factors_(factors), rest_(rest), info_(reader_->info()) {
         Lattice& lattice = info_.lattice;
-        lattice.origin = place_of(lattice, {0.5 * (factors[0] - 1), 0.5 * (factors[1] - 1), 0.5 * (factors[2] - 1)});
+        lattice.origin = lattice.place_of({0.5 * (factors[0] - 1), 0.5 * (factors[1] - 1), 0.5 * (factors[2] - 1)});
         for (int axis = 0; axis < 3; ++axis) {
             lattice.size[axis] = (lattice.size[axis] - 1) / factors[axis] + 1;
             lattice.spacing[axis] *= factors[axis];
@@ -169,7 +160,8 @@ private:
 
 }  // namespace
 
-ReaderPointer crop_sections(ReaderPointer reader, const SampleBox& box) {
+ReaderPointer crop_sections(ReaderPointer reader, const IndexBox& box) {
+    if (reader->crop(box)) return reader;
     return std::make_unique<CroppedSections>(std::move(reader), box);
 }
 

@@ -12,11 +12,9 @@ namespace regionmesh {
 
 using ReaderPointer = std::unique_ptr<SectionReader>;
 
-/// The samples of a box of indices: from low[axis] to high[axis] - 1. Requires low < high <= size along each axis.
-struct SampleBox {
-    std::array<std::uint32_t, 3> low, high;
-};
-ReaderPointer crop_sections(ReaderPointer reader, const SampleBox& box);
+/// The samples of a box; reads the others, too, where the reader cannot leave them out (SectionReader::crop()).
+/// Requires a box within the volume that is not empty.
+ReaderPointer crop_sections(ReaderPointer reader, const IndexBox& box);
 
 /// Labels replaced by `new_label(old)`, which is called once for each label.
 ReaderPointer relabel_sections(ReaderPointer reader, std::function<InputLabel(InputLabel)> new_label);

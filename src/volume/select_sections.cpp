@@ -52,7 +52,7 @@ Box extent_of(const Lattice& lattice) {
 }
 
 /// Makes `samples` smaller: the samples in `box`. An index within 1e-6 of a whole number counts as that number.
-void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box, SampleBox& samples) {
+void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box, IndexBox& samples) {
     constexpr double kRounding = 1e-6;
     const Box extent = extent_of(volume.lattice);
     Vec3 low = extent.low, high = extent.high;
@@ -78,7 +78,7 @@ void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box,
 
 ReaderPointer cropped(ReaderPointer reader, const Selection& selection) {
     const VolumeInfo& volume = reader->info();
-    SampleBox samples;
+    IndexBox samples;
     for (int axis = 0; axis < 3; ++axis)
         std::tie(samples.low[axis], samples.high[axis]) = samples_along(volume, selection.roi[axis], axis);
     const bool has_box = std::ranges::any_of(

@@ -6,6 +6,7 @@
 #include <barrier>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <thread>
@@ -47,10 +48,12 @@ ReconstructOptions options_for(std::optional<double> reduce) {
 }
 
 BlockReport run_blocks(const fs::path& folder, const test::ArrayVolume& volume, const ReconstructOptions& options,
-                       BlockTasks& tasks, std::uint32_t cells = 17) {
+                       BlockTasks& tasks, std::uint32_t cells = 17,
+                       const std::function<void(const BlockProgress&)>& on_progress = {}) {
     const BlockOptions blocks{
         .folder = folder, .block_cells = cells, .identity = {{"input", "foam"}}, .output = {.sync = false}};
-    return reconstruct_blocks([&] { return std::make_unique<test::ArrayVolume>(volume); }, options, blocks, tasks);
+    return reconstruct_blocks([&] { return std::make_unique<test::ArrayVolume>(volume); }, options, blocks, tasks,
+                              on_progress);
 }
 
 BlockReport run_blocks(const fs::path& folder, const test::ArrayVolume& volume, const ReconstructOptions& options) {
@@ -128,19 +131,15 @@ TEST(BlockRun, keeps_to_the_largest_error) {
     expect_lossless(model, volume);
 }
 
-/// Ends the run, as if killed, before its n-th task.
-class EndingTasks : public BlockTasks {
-public:
-    struct Ended {};
-    explicit EndingTasks(int tasks) : left_(tasks) {}
-    std::optional<std::uint32_t> next(std::uint32_t count) override {
-        if (--left_ < 0) throw Ended();
-        return BlockTasks::next(count);
-    }
-
-private:
-    int left_;
-};
+/// Ends the run, as if killed, after `blocks` blocks of all passes.
+struct Ended {};
+BlockReport run_until(int blocks, const fs::path& folder, const test::ArrayVolume& volume,
+                      const ReconstructOptions& options) {
+    BlockTasks alone;
+    return run_blocks(folder, volume, options, alone, 17, [&](const BlockProgress& progress) {
+        if (progress.stage != std::string("read") && progress.done > 0 && --blocks < 0) throw Ended();
+    });
+}
 
 TEST(BlockRun, goes_on_where_it_was_ended_and_leaves_the_same_bytes) {
     const TestFolder whole, ended;
@@ -149,11 +148,10 @@ TEST(BlockRun, goes_on_where_it_was_ended_and_leaves_the_same_bytes) {
     const BlockReport report = run_blocks(whole.path, volume, options);
     std::uint32_t found = 0, ends = 0;
     for (;; ++ends) {
-        EndingTasks tasks(3 + 5 * static_cast<int>(ends));
         try {
-            found += run_blocks(ended.path, volume, options, tasks).found;
+            found += run_until(3 + 5 * static_cast<int>(ends), ended.path, volume, options).found;
             break;
-        } catch (const EndingTasks::Ended&) {
+        } catch (const Ended&) {
             ASSERT_LT(ends, 200u);
         }
     }
@@ -167,8 +165,7 @@ TEST(BlockRun, makes_a_damaged_piece_again) {
     const test::ArrayVolume volume = foam();
     const ReconstructOptions options = options_for(0.8);
     run_blocks(whole.path, volume, options);
-    EndingTasks tasks(20);
-    EXPECT_THROW(run_blocks(damaged.path, volume, options, tasks), EndingTasks::Ended);
+    EXPECT_THROW(run_until(19, damaged.path, volume, options), Ended);
     const fs::path piece = damaged.path / "pass-0-000003.piece";
     {
         std::fstream stream(piece, std::ios::in | std::ios::out | std::ios::binary);
@@ -184,8 +181,7 @@ TEST(BlockRun, makes_a_damaged_piece_again) {
 TEST(BlockRun, refuses_other_options_and_folders_with_other_files) {
     const TestFolder folder, other;
     const test::ArrayVolume volume = foam();
-    EndingTasks tasks(3);
-    EXPECT_THROW(run_blocks(folder.path, volume, options_for(0.8), tasks), EndingTasks::Ended);
+    EXPECT_THROW(run_until(2, folder.path, volume, options_for(0.8)), Ended);
     BlockTasks alone;
     const BlockOptions changed{.folder = folder.path, .block_cells = 17, .identity = {{"input", "crystal"}}};
     const auto open = [&] { return std::make_unique<test::ArrayVolume>(volume); };

@@ -89,7 +89,7 @@ TEST_F(CheckFolder, finds_a_face_that_is_missing_and_one_that_was_moved) {
     EXPECT_EQ(open.counts[int(ViolationKind::kEuler)], whole.counts[int(ViolationKind::kEuler)]);
     make(test::grain_volume({30, 28, 27}, 12, 4), 0.5);
     // The first vertex of the fullest piece that is on no rim.
-    const auto& pieces = read_manifest(folder_)->pieces;
+    const std::vector<PieceEntry> pieces = read_manifest(folder_)->pieces;
     const auto fullest = std::ranges::max_element(pieces, {}, &PieceEntry::faces) - pieces.begin();
     change_piece(static_cast<std::uint32_t>(fullest), [](Piece& piece) {
         const auto inside =

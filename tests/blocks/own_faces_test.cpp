@@ -6,8 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
-#include "blocks/staged_labels.h"
+#include "blocks/survey.h"
 #include "regionmesh/census.h"
 #include "stream/section_faces.h"
 #include "stream/stage_options.h"
@@ -46,14 +47,40 @@ std::vector<PlacedFace> faces_of_whole(test::ArrayVolume& volume, const Reconstr
     return faces;
 }
 
+bool is_same(const Chunk& a, const Chunk& b) {
+    const auto vertex = [](const ChunkVertex& v, const ChunkVertex& w) {
+        return v.position == w.position && v.sides == w.sides;
+    };
+    const auto face = [](const ChunkFace& f, const ChunkFace& g) {
+        return f.vertices == g.vertices && f.labels == g.labels;
+    };
+    return std::ranges::equal(a.vertices, b.vertices, vertex) && std::ranges::equal(a.faces, b.faces, face) &&
+           a.active == b.active && a.carried == 0 && b.carried == 0;
+}
+
+/// The faces of all blocks, by block.
+std::vector<Chunk> swept_together(const BlockVolume& volume, const BlockGrid& grid, const ReconstructOptions& options) {
+    std::vector<Chunk> found(grid.count());
+    OwnFaces faces(volume, grid, {{0, 0, 0}, grid.counts()}, options);
+    std::set<std::uint32_t> blocks;
+    for (Chunk chunk; const auto block = faces.next(chunk);) {
+        EXPECT_TRUE(blocks.insert(*block).second);
+        found[*block] = std::move(chunk);
+    }
+    EXPECT_EQ(blocks.size(), grid.count());
+    return found;
+}
+
 std::vector<PlacedFace> faces_of_blocks(test::ArrayVolume& volume, ReconstructOptions options, std::uint32_t size) {
     options = with_filter(options, SmoothFilter::kLattice);
     volume.rewind();
     const fs::path path = fs::temp_directory_path() / ("own_faces_test." + std::to_string(::getpid()));
     const VolumeInfo& info = volume.info();
-    LabelTable labels = table_for(info);
+    StagingFile copy(path, {.sync = false});
+    const Survey survey = survey_sections(volume, {.background = options.background}, &copy);
+    copy.commit();
+    LabelTable labels = survey.labels;
     const std::vector<Label> background = dense_background(options.background, labels);
-    StagedLabels::write(volume, labels, path, {.sync = false});
     const StagedLabels boxes(path, info.lattice, info.sweep);
     fs::remove(path);
     const CellKind cells = cell_kind(options);
@@ -66,9 +93,14 @@ std::vector<PlacedFace> faces_of_blocks(test::ArrayVolume& volume, ReconstructOp
                              .labels = labels,
                              .background = background};
     const BlockGrid grid(blocks.shape.lattice, size);
+    const std::vector<Chunk> swept = swept_together(blocks, grid, options);
     std::vector<PlacedFace> faces;
     for (std::uint32_t block = 0; block < grid.count(); ++block) {
-        const Chunk chunk = own_faces(blocks, grid, block, options);
+        const auto [x, y, z] = grid.place(block);
+        OwnFaces alone(blocks, grid, {{x, y, z}, {x + 1, y + 1, z + 1}}, options);
+        Chunk chunk;
+        EXPECT_EQ(alone.next(chunk), block);
+        EXPECT_TRUE(is_same(chunk, swept[block])) << "block " << block << " depends on what is swept with it";
         for (const auto& [v, of] : chunk.faces)
             faces.push_back(placed(
                 {chunk.vertices[v[0]].position, chunk.vertices[v[1]].position, chunk.vertices[v[2]].position}, of));

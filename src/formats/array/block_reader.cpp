@@ -16,41 +16,68 @@ constexpr std::uint64_t kCrossBytes = std::uint64_t{256} << 20;  // most bytes o
 class BlockReader final : public NumberedSections {
 public:
     BlockReader(std::unique_ptr<BlockSource> source, VolumeInfo info, const BlockLayout& layout)
-        : NumberedSections(std::move(info)), source_(std::move(source)), format_(layout.format) {
-        section_bytes_ = std::uint64_t{section_width()} * section_height() * sample_bytes(format_.type);
-        chunk_ = std::clamp<std::uint64_t>(layout.chunk[info_.sweep.axes[2]], 1, section_count());
-        depth_ = chunk_ * std::max<std::uint64_t>(1, kFewBytes / section_bytes_ / chunk_);
-        const std::uint64_t most = layout.is_backed ? kMaxBlockBytes : kMaxBareBytes;
-        depth_ = std::min({depth_, std::max<std::uint64_t>(1, most / section_bytes_), std::uint64_t{section_count()}});
-        info_.held_bytes = depth_ * section_bytes_ + layout.source_bytes;
+        : NumberedSections(std::move(info)), source_(std::move(source)), layout_(layout) {
+        box_.high = info_.lattice.size;
+        plan_blocks();
+    }
+
+    bool crop(const IndexBox& box) override {
+        for (int axis = 0; axis < 3; ++axis) {
+            box_.high[axis] = box_.low[axis] + box.high[axis];
+            box_.low[axis] += box.low[axis];
+        }
+        info_.lattice = cropped(info_.lattice, box);
+        held_ = 0;
+        plan_blocks();
+        rewind();
+        return true;
     }
 
 private:
     void read_section(std::uint32_t number, std::span<InputLabel> section) override {
-        if (number < block_.first || number - block_.first >= block_.count) load(number);
-        decode_samples(samples_.data() + (number - block_.first) * section_bytes_, sample_bytes(format_.type), format_,
-                       section);
+        if (number < first_ || number - first_ >= held_) load(number);
+        decode_samples(samples_.data() + (number - first_) * section_bytes_, sample_bytes(layout_.format.type),
+                       layout_.format, section);
     }
 
-    /// A block that is less deep than a chunk ends where the chunk ends.
-    void load(std::uint32_t first) {
-        block_.count = 0;
-        std::uint64_t end = first + depth_;
-        if (depth_ < chunk_) end = std::min(end, (first / chunk_ + 1) * chunk_);
-        end = std::min<std::uint64_t>(end, section_count());
-        const Block block{info_.sweep, first, static_cast<std::uint32_t>(end - first)};
-        samples_.resize(block.count * section_bytes_);
+    void plan_blocks() {
+        const int swept = info_.sweep.axes[2];
+        section_bytes_ = std::uint64_t{section_width()} * section_height() * sample_bytes(layout_.format.type);
+        chunk_ = std::clamp<std::uint64_t>(layout_.chunk[swept], 1, box_.high[swept]);
+        depth_ = chunk_ * std::max<std::uint64_t>(1, kFewBytes / section_bytes_ / chunk_);
+        const std::uint64_t most = layout_.is_backed ? kMaxBlockBytes : kMaxBareBytes;
+        depth_ = std::min({depth_, std::max<std::uint64_t>(1, most / section_bytes_), std::uint64_t{section_count()}});
+        info_.held_bytes = depth_ * section_bytes_ + layout_.source_bytes;
+    }
+
+    /// A block that is less deep than a chunk ends where the chunk ends, and so does the first of a part of the volume.
+    void load(std::uint32_t number) {
+        held_ = 0;
+        const int swept = info_.sweep.axes[2];
+        const std::uint64_t in_file = std::uint64_t{box_.low[swept]} + number;
+        std::uint64_t end = in_file + depth_;
+        if (depth_ < chunk_)
+            end = std::min(end, (in_file / chunk_ + 1) * chunk_);
+        else if (end < box_.high[swept])
+            end -= end % chunk_;
+        Block block{info_.sweep, box_};
+        block.box.low[swept] = static_cast<std::uint32_t>(in_file);
+        block.box.high[swept] = static_cast<std::uint32_t>(std::min<std::uint64_t>(end, box_.high[swept]));
+        const std::uint32_t count = block.box.size()[swept];
+        samples_.resize(count * section_bytes_);
         source_->read(block, samples_);
-        block_ = block;
+        first_ = number;
+        held_ = count;
     }
 
     std::unique_ptr<BlockSource> source_;
-    SampleFormat format_;
+    BlockLayout layout_;
+    IndexBox box_;  // of the file
     std::uint64_t section_bytes_ = 0;
     std::uint64_t chunk_ = 1;  // sections that one chunk crosses
-    std::uint64_t depth_ = 1;  // sections of a block
+    std::uint64_t depth_ = 1;  // most sections of a block
     std::vector<std::byte> samples_;
-    Block block_;
+    std::uint32_t first_ = 0, held_ = 0;  // sections of the block that is held
 };
 
 }  // namespace

@@ -11,11 +11,12 @@ namespace regionmesh::formats {
 /// Largest chunk, in bytes of samples: bounds the memory of readers that hold one chunk.
 inline constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{1} << 30;
 
-/// Consecutive sections of a sweep.
+/// Samples of the file: consecutive sections of a sweep.
 struct Block {
     Sweep sweep;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
+    IndexBox box;
+
+    std::uint32_t first() const { return box.low[sweep.axes[2]]; }
 };
 
 /// Reads blocks from a file.
@@ -23,8 +24,8 @@ class BlockSource {
 public:
     virtual ~BlockSource() = default;
 
-    /// Fills `samples` in the sample format of the file: axes[0] of the sweep fastest, sections one after another.
-    /// Throws Error(kInput) that names file and section.
+    /// Fills `samples` with those of the box, in the sample format of the file: axes[0] of the sweep fastest, sections
+    /// one after another. Throws Error(kInput) that names file and section.
     virtual void read(const Block& block, std::span<std::byte> samples) = 0;
 };
 

@@ -19,29 +19,29 @@ constexpr std::uint64_t kStraightBlockBytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t kChunkBytes = std::uint64_t{4} << 20;
 constexpr std::uint64_t kFarPitch = std::uint64_t{64} << 10;  // runs with a larger pitch are read one by one
 
-/// A block is some consecutive sections in the file's own order of axes. With s the swept axis, it is `run_count` runs
-/// of bytes, one for each index of the axes slower than s.
+/// A block is some consecutive sections in the file's own order of axes: runs of bytes.
 class FlatReader final : public NumberedSections {
 public:
     FlatReader(InputFile file, VolumeInfo info, const FlatLayout& layout)
         : NumberedSections(std::move(info)),
           file_(std::move(file)),
           layout_(layout),
-          bytes_(sample_bytes(layout.format.type)) {
-        const int swept = info_.sweep.axes[2];
-        bool is_slower = false;
-        for (const int axis : layout_.order) {
-            if (axis == swept) {
-                is_slower = true;
-            } else {
-                (is_slower ? run_count_ : inner_bytes_) *= info_.lattice.size[axis];
-            }
+          bytes_(sample_bytes(layout.format.type)),
+          file_size_(info_.lattice.size),
+          box_{{0, 0, 0}, file_size_} {
+        plan_blocks();
+    }
+
+    bool crop(const IndexBox& box) override {
+        for (int axis = 0; axis < 3; ++axis) {
+            box_.high[axis] = box_.low[axis] + box.high[axis];
+            box_.low[axis] += box.low[axis];
         }
-        inner_bytes_ *= bytes_;
-        const std::uint64_t budget = run_count_ == 1 ? kStraightBlockBytes : kBlockBytes;
-        const std::uint64_t most = std::min<std::uint64_t>(kBlockSections, section_count());
-        block_sections_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(budget / section_bytes(), 1, most));
-        info_.held_bytes = block_sections_ * section_bytes() + (run_count_ == 1 ? 0 : kChunkBytes);
+        info_.lattice = cropped(info_.lattice, box);
+        block_count_ = 0;
+        plan_blocks();
+        rewind();
+        return true;
     }
 
 private:
@@ -56,7 +56,17 @@ private:
         }
     }
 
-    std::uint64_t section_bytes() const { return inner_bytes_ * run_count_; }
+    std::uint64_t section_bytes() const { return std::uint64_t{section_width()} * section_height() * bytes_; }
+
+    /// Sections that are swept in the order of the file and not cropped follow each other.
+    bool is_straight() const { return info_.sweep.axes[2] == layout_.order[2] && info_.lattice.size == file_size_; }
+
+    void plan_blocks() {
+        const std::uint64_t budget = is_straight() ? kStraightBlockBytes : kBlockBytes;
+        const std::uint64_t most = std::min<std::uint64_t>(kBlockSections, section_count());
+        block_sections_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(budget / section_bytes(), 1, most));
+        info_.held_bytes = block_sections_ * section_bytes() + (is_straight() ? 0 : kChunkBytes);
+    }
 
     /// Bytes from one sample of the block to the next along x, y, z.
     std::array<std::uint64_t, 3> block_pitches() const {
@@ -74,30 +84,53 @@ private:
         block_count_ = 0;
         const std::uint32_t count = std::min(block_sections_, section_count() - first);
         block_.resize(count * section_bytes());
-        const std::uint64_t start = layout_.offset + first * inner_bytes_;
-        const std::uint64_t run = count * inner_bytes_;
-        const std::uint64_t pitch = section_count() * inner_bytes_;
-        if (run == pitch) {
-            read(start, block_);
-        } else if (pitch > kFarPitch) {
-            for (std::uint64_t i = 0; i < run_count_; ++i)
-                read(start + i * pitch, std::span(block_).subspan(i * run, run));
-        } else {
-            read_near_runs(start, run, pitch);
+        IndexBox box = box_;
+        const int swept = info_.sweep.axes[2];
+        box.low[swept] += first;
+        box.high[swept] = box.low[swept] + count;
+        // Along the axes of the file, the fastest first.
+        std::uint64_t start = layout_.offset, samples[3], pitch[3], step = bytes_;
+        for (int n = 0; n < 3; ++n) {
+            const int axis = layout_.order[n];
+            samples[n] = box.size()[axis];
+            pitch[n] = step;
+            start += box.low[axis] * step;
+            step *= file_size_[axis];
         }
+        // Axes that are read whole continue those before them.
+        std::uint64_t run = samples[0] * pitch[0];
+        if (run == pitch[1]) {
+            run = samples[1] * pitch[1];
+            samples[1] = 1;
+            if (run == pitch[2]) {
+                run = samples[2] * pitch[2];
+                samples[2] = 1;
+            }
+        } else if (samples[1] * pitch[1] == pitch[2]) {
+            samples[1] *= samples[2];
+            samples[2] = 1;
+        }
+        std::byte* out = block_.data();
+        for (std::uint64_t k = 0; k < samples[2]; ++k)
+            out = read_runs(start + k * pitch[2], run, samples[1], pitch[1], out);
         block_count_ = count;
     }
 
-    /// For short runs that are close together: reads the gaps, too, since a system call costs more than those bytes.
-    void read_near_runs(std::uint64_t start, std::uint64_t run, std::uint64_t pitch) {
+    /// Where runs are short and close together: reads the gaps, too, since a system call costs more than those bytes.
+    std::byte* read_runs(std::uint64_t start, std::uint64_t run, std::uint64_t run_count, std::uint64_t pitch,
+                         std::byte* out) {
+        if (run_count == 1 || pitch > kFarPitch) {
+            for (std::uint64_t i = 0; i < run_count; ++i, out += run) read(start + i * pitch, {out, run});
+            return out;
+        }
         const std::uint64_t runs_per_chunk = kChunkBytes / pitch;
-        std::vector<std::byte> chunk(std::min(runs_per_chunk, run_count_) * pitch);
-        std::byte* out = block_.data();
-        for (std::uint64_t i = 0; i < run_count_; i += runs_per_chunk) {
-            const std::uint64_t runs = std::min(runs_per_chunk, run_count_ - i);
+        std::vector<std::byte> chunk(std::min(runs_per_chunk, run_count) * pitch);
+        for (std::uint64_t i = 0; i < run_count; i += runs_per_chunk) {
+            const std::uint64_t runs = std::min(runs_per_chunk, run_count - i);
             read(start + i * pitch, std::span(chunk).first((runs - 1) * pitch + run));
             for (std::uint64_t j = 0; j < runs; ++j, out += run) std::memcpy(out, chunk.data() + j * pitch, run);
         }
+        return out;
     }
 
     void read(std::uint64_t offset, std::span<std::byte> bytes) const {
@@ -107,9 +140,9 @@ private:
 
     InputFile file_;
     FlatLayout layout_;
-    std::uint64_t bytes_;            // of a sample
-    std::uint64_t inner_bytes_ = 1;  // of one index of the swept axis, with all faster axes
-    std::uint64_t run_count_ = 1;    // product of the sizes of the axes slower than the swept one
+    std::uint64_t bytes_;  // of a sample
+    std::array<std::uint32_t, 3> file_size_;
+    IndexBox box_;  // of the file
     std::uint32_t block_sections_ = 1;
     std::vector<std::byte> block_;
     std::uint32_t block_first_ = 0;

@@ -38,16 +38,21 @@ public:
         const auto [inner, outer, swept] = block.sweep.axes;
         const Triple step = box_size(block);
         Pitches pitch{};
-        pitch[inner] = bytes_;
-        pitch[outer] = bytes_ * size_[inner];
-        pitch[swept] = pitch[outer] * size_[outer];
-        Triple start{}, count{};
-        start[swept] = block.first;
-        count[swept] = block.count;
-        for (start[outer] = 0; start[outer] < size_[outer]; start[outer] += step[outer]) {
-            for (start[inner] = 0; start[inner] < size_[inner]; start[inner] += step[inner]) {
-                for (const int axis : {inner, outer}) count[axis] = std::min(step[axis], size_[axis] - start[axis]);
-                std::byte* corner = samples.data() + start[inner] * pitch[inner] + start[outer] * pitch[outer];
+        std::uint64_t next = bytes_;
+        for (const int axis : block.sweep.axes) {
+            pitch[axis] = next;
+            next *= block.box.size()[axis];
+        }
+        const auto& [low, high] = block.box;
+        Triple start{low[0], low[1], low[2]}, count{};
+        count[swept] = high[swept] - low[swept];
+        for (start[outer] = low[outer]; start[outer] < high[outer]; start[outer] += count[outer]) {
+            for (start[inner] = low[inner]; start[inner] < high[inner]; start[inner] += count[inner]) {
+                for (const int axis : {inner, outer})
+                    count[axis] =
+                        std::min<std::uint64_t>(step[axis] - start[axis] % chunk_[axis], high[axis] - start[axis]);
+                std::byte* corner = samples.data() + (start[inner] - low[inner]) * pitch[inner] +
+                                    (start[outer] - low[outer]) * pitch[outer];
                 copy_from_file(start, count, {corner, pitch});
             }
         }
@@ -58,7 +63,7 @@ private:
     Triple box_size(const Block& block) const {
         const int swept = block.sweep.axes[2];
         Triple step = chunk_;
-        step[swept] = block.count;
+        step[swept] = block.box.size()[swept];
         for (const int axis : fastest_first()) {
             if (axis == swept) continue;
             const std::uint64_t held = step[0] * step[1] * step[2] * bytes_;

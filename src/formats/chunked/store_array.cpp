@@ -95,20 +95,16 @@ public:
     void read(const Block& block, std::span<std::byte> samples) override {
         wanted_ = {axes_.index, axes_.index};
         for (std::uint64_t& end : wanted_.high) ++end;
+        std::uint64_t pitch = bytes_;
         for (const int axis : block.sweep.axes) {
-            if (axes_.axis[axis] >= 0) wanted_.high[axes_.axis[axis]] = array_.shape[axes_.axis[axis]];
+            pitch_[axis] = pitch;
+            pitch *= block.box.size()[axis];
+            if (axes_.axis[axis] < 0) continue;
+            wanted_.low[axes_.axis[axis]] = block.box.low[axis];
+            wanted_.high[axes_.axis[axis]] = block.box.high[axis];
         }
-        const auto [inner, outer, swept] = block.sweep.axes;
-        if (axes_.axis[swept] >= 0) {
-            wanted_.low[axes_.axis[swept]] = block.first;
-            wanted_.high[axes_.axis[swept]] = block.first + block.count;
-        }
-        const auto size = axes_.along(array_.shape);
-        pitch_[inner] = bytes_;
-        pitch_[outer] = bytes_ * size[inner];
-        pitch_[swept] = pitch_[outer] * size[outer];
         samples_ = samples.data();
-        section_ = block.first;
+        section_ = block.first();
         const std::uint64_t chunks = cells_of(wanted_, array_.chunk).count();
         if (chunks > kMaxChunks) {
             fail_section(array_.folder, section_,

@@ -1,0 +1,21 @@
+// The start of a run over a folder of pieces.
+#pragma once
+
+#include <functional>
+
+#include "blocks/labels_in_place.h"
+#include "regionmesh/blocks.h"
+
+namespace regionmesh {
+
+using OnBlocks = std::function<void(const BlockProgress&)>;
+
+/// The labels of a volume that cannot be read in place, while blocks are reconstructed: a file of the folder.
+inline constexpr const char* kStagedLabels = "volume.labels";
+
+/// Makes the folder, reads the input once and writes the manifest: labels, faces, size of the blocks. Where the folder
+/// has these already, it only looks whether they belong to the same run. Throws like reconstruct_blocks().
+void begin_run(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks,
+               const OnBlocks& on_progress);
+
+}  // namespace regionmesh

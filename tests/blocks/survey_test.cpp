@@ -1,0 +1,60 @@
+// A survey by columns finds what one by sections finds.
+#include "blocks/survey.h"
+
+#include <gtest/gtest.h>
+
+#include "formats/temporary_folder.h"
+#include "regionmesh/error.h"
+#include "regionmesh/read_sections.h"
+#include "regionmesh/write_volume.h"
+#include "support/runs.h"
+
+namespace regionmesh {
+namespace {
+
+class SurveyTest : public TemporaryFolder {
+protected:
+    /// A file of grains.
+    std::filesystem::path put_grains(const test::Size& size, std::uint32_t grains) {
+        test::ArrayVolume volume = test::grain_volume(size, grains, 3);
+        const std::unique_ptr<SectionWriter> writer =
+            create_volume(path("grains.npy"), volume.info().lattice, volume.info().type, {.sync = false});
+        std::vector<InputLabel> section(std::size_t{volume.section_width()} * volume.section_height());
+        while (volume.next(section)) writer->write(section);
+        writer->commit();
+        return path("grains.npy");
+    }
+};
+
+TEST_F(SurveyTest, by_columns_numbers_labels_and_counts_faces_as_by_sections) {
+    const std::filesystem::path file = put_grains({37, 29, 23}, 60);
+    for (const SweepChoice sweep : {SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ})
+        for (const CellKind cells : {CellKind::kCompact, CellKind::kTetrahedra})
+            for (const std::vector<InputLabel>& background :
+                 {std::vector<InputLabel>{}, std::vector<InputLabel>{5, 999, 17}}) {
+                const OpenSections open = [&] { return open_sections({file}, {.sweep = sweep}); };
+                const SurveyOptions options{.strips = {.cells = cells}, .background = background};
+                const Survey whole = survey_sections(*open(), options, nullptr);
+                ASSERT_GT(whole.labels.size(), 40u);
+                for (const std::uint64_t samples : {4u, 50u, 130u, 400u}) {
+                    const Survey columns = survey_columns(open, samples, options);
+                    EXPECT_EQ(columns.faces, whole.faces) << samples;
+                    ASSERT_EQ(columns.labels.size(), whole.labels.size());
+                    for (Label label = 0; label < whole.labels.size(); ++label)
+                        EXPECT_EQ(columns.labels.input(label), whole.labels.input(label)) << samples;
+                }
+            }
+}
+
+TEST_F(SurveyTest, an_input_that_changes_meanwhile_is_refused) {
+    const std::filesystem::path file = put_grains({9, 8, 7}, 6);
+    const OpenSections open = [&] { return open_sections({file}, {.sweep = SweepChoice::kZ}); };
+    const LabelTable none;
+    const LabelsInPlace boxes(open, none);
+    std::vector<Label> section(9 * 8);
+    const auto sections = boxes.open({{0, 0, 0}, {9, 8, 7}});
+    EXPECT_THROW(sections->next(section), Error);
+}
+
+}  // namespace
+}  // namespace regionmesh
