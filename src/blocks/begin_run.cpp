@@ -1,11 +1,16 @@
 #include "blocks/begin_run.h"
 
+#include <fmt/format.h>
+
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "blocks/block_size.h"
 #include "blocks/manifest.h"
 #include "blocks/own_faces.h"
 #include "blocks/survey.h"
+#include "formats/input_file.h"
 #include "regionmesh/error.h"
 #include "stream/plan.h"
 #include "stream/section_faces.h"
@@ -29,33 +34,100 @@ void require_fit(const std::string& source, const ReconstructOptions& options) {
     if (options.improve) refuse("--improve");
 }
 
-/// Reads the input once: finds its labels and counts its faces, and copies what cannot be read in any order.
-Manifest survey(const OpenSections& open, SectionReader& reader, const ReconstructOptions& options,
-                const BlockOptions& blocks, const OnBlocks& on_progress) {
-    const VolumeInfo info = reader.info();
-    require_lattice(info.source, info.lattice);
-    require_fit(info.source, options);
-    const SourceShape shape = section_shape(info, cell_kind(options), section_scale(info, options));
-    halo_of(shape, options);  // refuses other filters before the work
-    const SurveyOptions how{.strips = {.cap = options.cap, .cells = shape.cells},
-                            .background = options.background,
-                            .on_strip = [&](std::uint32_t done, std::uint32_t count) {
-                                if (on_progress) on_progress({"read", done, count});
-                            }};
-    Manifest manifest{.identity = blocks.identity};
-    manifest.is_in_place = can_crop(reader);
-    const std::uint64_t samples = std::uint64_t{reader.section_width()} * reader.section_height();
-    const std::uint64_t most = options.memory / 2 / kSurveyBytesPerSample;
-    Survey found;
-    if (manifest.is_in_place) {
-        found = samples > most ? survey_columns(open, most, how) : survey_sections(reader, how, nullptr);
-    } else {
-        StagingFile copy(blocks.folder / kStagedLabels, blocks.output);
-        found = survey_sections(reader, how, &copy);
-        copy.commit();
+/// The volume as it is asked for, and how it is surveyed. Refuses what blocks do not have.
+struct Input {
+    Input(const OpenSections& open, const ReconstructOptions& options) : file(open()) {
+        if (options.room > 0) cleaned.emplace(*file, options.room, options.threads);
+        info = sections().info();
+        require_lattice(info.source, info.lattice);
+        require_fit(info.source, options);
+        shape = section_shape(info, cell_kind(options), section_scale(info, options));
+        halo_of(shape, options);  // refuses other filters
+        is_in_place = can_crop(sections());
+        survey.strips.cap = options.cap;
+        survey.strips.cells = shape.cells;
+        survey.background = options.background;
     }
-    write_labels(found.labels, blocks.folder, blocks.output);
+
+    SectionReader& sections() { return cleaned ? static_cast<SectionReader&>(*cleaned) : *file; }
+
+    /// Parts that are surveyed by themselves: for memory, and to share the work.
+    std::vector<IndexBox> boxes(const ReconstructOptions& options, std::uint32_t processes) const {
+        constexpr std::uint32_t kPartsPerProcess = 4;
+        if (!is_in_place) return {};
+        return survey_boxes(info, options.memory / 2 / kSurveyBytesPerSample,
+                            processes > 1 ? processes * kPartsPerProcess : 1);
+    }
+
+    std::unique_ptr<SectionReader> file;
+    std::optional<RoomReader> cleaned = {};
+    VolumeInfo info = {};
+    SourceShape shape = {};
+    bool is_in_place = false;
+    SurveyOptions survey = {};
+};
+
+/// A part of a survey on its way from the process that made it to the first: numbers of 64 bits.
+fs::path part_path(const fs::path& folder, std::size_t count, std::size_t number) {
+    return folder / fmt::format("survey-{}-{}.part", count, number);
+}
+
+void write_part(const PartSurvey& part, const fs::path& path, const OutputOptions& options) {
+    OutputFile file(path, options);
+    file.write({reinterpret_cast<const char*>(&part.faces), sizeof part.faces});
+    file.write({reinterpret_cast<const char*>(part.labels.data()), part.labels.size() * sizeof part.labels[0]});
+    file.commit();
+}
+
+PartSurvey read_part(const fs::path& path) {
+    const formats::InputFile file(path);
+    PartSurvey part;
+    part.labels.resize((file.size() - sizeof part.faces) / sizeof part.labels[0]);
+    const auto labels = std::as_writable_bytes(std::span(part.labels));
+    if (file.read(0, std::as_writable_bytes(std::span(&part.faces, 1))) != sizeof part.faces ||
+        file.read(sizeof part.faces, labels) != labels.size())
+        formats::fail(path, "the file ends early; remove the folder, and run again");
+    return part;
+}
+
+/// Surveys the boxes whose parts are not there, shared with other processes.
+void survey_parts(const OpenSections& open, const std::vector<IndexBox>& boxes, const SurveyOptions& survey,
+                  const BlockOptions& blocks, BlockTasks& tasks, const OnBlocks& on_progress) {
+    const auto count = static_cast<std::uint32_t>(boxes.size());
+    while (const auto task = tasks.next(count)) {
+        const fs::path path = part_path(blocks.folder, count, *task);
+        if (!fs::exists(path)) write_part(survey_part(open, boxes[*task], survey), path, blocks.output);
+        if (on_progress) on_progress({"read", *task + 1, count});
+    }
+    tasks.end_phase();
+}
+
+Survey join_parts(const Input& input, std::size_t count, const fs::path& folder) {
+    std::vector<PartSurvey> parts;
+    for (std::size_t n = 0; n < count; ++n) parts.push_back(read_part(part_path(folder, count, n)));
+    return join_surveys(input.info, input.survey.background, parts);
+}
+
+/// Reads the input from one end to the other, and copies what cannot be read in any order.
+Survey survey_whole(Input& input, const BlockOptions& blocks, const OnBlocks& on_progress) {
+    SurveyOptions survey = input.survey;
+    survey.on_strip = [&](std::uint32_t done, std::uint32_t count) {
+        if (on_progress) on_progress({"read", done, count});
+    };
+    if (input.is_in_place) return survey_sections(input.sections(), survey, nullptr);
+    StagingFile copy(blocks.folder / kStagedLabels, blocks.output);
+    Survey found = survey_sections(input.sections(), survey, &copy);
+    copy.commit();
+    return found;
+}
+
+void note_survey(const Survey& found, const Input& input, const ReconstructOptions& options,
+                 const BlockOptions& blocks) {
+    const VolumeInfo& info = input.info;
+    Manifest manifest;
+    manifest.identity = blocks.identity;
     manifest.is_surveyed = true;
+    manifest.is_in_place = input.is_in_place;
     manifest.lattice = info.lattice;
     manifest.sweep = info.sweep;
     manifest.source = info.source;
@@ -64,33 +136,52 @@ Manifest survey(const OpenSections& open, SectionReader& reader, const Reconstru
     manifest.space = info.space;
     manifest.names = info.names;
     manifest.background = options.background;
-    manifest.scale_z = shape.scale_z;
+    manifest.scale_z = input.shape.scale_z;
     manifest.initial_faces = found.faces;
     manifest.block_cells =
-        blocks.block_cells > 0 ? blocks.block_cells : default_block_cells(shape, found.faces, options);
+        blocks.block_cells > 0 ? blocks.block_cells : default_block_cells(input.shape, found.faces, options);
     require_block_count(info, manifest.block_cells);
-    return manifest;
+    write_labels(found.labels, blocks.folder, blocks.output);
+    write_manifest(manifest, blocks.folder, blocks.output);
+}
+
+/// Makes the folder, and a manifest that says which run it belongs to.
+void make_folder(const BlockOptions& blocks) {
+    const auto there = read_manifest(blocks.folder);
+    if (there) return require_same_run(*there, blocks.identity, blocks.folder);
+    std::error_code error;
+    if (!fs::is_directory(blocks.folder, error)) fs::create_directory(blocks.folder, error);
+    if (error) throw Error(ErrorCode::kOutput, blocks.folder.string() + ": cannot be made: " + error.message());
+    if (!fs::is_empty(blocks.folder, error))
+        throw Error(ErrorCode::kOutput, blocks.folder.string() + ": holds other files; name an empty or a new folder");
+    Manifest manifest;
+    manifest.identity = blocks.identity;
+    write_manifest(manifest, blocks.folder, blocks.output);
 }
 
 }  // namespace
 
 void begin_run(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks,
-               const OnBlocks& on_progress) {
-    const auto there = read_manifest(blocks.folder);
-    if (there) require_same_run(*there, blocks.identity, blocks.folder);
-    if (there && there->is_surveyed) return;
-    // Nothing is written for an input that cannot be read.
-    const std::unique_ptr<SectionReader> reader = open();
-    std::error_code error;
-    if (!fs::is_directory(blocks.folder, error)) fs::create_directory(blocks.folder, error);
-    if (error) throw Error(ErrorCode::kOutput, blocks.folder.string() + ": cannot be made: " + error.message());
-    if (!there && !fs::is_empty(blocks.folder, error))
-        throw Error(ErrorCode::kOutput, blocks.folder.string() + ": holds other files; name an empty or a new folder");
-    if (!there) write_manifest({.identity = blocks.identity}, blocks.folder, blocks.output);
-    std::optional<RoomReader> cleaned;
-    if (options.room > 0) cleaned.emplace(*reader, options.room, options.threads);
-    SectionReader& sections = cleaned ? static_cast<SectionReader&>(*cleaned) : *reader;
-    write_manifest(survey(open, sections, options, blocks, on_progress), blocks.folder, blocks.output);
+               BlockTasks& tasks, const OnBlocks& on_progress) {
+    std::optional<Input> input;
+    if (tasks.is_first()) {
+        const auto there = read_manifest(blocks.folder);
+        // Nothing is written for an input that cannot be read.
+        if (!there || !there->is_surveyed) input.emplace(open, options);
+        make_folder(blocks);
+    }
+    tasks.end_phase();
+    if (read_manifest(blocks.folder)->is_surveyed) return;
+    if (!input) input.emplace(open, options);
+    const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
+    if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
+    if (tasks.is_first()) {
+        const Survey found = boxes.size() > 1 ? join_parts(*input, boxes.size(), blocks.folder)
+                                              : survey_whole(*input, blocks, on_progress);
+        note_survey(found, *input, options, blocks);
+        for (std::size_t n = 0; n < boxes.size(); ++n) fs::remove(part_path(blocks.folder, boxes.size(), n));
+    }
+    tasks.end_phase();
 }
 
 }  // namespace regionmesh

@@ -14,8 +14,9 @@ using OnBlocks = std::function<void(const BlockProgress&)>;
 inline constexpr const char* kStagedLabels = "volume.labels";
 
 /// Makes the folder, reads the input once and writes the manifest: labels, faces, size of the blocks. Where the folder
-/// has these already, it only looks whether they belong to the same run. Throws like reconstruct_blocks().
+/// has these already, it only looks whether they belong to the same run. All processes call it; they share the reading
+/// where any box of the input can be read. Throws like reconstruct_blocks().
 void begin_run(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks,
-               const OnBlocks& on_progress);
+               BlockTasks& tasks, const OnBlocks& on_progress);
 
 }  // namespace regionmesh

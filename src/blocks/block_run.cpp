@@ -51,8 +51,7 @@ BlockRun::BlockRun(const OpenSections& open, const ReconstructOptions& options, 
 BlockReport BlockRun::run() {
     {
         const Timer timer(report_.seconds);
-        if (tasks_.is_first()) begin_run(open_, options_, blocks_, on_progress_);
-        tasks_.end_phase();
+        begin_run(open_, options_, blocks_, tasks_, on_progress_);
         manifest_ = *read_manifest(folder_);
         job_ = job_of(manifest_.identity);
         if (!manifest_.is_complete) {

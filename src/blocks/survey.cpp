@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "cells/label_census.h"
 #include "regionmesh/census.h"
@@ -27,52 +26,42 @@ std::uint64_t count_faces(SectionReader& reader, LabelTable& labels, const Strip
     return census.face_count();
 }
 
-/// Where each label comes first in the order of the sweep, while columns are read.
+/// Where each label of a box comes first in the order of the sweep.
 class FirstPlaces {
 public:
-    explicit FirstPlaces(const VolumeInfo& volume)
-        : width_(volume.lattice.size[volume.sweep.axes[0]]), height_(volume.lattice.size[volume.sweep.axes[1]]) {}
-
-    void begin_column(std::uint32_t u, std::uint32_t v, std::uint32_t width) {
-        ++column_;
-        place_ = std::uint64_t{v} * width_ + u;
-        column_width_ = width;
+    FirstPlaces(const VolumeInfo& volume, const IndexBox& box) {
+        const auto [u, v, w] = volume.sweep.axes;
+        width_ = volume.lattice.size[u];
+        height_ = volume.lattice.size[v];
+        box_width_ = box.size()[u];
+        place_ = (box.low[w] * height_ + box.low[v]) * width_ + box.low[u];
     }
+
     void add(std::span<const Label> section) {
         for (std::size_t n = 0; n < section.size(); ++n)
             if (n == 0 || section[n] != section[n - 1])
-                note(section[n], place_ + n / column_width_ * width_ + n % column_width_);
+                note(section[n], place_ + n / box_width_ * width_ + n % box_width_);
         place_ += width_ * height_;
     }
 
-    /// The labels in the order of their places, those of the background first.
-    LabelTable sorted(const LabelTable& labels, LabelTable made) const {
-        std::vector<Label> order(first_.size());
-        std::iota(order.begin(), order.end(), 0);
-        std::ranges::sort(order, {}, [&](Label label) { return first_[label]; });
-        for (const Label label : order)
-            if (first_[label] != kNowhere) made.dense(labels.input(label));
-        return made;
+    std::vector<PartSurvey::First> list(const LabelTable& labels) const {
+        std::vector<PartSurvey::First> listed;
+        for (Label label = 0; label < first_.size(); ++label)
+            if (first_[label] != kNowhere) listed.push_back({labels.input(label), first_[label]});
+        return listed;
     }
 
 private:
     static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
     void note(Label label, std::uint64_t place) {
-        if (label >= first_.size()) {
-            first_.resize(label + 1, kNowhere);
-            seen_.resize(label + 1, 0);
-        }
-        if (seen_[label] == column_) return;
-        seen_[label] = column_;
+        if (label >= first_.size()) first_.resize(label + 1, kNowhere);
         first_[label] = std::min(first_[label], place);
     }
 
-    std::uint64_t width_, height_, place_ = 0;
-    std::size_t column_width_ = 0;
-    std::uint32_t column_ = 0;
+    std::uint64_t width_, height_, place_;
+    std::size_t box_width_;
     std::vector<std::uint64_t> first_;  // by label
-    std::vector<std::uint32_t> seen_;   // in which column last, by label
 };
 
 }  // namespace
@@ -90,34 +79,55 @@ Survey survey_sections(SectionReader& reader, const SurveyOptions& options, Stag
     return survey;
 }
 
-Survey survey_columns(const OpenSections& open, std::uint64_t most_samples, const SurveyOptions& options) {
-    const VolumeInfo volume = open()->info();
+std::vector<IndexBox> survey_boxes(const VolumeInfo& volume, std::uint64_t most_samples, std::uint32_t parts) {
     const auto& size = volume.lattice.size;
     const auto [u, v, w] = volume.sweep.axes;
-    const auto side = std::max<std::uint32_t>(static_cast<std::uint32_t>(std::sqrt(double(most_samples))), 3) - 1;
-    const std::uint32_t across = (size[u] - 2) / side + 1, count = ((size[v] - 2) / side + 1) * across;
+    std::array<std::uint32_t, 3> step{size[0] - 1, size[1] - 1, size[2] - 1};  // cells
+    if (std::uint64_t{size[u]} * size[v] > most_samples) {
+        const auto side = std::max<std::uint32_t>(static_cast<std::uint32_t>(std::sqrt(double(most_samples))), 3) - 1;
+        step[u] = std::min(step[u], side);
+        step[v] = std::min(step[v], side);
+    }
+    const auto count = [&](int axis) { return (size[axis] - 2) / step[axis] + 1; };
+    const std::uint32_t slabs = (parts - 1) / (count(u) * count(v)) + 1;
+    step[w] = std::max((size[w] - 2) / slabs + 1, 1u);
+    std::vector<IndexBox> boxes;
+    for (std::uint32_t z = 0; z + 1 < size[2]; z += step[2])
+        for (std::uint32_t y = 0; y + 1 < size[1]; y += step[1])
+            for (std::uint32_t x = 0; x + 1 < size[0]; x += step[0])
+                boxes.push_back({{x, y, z},
+                                 {std::min(x + step[0] + 1, size[0]), std::min(y + step[1] + 1, size[1]),
+                                  std::min(z + step[2] + 1, size[2])}});
+    return boxes;
+}
+
+PartSurvey survey_part(const OpenSections& open, const IndexBox& box, const SurveyOptions& options) {
+    const std::unique_ptr<SectionReader> reader = open();
+    const VolumeInfo volume = reader->info();
+    reader->crop(box);
     LabelTable labels = table_for(volume);
     StripOptions strips = options.strips;
     strips.background = dense_background(options.background, labels);
-    strips.whole = size;
-    FirstPlaces places(volume);
-    Survey survey;
-    for (std::uint32_t column = 0; column < count; ++column) {
-        IndexBox box{{0, 0, 0}, size};
-        for (const auto& [axis, place] : {std::pair{u, column % across}, std::pair{v, column / across}}) {
-            box.low[axis] = place * side;
-            box.high[axis] = std::min(box.low[axis] + side + 1, size[axis]);
-        }
-        const std::unique_ptr<SectionReader> reader = open();
-        reader->crop(box);
-        strips.first = box.low;
-        places.begin_column(box.low[u], box.low[v], box.size()[u]);
-        survey.faces += count_faces(*reader, labels, strips, [&](std::span<const Label> s) { places.add(s); });
-        if (options.on_strip) options.on_strip(column + 1, count);
+    strips.first = box.low;
+    strips.whole = volume.lattice.size;
+    FirstPlaces places(volume, box);
+    PartSurvey part;
+    part.faces = count_faces(*reader, labels, strips, [&](std::span<const Label> section) { places.add(section); });
+    part.labels = places.list(labels);
+    return part;
+}
+
+Survey join_surveys(const VolumeInfo& volume, const std::vector<InputLabel>& background,
+                    std::span<const PartSurvey> parts) {
+    Survey survey{.labels = table_for(volume)};
+    dense_background(background, survey.labels);
+    std::vector<PartSurvey::First> all;
+    for (const PartSurvey& part : parts) {
+        survey.faces += part.faces;
+        all.insert(all.end(), part.labels.begin(), part.labels.end());
     }
-    LabelTable made = table_for(volume);
-    dense_background(options.background, made);
-    survey.labels = places.sorted(labels, std::move(made));
+    std::ranges::sort(all, {}, &PartSurvey::First::place);
+    for (const auto& [label, place] : all) survey.labels.dense(label);
     return survey;
 }
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "blocks/labels_in_place.h"
 #include "blocks/staged_labels.h"
@@ -26,8 +28,25 @@ struct SurveyOptions {
 /// Reads section by section; holds two. Writes the labels to `copy`, if given.
 Survey survey_sections(SectionReader& reader, const SurveyOptions& options, StagingFile* copy);
 
-/// The same by columns of at most `most_samples` samples of a section, for sections that memory does not hold. Reads
-/// samples between two columns twice. Requires that can_crop() a reader.
-Survey survey_columns(const OpenSections& open, std::uint64_t most_samples, const SurveyOptions& options);
+/// Boxes of samples that cover the cells of a volume: `parts` of them or more where it has as many strips, with at most
+/// `most_samples` in a section. They share the samples between them.
+std::vector<IndexBox> survey_boxes(const VolumeInfo& volume, std::uint64_t most_samples, std::uint32_t parts);
+
+/// What a box has.
+struct PartSurvey {
+    struct First {
+        InputLabel label;
+        std::uint64_t place;  // of the first sample with this label, counted along the sweep of the whole volume
+    };
+    std::uint64_t faces = 0;
+    std::vector<First> labels;
+};
+
+/// Requires that can_crop() a reader.
+PartSurvey survey_part(const OpenSections& open, const IndexBox& box, const SurveyOptions& options);
+
+/// The same as survey_sections(), out of all boxes.
+Survey join_surveys(const VolumeInfo& volume, const std::vector<InputLabel>& background,
+                    std::span<const PartSurvey> parts);
 
 }  // namespace regionmesh

@@ -29,7 +29,7 @@ LabelCensus::LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions optio
       height_(lattice.size[sweep.axes[1]]),
       options_(std::move(options)),
       mixed_(width_ - 1) {
-    for (int n = 0; n < 2; ++n)
+    for (int n = 0; n < 3; ++n)
         for (const bool is_high : {false, true})
             sides_ |= unsigned{options_.is_side_of_whole(sweep.axes[n], is_high, lattice.size[sweep.axes[n]])}
                       << (2 * n + is_high);
@@ -80,7 +80,8 @@ void LabelCensus::look_at(std::span<const Label> low, std::span<const Label> hig
     if (!options_.cap) return;
     unsigned sides =
         unsigned(i == 0) | unsigned(i + 2 == width_) << 1 | unsigned(j == 0) << 2 | unsigned(j + 2 == height_) << 3;
-    sides = (sides & sides_) | unsigned(is_first_) << 4 | unsigned(is_last) << 5;
+    sides |= unsigned(is_first_) << 4 | unsigned(is_last) << 5;
+    sides &= sides_;
     if (sides) count_caps(labels, sides);
 }
 

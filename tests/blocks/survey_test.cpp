@@ -1,4 +1,4 @@
-// A survey by columns finds what one by sections finds.
+// A survey by parts finds what one by sections finds.
 #include "blocks/survey.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ protected:
     }
 };
 
-TEST_F(SurveyTest, by_columns_numbers_labels_and_counts_faces_as_by_sections) {
+TEST_F(SurveyTest, by_parts_numbers_labels_and_counts_faces_as_by_sections) {
     const std::filesystem::path file = put_grains({37, 29, 23}, 60);
     for (const SweepChoice sweep : {SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ})
         for (const CellKind cells : {CellKind::kCompact, CellKind::kTetrahedra})
@@ -36,8 +36,13 @@ TEST_F(SurveyTest, by_columns_numbers_labels_and_counts_faces_as_by_sections) {
                 const SurveyOptions options{.strips = {.cells = cells}, .background = background};
                 const Survey whole = survey_sections(*open(), options, nullptr);
                 ASSERT_GT(whole.labels.size(), 40u);
-                for (const std::uint64_t samples : {4u, 50u, 130u, 400u}) {
-                    const Survey columns = survey_columns(open, samples, options);
+                for (const auto& [samples, count] : {std::pair(4u, 1u), std::pair(50u, 7u), std::pair(400u, 30u),
+                                                     std::pair(100'000u, 5u), std::pair(100'000u, 1000u)}) {
+                    std::vector<PartSurvey> parts;
+                    for (const IndexBox& box : survey_boxes(open()->info(), samples, count))
+                        parts.push_back(survey_part(open, box, options));
+                    EXPECT_GE(parts.size(), std::min(count, open()->section_count() - 1));
+                    const Survey columns = join_surveys(open()->info(), background, parts);
                     EXPECT_EQ(columns.faces, whole.faces) << samples;
                     ASSERT_EQ(columns.labels.size(), whole.labels.size());
                     for (Label label = 0; label < whole.labels.size(); ++label)

@@ -213,6 +213,23 @@ TEST_F(MpiProgram, a_run_goes_on_with_ranks_where_one_process_was_killed) {
     EXPECT_EQ(files_in("killed"), files_in("alone"));
 }
 
+/// Kills rank 1 when the first pieces are there.
+TEST_F(MpiProgram, a_rank_that_dies_ends_the_run_which_then_goes_on) {
+    ASSERT_EQ(run(grains("alone")).code, 0);
+    const std::string killer = "(for n in $(seq 600); do sleep 0.02; [ -e '" + out("killed/pass-0-000001.piece") +
+                               "' ] || continue; for p in $(pgrep -f '" + out("killed") +
+                               "'); do grep -qsz '^OMPI_COMM_WORLD_RANK=1$' /proc/$p/environ && grep -qs "
+                               "regionmesh-mpi /proc/$p/comm && kill -9 $p && exit; done; done) &";
+    const Ran ran = run_ranks(3, grains("killed"), killer);
+    EXPECT_NE(ran.code, 0) << ran.out;
+    EXPECT_NE(ran.code, 124) << "the other ranks waited for it";
+    EXPECT_THAT(ran.error + ran.out, testing::HasSubstr("rank 1"));
+    EXPECT_THAT(ran.error + ran.out, testing::HasSubstr("signal 9"));
+    const Ran again = run_ranks(3, grains("killed"));
+    ASSERT_EQ(again.code, 0) << again.error;
+    EXPECT_EQ(files_in("killed"), files_in("alone"));
+}
+
 TEST_F(MpiProgram, refuses_in_one_line_of_its_own) {
     const Ran ran = run_ranks(2, "reconstruct " + path("grains.raw").string() + " -o " + out("model.vtp"));
     EXPECT_NE(ran.code, 0);
