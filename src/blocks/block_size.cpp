@@ -94,18 +94,20 @@ std::uint32_t default_block_cells(const SourceShape& shape, std::uint64_t faces,
 std::vector<IndexBox> plan_sweeps(const BlockGrid& grid, const SourceShape& shape, std::uint64_t faces,
                                   const ReconstructOptions& options, std::uint32_t processes) {
     const SweepBytes bytes(shape, faces, options);
-    const double block = grid.cells({{0, 0, 0}, {1, 1, 1}}).size()[0];
+    const double block = std::ranges::max(grid.cells({{0, 0, 0}, {1, 1, 1}}).size());
+    const auto [u, v, w] = shape.sweep.axes;
     const std::array<std::uint32_t, 3> counts = grid.counts();
     std::array<std::uint32_t, 3> side = counts;
     std::vector<IndexBox> sweeps = boxes_of(side, counts);
     for (;;) {
         const auto cells = grid.cells(sweeps.front()).size();
         const bool is_fit =
-            bytes.of({double(cells[0]), double(cells[1]), double(cells[2])}, block) <= double(options.memory);
+            (side[u] == 1 && side[v] == 1) || bytes.of({double(cells[0]), double(cells[1]), double(cells[2])}, block) <=
+                                                  static_cast<double>(options.memory);
         if (is_fit && (processes == 1 || sweeps.size() >= std::size_t{processes} * kSweepsPerProcess)) return sweeps;
-        int longest = shape.sweep.axes[0];
-        for (const int axis : shape.sweep.axes)
-            if (side[axis] > side[longest] && (is_fit || axis != shape.axis())) longest = axis;
+        // Memory is needed across the sweep alone.
+        int longest = side[v] > side[u] ? v : u;
+        if (is_fit && side[w] > side[longest]) longest = w;
         if (side[longest] == 1) return sweeps;
         side[longest] = (side[longest] + 1) / 2;
         sweeps = boxes_of(side, counts);

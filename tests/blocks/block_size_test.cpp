@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "regionmesh/error.h"
 #include "stream/section_faces.h"
 
@@ -34,6 +37,34 @@ TEST(BlockSize, grows_with_memory_up_to_the_whole_volume) {
     }
     EXPECT_LT(cells_for(1025, 256 * kMiB), cells_for(1025, 4096 * kMiB));
     EXPECT_EQ(cells_for(129, 4096 * kMiB), 128u);
+}
+
+TEST(PlanSweeps, take_each_block_once_as_many_as_memory_holds_and_some_for_each_process) {
+    constexpr std::uint64_t kMiB = 1 << 20;
+    ReconstructOptions options;
+    options.smooth.filter = SmoothFilter::kLattice;
+    const SourceShape shape = section_shape(cube(1025), CellKind::kCompact, 1);
+    const BlockGrid grid(shape.lattice, 128);
+    const auto plan = [&](std::uint64_t memory, std::uint32_t processes) {
+        options.memory = memory;
+        return plan_sweeps(grid, shape, std::uint64_t{1025} * 1025 * 1025 / 2, options, processes);
+    };
+    EXPECT_EQ(plan(64 * 1024 * kMiB, 1).size(), 1u);
+    EXPECT_EQ(plan(1 * kMiB, 1).size(), 64u) << "columns of one block along the sweep";
+    std::size_t before = 64;
+    for (const std::uint64_t memory : {512 * kMiB, 2048 * kMiB, 8192 * kMiB}) {
+        const std::size_t count = plan(memory, 1).size();
+        EXPECT_LE(count, before);
+        before = count;
+    }
+    for (const std::uint32_t processes : {1u, 2u, 7u, 100u, 10'000u})
+        for (const std::uint64_t memory : {1 * kMiB, 1024 * kMiB, 64 * 1024 * kMiB}) {
+            std::vector<int> taken(grid.count());
+            const std::vector<IndexBox> sweeps = plan(memory, processes);
+            for (const IndexBox& sweep : sweeps) grid.for_blocks(sweep, [&](std::uint32_t block) { ++taken[block]; });
+            EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 1; }));
+            EXPECT_GE(sweeps.size(), processes == 1 ? 1 : std::min(grid.count(), 3 * processes));
+        }
 }
 
 TEST(BlockSize, too_many_blocks_are_refused) {
