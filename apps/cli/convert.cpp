@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "blocks.h"
 #include "commands.h"
 #include "input.h"
@@ -21,8 +23,12 @@ bool convert_pieces(const Settings& settings) {
         const std::size_t files = write_vtp_pieces(folder, settings.output, settings.writing).size();
         if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
     } else {
-        const std::uint64_t regions =
-            write_precomputed(folder, settings.output, settings.metres.value_or(1), settings.writing);
+        auto [names, colours] = describe(settings, {}, {});
+        const PrecomputedOptions options{.metres = settings.metres.value_or(1),
+                                         .names = std::move(names),
+                                         .colours = std::move(colours),
+                                         .output = settings.writing};
+        const std::uint64_t regions = write_precomputed(folder, settings.output, options);
         if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(regions, "region"));
     }
     return true;

@@ -106,12 +106,21 @@ std::vector<std::filesystem::path> write_vtp_pieces(const std::filesystem::path&
                                                     const std::filesystem::path& path,
                                                     const OutputOptions& options = {});
 
+struct PrecomputedOptions {
+    double metres = 1;          // in a unit of the model
+    LabelNames names = {};      // of regions; empty: those in the folder
+    LabelColours colours = {};  // of some regions; the viewer chooses the others
+    OutputOptions output = {};
+};
+
 /// Writes the regions of a complete folder, but the background, as meshes for Neuroglancer: a folder that its data
 /// source `precomputed` reads, single-resolution, with one fragment for each region and piece. Requires the folder
-/// `output` and `names` in it. Coordinates are single precision, in nanometres: `metres` is the unit of the model in
-/// metres. Holds one piece. Returns the number of regions.
-std::uint64_t write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output, double metres,
-                                const OutputOptions& options = {});
+/// `output` and `names` in it. Coordinates are single precision, in nanometres. Holds one piece. `state.json` in the
+/// folder is a state of the viewer that shows up to 100 regions, those with the most faces, from a server at
+/// http://localhost:8080 that serves the parent of `output`. Returns the number of regions. Throws Error(kInput) for a
+/// negative label, which is no id there.
+std::uint64_t write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output,
+                                const PrecomputedOptions& options = {});
 
 /// The whole model of a complete folder, in memory: vertices and faces in the order of the pieces, shared vertices
 /// once. Throws Error(kInput) for a folder that is not complete or is damaged.

@@ -1,0 +1,134 @@
+// What convert writes for Neuroglancer, in Neuroglancer.  neuroglancer_test.mjs PROGRAM REPOSITORY FOLDER [PICTURE]
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { launch, skip } from "./browser.mjs";
+import { bundle } from "../../viewer/neuroglancer/bundle.mjs";
+import { serve } from "./serve.mjs";
+
+const [program, repository, folder, kept] = process.argv.slice(2);
+const kRed = [255, 0, 0], kBlue = [0, 0, 255];
+
+if (!existsSync(`${repository}/viewer/neuroglancer/node_modules/neuroglancer`))
+    skip("neuroglancer is not installed: npm ci --ignore-scripts in viewer/neuroglancer");
+if (!existsSync(`${repository}/viewer/node_modules/esbuild`)) skip("esbuild is not installed: npm ci in viewer");
+
+const run = (...words) => execFileSync(program, words, { encoding: "utf8" });
+
+/** A folder of pieces, whose regions 1 to 10 are called "grain 1" and so on. The odd ones are red, the even ones blue. */
+function make_model() {
+    rmSync(folder, { recursive: true, force: true });
+    mkdirSync(folder, { recursive: true });
+    let names = "label,name,colour\n";
+    for (let label = 1; label <= 10; ++label) names += `${label},grain ${label},${label % 2 ? "#ff0000" : "#0000ff"}\n`;
+    writeFileSync(`${folder}/names.csv`, names);
+    run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/model/`, "--names", `${folder}/names.csv`,
+        "--reduce", "80%", "--block-size", "20", "--quiet");
+}
+
+/** Opens a state in the viewer. `errors` gets all that the console says, and requests that fail or leave this machine. */
+async function open(browser, server, state, errors) {
+    const base = `http://127.0.0.1:${server.address().port}`;
+    const page = await browser.newPage();
+    await page.setViewport({ width: 900, height: 700 });
+    page.on("console", (message) => ["error", "warn"].includes(message.type()) && errors.push(message.text()));
+    page.on("pageerror", (error) => errors.push(error.message));
+    page.on("requestfailed", (request) => errors.push(`${request.url()}: ${request.failure()?.errorText}`));
+    page.on("response", (response) => response.status() >= 400 && errors.push(`${response.url()}: ${response.status()}`));
+    page.on("request", (request) => {
+        const url = request.url();
+        if (!url.startsWith(base) && !/^(data|blob):/.test(url)) errors.push(`asks for ${url}`);
+    });
+    await page.goto(`${base}/viewer/index.html#!${encodeURIComponent(JSON.stringify(state(base)))}`);
+    return page;
+}
+
+/** The number of pixels of each colour, whatever the shading, in a picture of the page. */
+async function count(page, colours) {
+    const data = await page.screenshot({ encoding: "base64" });
+    return page.evaluate(async (source, wanted) => {
+        const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${source}`)).blob());
+        const canvas = new OffscreenCanvas(image.width, image.height).getContext("2d");
+        canvas.drawImage(image, 0, 0);
+        const { data: pixels } = canvas.getImageData(0, 0, image.width, image.height);
+        return wanted.map((colour) => {
+            let found = 0;
+            for (let n = 0; n < pixels.length; n += 4) {
+                const most = Math.max(pixels[n], pixels[n + 1], pixels[n + 2]);
+                const fits = (axis) => Math.abs(pixels[n + axis] - (most * colour[axis]) / 255) <= 0.1 * most;
+                if (most > 40 && fits(0) && fits(1) && fits(2)) ++found;
+            }
+            return found;
+        });
+    }, data, colours);
+}
+
+/** Waits until both colours fill more than this number of pixels. */
+async function wait_for_pixels(page, least, errors) {
+    let counts = [];
+    for (const start = Date.now(); Date.now() - start < 60000;) {
+        counts = await count(page, [kRed, kBlue]);
+        if (counts.every((found) => found > least)) return counts;
+        await new Promise((done) => setTimeout(done, 500));
+    }
+    assert.fail(`red and blue fill ${counts} pixels, not ${least}; ${errors.join("; ")}`);
+}
+
+/** Two regions with two colours, from afar. */
+const two_regions = (base) => ({
+    dimensions: { x: [1e-6, "m"], y: [1e-6, "m"], z: [1e-6, "m"] },
+    position: [19.5, 19.5, 19.5],
+    projectionScale: 70,
+    projectionOrientation: [0.3, 0.3, 0, 0.9],
+    showAxisLines: false,
+    layers: [{
+        type: "segmentation", name: "model", source: `precomputed://${base}/model.precomputed`, tab: "segments",
+        segments: ["2", "3"], segmentColors: { 2: "#ff0000", 3: "#0000ff" },
+    }],
+    selectedLayer: { layer: "model", visible: true },
+    layout: "3d",
+});
+
+/** The state that convert writes, from this server. */
+function state_written(base) {
+    const state = JSON.parse(readFileSync(`${folder}/model.precomputed/state.json`, "utf8"));
+    state.layers[0].source = state.layers[0].source.replace("http://localhost:8080", base);
+    return state;
+}
+
+async function shows_regions_and_names(browser, server) {
+    const errors = [], page = await open(browser, server, two_regions, errors);
+    await wait_for_pixels(page, 10000, errors);
+    const told = await page.evaluate("document.querySelector('.neuroglancer-side-panel').textContent");
+    for (const word of ["grain 1", "grain 10"]) assert.ok(told.includes(word), `${word} is not in the list: ${told}`);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function shows_the_state_written(browser, server, name) {
+    const errors = [], page = await open(browser, server, state_written, errors);
+    await wait_for_pixels(page, 5000, errors);
+    const told = await page.evaluate("document.querySelector('.neuroglancer-side-panel').textContent");
+    assert.ok(told.includes("10/10 visible"), told);
+    assert.deepEqual(errors, []);
+    if (kept) await page.screenshot({ path: kept.replace(".png", `-${name}.png`) });
+    await page.close();
+}
+
+await bundle(repository, `${folder}-viewer`);
+make_model();
+const browser = await launch(repository);
+const server = await serve({ "/viewer": `${folder}-viewer`, "/model.precomputed": `${folder}/model.precomputed` });
+try {
+    for (const [name, ...options] of [["legacy"]]) {
+        rmSync(`${folder}/model.precomputed`, { recursive: true, force: true });
+        run("convert", `${folder}/model`, `${folder}/model.precomputed`, "--names", `${folder}/names.csv`, "--units", "um",
+            "--quiet", ...options);
+        await shows_regions_and_names(browser, server);
+        await shows_the_state_written(browser, server, name);
+        console.log(`ok ${name}: ${JSON.parse(readFileSync(`${folder}/model.precomputed/info`, "utf8"))["@type"]}`);
+    }
+} finally {
+    await browser.close();
+    server.close();
+}
