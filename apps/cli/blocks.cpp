@@ -113,23 +113,24 @@ bool writes_blocks(const Settings& settings) {
 }
 
 bool is_written_in_pieces(const std::string& output) {
-    const fs::path path = folder_of(output);
-    return path.extension() == ".pvtp" || path.extension() == ".precomputed";
+    return folder_of(output).extension() == ".pvtp" || is_precomputed(output);
 }
+
+bool is_precomputed(const std::string& output) { return folder_of(output).extension() == ".precomputed"; }
 
 void make_block_folder(const Settings& settings) {
     if (settings.output.empty()) return;
     const fs::path folder = folder_of(settings.output);
     const bool is_model = !settings.inputs.empty() && writes_blocks(settings);
-    const bool is_precomputed = !settings.models.empty() && folder.extension() == ".precomputed";
-    if (!is_model && !is_precomputed) return;
+    const bool is_for_viewer = !settings.models.empty() && is_precomputed(settings.output);
+    if (!is_model && !is_for_viewer) return;
     for (const std::vector<std::string>* files : {&settings.inputs, &settings.models})
         for (const std::string& file : *files)
             if (std::error_code missing; file.find(':') == std::string::npos && !fs::exists(file, missing))
                 return;  // the command says so, and leaves nothing behind
     std::error_code error;
     for (const fs::path& path : {folder, folder / "names"}) {
-        if (path != folder && !is_precomputed) continue;
+        if (path != folder && !is_for_viewer) continue;
         if (!fs::is_directory(path, error)) fs::create_directory(path, error);
     }
     if (error)

@@ -15,6 +15,10 @@ namespace {
 /// From a folder of pieces, without the whole model in memory. Whether the output is of such a format.
 bool convert_pieces(const Settings& settings) {
     const std::string& folder = settings.models.front();
+    if (!is_precomputed(settings.output))
+        for (const auto& [name, text] : settings.given)
+            if (name == "precomputed" || name == "levels" || name == "sharded")
+                throw Error(ErrorCode::kUsage, "--" + name + ": is for an output such as model.precomputed");
     if (!is_written_in_pieces(settings.output)) return false;
     if (!is_block_folder(folder))
         throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
@@ -25,6 +29,9 @@ bool convert_pieces(const Settings& settings) {
     } else {
         auto [names, colours] = describe(settings, {}, {});
         const PrecomputedOptions options{.metres = settings.metres.value_or(1),
+                                         .is_legacy = settings.precomputed_is_legacy,
+                                         .is_sharded = settings.precomputed_is_sharded,
+                                         .levels = settings.precomputed_levels,
                                          .names = std::move(names),
                                          .colours = std::move(colours),
                                          .output = settings.writing};

@@ -120,7 +120,7 @@ make_model();
 const browser = await launch(repository);
 const server = await serve({ "/viewer": `${folder}-viewer`, "/model.precomputed": `${folder}/model.precomputed` });
 try {
-    for (const [name, ...options] of [["legacy"]]) {
+    for (const [name, ...options] of [["legacy", "--precomputed", "legacy"], ["multi", "--levels", "3"], ["sharded", "--levels", "3", "--sharded"]]) {
         rmSync(`${folder}/model.precomputed`, { recursive: true, force: true });
         run("convert", `${folder}/model`, `${folder}/model.precomputed`, "--names", `${folder}/names.csv`, "--units", "um",
             "--quiet", ...options);

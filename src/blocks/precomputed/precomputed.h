@@ -43,6 +43,9 @@ struct WrittenRegions {
 /// Single-resolution: NAME:0 and one fragment for each piece.
 WrittenRegions write_legacy_meshes(const Precomputed& precomputed);
 
+/// Multi-resolution: ID and ID.index, or shards. Throws Error(kOutput) in a build without Draco.
+WrittenRegions write_multi_resolution_meshes(const Precomputed& precomputed);
+
 /// The names of the regions, `names/info`, and `state.json`, a state of the viewer.
 void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions);
 void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& regions);

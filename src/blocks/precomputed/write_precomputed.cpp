@@ -101,7 +101,8 @@ std::uint64_t write_precomputed(const fs::path& folder, const fs::path& output, 
     const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options};
     for (Label label = 0; label < manifest.label_count; ++label)
         if (precomputed.is_region(label)) precomputed.id(label);  // refuses before the work
-    const WrittenRegions written = write_legacy_meshes(precomputed);
+    const WrittenRegions written =
+        options.is_legacy ? write_legacy_meshes(precomputed) : write_multi_resolution_meshes(precomputed);
     write_segment_names(precomputed, written);
     write_viewer_state(precomputed, written);
     return written.faces.size();
