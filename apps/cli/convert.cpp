@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "blocks.h"
@@ -12,13 +13,18 @@ namespace regionmesh::cli {
 
 namespace {
 
+/// Throws Error(kUsage) for options of a folder .precomputed with another output. A model that is missing is said
+/// first.
+void require_fit_of_output(const Settings& settings) {
+    if (is_precomputed(settings.output) || !std::filesystem::exists(settings.models.front())) return;
+    for (const auto& [name, text] : settings.given)
+        if (name == "precomputed" || name == "levels" || name == "sharded")
+            throw Error(ErrorCode::kUsage, "--" + name + ": is for an output such as model.precomputed");
+}
+
 /// From a folder of pieces, without the whole model in memory. Whether the output is of such a format.
 bool convert_pieces(const Settings& settings) {
     const std::string& folder = settings.models.front();
-    if (!is_precomputed(settings.output))
-        for (const auto& [name, text] : settings.given)
-            if (name == "precomputed" || name == "levels" || name == "sharded")
-                throw Error(ErrorCode::kUsage, "--" + name + ": is for an output such as model.precomputed");
     if (!is_written_in_pieces(settings.output)) return false;
     if (!is_block_folder(folder))
         throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
@@ -44,6 +50,7 @@ bool convert_pieces(const Settings& settings) {
 }  // namespace
 
 int run_convert(const Settings& given) {
+    require_fit_of_output(given);
     if (convert_pieces(given)) return kGood;
     require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);

@@ -121,7 +121,8 @@ struct PrecomputedOptions {
 ///   multi-resolution  level 0 is the model cut along the walls of chunks, its positions rounded to 1/65535 of a chunk;
 ///                     each further level has about an eighth of the faces and does not keep samples in their regions.
 ///                     Fragments are compressed by Draco, without loss. All regions of a level fit together. Holds one
-///                     piece, one fragment and 160 MB; 40 bytes in temporary files for each face and side.
+///                     piece with what simplify() needs for it, one fragment and 160 MB; 40 bytes in temporary files
+///                     for each face and side.
 ///   legacy            single precision, one fragment for each region and piece. Holds one piece.
 /// `state.json` in the folder is a state of the viewer that shows up to 100 regions, those with the most faces, from a
 /// server at http://localhost:8080 that serves the parent of `output`. Returns the number of regions. Throws
