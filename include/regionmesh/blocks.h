@@ -124,10 +124,10 @@ struct PrecomputedOptions {
 ///                     piece with what simplify() needs for it, one fragment and 160 MB; 40 bytes in temporary files
 ///                     for each face and side.
 ///   legacy            single precision, one fragment for each region and piece. Holds one piece.
-/// `state.json` in the folder is a state of the viewer that shows up to 100 regions, those with the most faces, from a
-/// server at http://localhost:8080 that serves the parent of `output`. Returns the number of regions. Throws
-/// Error(kInput) for a negative label, which is no id there, and Error(kOutput) for multi-resolution in a build without
-/// Draco.
+/// `info` is removed first and written last, so a folder that has it is whole. `state.json` is a state of the viewer
+/// that shows up to 100 regions, those with the most faces, from a server at http://localhost:8080 that serves the
+/// parent of `output`. Returns the number of regions. Throws Error(kInput) for a negative label, which is no id there,
+/// and Error(kOutput) for multi-resolution in a build without Draco.
 std::uint64_t write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output,
                                 const PrecomputedOptions& options = {});
 

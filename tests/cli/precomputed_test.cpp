@@ -268,6 +268,26 @@ TEST_F(PrecomputedProgram, shards_hold_the_same_bytes) {
     }
 }
 
+TEST_F(PrecomputedProgram, leaves_no_folder_that_could_be_taken_for_whole_when_it_fails) {
+    for (const char* format : {"legacy", "multi"}) {
+        SCOPED_TRACE(format);
+        fs::remove_all(out("model"));
+        ASSERT_EQ(make_model().code, 0);
+        const std::string command = "convert " + out("model") + ' ' + out("m.precomputed") + " --precomputed " + format;
+        ASSERT_EQ(run(command).code, 0);
+        EXPECT_TRUE(fs::exists(out("m.precomputed/info")));
+        fs::path last;
+        for (const auto& entry : fs::directory_iterator(out("model")))
+            if (entry.path().extension() == ".piece") last = std::max(last, entry.path());
+        std::string bytes = text_of(last);
+        bytes[bytes.size() / 2] ^= 1;
+        put_text(last, bytes);
+        const Ran ran = run(command);
+        EXPECT_EQ(ran.code, 1) << ran.error;
+        EXPECT_FALSE(fs::exists(out("m.precomputed/info")));
+    }
+}
+
 TEST_F(PrecomputedProgram, refuses_options_without_effect) {
     ASSERT_EQ(make_model().code, 0);
     for (const auto& [options, said] :

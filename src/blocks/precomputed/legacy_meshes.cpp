@@ -70,7 +70,7 @@ WrittenRegions write_legacy_meshes(const Precomputed& precomputed) {
     }
     for (const auto& [label, names] : lists)
         precomputed.write(precomputed.id(label) + ":0", text_of(Json{{"fragments", names}}));
-    precomputed.write("info", text_of(Json{{"@type", "neuroglancer_legacy_mesh"}, {"segment_properties", "names"}}));
+    written.info = {{"@type", "neuroglancer_legacy_mesh"}};
     return written;
 }
 

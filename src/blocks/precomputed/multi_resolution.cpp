@@ -184,7 +184,7 @@ public:
         SortedFace face;
         for (bool has = faces_.next(face); has;) has = write_region(face, scales, *files);
         files->finish();
-        write_info();
+        written_.info = info();
         return written_;
     }
 
@@ -251,12 +251,11 @@ private:
         return has;
     }
 
-    void write_info() const {
+    Json info() const {
         Json info{{"@type", "neuroglancer_multilod_draco"},
                   {"vertex_quantization_bits", 16},
                   {"transform", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}},
-                  {"lod_scale_multiplier", 1},
-                  {"segment_properties", "names"}};
+                  {"lod_scale_multiplier", 1}};
         if (precomputed_.options.is_sharded)
             info["sharding"] = {{"@type", "neuroglancer_uint64_sharded_v1"},
                                 {"preshift_bits", 0},
@@ -265,7 +264,7 @@ private:
                                 {"shard_bits", layout_.shard_bits},
                                 {"minishard_index_encoding", "raw"},
                                 {"data_encoding", "raw"}};
-        precomputed_.write("info", text_of(info));
+        return info;
     }
 
     const Precomputed& precomputed_;

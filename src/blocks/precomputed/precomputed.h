@@ -34,10 +34,12 @@ struct Precomputed {
     void write(const std::filesystem::path& name, std::string_view content) const;
 };
 
-/// The regions that were written, with their faces, and the box of their vertices in nanometres.
+/// The regions that were written, with their faces, the box of their vertices in nanometres, and what `info` says of
+/// the meshes.
 struct WrittenRegions {
     std::map<Label, std::uint64_t> faces;
     Box box;
+    Json info;
 };
 
 /// Single-resolution: NAME:0 and one fragment for each piece.

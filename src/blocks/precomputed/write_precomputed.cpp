@@ -101,10 +101,14 @@ std::uint64_t write_precomputed(const fs::path& folder, const fs::path& output, 
     const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options};
     for (Label label = 0; label < manifest.label_count; ++label)
         if (precomputed.is_region(label)) precomputed.id(label);  // refuses before the work
-    const WrittenRegions written =
+    if (std::error_code error; fs::remove(output / "info", error), error)
+        throw Error(ErrorCode::kOutput, (output / "info").string() + ": cannot be replaced: " + error.message());
+    WrittenRegions written =
         options.is_legacy ? write_legacy_meshes(precomputed) : write_multi_resolution_meshes(precomputed);
     write_segment_names(precomputed, written);
     write_viewer_state(precomputed, written);
+    written.info["segment_properties"] = "names";
+    precomputed.write("info", text_of(written.info));  // last: a folder without it is not taken for whole
     return written.faces.size();
 }
 
