@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 #include "commands.h"
 #include "input.h"
@@ -75,6 +77,24 @@ void require_fit_of_blocks(const Settings& settings) {
                     settings.inputs.front() + ": blocks are for sections; name a file for the model in --output");
 }
 
+/// Sections with the names that --names gives.
+class DescribedReader final : public SectionReader {
+public:
+    DescribedReader(std::unique_ptr<SectionReader> reader, const Settings& settings)
+        : reader_(std::move(reader)), info_(reader_->info()) {
+        auto [names, colours] = describe(settings, info_.names, info_.colours);
+        info_.names = std::move(names);
+        info_.colours = std::move(colours);
+    }
+    const VolumeInfo& info() const override { return info_; }
+    bool next(std::span<InputLabel> section) override { return reader_->next(section); }
+    void rewind() override { reader_->rewind(); }
+
+private:
+    std::unique_ptr<SectionReader> reader_;
+    VolumeInfo info_;
+};
+
 void print_summary(const Settings& settings, const BlockReport& report) {
     if (report.stopped == "topology" || report.stopped == "max_error")
         say("decimation ended by {}, with {}", report.stopped == "topology" ? "topology or quality" : "--max-error",
@@ -93,23 +113,24 @@ bool writes_blocks(const Settings& settings) {
 }
 
 bool is_written_in_pieces(const std::string& output) {
-    const fs::path path = folder_of(output);
-    return path.extension() == ".pvtp" || path.extension() == ".precomputed";
+    return folder_of(output).extension() == ".pvtp" || is_precomputed(output);
 }
+
+bool is_precomputed(const std::string& output) { return folder_of(output).extension() == ".precomputed"; }
 
 void make_block_folder(const Settings& settings) {
     if (settings.output.empty()) return;
     const fs::path folder = folder_of(settings.output);
     const bool is_model = !settings.inputs.empty() && writes_blocks(settings);
-    const bool is_precomputed = !settings.models.empty() && folder.extension() == ".precomputed";
-    if (!is_model && !is_precomputed) return;
+    const bool is_for_viewer = !settings.models.empty() && is_precomputed(settings.output);
+    if (!is_model && !is_for_viewer) return;
     for (const std::vector<std::string>* files : {&settings.inputs, &settings.models})
         for (const std::string& file : *files)
             if (std::error_code missing; file.find(':') == std::string::npos && !fs::exists(file, missing))
                 return;  // the command says so, and leaves nothing behind
     std::error_code error;
     for (const fs::path& path : {folder, folder / "names"}) {
-        if (path != folder && !is_precomputed) continue;
+        if (path != folder && !is_for_viewer) continue;
         if (!fs::is_directory(path, error)) fs::create_directory(path, error);
     }
     if (error)
@@ -131,7 +152,8 @@ int run_blocks(const Settings& settings) {
                               .output = settings.writing};
     ProgressLine line(settings.quiet || !tasks.is_first());
     const BlockReport report = reconstruct_blocks(
-        [&] { return open_lattice(settings, settings.inputs); }, settings.reconstruct, blocks, tasks,
+        [&] { return std::make_unique<DescribedReader>(open_lattice(settings, settings.inputs), settings); },
+        settings.reconstruct, blocks, tasks,
         [&](const BlockProgress& progress) {
             Progress shown;
             shown.stage = progress.stage;

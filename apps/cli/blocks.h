@@ -12,6 +12,9 @@ bool writes_blocks(const Settings& settings);
 /// Whether convert writes this output piece by piece: .pvtp, and folders .precomputed.
 bool is_written_in_pieces(const std::string& output);
 
+/// A folder for Neuroglancer.
+bool is_precomputed(const std::string& output);
+
 /// Makes the folder of pieces, or one .precomputed, if the command writes one: a confined process cannot. Throws
 /// Error(kOutput) where it cannot be made.
 void make_block_folder(const Settings& settings);

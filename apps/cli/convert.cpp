@@ -1,5 +1,8 @@
 #include <fmt/core.h>
 
+#include <filesystem>
+#include <utility>
+
 #include "blocks.h"
 #include "commands.h"
 #include "input.h"
@@ -9,6 +12,15 @@
 namespace regionmesh::cli {
 
 namespace {
+
+/// Throws Error(kUsage) for options of a folder .precomputed with another output. A model that is missing is said
+/// first.
+void require_fit_of_output(const Settings& settings) {
+    if (is_precomputed(settings.output) || !std::filesystem::exists(settings.models.front())) return;
+    for (const auto& [name, text] : settings.given)
+        if (name == "precomputed" || name == "levels" || name == "sharded")
+            throw Error(ErrorCode::kUsage, "--" + name + ": is for an output such as model.precomputed");
+}
 
 /// From a folder of pieces, without the whole model in memory. Whether the output is of such a format.
 bool convert_pieces(const Settings& settings) {
@@ -21,8 +33,15 @@ bool convert_pieces(const Settings& settings) {
         const std::size_t files = write_vtp_pieces(folder, settings.output, settings.writing).size();
         if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
     } else {
-        const std::uint64_t regions =
-            write_precomputed(folder, settings.output, settings.metres.value_or(1), settings.writing);
+        auto [names, colours] = describe(settings, {}, {});
+        const PrecomputedOptions options{.metres = settings.metres.value_or(1),
+                                         .is_legacy = settings.precomputed_is_legacy,
+                                         .is_sharded = settings.precomputed_is_sharded,
+                                         .levels = settings.precomputed_levels,
+                                         .names = std::move(names),
+                                         .colours = std::move(colours),
+                                         .output = settings.writing};
+        const std::uint64_t regions = write_precomputed(folder, settings.output, options);
         if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(regions, "region"));
     }
     return true;
@@ -31,6 +50,7 @@ bool convert_pieces(const Settings& settings) {
 }  // namespace
 
 int run_convert(const Settings& given) {
+    require_fit_of_output(given);
     if (convert_pieces(given)) return kGood;
     require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);

@@ -106,12 +106,30 @@ std::vector<std::filesystem::path> write_vtp_pieces(const std::filesystem::path&
                                                     const std::filesystem::path& path,
                                                     const OutputOptions& options = {});
 
+struct PrecomputedOptions {
+    double metres = 1;          // in a unit of the model
+    bool is_legacy = false;     // neuroglancer_legacy_mesh; otherwise neuroglancer_multilod_draco
+    bool is_sharded = false;    // not legacy: neuroglancer_uint64_sharded_v1
+    std::uint32_t levels = 0;   // of detail, not legacy; 0: from the number of faces
+    LabelNames names = {};      // of regions; empty: those in the folder
+    LabelColours colours = {};  // of some regions; the viewer chooses the others
+    OutputOptions output = {};
+};
+
 /// Writes the regions of a complete folder, but the background, as meshes for Neuroglancer: a folder that its data
-/// source `precomputed` reads, single-resolution, with one fragment for each region and piece. Requires the folder
-/// `output` and `names` in it. Coordinates are single precision, in nanometres: `metres` is the unit of the model in
-/// metres. Holds one piece. Returns the number of regions.
-std::uint64_t write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output, double metres,
-                                const OutputOptions& options = {});
+/// source `precomputed` reads. Requires the folder `output` and `names` in it. Coordinates are in nanometres.
+///   multi-resolution  level 0 is the model cut along the walls of chunks, its positions rounded to 1/65535 of a chunk;
+///                     each further level has about an eighth of the faces and does not keep samples in their regions.
+///                     Fragments are compressed by Draco, without loss. All regions of a level fit together. Holds one
+///                     piece with what simplify() needs for it, one fragment and 160 MB; 40 bytes in temporary files
+///                     for each face and side.
+///   legacy            single precision, one fragment for each region and piece. Holds one piece.
+/// `info` is removed first and written last, so a folder that has it is whole. `state.json` is a state of the viewer
+/// that shows up to 100 regions, those with the most faces, from a server at http://localhost:8080 that serves the
+/// parent of `output`. Returns the number of regions. Throws Error(kInput) for a negative label, which is no id there,
+/// and Error(kOutput) for multi-resolution in a build without Draco.
+std::uint64_t write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output,
+                                const PrecomputedOptions& options = {});
 
 /// The whole model of a complete folder, in memory: vertices and faces in the order of the pieces, shared vertices
 /// once. Throws Error(kInput) for a folder that is not complete or is damaged.

@@ -46,6 +46,8 @@ struct Settings {
     std::string output, names, report, json, distance, html, regions, interfaces, lines, log, config;  // files
     std::uint32_t preview_faces = PageOptions{}.preview_faces;
     OutputOptions writing;
+    bool precomputed_is_legacy = false, precomputed_is_sharded = false;  // as PrecomputedOptions has them
+    std::uint32_t precomputed_levels = 0;
     bool per_region = false, list_all = false, quiet = false, verbose = false;
     bool sandbox = true, needs_sandbox = false;     // confine the program; end where the kernel cannot
     std::optional<std::uint32_t> block_cells = {};  // BlockOptions::block_cells; the output is then a folder

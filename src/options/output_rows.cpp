@@ -7,7 +7,7 @@
 namespace regionmesh {
 namespace {
 
-constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu}, kBlockCells{1, 1u << 20};
+constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu}, kBlockCells{1, 1u << 20}, kLevels{0, 8};
 
 std::string_view output_help() {
     static const std::string text =
@@ -74,6 +74,24 @@ Rows output_rows() {
                 constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
                 s.metres = kMetres[word];
             }),
+        word_option({.name = "precomputed",
+                     .help = "meshes in a folder .precomputed for Neuroglancer: multi, levels of detail compressed by "
+                             "Draco; legacy: the model, not compressed",
+                     .group = kGroup,
+                     .commands = kConvert},
+                    {"multi", "legacy"}, [](Settings& s, std::size_t word) { s.precomputed_is_legacy = word == 1; }),
+        option(
+            {.name = "levels",
+             .help = "levels of detail in a folder .precomputed, each with an eighth of the faces of the one before; "
+                     "0: as many as leave 20,000 faces",
+             .group = kGroup,
+             .commands = kConvert},
+            [](Settings& s) { return &s.precomputed_levels; }, kLevels),
+        option({.name = "sharded",
+                .help = "few large files in a folder .precomputed instead of two for each region",
+                .group = kGroup,
+                .commands = kConvert},
+               [](Settings& s) { return &s.precomputed_is_sharded; }),
         file_option({.name = "regions",
                      .help = "CSV table to write: volume, area, centroid, box, neighbours and curvature of each region",
                      .group = kGroup,

@@ -118,6 +118,9 @@ void require_consistent(const Settings& settings) {
     if (!settings.volume.select.labels.empty() && settings.reconstruct.background.empty())
         throw Error(ErrorCode::kUsage,
                     "--labels: the other labels become background, and --no-background has none; leave out one");
+    if (settings.precomputed_is_legacy)
+        for (const char* name : {"sharded", "levels"})
+            if (given(settings, name)) refuse_both("precomputed legacy", name, "legacy meshes have neither");
     if (settings.reconstruct.cap) return;
     if (settings.hull)
         throw Error(ErrorCode::kUsage,

@@ -122,7 +122,7 @@ std::vector<T> numbers_in(std::string_view text) {
 
 TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {
     ASSERT_EQ(run(grains("model")).code, 0);
-    const Ran ran = run("convert " + out("model") + ' ' + out("m.precomputed") + " --units um");
+    const Ran ran = run("convert " + out("model") + ' ' + out("m.precomputed") + " --units um --precomputed legacy");
     ASSERT_EQ(ran.code, 0) << ran.error;
     EXPECT_THAT(ran.out, testing::HasSubstr("19 regions"));  // label 0 is background
     const fs::path folder = out("m.precomputed");

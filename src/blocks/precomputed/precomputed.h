@@ -1,0 +1,55 @@
+// Parts of the folders that Neuroglancer's data source `precomputed` reads.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "blocks/manifest.h"
+#include "formats/report/json_parts.h"
+#include "regionmesh/blocks.h"
+#include "regionmesh/label_table.h"
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+/// What is written, and where.
+struct Precomputed {
+    std::filesystem::path folder, output;
+    Manifest manifest;
+    LabelTable labels;
+    std::vector<Label> background;  // dense
+    PrecomputedOptions options;
+
+    /// Nanometres in a unit of the model.
+    double nanometres() const { return options.metres * 1e9; }
+    /// Not the exterior, not background.
+    bool is_region(Label label) const;
+    /// The name of a region in Neuroglancer: a decimal number. Throws Error(kInput) for a negative label.
+    std::string id(Label label) const;
+    /// Writes a file of the folder.
+    void write(const std::filesystem::path& name, std::string_view content) const;
+};
+
+/// The regions that were written, with their faces, the box of their vertices in nanometres, and what `info` says of
+/// the meshes.
+struct WrittenRegions {
+    std::map<Label, std::uint64_t> faces;
+    Box box;
+    Json info;
+};
+
+/// Single-resolution: NAME:0 and one fragment for each piece.
+WrittenRegions write_legacy_meshes(const Precomputed& precomputed);
+
+/// Multi-resolution: ID and ID.index, or shards. Throws Error(kOutput) in a build without Draco.
+WrittenRegions write_multi_resolution_meshes(const Precomputed& precomputed);
+
+/// The names of the regions, `names/info`, and `state.json`, a state of the viewer.
+void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions);
+void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& regions);
+
+}  // namespace regionmesh

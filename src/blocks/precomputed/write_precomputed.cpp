@@ -1,0 +1,115 @@
+// Models in pieces for Neuroglancer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "blocks/precomputed/precomputed.h"
+#include "mesh/region_colours.h"
+#include "regionmesh/error.h"
+
+namespace regionmesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Regions that a state selects: each is one request and more.
+constexpr std::size_t kMostSelected = 100;
+
+std::vector<Label> dense_labels(const std::vector<InputLabel>& inputs, LabelTable& labels) {
+    std::vector<Label> dense;
+    for (const InputLabel label : inputs) dense.push_back(labels.dense(label));
+    return dense;
+}
+
+/// Those with the most faces, in the order of their labels.
+std::vector<Label> largest_regions(const WrittenRegions& regions) {
+    std::vector<Label> labels;
+    for (const auto& [label, faces] : regions.faces) labels.push_back(label);
+    std::ranges::stable_sort(labels, std::greater(), [&](Label label) { return regions.faces.at(label); });
+    labels.resize(std::min(labels.size(), kMostSelected));
+    std::ranges::sort(labels);
+    return labels;
+}
+
+}  // namespace
+
+bool Precomputed::is_region(Label label) const {
+    return !is_exterior(label) && std::ranges::find(background, label) == background.end();
+}
+
+std::string Precomputed::id(Label label) const {
+    const InputLabel input = labels.input(label);
+    if (!labels.is_unsigned() && input < 0)
+        throw Error(ErrorCode::kInput,
+                    fmt::format("{}: label {} is negative, and ids in Neuroglancer are not; give the region another "
+                                "label with --merge when you reconstruct",
+                                folder.string(), input));
+    return labels.text(input);
+}
+
+void Precomputed::write(const fs::path& name, std::string_view content) const {
+    OutputFile file(output / name, options.output);
+    file.write(content);
+    file.commit();
+}
+
+void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions) {
+    const LabelNames& names =
+        precomputed.options.names.empty() ? precomputed.manifest.names : precomputed.options.names;
+    Json ids = Json::array(), values = Json::array();
+    for (const auto& [label, faces] : regions.faces) {
+        const auto name = names.find(precomputed.labels.input(label));
+        ids.push_back(precomputed.id(label));
+        values.push_back(name == names.end() ? precomputed.id(label) : name->second);
+    }
+    const Json properties = Json::array({{{"id", "label"}, {"type", "label"}, {"values", values}}});
+    precomputed.write("names/info", text_of({{"@type", "neuroglancer_segment_properties"},
+                                             {"inline", {{"ids", ids}, {"properties", properties}}}}));
+}
+
+void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& regions) {
+    const fs::path name =
+        precomputed.output.has_filename() ? precomputed.output.filename() : precomputed.output.parent_path().filename();
+    Json dimensions, position = Json::array(), segments = Json::array(), colours = Json::object();
+    for (const char* axis : {"x", "y", "z"}) dimensions[axis] = {1e-9, "m"};
+    double diagonal = 0;
+    for (int axis = 0; axis < 3 && !regions.box.is_empty(); ++axis) {
+        position.push_back((regions.box.low[axis] + regions.box.high[axis]) / 2);
+        diagonal = std::hypot(diagonal, regions.box.high[axis] - regions.box.low[axis]);
+    }
+    for (const Label label : largest_regions(regions)) {
+        segments.push_back(precomputed.id(label));
+        const auto colour = precomputed.options.colours.find(precomputed.labels.input(label));
+        if (colour != precomputed.options.colours.end()) colours[precomputed.id(label)] = hex_of(colour->second);
+    }
+    const Json layer{{"type", "segmentation"},       {"source", "precomputed://http://localhost:8080/" + name.string()},
+                     {"name", name.stem().string()}, {"tab", "segments"},
+                     {"segments", segments},         {"segmentColors", colours}};
+    precomputed.write("state.json", text_of({{"dimensions", dimensions},
+                                             {"position", position},
+                                             {"projectionScale", diagonal},
+                                             {"layers", Json::array({layer})},
+                                             {"selectedLayer", {{"layer", name.stem().string()}, {"visible", true}}},
+                                             {"layout", "3d"}}));
+}
+
+std::uint64_t write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& options) {
+    const Manifest manifest = read_complete_manifest(folder);
+    LabelTable labels = read_labels(manifest, folder);
+    std::vector<Label> background = dense_labels(manifest.background, labels);
+    const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options};
+    for (Label label = 0; label < manifest.label_count; ++label)
+        if (precomputed.is_region(label)) precomputed.id(label);  // refuses before the work
+    if (std::error_code error; fs::remove(output / "info", error), error)
+        throw Error(ErrorCode::kOutput, (output / "info").string() + ": cannot be replaced: " + error.message());
+    WrittenRegions written =
+        options.is_legacy ? write_legacy_meshes(precomputed) : write_multi_resolution_meshes(precomputed);
+    write_segment_names(precomputed, written);
+    write_viewer_state(precomputed, written);
+    written.info["segment_properties"] = "names";
+    precomputed.write("info", text_of(written.info));  // last: a folder without it is not taken for whole
+    return written.faces.size();
+}
+
+}  // namespace regionmesh
