@@ -206,7 +206,7 @@ Float4 LatticeFits::misses(const HeightQuadric& quadric, const Sites4& sites) co
 }
 
 void LatticeFits::blend(const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits,
-                        SlidingArray<SiteEstimate>& estimates) const {
+                        SlidingPages<SiteEstimate>& estimates) const {
     const auto is_accepted = [](const FitPlace& place) { return place.row->fits[place.fit].accepted > 0; };
     if (std::none_of(fits.begin(), fits.end(), is_accepted)) return;
     const std::uint32_t end = row.runs[run + 1].site;

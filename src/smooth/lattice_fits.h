@@ -43,7 +43,7 @@ public:
     void make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const;
     /// Gives the accepted among these fits the rest of the estimates of each site of the run, blended.
     void blend(const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits,
-               SlidingArray<SiteEstimate>& estimates) const;
+               SlidingPages<SiteEstimate>& estimates) const;
 
 private:
     struct Sites4;

@@ -78,57 +78,50 @@ Barycentric weights_of(const std::array<double, 3>& step, int count) {
     return weights;
 }
 
-LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites, std::uint32_t vertex) {
-    const LatticeFrame& frame = sites.frame();
-    const int kind = sites.kind(vertex);
-    LatticeSimplex simplex{{}, static_cast<std::uint8_t>(kind)};
-    // A centroid is more than a tenth of a spacing away from the next node, so that truncation finds the base.
-    const Vec3& at = window.origin[vertex];
-    for (int axis = 0; axis < 3; ++axis)
-        simplex.base[axis] =
-            static_cast<double>(static_cast<std::int64_t>((at[axis] - frame.origin[axis]) / frame.spacing[axis] + 0.1));
-    return simplex;
+void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, Vec3 position) {
+    nodes_.push_back({0, {}, to_interfaces, simplex, {position, position}});
 }
 
-void LatticeLines::add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position) {
-    nodes_.push_back({vertex, 0, {}, to_interfaces, simplex_in(window_, sites_, vertex), {position, position}});
+void LatticeLines::append_nodes(std::uint32_t first, const std::vector<LatticeVertex>& vertices,
+                                std::vector<std::uint32_t>& nodes) {
+    for (const LatticeVertex& vertex : vertices) nodes.push_back(has(vertex.simplex) ? first++ : kNoNode);
 }
 
-std::uint32_t LatticeLines::node_of(std::uint32_t vertex) const {
-    std::uint32_t low = nodes_.first(), high = nodes_.end();
-    while (low < high) {
-        const std::uint32_t middle = low + (high - low) / 2;
-        if (nodes_[middle].vertex < vertex)
-            low = middle + 1;
-        else
-            high = middle;
+void LatticeLines::find_sides(NumberRange from, const std::vector<ChunkFace>& faces,
+                              const std::vector<std::uint32_t>& nodes) {
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::array<Label, 2> labels) {
+        if (a < from.first || a >= from.end) return;
+        if (labels[0] > labels[1]) std::swap(labels[0], labels[1]);
+        sides_.push_back({a, b, static_cast<std::uint32_t>(sides_.size()), labels});
+    };
+    for (const auto& [v, labels] : faces) {
+        const std::uint32_t corners[3] = {nodes[v[0]], nodes[v[1]], nodes[v[2]]};
+        for (int n = 0; n < 3; ++n) {
+            const std::uint32_t a = corners[n], b = corners[(n + 1) % 3];
+            if (a == kNoNode || b == kNoNode) continue;
+            add(a, b, labels);
+            add(b, a, labels);
+        }
     }
-    return low;
 }
 
 /// An edge between two vertices in triangles or tetrahedra of the lattice is part of a line where faces of two
 /// interfaces meet in it; compact cells cut sheets along such edges, too.
-void LatticeLines::link(std::uint32_t chunk) {
-    const NumberRange own = window_.vertices_of(chunk);
-    NumberRange faces = window_.faces_of(chunk);
-    if (chunk + 1 < window_.chunk_end()) faces.end = window_.faces_of(chunk + 1).end;
+void LatticeLines::link(std::uint32_t chunk, const PackedChunks& chunks, PackedChunks::Parts& parts) {
+    const NumberRange own{first_node_[chunk], first_node_[chunk + 1]};
     std::vector<Side>& sides = sides_;
     sides.clear();
-    const auto add = [&](std::uint32_t from, std::uint32_t to, std::array<Label, 2> labels) {
-        if (from < own.first || from >= own.end) return;
-        if (labels[0] > labels[1]) std::swap(labels[0], labels[1]);
-        sides.push_back({node_of(from), node_of(to), static_cast<std::uint32_t>(sides.size()), labels});
-    };
-    for (std::uint32_t f = faces.first; f < faces.end; ++f) {
-        const auto& [corners, labels] = window_.faces[f];
-        bool is_on_line[3];
-        for (int n = 0; n < 3; ++n) is_on_line[n] = sites_.kind(corners[n]) >= kFirstTriangle;
-        for (int n = 0; n < 3; ++n) {
-            const int next = (n + 1) % 3;
-            if (!is_on_line[n] || !is_on_line[next]) continue;
-            add(corners[n], corners[next], labels);
-            add(corners[next], corners[n], labels);
-        }
+    std::vector<std::uint32_t> nodes = std::move(carried_);
+    carried_.clear();
+    chunks.unpack(chunk, parts);
+    append_nodes(own.first, parts.vertices, nodes);
+    find_sides(own, parts.faces, nodes);
+    for (const std::uint32_t local : parts.active) carried_.push_back(nodes[local]);
+    if (chunk + 1 < chunks.end()) {
+        chunks.unpack(chunk + 1, parts);
+        nodes = carried_;
+        append_nodes(own.end, parts.vertices, nodes);
+        find_sides(own, parts.faces, nodes);
     }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
         return std::tie(a.from, a.to, a.order) < std::tie(b.from, b.to, b.order);
@@ -148,24 +141,23 @@ void LatticeLines::link(std::uint32_t chunk) {
         Node& node = nodes_[side.from];
         if (node.count < node.next.size()) node.next[node.count++] = side.to;
     }
-    for (std::uint32_t n = first_node_[chunk]; n < first_node_[chunk + 1]; ++n) end_links(nodes_[n]);
+    for (std::uint32_t n = own.first; n < own.end; ++n) end_links(nodes_[n]);
 }
 
 /// The pull of the neighbours has the same matrix in all sweeps.
 void LatticeLines::end_links(Node& node) const {
-    const Vec3 spacing = sites_.frame().spacing / sites_.frame().finest();
+    const Vec3 spacing = frame_.spacing / frame_.finest();
     if (node.count > 0) node.nearest.add({0, 0, 0}, kPull, edges_of(node.simplex.kind, spacing));
     node.nearest.a = node.nearest.inverse();
 }
 
 void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads) {
     constexpr std::uint32_t kTask = 256;  // nodes
-    const LatticeFrame& frame = sites_.frame();
-    const double finest = frame.finest();
+    const double finest = frame_.finest();
     const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1];
     const std::uint32_t from = number % 2, to = 1 - from;
     std::array<SimplexEdges, kKindCount> edges;
-    for (int kind = kFirstTriangle; kind < kKindCount; ++kind) edges[kind] = edges_of(kind, frame.spacing / finest);
+    for (int kind = kFirstTriangle; kind < kKindCount; ++kind) edges[kind] = edges_of(kind, frame_.spacing / finest);
     parallel_for((end - first + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
         const std::uint32_t task_end = std::min(end, first + (task + 1) * kTask);
         for (std::uint32_t n = first + task * kTask; n < task_end; ++n) {
@@ -175,13 +167,13 @@ void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_
             const int count = node.nearest.count;
             std::array<double, 3> b = node.nearest.b, step{};
             if (node.count > 0) {
-                const Vec3 target = (sum / node.count - window_.origin[node.vertex]) / finest;
+                const Vec3 target = (sum / node.count - centroid_in(node.simplex, frame_)) / finest;
                 for (int i = 0; i < count; ++i) b[i] += kPull * dot(edges[node.simplex.kind].edges[i], target);
             }
             for (int i = 0; i < count; ++i)
                 for (int j = 0; j < count; ++j) step[i] += node.nearest.a[i][j] * b[j];
             node.at[to] = position_in(
-                node.simplex, clamp_inside(weights_of(step, count), count + 1, margins_.of(node.simplex.kind)), frame);
+                node.simplex, clamp_inside(weights_of(step, count), count + 1, margins_.of(node.simplex.kind)), frame_);
         }
     });
 }

@@ -30,6 +30,9 @@ struct LatticeSimplex {
 /// The simplex whose centroid an unsmoothed vertex is. Throws Error(kInput) for any other position.
 LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame);
 
+/// The position of an unsmoothed vertex, bit for bit as the mesher makes it.
+Vec3 centroid_in(const LatticeSimplex& simplex, const LatticeFrame& frame);
+
 /// The least weights of the nodes of a vertex's simplex.
 struct LatticeMargins {
     double all;
@@ -45,10 +48,17 @@ struct LatticeMargins {
 /// Requires margin < 1 / node_count.
 Barycentric clamp_inside(const Barycentric& weights, int node_count, double margin);
 
-/// The point of the simplex with the given weights. Coordinates in lattice units are rounded to multiples of 2^-20, so
-/// that with unit spacing the point lies exactly in the simplex; along axes in which the simplex does not extend it has
-/// the exact coordinate of the node.
-Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame);
+/// Weights of the nodes but the first as multiples of 2^-20.
+using FixedWeights = std::array<std::uint32_t, 3>;
+FixedWeights rounded(const Barycentric& weights, int node_count);
+
+/// The point of the simplex with the given weights. Coordinates in lattice units are multiples of 2^-20, so that with
+/// unit spacing the point lies exactly in the simplex; along axes in which the simplex does not extend it has the exact
+/// coordinate of the node.
+Vec3 position_in(const LatticeSimplex& simplex, const FixedWeights& weights, const LatticeFrame& frame);
+inline Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame) {
+    return position_in(simplex, rounded(weights, simplex.node_count()), frame);
+}
 
 /// Edge vectors from the first node to the others, in the unit of the spacing.
 struct SimplexEdges {
