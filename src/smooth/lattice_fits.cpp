@@ -150,20 +150,33 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
     const Share share_of{(1 / kReach) * blocks_.per_size};
     const LatticePoint centre = quadric.centre;
     std::uint32_t count = 0, most = 0;
-    for (const NearRun& other : near) most += other.next().samples - (*other).samples;
+    for (const NearRun& other : near)
+        most += other.next().samples - (*other).samples + (other.next().site - (*other).site + 3) / 4;
     if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
     HeightSamples::Four* const fours = chosen.fours.data();
+    const auto consider = [&](const Points4& at, const Lanes3<Float4>& normals, Float4 sites, const Kinds4& kind) {
+        const Lanes3<Float4> d = offset(at, centre);
+        const Float4 share = share_of(d), along = dot(normals, normal);
+        const Mask4 counts = share > 0 && along > kSameSheet;
+        if (bits_of(counts) == 0) return;
+        const Float4 weight = share * share * along * sites;
+        fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, kind};
+    };
     for (const NearRun& other : near) {
         if (!gaps.is_within(kReach, other)) continue;
-        const LatticeSamples* const end = other.row->samples.data() + other.next().samples;
-        for (const LatticeSamples* s = other.row->samples.data() + (*other).samples; s < end; s += stride) {
-            const Lanes3<Float4> d = offset(s->at, centre);
-            const Float4 share = share_of(d), along = dot(s->normal, normal);
-            const Mask4 counts = share > 0 && along > kSameSheet;
-            if (bits_of(counts) == 0) continue;
-            const Float4 weight = share * share * along * s->count;
-            fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, s->kind};
+        const LatticeRow& row = *other.row;
+        if (blocks_.parts_sites()) {
+            const std::uint32_t end = other.next().site;
+            for (std::uint32_t n = (*other).site; n < end; n += 4 * stride) {
+                const Sites4 sites = gather(&row.sites[n], end - n);
+                const auto one = [&](std::uint32_t lane) { return n + lane < end ? 1.0f : 0.0f; };
+                consider(sites.at, sites.normal, Float4{1, one(1), one(2), one(3)}, sites.kind);
+            }
+            continue;
         }
+        const LatticeSamples* const end = row.samples.data() + other.next().samples;
+        for (const LatticeSamples* s = row.samples.data() + (*other).samples; s < end; s += stride)
+            consider(s->at, s->normal, __builtin_convertvector(s->count, Float4), s->kind);
     }
     chosen.count = count;
     return chosen;

@@ -90,7 +90,9 @@ void LatticeLevel::refine_layer(std::int64_t layer) {
     std::vector<OpenRow> open(count);
     parallel_for(count, options_.threads, [&](std::uint32_t r) { find_open(layer, r, open[r]); });
     const auto want = [](LatticeRow& row, std::uint32_t run) {
-        if (!std::exchange(row.runs[run].is_wanted, true)) row.wanted.push_back(run);
+        if (row.runs[run].is_wanted) return;
+        row.runs[run].is_wanted = 1;
+        row.wanted.push_back(run);
     };
     for (const OpenRow& row : open)
         for (const FitPlace& place : row.fits) want(*place.row, place.run);
@@ -130,7 +132,7 @@ void LatticeLevel::find_open(std::int64_t layer, std::uint32_t row, OpenRow& ope
             continue;
         }
         if (std::none_of(begin + own.runs[run].site, begin + own.runs[run + 1].site, is_open)) continue;
-        fits_.find_near(own, run, near.of(own.runs[run]), open.fits);
+        fits_.find_near(own, run, near.of(own.keys[run]), open.fits);
         open.runs.push_back(run);
         open.first_fit.push_back(static_cast<std::uint32_t>(open.fits.size()));
     }
@@ -148,7 +150,7 @@ void LatticeLevel::make_wanted_fits(std::int64_t layer) {
         LatticeRow& row = layers_[l - first_layer_].rows[r];
         std::sort(row.wanted.begin(), row.wanted.end());
         NearRuns near = near_runs(l, r);
-        for (std::uint32_t run : row.wanted) fits_.make(row, run, near.of(row.runs[run]));
+        for (std::uint32_t run : row.wanted) fits_.make(row, run, near.of(row.keys[run]));
         row.wanted = {};
     });
 }

@@ -79,7 +79,13 @@ Barycentric weights_of(const std::array<double, 3>& step, int count) {
 }
 
 void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, Vec3 position) {
-    nodes_.push_back({0, {}, to_interfaces, simplex, {position, position}});
+    std::array<std::uint32_t, 3> base;
+    for (int axis = 0; axis < 3; ++axis) base[axis] = static_cast<std::uint32_t>(simplex.base[axis]);
+    nodes_.push_back({base, simplex.kind, 0, {}, terms_.end(), {position, position}});
+    const int count = to_interfaces.count;
+    for (int i = 0; i < count; ++i) terms_.push_back(to_interfaces.b[i]);
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) terms_.push_back(to_interfaces.a[i][j]);
 }
 
 void LatticeLines::append_nodes(std::uint32_t first, const std::vector<LatticeVertex>& vertices,
@@ -145,41 +151,76 @@ void LatticeLines::link(std::uint32_t chunk, const PackedChunks& chunks, PackedC
 }
 
 /// The pull of the neighbours has the same matrix in all sweeps.
-void LatticeLines::end_links(Node& node) const {
-    const Vec3 spacing = frame_.spacing / frame_.finest();
-    if (node.count > 0) node.nearest.add({0, 0, 0}, kPull, edges_of(node.simplex.kind, spacing));
-    node.nearest.a = node.nearest.inverse();
+void LatticeLines::end_links(Node& node) {
+    const int count = node.edge_count();
+    NearestPoint nearest{count};
+    std::uint32_t term = node.first_term + count;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) nearest.a[i][j] = terms_[term++];
+    if (node.count > 0) nearest.add({0, 0, 0}, kPull, edges_of(node.kind, frame_.spacing / frame_.finest()));
+    const auto inverse = nearest.inverse();
+    term = node.first_term + count;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) terms_[term++] = inverse[i][j];
+}
+
+/// What nodes of a kind share.
+struct LatticeLines::SweepTables {
+    double finest;
+    std::array<SimplexEdges, kKindCount> edges;
+    std::array<std::array<Vec3, 3>, kKindCount> steps;  // in lattice units
+
+    explicit SweepTables(const LatticeFrame& frame) : finest(frame.finest()) {
+        for (int kind = kFirstTriangle; kind < kKindCount; ++kind) {
+            edges[kind] = edges_of(kind, frame.spacing / finest);
+            steps[kind] = edges_of(kind, {1, 1, 1}).edges;
+        }
+    }
+};
+
+template <int kEdges>
+void LatticeLines::sweep_node(Node& node, std::uint32_t from, const SweepTables& tables) {
+    std::array<double, kEdges> b;
+    std::array<std::array<double, kEdges>, kEdges> a;
+    std::uint32_t term = node.first_term;
+    for (double& number : b) number = terms_[term++];
+    for (auto& row : a)
+        for (double& number : row) number = terms_[term++];
+    const LatticeSimplex simplex = node.simplex();
+    if (node.count > 0) {
+        Vec3 sum;
+        for (std::uint32_t k = 0; k < node.count; ++k) sum += nodes_[node.next[k]].at[from];
+        const Vec3 target = (sum / node.count - centroid_in(simplex, frame_)) / tables.finest;
+        for (int i = 0; i < kEdges; ++i) b[i] += kPull * dot(tables.edges[node.kind].edges[i], target);
+    }
+    std::array<double, 3> step{};
+    for (int i = 0; i < kEdges; ++i)
+        for (int j = 0; j < kEdges; ++j) step[i] += a[i][j] * b[j];
+    const FixedWeights weights =
+        rounded(clamp_inside(weights_of(step, kEdges), kEdges + 1, margins_.of(node.kind)), kEdges + 1);
+    node.at[1 - from] = position_in(simplex, weights, frame_);
 }
 
 void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads) {
     constexpr std::uint32_t kTask = 256;  // nodes
-    const double finest = frame_.finest();
-    const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1];
-    const std::uint32_t from = number % 2, to = 1 - from;
-    std::array<SimplexEdges, kKindCount> edges;
-    for (int kind = kFirstTriangle; kind < kKindCount; ++kind) edges[kind] = edges_of(kind, frame_.spacing / finest);
+    const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1], from = number % 2;
+    const SweepTables tables(frame_);
     parallel_for((end - first + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
         const std::uint32_t task_end = std::min(end, first + (task + 1) * kTask);
         for (std::uint32_t n = first + task * kTask; n < task_end; ++n) {
             Node& node = nodes_[n];
-            Vec3 sum;
-            for (std::uint32_t k = 0; k < node.count; ++k) sum += nodes_[node.next[k]].at[from];
-            const int count = node.nearest.count;
-            std::array<double, 3> b = node.nearest.b, step{};
-            if (node.count > 0) {
-                const Vec3 target = (sum / node.count - centroid_in(node.simplex, frame_)) / finest;
-                for (int i = 0; i < count; ++i) b[i] += kPull * dot(edges[node.simplex.kind].edges[i], target);
-            }
-            for (int i = 0; i < count; ++i)
-                for (int j = 0; j < count; ++j) step[i] += node.nearest.a[i][j] * b[j];
-            node.at[to] = position_in(
-                node.simplex, clamp_inside(weights_of(step, count), count + 1, margins_.of(node.simplex.kind)), frame_);
+            if (node.edge_count() == 2)
+                sweep_node<2>(node, from, tables);
+            else
+                sweep_node<3>(node, from, tables);
         }
     });
 }
 
 void LatticeLines::drop_before(std::uint32_t chunk) {
-    nodes_.drop_before(first_node_[chunk]);
+    const std::uint32_t first = first_node_[chunk];
+    terms_.drop_before(first < nodes_.end() ? nodes_[first].first_term : terms_.end());
+    nodes_.drop_before(first);
     first_node_.drop_before(chunk);
 }
 

@@ -58,15 +58,20 @@ public:
     Vec3 position(std::uint32_t node) const { return nodes_[node].at[0]; }
 
     void drop_before(std::uint32_t chunk);
-    std::size_t bytes() const { return nodes_.bytes() + sides_.capacity() * sizeof(Side); }
+    std::size_t bytes() const { return nodes_.bytes() + terms_.bytes() + sides_.capacity() * sizeof(Side); }
 
 private:
     struct Node {
-        std::uint32_t count;
-        std::array<std::uint32_t, 4> next;  // numbers of nodes
-        NearestPoint nearest;               // to the interfaces; from link() on `a` is the inverse, with the pull in it
-        LatticeSimplex simplex;
+        std::array<std::uint32_t, 3> base;  // of its simplex
+        std::uint8_t kind, count = 0;       // of its simplex; of its neighbours
+        std::array<std::uint32_t, 4> next{};  // numbers of nodes
+        std::uint32_t first_term;
         std::array<Vec3, 2> at;
+
+        LatticeSimplex simplex() const {
+            return {{static_cast<double>(base[0]), static_cast<double>(base[1]), static_cast<double>(base[2])}, kind};
+        }
+        int edge_count() const { return kKinds[kind].node_count - 1; }
     };
 
     /// A half of an edge of a face, from a vertex of a line to another.
@@ -77,16 +82,22 @@ private:
     };
 
     static constexpr std::uint32_t kNoNode = ~0u;
+    struct SweepTables;
 
     /// The nodes of the vertices of a chunk after those carried to it.
     void append_nodes(std::uint32_t first, const std::vector<LatticeVertex>& vertices,
                       std::vector<std::uint32_t>& nodes);
     void find_sides(NumberRange from, const std::vector<ChunkFace>& faces, const std::vector<std::uint32_t>& nodes);
-    void end_links(Node& node) const;
+    void end_links(Node& node);
+    template <int kEdges>
+    void sweep_node(Node& node, std::uint32_t from, const SweepTables& tables);
 
     LatticeFrame frame_;
     LatticeMargins margins_;
     SlidingPages<Node> nodes_;
+    // Of each node n terms of the right side of its equations and n * n of the matrix, by row; n is edge_count(). From
+    // link() on the inverse, with the pull in it.
+    SlidingPages<double> terms_;
     std::vector<std::uint32_t> carried_;      // nodes of the vertices that the next chunk to be linked carries
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
     std::vector<Side> sides_;                 // of the chunk in link()

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -37,9 +36,10 @@ std::vector<Group>& groups_of(std::span<const LatticeSamples> samples) {
             auto group =
                 std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.direction == direction; });
             if (group == groups.end()) group = groups.insert(group, {{}, {}, 0, direction});
-            group->position += four.count[lane] * (four.position(lane) - first);
-            group->normal += four.count[lane] * normal;
-            group->count += four.count[lane];
+            const float count = four.count[lane];
+            group->position += count * (four.position(lane) - first);
+            group->normal += count * normal;
+            group->count += count;
         }
     if (groups.size() == 1) return groups;
     std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
@@ -99,7 +99,9 @@ void LatticeRow::sort(const LatticeSites& of, const LatticeBlocks& blocks) {
     make_runs(keyed);
     make_samples(of, keyed);
     place_fits();
+    if (blocks.parts_sites()) samples.clear();
     sites.shrink_to_fit();
+    keys.shrink_to_fit();
     runs.shrink_to_fit();
     samples.shrink_to_fit();
     fits.shrink_to_fit();
@@ -133,10 +135,11 @@ void LatticeRow::make_runs(const std::vector<KeyedSite>& keyed) {
     for (std::uint32_t n = 0; n < keyed.size(); ++n) {
         if (n > 0 && keyed[n].key >> kPlaceBit == keyed[n - 1].key >> kPlaceBit) continue;
         const auto place = static_cast<std::int32_t>(keyed[n].key >> kPlaceBit & kMostPlaces);
-        runs.push_back({static_cast<std::uint32_t>(keyed[n].key >> kInterfaceBit), place, n, 0, 0});
+        keys.push_back(run_key(static_cast<std::uint32_t>(keyed[n].key >> kInterfaceBit), place));
+        runs.push_back({n});
     }
-    constexpr auto kLast = std::numeric_limits<std::int32_t>::max();
-    runs.push_back({~0u, kLast, static_cast<std::uint32_t>(keyed.size()), 0, 0});
+    keys.push_back(~std::uint64_t{0});
+    runs.push_back({static_cast<std::uint32_t>(keyed.size())});
 }
 
 /// One sample for the sites of a run that have the same key.
@@ -166,7 +169,7 @@ void LatticeRow::make_samples(const LatticeSites& of, const std::vector<KeyedSit
             LatticeSamples& four = samples.back();
             for (int axis = 0; axis < 3; ++axis) four.at[axis][lane] = at.at[axis];
             four.normal.x[lane] = normal.x, four.normal.y[lane] = normal.y, four.normal.z[lane] = normal.z;
-            four.count[lane] = count;
+            four.count[lane] = static_cast<std::uint16_t>(next - first);
             four.kind[lane] = static_cast<std::uint8_t>(site.kind);
             ++lane;
         }
@@ -187,7 +190,8 @@ void LatticeRow::place_fits() {
 }
 
 std::size_t LatticeRow::bytes() const {
-    return (sites.capacity() + wanted.capacity()) * sizeof(std::uint32_t) + runs.capacity() * sizeof(LatticeRun) +
+    return (sites.capacity() + wanted.capacity()) * sizeof(std::uint32_t) +
+           runs.capacity() * (sizeof(std::uint64_t) + sizeof(LatticeRun)) +
            samples.capacity() * sizeof(LatticeSamples) + fits.capacity() * sizeof(LatticeFit);
 }
 
@@ -208,22 +212,25 @@ NearRuns::NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& l
     }
 }
 
-const std::vector<NearRun>& NearRuns::of(const LatticeRun& run) {
+const std::vector<NearRun>& NearRuns::of(std::uint64_t key) {
     near_.clear();
+    const auto interface = static_cast<std::uint32_t>(key >> 32);
+    const auto place = static_cast<std::uint32_t>(key);
+    const std::uint64_t first = key - kRings, last = key + kRings;
     for (Near& near : rows_) {
-        const std::vector<LatticeRun>& runs = near.row->runs;
-        const LatticeRun first{run.interface, run.place - kRings, 0, 0, 0};
-        if (interface_ != run.interface)
-            near.next = static_cast<std::uint32_t>(std::lower_bound(runs.begin() + near.next, runs.end(), first) -
-                                                   runs.begin());
-        while (runs[near.next] < first) ++near.next;
-        for (std::uint32_t n = near.next; runs[n].interface == run.interface && runs[n].place <= run.place + kRings;
-             ++n) {
+        const std::vector<std::uint64_t>& keys = near.row->keys;
+        std::uint32_t n = near.next;
+        if (interface_ != interface)
+            n = static_cast<std::uint32_t>(std::lower_bound(keys.begin() + n, keys.end(), first) - keys.begin());
+        while (keys[n] < first) ++n;
+        near.next = n;
+        for (; keys[n] <= last; ++n) {
             near_.push_back({near.row, n, near.offset});
-            near_.back().offset[place_axis_] = static_cast<std::int8_t>(runs[n].place - run.place);
+            near_.back().offset[place_axis_] =
+                static_cast<std::int8_t>(static_cast<std::int32_t>(static_cast<std::uint32_t>(keys[n]) - place));
         }
     }
-    interface_ = run.interface;
+    interface_ = interface;
     return near_;
 }
 
