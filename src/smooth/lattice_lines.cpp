@@ -88,19 +88,18 @@ void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_int
         for (int j = 0; j < count; ++j) terms_.push_back(to_interfaces.a[i][j]);
 }
 
-void LatticeLines::append_nodes(std::uint32_t first, const std::vector<LatticeVertex>& vertices,
-                                std::vector<std::uint32_t>& nodes) {
-    for (const LatticeVertex& vertex : vertices) nodes.push_back(has(vertex.simplex) ? first++ : kNoNode);
-}
-
-void LatticeLines::find_sides(NumberRange from, const std::vector<ChunkFace>& faces,
-                              const std::vector<std::uint32_t>& nodes) {
+/// The sides of faces of a chunk, from its nodes and those of the chunk before.
+void LatticeLines::find_sides(std::uint32_t chunk, const PackedChunks::Parts& parts) {
+    const std::uint32_t first = first_node_[chunk];
+    std::vector<std::uint32_t> nodes = std::move(carried_);
+    std::uint32_t next = first;
+    for (const LatticeVertex& vertex : parts.vertices) nodes.push_back(has(vertex.simplex) ? next++ : kNoNode);
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::array<Label, 2> labels) {
-        if (a < from.first || a >= from.end) return;
         if (labels[0] > labels[1]) std::swap(labels[0], labels[1]);
-        sides_.push_back({a, b, static_cast<std::uint32_t>(sides_.size()), labels});
+        std::vector<Side>& sides = a < first ? sides_ : next_sides_;
+        sides.push_back({a, b, static_cast<std::uint32_t>(sides.size()), labels});
     };
-    for (const auto& [v, labels] : faces) {
+    for (const auto& [v, labels] : parts.faces) {
         const std::uint32_t corners[3] = {nodes[v[0]], nodes[v[1]], nodes[v[2]]};
         for (int n = 0; n < 3; ++n) {
             const std::uint32_t a = corners[n], b = corners[(n + 1) % 3];
@@ -109,25 +108,24 @@ void LatticeLines::find_sides(NumberRange from, const std::vector<ChunkFace>& fa
             add(b, a, labels);
         }
     }
+    carried_.clear();
+    for (const std::uint32_t local : parts.active) carried_.push_back(nodes[local]);
 }
 
 /// An edge between two vertices in triangles or tetrahedra of the lattice is part of a line where faces of two
 /// interfaces meet in it; compact cells cut sheets along such edges, too.
 void LatticeLines::link(std::uint32_t chunk, const PackedChunks& chunks, PackedChunks::Parts& parts) {
     const NumberRange own{first_node_[chunk], first_node_[chunk + 1]};
+    if (chunk == 0) {
+        chunks.unpack(0, parts);
+        find_sides(0, parts);
+    }
     std::vector<Side>& sides = sides_;
-    sides.clear();
-    std::vector<std::uint32_t> nodes = std::move(carried_);
-    carried_.clear();
-    chunks.unpack(chunk, parts);
-    append_nodes(own.first, parts.vertices, nodes);
-    find_sides(own, parts.faces, nodes);
-    for (const std::uint32_t local : parts.active) carried_.push_back(nodes[local]);
+    sides.swap(next_sides_);
+    next_sides_.clear();
     if (chunk + 1 < chunks.end()) {
         chunks.unpack(chunk + 1, parts);
-        nodes = carried_;
-        append_nodes(own.end, parts.vertices, nodes);
-        find_sides(own, parts.faces, nodes);
+        find_sides(chunk + 1, parts);
     }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
         return std::tie(a.from, a.to, a.order) < std::tie(b.from, b.to, b.order);

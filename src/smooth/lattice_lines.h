@@ -58,12 +58,14 @@ public:
     Vec3 position(std::uint32_t node) const { return nodes_[node].at[0]; }
 
     void drop_before(std::uint32_t chunk);
-    std::size_t bytes() const { return nodes_.bytes() + terms_.bytes() + sides_.capacity() * sizeof(Side); }
+    std::size_t bytes() const {
+        return nodes_.bytes() + terms_.bytes() + (sides_.capacity() + next_sides_.capacity()) * sizeof(Side);
+    }
 
 private:
     struct Node {
-        std::array<std::uint32_t, 3> base;  // of its simplex
-        std::uint8_t kind, count = 0;       // of its simplex; of its neighbours
+        std::array<std::uint32_t, 3> base;    // of its simplex
+        std::uint8_t kind, count = 0;         // of its simplex; of its neighbours
         std::array<std::uint32_t, 4> next{};  // numbers of nodes
         std::uint32_t first_term;
         std::array<Vec3, 2> at;
@@ -84,10 +86,7 @@ private:
     static constexpr std::uint32_t kNoNode = ~0u;
     struct SweepTables;
 
-    /// The nodes of the vertices of a chunk after those carried to it.
-    void append_nodes(std::uint32_t first, const std::vector<LatticeVertex>& vertices,
-                      std::vector<std::uint32_t>& nodes);
-    void find_sides(NumberRange from, const std::vector<ChunkFace>& faces, const std::vector<std::uint32_t>& nodes);
+    void find_sides(std::uint32_t chunk, const PackedChunks::Parts& parts);
     void end_links(Node& node);
     template <int kEdges>
     void sweep_node(Node& node, std::uint32_t from, const SweepTables& tables);
@@ -100,7 +99,7 @@ private:
     SlidingPages<double> terms_;
     std::vector<std::uint32_t> carried_;      // nodes of the vertices that the next chunk to be linked carries
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
-    std::vector<Side> sides_;                 // of the chunk in link()
+    std::vector<Side> sides_, next_sides_;    // of the chunk that is linked next, and of the one after it
 };
 
 }  // namespace regionmesh

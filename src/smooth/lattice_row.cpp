@@ -90,9 +90,9 @@ void LatticeRow::sort(const LatticeSites& of, const LatticeBlocks& blocks) {
         rest = rest * kCells + cell(blocks.layer_axis) % kCells;
         rest = rest * kCells + cell(blocks.row_axis) % kCells;
         rest = rest * kCells + along % kCells;
-        rest = rest * kKindCount + site.kind;
+        rest = rest * kKindCount + site.kind();
         keyed.push_back(
-            {std::uint64_t{site.interface} << kInterfaceBit | std::uint64_t{along / kCells} << kPlaceBit | rest, s});
+            {std::uint64_t{site.interface()} << kInterfaceBit | std::uint64_t{along / kCells} << kPlaceBit | rest, s});
     }
     sort_by_key(keyed);
     for (std::size_t n = 0; n < keyed.size(); ++n) sites[n] = keyed[n].site;
@@ -170,7 +170,7 @@ void LatticeRow::make_samples(const LatticeSites& of, const std::vector<KeyedSit
             for (int axis = 0; axis < 3; ++axis) four.at[axis][lane] = at.at[axis];
             four.normal.x[lane] = normal.x, four.normal.y[lane] = normal.y, four.normal.z[lane] = normal.z;
             four.count[lane] = static_cast<std::uint16_t>(next - first);
-            four.kind[lane] = static_cast<std::uint8_t>(site.kind);
+            four.kind[lane] = site.kind();
             ++lane;
         }
     }
@@ -204,7 +204,7 @@ NearRuns::NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& l
         const auto end = std::min(static_cast<std::int32_t>(rows.size()), number + kRings + 1);
         for (std::int32_t r = std::max(0, number - kRings); r < end; ++r) {
             if (rows[r].runs.empty()) continue;
-            Near near{&rows[r], 0, {}};
+            Near near{&rows[r], rows[r].keys.data(), {}};
             near.offset[blocks.layer_axis] = static_cast<std::int8_t>(l);
             near.offset[blocks.row_axis] = static_cast<std::int8_t>(r - number);
             rows_.push_back(near);
@@ -215,19 +215,19 @@ NearRuns::NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& l
 const std::vector<NearRun>& NearRuns::of(std::uint64_t key) {
     near_.clear();
     const auto interface = static_cast<std::uint32_t>(key >> 32);
-    const auto place = static_cast<std::uint32_t>(key);
+    const bool is_other = interface != interface_;
     const std::uint64_t first = key - kRings, last = key + kRings;
     for (Near& near : rows_) {
         const std::vector<std::uint64_t>& keys = near.row->keys;
-        std::uint32_t n = near.next;
-        if (interface_ != interface)
-            n = static_cast<std::uint32_t>(std::lower_bound(keys.begin() + n, keys.end(), first) - keys.begin());
-        while (keys[n] < first) ++n;
-        near.next = n;
-        for (; keys[n] <= last; ++n) {
-            near_.push_back({near.row, n, near.offset});
-            near_.back().offset[place_axis_] =
-                static_cast<std::int8_t>(static_cast<std::int32_t>(static_cast<std::uint32_t>(keys[n]) - place));
+        const std::uint64_t* at = near.next;
+        if (is_other)
+            at = std::lower_bound(at, keys.data() + keys.size(), first);
+        else
+            while (*at < first) ++at;
+        near.next = at;
+        for (; *at <= last; ++at) {
+            near_.push_back({near.row, static_cast<std::uint32_t>(at - keys.data()), near.offset});
+            near_.back().offset[place_axis_] = static_cast<std::int8_t>(static_cast<std::int64_t>(*at - key));
         }
     }
     interface_ = interface;

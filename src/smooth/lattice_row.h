@@ -24,8 +24,7 @@ struct LatticeBlocks {
 
     /// Sites of one kind of simplex and one interface lie in different cells: each sample is a site.
     bool parts_sites() const {
-        return size.x < kCells * spacing.x && size.y < kCells * spacing.y &&
-               size.z < kCells * spacing.z;
+        return size.x < kCells * spacing.x && size.y < kCells * spacing.y && size.z < kCells * spacing.z;
     }
     double size_along(int axis) const { return axis == 0 ? size.x : axis == 1 ? size.y : size.z; }
     /// The cell of a coordinate in finest spacings.
@@ -90,9 +89,9 @@ constexpr std::uint64_t run_key(std::uint32_t interface, std::int64_t place) {
 }
 
 struct LatticeRow {
-    std::vector<std::uint32_t> sites;  // in order of number, then by run
-    std::vector<std::uint64_t> keys;   // of the runs, in order; and one above all at the end
-    std::vector<LatticeRun> runs;      // and one more at the end
+    std::vector<std::uint32_t> sites;     // in order of number, then by run
+    std::vector<std::uint64_t> keys;      // of the runs, in order; and one above all at the end
+    std::vector<LatticeRun> runs;         // and one more at the end
     std::vector<LatticeSamples> samples;  // none where each of them is a site (LatticeBlocks::parts_sites)
     std::vector<LatticeFit> fits;
     std::vector<std::uint32_t> wanted;  // runs whose fits are not made yet
@@ -139,7 +138,7 @@ public:
 private:
     struct Near {
         LatticeRow* row;
-        std::uint32_t next = 0;  // no run before it is asked for
+        const std::uint64_t* next;  // key of a run; none before it is asked for
         std::array<std::int8_t, 3> offset;
     };
 

@@ -70,14 +70,6 @@ Barycentric clamp_inside(const Barycentric& weights, int node_count, double marg
     return inside;
 }
 
-Vec3 centroid_in(const LatticeSimplex& simplex, const LatticeFrame& frame) {
-    const Vec3 middle = centroid(simplex.kind);
-    Vec3 position;
-    for (int axis = 0; axis < 3; ++axis)
-        position[axis] = frame.origin[axis] + (simplex.base[axis] + middle[axis]) * frame.spacing[axis];
-    return position;
-}
-
 /// Weights are rounded, not sums of them: axes with the same nodes get the same offset, bit for bit.
 FixedWeights rounded(const Barycentric& weights, int node_count) {
     FixedWeights fixed{};

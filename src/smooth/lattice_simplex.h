@@ -17,6 +17,13 @@ struct LatticeFrame {
     double finest() const { return std::min({spacing.x, spacing.y, spacing.z}); }
 };
 
+/// By kind, in lattice units.
+inline constexpr std::array<Vec3, kKindCount> kCentroids = [] {
+    std::array<Vec3, kKindCount> centroids{};
+    for (int kind = 0; kind < kKindCount; ++kind) centroids[kind] = centroid(kind);
+    return centroids;
+}();
+
 /// Weights of the nodes of a simplex, in the order of kKinds; they add up to 1.
 using Barycentric = std::array<double, 4>;
 
@@ -31,7 +38,12 @@ struct LatticeSimplex {
 LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame);
 
 /// The position of an unsmoothed vertex, bit for bit as the mesher makes it.
-Vec3 centroid_in(const LatticeSimplex& simplex, const LatticeFrame& frame);
+inline double centroid_along(int axis, const LatticeSimplex& simplex, const LatticeFrame& frame) {
+    return frame.origin[axis] + (simplex.base[axis] + kCentroids[simplex.kind][axis]) * frame.spacing[axis];
+}
+inline Vec3 centroid_in(const LatticeSimplex& simplex, const LatticeFrame& frame) {
+    return {centroid_along(0, simplex, frame), centroid_along(1, simplex, frame), centroid_along(2, simplex, frame)};
+}
 
 /// The least weights of the nodes of a vertex's simplex.
 struct LatticeMargins {

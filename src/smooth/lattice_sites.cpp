@@ -9,12 +9,6 @@
 namespace regionmesh {
 namespace {
 
-constexpr std::array<Vec3, kKindCount> kCentroids = [] {
-    std::array<Vec3, kKindCount> centroids{};
-    for (int kind = 0; kind < kKindCount; ++kind) centroids[kind] = centroid(kind);
-    return centroids;
-}();
-
 Float3 unit(Float3 v, Float3 otherwise) {
     const float size = length(v);
     return size > 0 ? (1 / size) * v : otherwise;
@@ -33,7 +27,7 @@ void LatticeSites::add(const Chunk& chunk, std::span<const LatticeVertex> vertic
 }
 
 void LatticeSites::add_vertex(const ChunkVertex& vertex, const LatticeSimplex& simplex) {
-    LatticeSite site{{}, {}, kNoInterface, simplex.kind};
+    LatticeSite site{{}, kNoInterface | std::uint32_t{simplex.kind} << LatticeSite::kKindBit, {}};
     const Vec3 middle = simplex.base + kCentroids[simplex.kind], scale = frame_.spacing / frame_.finest();
     for (int axis = 0; axis < 3; ++axis)
         site.centroid.at[axis] = static_cast<std::uint32_t>(
@@ -73,8 +67,9 @@ std::uint32_t LatticeSites::interface_of(std::array<Label, 2> labels) {
 /// The first free site of the vertex if the interface is new to it.
 std::uint32_t LatticeSites::site_of(const Local& vertex, std::uint32_t interface) {
     for (std::uint32_t s = vertex.sites.first; s < vertex.sites.end; ++s) {
-        if (sites_[s].interface == kNoInterface) sites_[s].interface = interface;
-        if (sites_[s].interface == interface) return s;
+        std::uint32_t& code = sites_[s].code;
+        if (!is_used(s)) code = (code & ~kNoInterface) | interface;
+        if (sites_[s].interface() == interface) return s;
     }
     throw Error(
         ErrorCode::kInput,

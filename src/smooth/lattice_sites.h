@@ -19,10 +19,17 @@ namespace regionmesh {
 /// quadruple point six.
 struct LatticeSite {
     LatticePoint centroid;  // of its simplex, in finest spacings from the origin of the lattice
+    std::uint32_t code;     // interface() and kind(), which are loaded four at a time with what is beside them
     Float3 normal;          // of the unsmoothed interface near by, unit length; from the first label to the second
-    std::uint32_t interface : 27;  // number of its pair of labels
-    std::uint32_t kind : 5;        // of its simplex
+
+    static constexpr int kKindBit = 27;
+    static constexpr std::uint32_t kInterfaceMask = (1u << kKindBit) - 1;
+    /// The number of its pair of labels.
+    std::uint32_t interface() const { return code & kInterfaceMask; }
+    /// Of its simplex.
+    std::uint8_t kind() const { return static_cast<std::uint8_t>(code >> kKindBit); }
 };
+static_assert(sizeof(LatticeSite) == 28);
 
 /// The sites of the vertices of chunks, which are numbered from 0 in the order in which they are added. Sites of a
 /// vertex, and of a chunk, have consecutive numbers. Faces with the exterior have no sites: the box is plane.
@@ -47,7 +54,7 @@ public:
     static constexpr int kNormalPasses = 2;
 
     NumberRange of_chunk(std::uint32_t chunk) const { return {starts_[chunk].site, starts_[chunk + 1].site}; }
-    bool is_used(std::uint32_t s) const { return sites_[s].interface != kNoInterface; }
+    bool is_used(std::uint32_t s) const { return sites_[s].interface() != kNoInterface; }
     const LatticeSite& operator[](std::uint32_t s) const { return sites_[s]; }
     const LatticeFrame& frame() const { return frame_; }
 
@@ -58,7 +65,7 @@ public:
     std::size_t bytes() const { return sites_.bytes() + corners_.bytes() + sums_[0].bytes() + sums_[1].bytes(); }
 
 private:
-    static constexpr std::uint32_t kNoInterface = (1u << 27) - 1;
+    static constexpr std::uint32_t kNoInterface = LatticeSite::kInterfaceMask;
     using CornerSites = std::array<std::uint32_t, 3>;
     struct Start {
         std::uint32_t site, face;

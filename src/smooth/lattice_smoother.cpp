@@ -124,7 +124,7 @@ void LatticeSmoother::add_to_levels(std::uint32_t chunk) {
     const double next_low = (next_low_[chunk] - origin) / finest;
     chunks_.unpack_vertices(chunk, parts_.vertices);
     for (const LatticeVertex& vertex : parts_.vertices) {
-        const double along = (centroid_in(vertex.simplex, frame)[order_.axis] - origin) / finest;
+        const double along = (centroid_along(order_.axis, vertex.simplex, frame) - origin) / finest;
         const NumberRange sites{added_sites_, added_sites_ + LatticeSites::count_of(vertex.simplex)};
         for (LatticeLevel& level : levels_) level.add(sites, along);
         added_sites_ = sites.end;
