@@ -113,7 +113,7 @@ LatticeFits::Sites4 LatticeFits::gather(const std::uint32_t* numbers, std::uint3
     return {{at[0], at[1], at[2]}, {normal[1], normal[2], normal[3]}, {a.kind(), b.kind(), c.kind(), d.kind()}};
 }
 
-void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near,
+void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, std::span<const NearRun> near,
                             std::vector<FitPlace>& found) const {
     const LatticePoint first = sites_[row.sites[row.runs[run].site]].centroid;
     const Float3 &low = row.runs[run].low, &high = row.runs[run].high;
@@ -130,7 +130,7 @@ void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, const std:
     }
 }
 
-void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const {
+void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearRun> near) const {
     const LatticePoint& own = sites_[row.sites[row.runs[run].site]].centroid;
     for (std::uint32_t f = row.runs[run].fit; f < row.runs[run + 1].fit; ++f) {
         auto& [quadric, accepted] = row.fits[f];
@@ -157,7 +157,7 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<Nea
 /// all are taken, some perhaps with weight 0, or none; of the fours of a run every `stride`th. Valid until the next
 /// call on the same thread.
 const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                                         const std::vector<NearRun>& near, std::uint32_t stride) const {
+                                         std::span<const NearRun> near, std::uint32_t stride) const {
     thread_local HeightSamples chosen;
     const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
     const Share share_of{(1 / kReach) * blocks_.per_size};
@@ -196,7 +196,7 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
 }
 
 /// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
-float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near,
+float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                               float most_missed) const {
     const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
     const float tolerance =

@@ -210,10 +210,11 @@ NearRuns::NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& l
             rows_.push_back(near);
         }
     }
+    near_.resize(rows_.size() * (2 * kRings + 1));
 }
 
-const std::vector<NearRun>& NearRuns::of(std::uint64_t key) {
-    near_.clear();
+std::span<const NearRun> NearRuns::of(std::uint64_t key) {
+    NearRun* end = near_.data();
     const auto interface = static_cast<std::uint32_t>(key >> 32);
     const bool is_other = interface != interface_;
     const std::uint64_t first = key - kRings, last = key + kRings;
@@ -226,12 +227,15 @@ const std::vector<NearRun>& NearRuns::of(std::uint64_t key) {
             while (*at < first) ++at;
         near.next = at;
         for (; *at <= last; ++at) {
-            near_.push_back({near.row, static_cast<std::uint32_t>(at - keys.data()), near.offset});
-            near_.back().offset[place_axis_] = static_cast<std::int8_t>(static_cast<std::int64_t>(*at - key));
+            end->row = near.row;
+            end->run = static_cast<std::uint32_t>(at - keys.data());
+            end->offset = near.offset;
+            end->offset[place_axis_] = static_cast<std::int8_t>(static_cast<std::int64_t>(*at - key));
+            ++end;
         }
     }
     interface_ = interface;
-    return near_;
+    return {near_.data(), end};
 }
 
 }  // namespace regionmesh

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "smooth/lattice_quadric.h"
@@ -133,7 +134,7 @@ public:
              const LatticeBlocks& blocks);
 
     /// Of a run with this key, by layer, row and block; the run itself is one of them.
-    const std::vector<NearRun>& of(std::uint64_t key);
+    std::span<const NearRun> of(std::uint64_t key);
 
 private:
     struct Near {
@@ -145,7 +146,7 @@ private:
     std::vector<Near> rows_;
     std::uint32_t interface_ = ~0u;
     int place_axis_;
-    std::vector<NearRun> near_;
+    std::vector<NearRun> near_;  // as many as there can be
 };
 
 }  // namespace regionmesh

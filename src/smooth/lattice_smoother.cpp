@@ -158,32 +158,49 @@ double LatticeSmoother::weight_on_edge(int kind, std::uint32_t site) const {
 
 /// Puts the vertices of a chunk nearest to their interfaces.
 void LatticeSmoother::place(std::uint32_t chunk) {
+    constexpr std::uint32_t kTask = 4096;  // vertices
     chunks_.unpack_vertices(chunk, parts_.vertices);
-    const auto [first_site, end] = sites_.of_chunk(chunk);
-    estimates_.grow(std::max(estimates_.end(), end));  // sites that are not used are in no level
-    std::uint32_t site = first_site;
-    for (const auto& [simplex, sides] : parts_.vertices) {
-        const NumberRange sites{site, site + LatticeSites::count_of(simplex)};
-        site = sites.end;
-        if (!LatticeLines::has(simplex)) {
-            const double weight = sites.size() > 0 ? weight_on_edge(simplex.kind, sites.first) : 0;
-            weights_.push_back(rounded({1 - weight, weight, 0, 0}, 2)[0]);
-            continue;
-        }
-        const SimplexEdges edges = edges_of(simplex.kind, spacing_);
-        NearestPoint nearest{edges.count};
-        for (std::uint32_t s = sites.first; s < sites.end; ++s)
-            if (estimates_[s].rest < 1 && dot(estimates_[s].slope, estimates_[s].slope) > 0)
-                nearest.add(estimates_[s], edges);
-        const Barycentric weights = weights_of(nearest.solve(), edges.count);
-        lines_.add(
-            simplex, nearest,
-            position_in(simplex, clamp_inside(weights, edges.count + 1, margins_.of(simplex.kind)), order_.frame));
+    const std::vector<LatticeVertex>& vertices = parts_.vertices;
+    const auto [first_site, end_site] = sites_.of_chunk(chunk);
+    estimates_.grow(std::max(estimates_.end(), end_site));  // sites that are not used are in no level
+    struct Place {
+        std::uint32_t site, weight;
+    };
+    std::vector<Place> places;
+    Place next{first_site, weights_.end()};
+    for (const LatticeVertex& vertex : vertices) {
+        places.push_back(next);
+        next.site += LatticeSites::count_of(vertex.simplex);
+        if (!LatticeLines::has(vertex.simplex)) ++next.weight;
     }
+    weights_.grow(next.weight);
+    const auto count = static_cast<std::uint32_t>(vertices.size());
+    parallel_for((count + kTask - 1) / kTask, options_.threads, [&](std::uint32_t task) {
+        for (std::uint32_t v = task * kTask; v < std::min(count, (task + 1) * kTask); ++v) {
+            const LatticeSimplex& simplex = vertices[v].simplex;
+            if (LatticeLines::has(simplex) || LatticeSites::count_of(simplex) == 0) continue;
+            const double weight = weight_on_edge(simplex.kind, places[v].site);
+            weights_[places[v].weight] = rounded({1 - weight, weight, 0, 0}, 2)[0];
+        }
+    });
+    for (std::uint32_t v = 0; v < count; ++v)
+        if (LatticeLines::has(vertices[v].simplex)) place_on_line(vertices[v].simplex, places[v].site);
     lines_.end_chunk();
     first_weight_.push_back(weights_.end());
-    estimates_.drop_before(end);
+    estimates_.drop_before(end_site);
     sites_.drop_chunks_before(chunk + 1);
+}
+
+void LatticeSmoother::place_on_line(const LatticeSimplex& simplex, std::uint32_t first_site) {
+    const SimplexEdges edges = edges_of(simplex.kind, spacing_);
+    NearestPoint nearest{edges.count};
+    const std::uint32_t end = first_site + LatticeSites::count_of(simplex);
+    for (std::uint32_t s = first_site; s < end; ++s)
+        if (estimates_[s].rest < 1 && dot(estimates_[s].slope, estimates_[s].slope) > 0)
+            nearest.add(estimates_[s], edges);
+    const Barycentric weights = weights_of(nearest.solve(), edges.count);
+    const Barycentric inside = clamp_inside(weights, edges.count + 1, margins_.of(simplex.kind));
+    lines_.add(simplex, nearest, position_in(simplex, inside, order_.frame));
 }
 
 /// The chunk that went in, with its vertices at their final positions.

@@ -18,7 +18,8 @@ std::array<std::uint32_t, 3> lattice_reach(const SmoothOptions& options, const L
 /// docs/explanation/lattice-smoothing.md. Requires a surface made by StripMesher with QuadCuts::kCones: other cuts can
 /// cross. The sites of a chunk are made, their normals averaged, the levels refined, the vertices placed and the lines
 /// swept, each as soon as the chunks that follow have come as far as it reads. Whether the surface comes in chunks or
-/// as one gives the same positions, bit for bit.
+/// as one gives the same positions, bit for bit. Each array holds the chunks between the first stage that writes it and
+/// the last that reads it; vertices and faces are packed in between (packed_chunks.h).
 class LatticeSmoother final : public ChunkSmoother {
 public:
     LatticeSmoother(const SmoothOptions& options, const ChunkOrder& order);
@@ -38,6 +39,7 @@ private:
     void refine();
     double weight_on_edge(int kind, std::uint32_t site) const;
     void place(std::uint32_t chunk);
+    void place_on_line(const LatticeSimplex& simplex, std::uint32_t first_site);
     void move_vertices(std::uint32_t chunk, Chunk& moved);
     void drop_sites();
     /// Chunks that a stage may have done when the one before has done `done_before` and must be one chunk ahead.
