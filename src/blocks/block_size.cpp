@@ -17,7 +17,7 @@ namespace {
 /// Blocks are not made smaller than this number of cells for memory: nearly all of their faces would be on the rim.
 constexpr std::uint32_t kFewestCells = 64;
 /// Bytes for each face in the window of smoothing.
-constexpr double kWindowBytes = 140;
+constexpr double kWindowBytes = 64;
 /// A block may have more faces than the mean.
 constexpr double kUneven = 2;
 /// Sections that the window of smoothing holds, about.

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "regionmesh/smooth.h"
 #include "smooth/filter.h"
@@ -39,7 +40,15 @@ std::unique_ptr<ChunkSmoother> make_chunk_smoother(const SmoothOptions& options,
 /// Throws Error(kInput) for SmoothFilter::kLattice, where the surface is not one of sections.
 void require_no_lattice(const SmoothOptions& options);
 
+/// Positions of the vertices of a chunk before and after smoothing, by local number.
+struct MovedChunk {
+    std::uint32_t carried;
+    std::span<const Vec3> before, after;
+    std::span<const ChunkFace> faces;
+};
+
 /// Adds the displacements and volumes of a chunk of final positions to a report.
+void note_chunk(const MovedChunk& chunk, SmoothReport& report);
 void note_chunk(const SurfaceWindow& window, std::uint32_t chunk, const SlidingArray<Vec3>& positions,
                 SmoothReport& report);
 

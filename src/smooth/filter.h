@@ -67,7 +67,7 @@ public:
 
 std::unique_ptr<Filter> make_filter(const FilterInput& input);
 
-/// Bytes per face that the filter of the options keeps in the window in addition to what all filters share.
-std::uint64_t filter_bytes_per_face(SmoothFilter filter);
+/// Bytes per face of the window of a filter; `shared` are those that all filters with passes keep.
+std::uint64_t window_bytes_per_face(SmoothFilter filter, std::uint64_t shared);
 
 }  // namespace regionmesh

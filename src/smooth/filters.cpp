@@ -14,7 +14,7 @@ namespace {
 struct FilterRow {
     SmoothFilter filter;
     std::unique_ptr<Filter> (*make)(const FilterInput& input);
-    std::uint64_t bytes_per_face;  // in addition to the window that all filters share
+    std::uint64_t bytes_per_face;  // in addition to the window that all filters with passes share
 };
 
 template <class F>
@@ -38,8 +38,8 @@ const FilterRow& row_of(SmoothFilter filter) {
 
 std::unique_ptr<Filter> make_filter(const FilterInput& input) { return row_of(input.options.filter).make(input); }
 
-std::uint64_t filter_bytes_per_face(SmoothFilter filter) {
-    return filter == SmoothFilter::kLattice ? smoothing::kLatticeBytesPerFace : row_of(filter).bytes_per_face;
+std::uint64_t window_bytes_per_face(SmoothFilter filter, std::uint64_t shared) {
+    return filter == SmoothFilter::kLattice ? smoothing::kLatticeBytesPerFace : shared + row_of(filter).bytes_per_face;
 }
 
 }  // namespace regionmesh

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <cstddef>
 
 namespace regionmesh {
 namespace {
@@ -34,6 +34,16 @@ Lanes3<Float4> offset(const Points4& at, const LatticePoint& from) {
     return {along(0), along(1), along(2)};
 }
 
+/// Columns of the four as rows.
+template <class Lanes>
+std::array<Lanes, 4> transposed(Lanes a, Lanes b, Lanes c, Lanes d) {
+    const Lanes low_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), high_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Lanes low_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5), high_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    return {__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5), __builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7),
+            __builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5),
+            __builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7)};
+}
+
 /// 1 less the square of a length measured in radii.
 struct Share {
     Float3 per_radius;
@@ -60,17 +70,20 @@ struct LatticeFits::Blend4 {
     std::array<Float4, 6> curvature{};
 };
 
-/// Gaps between the centre of a fit and the blocks near its own: blocks beyond a radius are left out.
+/// Gaps between a box, such as the centre of a fit, and the blocks near its own: blocks beyond a radius are left out.
 class LatticeFits::Gaps {
 public:
-    Gaps(const LatticeBlocks& blocks, const LatticePoint& own, const LatticePoint& centre) {
+    Gaps(const LatticeBlocks& blocks, const LatticePoint& own, const LatticePoint& low, const LatticePoint& high) {
         constexpr double kSlack = 1e-3;
         for (int axis = 0; axis < 3; ++axis) {
             const double size = blocks.size_along(axis);
             const std::int64_t block = blocks.cell_of(own, axis) / LatticeBlocks::kCells;
-            const double place = centre.at[axis] * LatticePoint::kStep / size - static_cast<double>(block);
+            const auto place = [&](const LatticePoint& p) {
+                return p.at[axis] * LatticePoint::kStep / size - static_cast<double>(block);
+            };
+            const double begin = place(low), end = place(high);
             for (int k = -NearRuns::kRings; k <= NearRuns::kRings; ++k) {
-                const double gap = std::max({k - place, place - k - 1, kSlack}) - kSlack;
+                const double gap = std::max({k - end, begin - k - 1, kSlack}) - kSlack;
                 square_[axis][k + NearRuns::kRings] = static_cast<float>(gap * gap);
             }
         }
@@ -93,21 +106,21 @@ LatticeFits::Sites4 LatticeFits::gather(const std::uint32_t* numbers, std::uint3
         return sites_[numbers[std::min(lane, count - 1)]];
     };
     const LatticeSite &a = site(0), &b = site(1), &c = site(2), &d = site(3);
-    const auto kind = [](const LatticeSite& s) { return static_cast<std::uint8_t>(s.kind); };
-    const auto along = [&](int n) {
-        return Unsigned4{a.centroid.at[n], b.centroid.at[n], c.centroid.at[n], d.centroid.at[n]};
-    };
-    return {{along(0), along(1), along(2)},
-            side_by_side(a.normal, b.normal, c.normal, d.normal),
-            {kind(a), kind(b), kind(c), kind(d)}};
+    static_assert(offsetof(LatticeSite, code) == 12 && offsetof(LatticeSite, normal) == 16);
+    const auto at = transposed(load<Unsigned4>(&a), load<Unsigned4>(&b), load<Unsigned4>(&c), load<Unsigned4>(&d));
+    const auto normal =
+        transposed(load<Float4>(&a.code), load<Float4>(&b.code), load<Float4>(&c.code), load<Float4>(&d.code));
+    return {{at[0], at[1], at[2]}, {normal[1], normal[2], normal[3]}, {a.kind(), b.kind(), c.kind(), d.kind()}};
 }
 
-void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near,
+void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, std::span<const NearRun> near,
                             std::vector<FitPlace>& found) const {
     const LatticePoint first = sites_[row.sites[row.runs[run].site]].centroid;
-    const auto& [low, high] = std::tie(row.runs[run].low, row.runs[run].high);
+    const Float3 &low = row.runs[run].low, &high = row.runs[run].high;
+    const Gaps gaps(blocks_, first, first + low, first + high);
     const auto beyond = [](float at, float low_, float high_) { return std::max({low_ - at, at - high_, 0.0f}); };
     for (const NearRun& other : near) {
+        if (!gaps.is_within(kBlend, other)) continue;
         const bool is_own = other.row == &row && other.run == run;
         for (std::uint32_t f = (*other).fit; f < other.next().fit; ++f) {
             const Float3 d = other.row->fits[f].quadric.centre - first;
@@ -117,12 +130,12 @@ void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, const std:
     }
 }
 
-void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const {
+void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearRun> near) const {
     const LatticePoint& own = sites_[row.sites[row.runs[run].site]].centroid;
     for (std::uint32_t f = row.runs[run].fit; f < row.runs[run + 1].fit; ++f) {
         auto& [quadric, accepted] = row.fits[f];
         const TangentFrame frame(quadric.normal);
-        const Gaps gaps(blocks_, own, quadric.centre);
+        const Gaps gaps(blocks_, own, quadric.centre, quadric.centre);
         const float reach = kReach * static_cast<float>(options_.size);
         if (!options_.takes_all) {
             HeightQuadric trial = quadric;
@@ -144,33 +157,46 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, const std::vector<Nea
 /// all are taken, some perhaps with weight 0, or none; of the fours of a run every `stride`th. Valid until the next
 /// call on the same thread.
 const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                                         const std::vector<NearRun>& near, std::uint32_t stride) const {
+                                         std::span<const NearRun> near, std::uint32_t stride) const {
     thread_local HeightSamples chosen;
     const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
     const Share share_of{(1 / kReach) * blocks_.per_size};
     const LatticePoint centre = quadric.centre;
     std::uint32_t count = 0, most = 0;
-    for (const NearRun& other : near) most += other.next().samples - (*other).samples;
+    for (const NearRun& other : near)
+        most += other.next().samples - (*other).samples + (other.next().site - (*other).site + 3) / 4;
     if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
     HeightSamples::Four* const fours = chosen.fours.data();
+    const auto consider = [&](const Points4& at, const Lanes3<Float4>& normals, Float4 sites, const Kinds4& kind) {
+        const Lanes3<Float4> d = offset(at, centre);
+        const Float4 share = share_of(d), along = dot(normals, normal);
+        const Mask4 counts = share > 0 && along > kSameSheet;
+        if (bits_of(counts) == 0) return;
+        const Float4 weight = share * share * along * sites;
+        fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, kind};
+    };
     for (const NearRun& other : near) {
         if (!gaps.is_within(kReach, other)) continue;
-        const LatticeSamples* const end = other.row->samples.data() + other.next().samples;
-        for (const LatticeSamples* s = other.row->samples.data() + (*other).samples; s < end; s += stride) {
-            const Lanes3<Float4> d = offset(s->at, centre);
-            const Float4 share = share_of(d), along = dot(s->normal, normal);
-            const Mask4 counts = share > 0 && along > kSameSheet;
-            if (bits_of(counts) == 0) continue;
-            const Float4 weight = share * share * along * s->count;
-            fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, s->kind};
+        const LatticeRow& row = *other.row;
+        if (blocks_.parts_sites()) {
+            const std::uint32_t end = other.next().site;
+            for (std::uint32_t n = (*other).site; n < end; n += 4 * stride) {
+                const Sites4 sites = gather(&row.sites[n], end - n);
+                const auto one = [&](std::uint32_t lane) { return n + lane < end ? 1.0f : 0.0f; };
+                consider(sites.at, sites.normal, Float4{1, one(1), one(2), one(3)}, sites.kind);
+            }
+            continue;
         }
+        const LatticeSamples* const end = row.samples.data() + other.next().samples;
+        for (const LatticeSamples* s = row.samples.data() + (*other).samples; s < end; s += stride)
+            consider(s->at, s->normal, __builtin_convertvector(s->count, Float4), s->kind);
     }
     chosen.count = count;
     return chosen;
 }
 
 /// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance.
-float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near,
+float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                               float most_missed) const {
     const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
     const float tolerance =
@@ -206,7 +232,7 @@ Float4 LatticeFits::misses(const HeightQuadric& quadric, const Sites4& sites) co
 }
 
 void LatticeFits::blend(const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits,
-                        SlidingArray<SiteEstimate>& estimates) const {
+                        SlidingPages<SiteEstimate>& estimates) const {
     const auto is_accepted = [](const FitPlace& place) { return place.row->fits[place.fit].accepted > 0; };
     if (std::none_of(fits.begin(), fits.end(), is_accepted)) return;
     const std::uint32_t end = row.runs[run + 1].site;

@@ -37,13 +37,13 @@ public:
     LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options);
 
     /// Appends the fits that sites of the run get shares of. Fits need not be made yet.
-    void find_near(const LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near,
+    void find_near(const LatticeRow& row, std::uint32_t run, std::span<const NearRun> near,
                    std::vector<FitPlace>& found) const;
     /// Makes the fits of a run.
-    void make(LatticeRow& row, std::uint32_t run, const std::vector<NearRun>& near) const;
+    void make(LatticeRow& row, std::uint32_t run, std::span<const NearRun> near) const;
     /// Gives the accepted among these fits the rest of the estimates of each site of the run, blended.
     void blend(const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits,
-               SlidingArray<SiteEstimate>& estimates) const;
+               SlidingPages<SiteEstimate>& estimates) const;
 
 private:
     struct Sites4;
@@ -52,8 +52,8 @@ private:
 
     Sites4 gather(const std::uint32_t* numbers, std::uint32_t count) const;
     const HeightSamples& choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                                const std::vector<NearRun>& near, std::uint32_t stride) const;
-    float acceptance(const HeightQuadric& quadric, const Gaps& gaps, const std::vector<NearRun>& near,
+                                std::span<const NearRun> near, std::uint32_t stride) const;
+    float acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                      float most_missed) const;
     Float4 misses(const HeightQuadric& quadric, const Sites4& sites) const;
     Blend4 blended(const Sites4& sites, const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits) const;

@@ -7,17 +7,30 @@
 
 namespace regionmesh {
 
-LatticeLevel::LatticeLevel(const LatticeSites& sites, SlidingArray<SiteEstimate>& estimates, const Options& options)
+LatticeLevel::LatticeLevel(const LatticeSites& sites, SlidingPages<SiteEstimate>& estimates, const Options& options)
     : sites_(sites),
       estimates_(estimates),
       options_(options),
       blocks_(sites.frame(), options.size, options.sweep_axis),
       fits_(sites, blocks_, {.size = options.size, .takes_all = options.takes_all}) {}
 
-void LatticeLevel::add(std::uint32_t site, double coordinate) {
-    const std::int64_t layer = layer_of(coordinate);
-    while (layer_end() <= layer) layers_.emplace_back();
-    layers_[layer - first_layer_].sites.push_back(site);
+void LatticeLevel::add(NumberRange sites, double coordinate) {
+    if (sites.size() == 0) return;
+    const std::int64_t number = layer_of(coordinate);
+    while (layer_end() <= number) layers_.emplace_back();
+    Layer& layer = layers_[number - first_layer_];
+    layer.first_site = std::min(layer.first_site, sites.first);
+    layer.site_end = sites.end;
+    if (!layer.waiting.empty() && layer.waiting.back().end == sites.first)
+        layer.waiting.back().end = sites.end;
+    else
+        layer.waiting.push_back(sites);
+}
+
+std::uint32_t LatticeLevel::first_read(std::uint32_t end) const {
+    std::uint32_t first = end;
+    for (const Layer& layer : layers_) first = std::min(first, layer.first_site);
+    return first;
 }
 
 void LatticeLevel::seal_before(std::int64_t end) {
@@ -27,13 +40,14 @@ void LatticeLevel::seal_before(std::int64_t end) {
 
 /// Sorts the sites of a layer into rows and blocks.
 void LatticeLevel::sort(Layer& layer) {
-    if (!layer.sites.empty()) layer.site_end = layer.sites.back() + 1;
-    for (std::uint32_t s : layer.sites) {
-        const std::size_t n = blocks_.cell_of(sites_[s].centroid, blocks_.row_axis) / LatticeBlocks::kCells;
-        if (layer.rows.size() <= n) layer.rows.resize(n + 1);
-        layer.rows[n].sites.push_back(s);
-    }
-    layer.sites = {};
+    for (const NumberRange& range : layer.waiting)
+        for (std::uint32_t s = range.first; s < range.end; ++s) {
+            if (!sites_.is_used(s)) continue;
+            const std::size_t n = blocks_.cell_of(sites_[s].centroid, blocks_.row_axis) / LatticeBlocks::kCells;
+            if (layer.rows.size() <= n) layer.rows.resize(n + 1);
+            layer.rows[n].sites.push_back(s);
+        }
+    layer.waiting = {};
     parallel_for(static_cast<std::uint32_t>(layer.rows.size()), options_.threads, [&](std::uint32_t n) {
         if (!layer.rows[n].sites.empty()) layer.rows[n].sort(sites_, blocks_);
     });
@@ -49,8 +63,10 @@ void LatticeLevel::refine(bool is_last) {
         // Sorted only now, since samples and fits take more room than sites.
         for (; sorted_ < std::min(whole_, refined_ + 2 * kRings + 1); ++sorted_) sort(layers_[sorted_ - first_layer_]);
         refine_layer(refined_);
-        // Layers that come read fits and samples of the last few.
-        while (first_layer_ + 2 * kRings <= refined_) {
+        // Layers that come read fits of the last few. The coarsest level has made them all, so that none of them needs
+        // samples and sites of layers farther off.
+        const int held = options_.before ? 2 * kRings : kRings;
+        while (first_layer_ + held <= refined_) {
             layers_.pop_front();
             ++first_layer_;
         }
@@ -68,13 +84,15 @@ NearRuns LatticeLevel::near_runs(std::int64_t layer, std::uint32_t row) {
 
 /// Fits are made when a site that needs them is refined: where a coarser level has decided there are none.
 void LatticeLevel::refine_layer(std::int64_t layer) {
-    auto& [sites, site_end, rows] = layers_[layer - first_layer_];
+    auto& [waiting, first_site, site_end, rows] = layers_[layer - first_layer_];
     if (site_end > estimates_.end()) estimates_.grow(site_end);
     const auto count = static_cast<std::uint32_t>(rows.size());
     std::vector<OpenRow> open(count);
     parallel_for(count, options_.threads, [&](std::uint32_t r) { find_open(layer, r, open[r]); });
     const auto want = [](LatticeRow& row, std::uint32_t run) {
-        if (!std::exchange(row.runs[run].is_wanted, true)) row.wanted.push_back(run);
+        if (row.runs[run].is_wanted) return;
+        row.runs[run].is_wanted = 1;
+        row.wanted.push_back(run);
     };
     for (const OpenRow& row : open)
         for (const FitPlace& place : row.fits) want(*place.row, place.run);
@@ -108,12 +126,13 @@ void LatticeLevel::find_open(std::int64_t layer, std::uint32_t row, OpenRow& ope
         const auto is_open = [&](std::uint32_t site) { return estimates_[site].rest > 0; };
         const auto begin = own.sites.begin();
         if (!is_wanted(own, own.runs[run], 0)) {
-            // On finer levels fits are made later, too, as others ask for them.
-            if (!options_.before && is_wanted(own, own.runs[run], kRings)) open.early.push_back(run);
+            // On finer levels fits are made later, too, as others ask for them. Here those that may be asked for lie
+            // within kBlend of a block that reaches into the box.
+            if (!options_.before && is_wanted(own, own.runs[run], kRings + 1)) open.early.push_back(run);
             continue;
         }
         if (std::none_of(begin + own.runs[run].site, begin + own.runs[run + 1].site, is_open)) continue;
-        fits_.find_near(own, run, near.of(own.runs[run]), open.fits);
+        fits_.find_near(own, run, near.of(own.keys[run]), open.fits);
         open.runs.push_back(run);
         open.first_fit.push_back(static_cast<std::uint32_t>(open.fits.size()));
     }
@@ -131,7 +150,7 @@ void LatticeLevel::make_wanted_fits(std::int64_t layer) {
         LatticeRow& row = layers_[l - first_layer_].rows[r];
         std::sort(row.wanted.begin(), row.wanted.end());
         NearRuns near = near_runs(l, r);
-        for (std::uint32_t run : row.wanted) fits_.make(row, run, near.of(row.runs[run]));
+        for (std::uint32_t run : row.wanted) fits_.make(row, run, near.of(row.keys[run]));
         row.wanted = {};
     });
 }
@@ -139,7 +158,7 @@ void LatticeLevel::make_wanted_fits(std::int64_t layer) {
 std::size_t LatticeLevel::bytes() const {
     std::size_t sum = 0;
     for (const Layer& layer : layers_) {
-        sum += layer.sites.capacity() * sizeof(std::uint32_t);
+        sum += layer.waiting.capacity() * sizeof(NumberRange);
         for (const LatticeRow& row : layer.rows) sum += row.bytes();
     }
     return sum;

@@ -24,14 +24,14 @@ public:
         Box wanted;  // in finest spacings: estimates of sites outside need not be made
     };
 
-    LatticeLevel(const LatticeSites& sites, SlidingArray<SiteEstimate>& estimates, const Options& options);
+    LatticeLevel(const LatticeSites& sites, SlidingPages<SiteEstimate>& estimates, const Options& options);
 
     /// The layer of blocks that a coordinate along the sweep lies in.
     std::int64_t layer_of(double coordinate) const {
         return blocks_.cell_of(coordinate, blocks_.layer_axis) / LatticeBlocks::kCells;
     }
-    /// Adds a site whose normal is final, in order of number.
-    void add(std::uint32_t site, double coordinate);
+    /// Adds sites whose normals are final, in order of number, with the same coordinate along the sweep.
+    void add(NumberRange sites, double coordinate);
     /// Layers before `end` get no more sites.
     void seal_before(std::int64_t end);
     std::int64_t layer_end() const { return first_layer_ + static_cast<std::int64_t>(layers_.size()); }
@@ -40,6 +40,8 @@ public:
     void refine(bool is_last);
     /// Layers before this one are refined.
     std::int64_t refined() const { return refined_; }
+    /// Of the sites that were added, those before this one are not read any more; `end` if none is.
+    std::uint32_t first_read(std::uint32_t end) const;
 
     std::size_t bytes() const;
 
@@ -47,8 +49,8 @@ private:
     static constexpr int kRings = NearRuns::kRings;
 
     struct Layer {
-        std::vector<std::uint32_t> sites;  // until the layer is sorted
-        std::uint32_t site_end = 0;
+        std::vector<NumberRange> waiting;  // sites, until the layer is sorted
+        std::uint32_t first_site = ~0u, site_end = 0;
         std::vector<LatticeRow> rows;
     };
     /// The fits near each run of a row that has open estimates.
@@ -67,7 +69,7 @@ private:
     void make_wanted_fits(std::int64_t layer);
 
     const LatticeSites& sites_;
-    SlidingArray<SiteEstimate>& estimates_;
+    SlidingPages<SiteEstimate>& estimates_;
     Options options_;
     LatticeBlocks blocks_;
     LatticeFits fits_;

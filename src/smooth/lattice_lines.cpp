@@ -78,57 +78,54 @@ Barycentric weights_of(const std::array<double, 3>& step, int count) {
     return weights;
 }
 
-LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites, std::uint32_t vertex) {
-    const LatticeFrame& frame = sites.frame();
-    const int kind = sites.kind(vertex);
-    LatticeSimplex simplex{{}, static_cast<std::uint8_t>(kind)};
-    // A centroid is more than a tenth of a spacing away from the next node, so that truncation finds the base.
-    const Vec3& at = window.origin[vertex];
-    for (int axis = 0; axis < 3; ++axis)
-        simplex.base[axis] =
-            static_cast<double>(static_cast<std::int64_t>((at[axis] - frame.origin[axis]) / frame.spacing[axis] + 0.1));
-    return simplex;
+void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, Vec3 position) {
+    std::array<std::uint32_t, 3> base;
+    for (int axis = 0; axis < 3; ++axis) base[axis] = static_cast<std::uint32_t>(simplex.base[axis]);
+    nodes_.push_back({base, simplex.kind, 0, {}, terms_.end(), {position, position}});
+    const int count = to_interfaces.count;
+    for (int i = 0; i < count; ++i) terms_.push_back(to_interfaces.b[i]);
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) terms_.push_back(to_interfaces.a[i][j]);
 }
 
-void LatticeLines::add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position) {
-    nodes_.push_back({vertex, 0, {}, to_interfaces, simplex_in(window_, sites_, vertex), {position, position}});
-}
-
-std::uint32_t LatticeLines::node_of(std::uint32_t vertex) const {
-    std::uint32_t low = nodes_.first(), high = nodes_.end();
-    while (low < high) {
-        const std::uint32_t middle = low + (high - low) / 2;
-        if (nodes_[middle].vertex < vertex)
-            low = middle + 1;
-        else
-            high = middle;
+/// The sides of faces of a chunk, from its nodes and those of the chunk before.
+void LatticeLines::find_sides(std::uint32_t chunk, const PackedChunks::Parts& parts) {
+    const std::uint32_t first = first_node_[chunk];
+    std::vector<std::uint32_t> nodes = std::move(carried_);
+    std::uint32_t next = first;
+    for (const LatticeVertex& vertex : parts.vertices) nodes.push_back(has(vertex.simplex) ? next++ : kNoNode);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::array<Label, 2> labels) {
+        if (labels[0] > labels[1]) std::swap(labels[0], labels[1]);
+        std::vector<Side>& sides = a < first ? sides_ : next_sides_;
+        sides.push_back({a, b, static_cast<std::uint32_t>(sides.size()), labels});
+    };
+    for (const auto& [v, labels] : parts.faces) {
+        const std::uint32_t corners[3] = {nodes[v[0]], nodes[v[1]], nodes[v[2]]};
+        for (int n = 0; n < 3; ++n) {
+            const std::uint32_t a = corners[n], b = corners[(n + 1) % 3];
+            if (a == kNoNode || b == kNoNode) continue;
+            add(a, b, labels);
+            add(b, a, labels);
+        }
     }
-    return low;
+    carried_.clear();
+    for (const std::uint32_t local : parts.active) carried_.push_back(nodes[local]);
 }
 
 /// An edge between two vertices in triangles or tetrahedra of the lattice is part of a line where faces of two
 /// interfaces meet in it; compact cells cut sheets along such edges, too.
-void LatticeLines::link(std::uint32_t chunk) {
-    const NumberRange own = window_.vertices_of(chunk);
-    NumberRange faces = window_.faces_of(chunk);
-    if (chunk + 1 < window_.chunk_end()) faces.end = window_.faces_of(chunk + 1).end;
+void LatticeLines::link(std::uint32_t chunk, const PackedChunks& chunks, PackedChunks::Parts& parts) {
+    const NumberRange own{first_node_[chunk], first_node_[chunk + 1]};
+    if (chunk == 0) {
+        chunks.unpack(0, parts);
+        find_sides(0, parts);
+    }
     std::vector<Side>& sides = sides_;
-    sides.clear();
-    const auto add = [&](std::uint32_t from, std::uint32_t to, std::array<Label, 2> labels) {
-        if (from < own.first || from >= own.end) return;
-        if (labels[0] > labels[1]) std::swap(labels[0], labels[1]);
-        sides.push_back({node_of(from), node_of(to), static_cast<std::uint32_t>(sides.size()), labels});
-    };
-    for (std::uint32_t f = faces.first; f < faces.end; ++f) {
-        const auto& [corners, labels] = window_.faces[f];
-        bool is_on_line[3];
-        for (int n = 0; n < 3; ++n) is_on_line[n] = sites_.kind(corners[n]) >= kFirstTriangle;
-        for (int n = 0; n < 3; ++n) {
-            const int next = (n + 1) % 3;
-            if (!is_on_line[n] || !is_on_line[next]) continue;
-            add(corners[n], corners[next], labels);
-            add(corners[next], corners[n], labels);
-        }
+    sides.swap(next_sides_);
+    next_sides_.clear();
+    if (chunk + 1 < chunks.end()) {
+        chunks.unpack(chunk + 1, parts);
+        find_sides(chunk + 1, parts);
     }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
         return std::tie(a.from, a.to, a.order) < std::tie(b.from, b.to, b.order);
@@ -148,46 +145,80 @@ void LatticeLines::link(std::uint32_t chunk) {
         Node& node = nodes_[side.from];
         if (node.count < node.next.size()) node.next[node.count++] = side.to;
     }
-    for (std::uint32_t n = first_node_[chunk]; n < first_node_[chunk + 1]; ++n) end_links(nodes_[n]);
+    for (std::uint32_t n = own.first; n < own.end; ++n) end_links(nodes_[n]);
 }
 
 /// The pull of the neighbours has the same matrix in all sweeps.
-void LatticeLines::end_links(Node& node) const {
-    const Vec3 spacing = sites_.frame().spacing / sites_.frame().finest();
-    if (node.count > 0) node.nearest.add({0, 0, 0}, kPull, edges_of(node.simplex.kind, spacing));
-    node.nearest.a = node.nearest.inverse();
+void LatticeLines::end_links(Node& node) {
+    const int count = node.edge_count();
+    NearestPoint nearest{count};
+    std::uint32_t term = node.first_term + count;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) nearest.a[i][j] = terms_[term++];
+    if (node.count > 0) nearest.add({0, 0, 0}, kPull, edges_of(node.kind, frame_.spacing / frame_.finest()));
+    const auto inverse = nearest.inverse();
+    term = node.first_term + count;
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) terms_[term++] = inverse[i][j];
+}
+
+/// What nodes of a kind share.
+struct LatticeLines::SweepTables {
+    double finest;
+    std::array<SimplexEdges, kKindCount> edges;
+    std::array<std::array<Vec3, 3>, kKindCount> steps;  // in lattice units
+
+    explicit SweepTables(const LatticeFrame& frame) : finest(frame.finest()) {
+        for (int kind = kFirstTriangle; kind < kKindCount; ++kind) {
+            edges[kind] = edges_of(kind, frame.spacing / finest);
+            steps[kind] = edges_of(kind, {1, 1, 1}).edges;
+        }
+    }
+};
+
+template <int kEdges>
+void LatticeLines::sweep_node(Node& node, std::uint32_t from, const SweepTables& tables) {
+    std::array<double, kEdges> b;
+    std::array<std::array<double, kEdges>, kEdges> a;
+    std::uint32_t term = node.first_term;
+    for (double& number : b) number = terms_[term++];
+    for (auto& row : a)
+        for (double& number : row) number = terms_[term++];
+    const LatticeSimplex simplex = node.simplex();
+    if (node.count > 0) {
+        Vec3 sum;
+        for (std::uint32_t k = 0; k < node.count; ++k) sum += nodes_[node.next[k]].at[from];
+        const Vec3 target = (sum / node.count - centroid_in(simplex, frame_)) / tables.finest;
+        for (int i = 0; i < kEdges; ++i) b[i] += kPull * dot(tables.edges[node.kind].edges[i], target);
+    }
+    std::array<double, 3> step{};
+    for (int i = 0; i < kEdges; ++i)
+        for (int j = 0; j < kEdges; ++j) step[i] += a[i][j] * b[j];
+    const FixedWeights weights =
+        rounded(clamp_inside(weights_of(step, kEdges), kEdges + 1, margins_.of(node.kind)), kEdges + 1);
+    node.at[1 - from] = position_in(simplex, weights, frame_);
 }
 
 void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads) {
     constexpr std::uint32_t kTask = 256;  // nodes
-    const LatticeFrame& frame = sites_.frame();
-    const double finest = frame.finest();
-    const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1];
-    const std::uint32_t from = number % 2, to = 1 - from;
-    std::array<SimplexEdges, kKindCount> edges;
-    for (int kind = kFirstTriangle; kind < kKindCount; ++kind) edges[kind] = edges_of(kind, frame.spacing / finest);
+    const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1], from = number % 2;
+    const SweepTables tables(frame_);
     parallel_for((end - first + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
         const std::uint32_t task_end = std::min(end, first + (task + 1) * kTask);
         for (std::uint32_t n = first + task * kTask; n < task_end; ++n) {
             Node& node = nodes_[n];
-            Vec3 sum;
-            for (std::uint32_t k = 0; k < node.count; ++k) sum += nodes_[node.next[k]].at[from];
-            const int count = node.nearest.count;
-            std::array<double, 3> b = node.nearest.b, step{};
-            if (node.count > 0) {
-                const Vec3 target = (sum / node.count - window_.origin[node.vertex]) / finest;
-                for (int i = 0; i < count; ++i) b[i] += kPull * dot(edges[node.simplex.kind].edges[i], target);
-            }
-            for (int i = 0; i < count; ++i)
-                for (int j = 0; j < count; ++j) step[i] += node.nearest.a[i][j] * b[j];
-            node.at[to] = position_in(
-                node.simplex, clamp_inside(weights_of(step, count), count + 1, margins_.of(node.simplex.kind)), frame);
+            if (node.edge_count() == 2)
+                sweep_node<2>(node, from, tables);
+            else
+                sweep_node<3>(node, from, tables);
         }
     });
 }
 
 void LatticeLines::drop_before(std::uint32_t chunk) {
-    nodes_.drop_before(first_node_[chunk]);
+    const std::uint32_t first = first_node_[chunk];
+    terms_.drop_before(first < nodes_.end() ? nodes_[first].first_term : terms_.end());
+    nodes_.drop_before(first);
     first_node_.drop_before(chunk);
 }
 

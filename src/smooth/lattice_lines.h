@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "base/sliding_array.h"
-#include "smooth/lattice_level.h"
-#include "smooth/lattice_sites.h"
+#include "base/sliding_pages.h"
+#include "smooth/lattice_fits.h"
+#include "smooth/packed_chunks.h"
 
 namespace regionmesh {
 
@@ -35,38 +36,44 @@ Barycentric weights_of(const std::array<double, 3>& coefficients, int count);
 /// the mean of its neighbours.
 class LatticeLines {
 public:
-    LatticeLines(const SurfaceWindow& window, const LatticeSites& sites, const LatticeMargins& margins)
-        : window_(window), sites_(sites), margins_(margins) {
+    LatticeLines(const LatticeFrame& frame, const LatticeMargins& margins) : frame_(frame), margins_(margins) {
         first_node_.push_back(0);
     }
 
     static constexpr std::uint32_t kSweeps = 16;  // even: positions end where they began
     static constexpr double kPull = 12;           // weight of the mean of the neighbours, beside the interfaces
 
-    /// Adds a vertex of the chunk that comes next, in order of number, and ends the chunk.
-    void add(std::uint32_t vertex, const NearestPoint& to_interfaces, Vec3 position);
+    /// Is a vertex of this simplex one of these?
+    static bool has(const LatticeSimplex& simplex) { return simplex.kind >= kFirstTriangle; }
+    /// Adds a vertex of the chunk that comes next, in its order, and ends the chunk.
+    void add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, Vec3 position);
     void end_chunk() { first_node_.push_back(nodes_.end()); }
-    /// Finds the neighbours of the vertices of a chunk. Requires that the next chunk was added, if there is one.
-    void link(std::uint32_t chunk);
+    /// Finds the neighbours of the vertices of a chunk. Chunks are linked in their order. Requires that the next chunk
+    /// was added, if there is one. `parts` is for the use of this function.
+    void link(std::uint32_t chunk, const PackedChunks& chunks, PackedChunks::Parts& parts);
     /// Requires that the sweep before, or link(), has done the next chunk, if there is one.
     void sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads);
-    /// After the last sweep.
-    template <class Visit>
-    void for_positions(std::uint32_t chunk, Visit&& visit) const {
-        for (std::uint32_t n = first_node_[chunk]; n < first_node_[chunk + 1]; ++n)
-            visit(nodes_[n].vertex, nodes_[n].at[0]);
-    }
+    std::uint32_t first_of(std::uint32_t chunk) const { return first_node_[chunk]; }
+    /// After the last sweep; `node` counts the vertices that were added.
+    Vec3 position(std::uint32_t node) const { return nodes_[node].at[0]; }
 
     void drop_before(std::uint32_t chunk);
-    std::size_t bytes() const { return nodes_.bytes() + sides_.capacity() * sizeof(Side); }
+    std::size_t bytes() const {
+        return nodes_.bytes() + terms_.bytes() + (sides_.capacity() + next_sides_.capacity()) * sizeof(Side);
+    }
 
 private:
     struct Node {
-        std::uint32_t vertex, count;
-        std::array<std::uint32_t, 4> next;  // numbers of nodes
-        NearestPoint nearest;               // to the interfaces; from link() on `a` is the inverse, with the pull in it
-        LatticeSimplex simplex;
+        std::array<std::uint32_t, 3> base;    // of its simplex
+        std::uint8_t kind, count = 0;         // of its simplex; of its neighbours
+        std::array<std::uint32_t, 4> next{};  // numbers of nodes
+        std::uint32_t first_term;
         std::array<Vec3, 2> at;
+
+        LatticeSimplex simplex() const {
+            return {{static_cast<double>(base[0]), static_cast<double>(base[1]), static_cast<double>(base[2])}, kind};
+        }
+        int edge_count() const { return kKinds[kind].node_count - 1; }
     };
 
     /// A half of an edge of a face, from a vertex of a line to another.
@@ -76,19 +83,23 @@ private:
         std::array<Label, 2> labels;
     };
 
-    void end_links(Node& node) const;
+    static constexpr std::uint32_t kNoNode = ~0u;
+    struct SweepTables;
 
-    std::uint32_t node_of(std::uint32_t vertex) const;
+    void find_sides(std::uint32_t chunk, const PackedChunks::Parts& parts);
+    void end_links(Node& node);
+    template <int kEdges>
+    void sweep_node(Node& node, std::uint32_t from, const SweepTables& tables);
 
-    const SurfaceWindow& window_;
-    const LatticeSites& sites_;
+    LatticeFrame frame_;
     LatticeMargins margins_;
-    SlidingArray<Node> nodes_;                // by vertex
+    SlidingPages<Node> nodes_;
+    // Of each node n terms of the right side of its equations and n * n of the matrix, by row; n is edge_count(). From
+    // link() on the inverse, with the pull in it.
+    SlidingPages<double> terms_;
+    std::vector<std::uint32_t> carried_;      // nodes of the vertices that the next chunk to be linked carries
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
-    std::vector<Side> sides_;                 // of the chunk in link()
+    std::vector<Side> sides_, next_sides_;    // of the chunk that is linked next, and of the one after it
 };
-
-/// The simplex of a vertex in the window.
-LatticeSimplex simplex_in(const SurfaceWindow& window, const LatticeSites& sites, std::uint32_t vertex);
 
 }  // namespace regionmesh

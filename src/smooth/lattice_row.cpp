@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -37,9 +36,10 @@ std::vector<Group>& groups_of(std::span<const LatticeSamples> samples) {
             auto group =
                 std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.direction == direction; });
             if (group == groups.end()) group = groups.insert(group, {{}, {}, 0, direction});
-            group->position += four.count[lane] * (four.position(lane) - first);
-            group->normal += four.count[lane] * normal;
-            group->count += four.count[lane];
+            const float count = four.count[lane];
+            group->position += count * (four.position(lane) - first);
+            group->normal += count * normal;
+            group->count += count;
         }
     if (groups.size() == 1) return groups;
     std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
@@ -90,16 +90,18 @@ void LatticeRow::sort(const LatticeSites& of, const LatticeBlocks& blocks) {
         rest = rest * kCells + cell(blocks.layer_axis) % kCells;
         rest = rest * kCells + cell(blocks.row_axis) % kCells;
         rest = rest * kCells + along % kCells;
-        rest = rest * kKindCount + site.kind;
+        rest = rest * kKindCount + site.kind();
         keyed.push_back(
-            {std::uint64_t{site.interface} << kInterfaceBit | std::uint64_t{along / kCells} << kPlaceBit | rest, s});
+            {std::uint64_t{site.interface()} << kInterfaceBit | std::uint64_t{along / kCells} << kPlaceBit | rest, s});
     }
     sort_by_key(keyed);
     for (std::size_t n = 0; n < keyed.size(); ++n) sites[n] = keyed[n].site;
     make_runs(keyed);
     make_samples(of, keyed);
     place_fits();
+    if (blocks.parts_sites()) samples.clear();
     sites.shrink_to_fit();
+    keys.shrink_to_fit();
     runs.shrink_to_fit();
     samples.shrink_to_fit();
     fits.shrink_to_fit();
@@ -133,10 +135,11 @@ void LatticeRow::make_runs(const std::vector<KeyedSite>& keyed) {
     for (std::uint32_t n = 0; n < keyed.size(); ++n) {
         if (n > 0 && keyed[n].key >> kPlaceBit == keyed[n - 1].key >> kPlaceBit) continue;
         const auto place = static_cast<std::int32_t>(keyed[n].key >> kPlaceBit & kMostPlaces);
-        runs.push_back({static_cast<std::uint32_t>(keyed[n].key >> kInterfaceBit), place, n, 0, 0});
+        keys.push_back(run_key(static_cast<std::uint32_t>(keyed[n].key >> kInterfaceBit), place));
+        runs.push_back({n});
     }
-    constexpr auto kLast = std::numeric_limits<std::int32_t>::max();
-    runs.push_back({~0u, kLast, static_cast<std::uint32_t>(keyed.size()), 0, 0});
+    keys.push_back(~std::uint64_t{0});
+    runs.push_back({static_cast<std::uint32_t>(keyed.size())});
 }
 
 /// One sample for the sites of a run that have the same key.
@@ -166,8 +169,8 @@ void LatticeRow::make_samples(const LatticeSites& of, const std::vector<KeyedSit
             LatticeSamples& four = samples.back();
             for (int axis = 0; axis < 3; ++axis) four.at[axis][lane] = at.at[axis];
             four.normal.x[lane] = normal.x, four.normal.y[lane] = normal.y, four.normal.z[lane] = normal.z;
-            four.count[lane] = count;
-            four.kind[lane] = static_cast<std::uint8_t>(site.kind);
+            four.count[lane] = static_cast<std::uint16_t>(next - first);
+            four.kind[lane] = site.kind();
             ++lane;
         }
     }
@@ -187,7 +190,8 @@ void LatticeRow::place_fits() {
 }
 
 std::size_t LatticeRow::bytes() const {
-    return (sites.capacity() + wanted.capacity()) * sizeof(std::uint32_t) + runs.capacity() * sizeof(LatticeRun) +
+    return (sites.capacity() + wanted.capacity()) * sizeof(std::uint32_t) +
+           runs.capacity() * (sizeof(std::uint64_t) + sizeof(LatticeRun)) +
            samples.capacity() * sizeof(LatticeSamples) + fits.capacity() * sizeof(LatticeFit);
 }
 
@@ -200,31 +204,38 @@ NearRuns::NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& l
         const auto end = std::min(static_cast<std::int32_t>(rows.size()), number + kRings + 1);
         for (std::int32_t r = std::max(0, number - kRings); r < end; ++r) {
             if (rows[r].runs.empty()) continue;
-            Near near{&rows[r], 0, {}};
+            Near near{&rows[r], rows[r].keys.data(), {}};
             near.offset[blocks.layer_axis] = static_cast<std::int8_t>(l);
             near.offset[blocks.row_axis] = static_cast<std::int8_t>(r - number);
             rows_.push_back(near);
         }
     }
+    near_.resize(rows_.size() * (2 * kRings + 1));
 }
 
-const std::vector<NearRun>& NearRuns::of(const LatticeRun& run) {
-    near_.clear();
+std::span<const NearRun> NearRuns::of(std::uint64_t key) {
+    NearRun* end = near_.data();
+    const auto interface = static_cast<std::uint32_t>(key >> 32);
+    const bool is_other = interface != interface_;
+    const std::uint64_t first = key - kRings, last = key + kRings;
     for (Near& near : rows_) {
-        const std::vector<LatticeRun>& runs = near.row->runs;
-        const LatticeRun first{run.interface, run.place - kRings, 0, 0, 0};
-        if (interface_ != run.interface)
-            near.next = static_cast<std::uint32_t>(std::lower_bound(runs.begin() + near.next, runs.end(), first) -
-                                                   runs.begin());
-        while (runs[near.next] < first) ++near.next;
-        for (std::uint32_t n = near.next; runs[n].interface == run.interface && runs[n].place <= run.place + kRings;
-             ++n) {
-            near_.push_back({near.row, n, near.offset});
-            near_.back().offset[place_axis_] = static_cast<std::int8_t>(runs[n].place - run.place);
+        const std::vector<std::uint64_t>& keys = near.row->keys;
+        const std::uint64_t* at = near.next;
+        if (is_other)
+            at = std::lower_bound(at, keys.data() + keys.size(), first);
+        else
+            while (*at < first) ++at;
+        near.next = at;
+        for (; *at <= last; ++at) {
+            end->row = near.row;
+            end->run = static_cast<std::uint32_t>(at - keys.data());
+            end->offset = near.offset;
+            end->offset[place_axis_] = static_cast<std::int8_t>(static_cast<std::int64_t>(*at - key));
+            ++end;
         }
     }
-    interface_ = run.interface;
-    return near_;
+    interface_ = interface;
+    return {near_.data(), end};
 }
 
 }  // namespace regionmesh

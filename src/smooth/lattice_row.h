@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "smooth/lattice_quadric.h"
@@ -22,6 +23,10 @@ struct LatticeBlocks {
 
     LatticeBlocks(const LatticeFrame& frame, double block_size, int sweep_axis);
 
+    /// Sites of one kind of simplex and one interface lie in different cells: each sample is a site.
+    bool parts_sites() const {
+        return size.x < kCells * spacing.x && size.y < kCells * spacing.y && size.z < kCells * spacing.z;
+    }
     double size_along(int axis) const { return axis == 0 ? size.x : axis == 1 ? size.y : size.z; }
     /// The cell of a coordinate in finest spacings.
     std::int64_t cell_of(double coordinate, int axis) const;
@@ -46,11 +51,13 @@ inline std::uint8_t direction_of(Float3 normal) {
     return static_cast<std::uint8_t>(2 * axis + (signs[axis] > 0));
 }
 
+using Short4 = std::uint16_t __attribute__((vector_size(8)));
+
 /// Four samples. Lanes without one have no sites.
 struct alignas(16) LatticeSamples {
     std::array<Unsigned4, 3> at;
     Lanes3<Float4> normal;
-    Float4 count;  // of sites
+    Short4 count{};  // of sites
     Kinds4 kind{1, 1, 1, 1};
 
     LatticePoint position(int lane) const { return {{at[0][lane], at[1][lane], at[2][lane]}}; }
@@ -62,27 +69,31 @@ struct LatticeFit {
     float accepted = 0;  // 0 to 1; below 0: could not be fitted
 };
 
+static_assert(sizeof(LatticeSamples) == 112);
+
 /// Sites of one interface in one block. Ranges end where those of the next run begin.
 struct LatticeRun {
-    std::uint32_t interface;
-    std::int32_t place;  // of the block along the row
-    std::uint32_t site, samples, fit;
-    bool is_wanted = false;  // its fits are made, or will be
-    Float3 low{}, high{};    // box of its sites, from the first of them
+    std::uint32_t site, samples = 0;
+    std::uint32_t fit : 31 = 0;
+    std::uint32_t is_wanted : 1 = 0;  // its fits are made, or will be
+    Float3 low{}, high{};             // box of its sites, from the first of them
 
     void add(Float3 d) {
         low = {std::min(low.x, d.x), std::min(low.y, d.y), std::min(low.z, d.z)};
         high = {std::max(high.x, d.x), std::max(high.y, d.y), std::max(high.z, d.z)};
     }
-    friend bool operator<(const LatticeRun& a, const LatticeRun& b) {
-        return a.interface != b.interface ? a.interface < b.interface : a.place < b.place;
-    }
 };
 
+/// By interface, then block along the row, which may lie up to two before the first.
+constexpr std::uint64_t run_key(std::uint32_t interface, std::int64_t place) {
+    return std::uint64_t{interface} << 32 | static_cast<std::uint32_t>(place + 2);
+}
+
 struct LatticeRow {
-    std::vector<std::uint32_t> sites;  // in order of number, then by run
-    std::vector<LatticeRun> runs;      // by interface, then block; and one more at the end
-    std::vector<LatticeSamples> samples;
+    std::vector<std::uint32_t> sites;     // in order of number, then by run
+    std::vector<std::uint64_t> keys;      // of the runs, in order; and one above all at the end
+    std::vector<LatticeRun> runs;         // and one more at the end
+    std::vector<LatticeSamples> samples;  // none where each of them is a site (LatticeBlocks::parts_sites)
     std::vector<LatticeFit> fits;
     std::vector<std::uint32_t> wanted;  // runs whose fits are not made yet
 
@@ -115,27 +126,27 @@ struct NearRun {
 /// Finds the runs near those of a row, in the order of the row.
 class NearRuns {
 public:
-    static constexpr int kRings = 2;  // blocks on each side that are looked at
+    static constexpr int kRings = 2;  // blocks on each side that are looked at; as run_key() allows
 
     /// `layers` has a pointer to the rows of each layer within kRings, or null; `number` is that of the row in its
     /// layer.
     NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& layers, std::int32_t number,
              const LatticeBlocks& blocks);
 
-    /// By layer, row and block; the run itself is one of them.
-    const std::vector<NearRun>& of(const LatticeRun& run);
+    /// Of a run with this key, by layer, row and block; the run itself is one of them.
+    std::span<const NearRun> of(std::uint64_t key);
 
 private:
     struct Near {
         LatticeRow* row;
-        std::uint32_t next = 0;  // no run before it is asked for
+        const std::uint64_t* next;  // key of a run; none before it is asked for
         std::array<std::int8_t, 3> offset;
     };
 
     std::vector<Near> rows_;
     std::uint32_t interface_ = ~0u;
     int place_axis_;
-    std::vector<NearRun> near_;
+    std::vector<NearRun> near_;  // as many as there can be
 };
 
 }  // namespace regionmesh

@@ -13,6 +13,8 @@ namespace {
 /// Positions are rounded: far from the origin of the lattice by more than a unit in the last place.
 constexpr double kFarFromTwelfth = 0.01;
 
+constexpr double kWeightUnit = 1 << 20;
+
 /// In twelfths; no volume is that large.
 constexpr double kFarthest = 1e15;
 
@@ -68,13 +70,18 @@ Barycentric clamp_inside(const Barycentric& weights, int node_count, double marg
     return inside;
 }
 
-Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame) {
-    constexpr double kUnit = 1 << 20;
+/// Weights are rounded, not sums of them: axes with the same nodes get the same offset, bit for bit.
+FixedWeights rounded(const Barycentric& weights, int node_count) {
+    FixedWeights fixed{};
+    for (int n = 1; n < node_count; ++n) fixed[n - 1] = static_cast<std::uint32_t>(weights[n] * kWeightUnit + 0.5);
+    return fixed;
+}
+
+Vec3 position_in(const LatticeSimplex& simplex, const FixedWeights& weights, const LatticeFrame& frame) {
     const SimplexKind& kind = kKinds[simplex.kind];
-    // Weights are rounded, not sums of them: axes with the same nodes get the same offset, bit for bit.
     Vec3 offset;
     for (int n = 1; n < kind.node_count; ++n) {
-        const double weight = static_cast<double>(static_cast<std::int64_t>(weights[n] * kUnit + 0.5)) / kUnit;
+        const double weight = weights[n - 1] / kWeightUnit;
         for (int axis = 0; axis < 3; ++axis)
             if (kind.steps[n] >> axis & 1) offset[axis] += weight;
     }

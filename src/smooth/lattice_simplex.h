@@ -17,6 +17,13 @@ struct LatticeFrame {
     double finest() const { return std::min({spacing.x, spacing.y, spacing.z}); }
 };
 
+/// By kind, in lattice units.
+inline constexpr std::array<Vec3, kKindCount> kCentroids = [] {
+    std::array<Vec3, kKindCount> centroids{};
+    for (int kind = 0; kind < kKindCount; ++kind) centroids[kind] = centroid(kind);
+    return centroids;
+}();
+
 /// Weights of the nodes of a simplex, in the order of kKinds; they add up to 1.
 using Barycentric = std::array<double, 4>;
 
@@ -29,6 +36,14 @@ struct LatticeSimplex {
 
 /// The simplex whose centroid an unsmoothed vertex is. Throws Error(kInput) for any other position.
 LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame);
+
+/// The position of an unsmoothed vertex, bit for bit as the mesher makes it.
+inline double centroid_along(int axis, const LatticeSimplex& simplex, const LatticeFrame& frame) {
+    return frame.origin[axis] + (simplex.base[axis] + kCentroids[simplex.kind][axis]) * frame.spacing[axis];
+}
+inline Vec3 centroid_in(const LatticeSimplex& simplex, const LatticeFrame& frame) {
+    return {centroid_along(0, simplex, frame), centroid_along(1, simplex, frame), centroid_along(2, simplex, frame)};
+}
 
 /// The least weights of the nodes of a vertex's simplex.
 struct LatticeMargins {
@@ -45,10 +60,17 @@ struct LatticeMargins {
 /// Requires margin < 1 / node_count.
 Barycentric clamp_inside(const Barycentric& weights, int node_count, double margin);
 
-/// The point of the simplex with the given weights. Coordinates in lattice units are rounded to multiples of 2^-20, so
-/// that with unit spacing the point lies exactly in the simplex; along axes in which the simplex does not extend it has
-/// the exact coordinate of the node.
-Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame);
+/// Weights of the nodes but the first as multiples of 2^-20.
+using FixedWeights = std::array<std::uint32_t, 3>;
+FixedWeights rounded(const Barycentric& weights, int node_count);
+
+/// The point of the simplex with the given weights. Coordinates in lattice units are multiples of 2^-20, so that with
+/// unit spacing the point lies exactly in the simplex; along axes in which the simplex does not extend it has the exact
+/// coordinate of the node.
+Vec3 position_in(const LatticeSimplex& simplex, const FixedWeights& weights, const LatticeFrame& frame);
+inline Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame) {
+    return position_in(simplex, rounded(weights, simplex.node_count()), frame);
+}
 
 /// Edge vectors from the first node to the others, in the unit of the spacing.
 struct SimplexEdges {

@@ -1,15 +1,13 @@
 #include "smooth/lattice_sites.h"
 
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
 #include "regionmesh/error.h"
 
 namespace regionmesh {
 namespace {
-
-constexpr std::array<Vec3, kKindCount> kCentroids = [] {
-    std::array<Vec3, kKindCount> centroids{};
-    for (int kind = 0; kind < kKindCount; ++kind) centroids[kind] = centroid(kind);
-    return centroids;
-}();
 
 Float3 unit(Float3 v, Float3 otherwise) {
     const float size = length(v);
@@ -18,35 +16,38 @@ Float3 unit(Float3 v, Float3 otherwise) {
 
 }  // namespace
 
-void LatticeSites::add_chunk(std::uint32_t chunk) {
-    const NumberRange vertices = window_.vertices_of(chunk), faces = window_.faces_of(chunk);
-    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) add_vertex(v);
-    for (std::uint32_t f = faces.first; f < faces.end; ++f) corners_.push_back(add_face(window_.faces[f]));
+void LatticeSites::add(const Chunk& chunk, std::span<const LatticeVertex> vertices) {
+    assert(chunk.carried == locals_.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) add_vertex(chunk.vertices[v], vertices[v].simplex);
+    for (const ChunkFace& face : chunk.faces) add_face(face);
+    starts_.push_back({sites_.end(), corners_.end()});
+    std::vector<Local> carried;
+    for (const std::uint32_t local : chunk.active) carried.push_back(locals_[local]);
+    locals_ = std::move(carried);
 }
 
-void LatticeSites::add_vertex(std::uint32_t v) {
-    constexpr std::uint32_t kPairs[] = {0, 0, 1, 3, 6};  // by labels
-    const LatticeSimplex simplex = simplex_of(window_.origin[v], frame_);
-    LatticeSite site{{}, {}, kNoInterface, simplex.kind};
+void LatticeSites::add_vertex(const ChunkVertex& vertex, const LatticeSimplex& simplex) {
+    LatticeSite site{{}, kNoInterface | std::uint32_t{simplex.kind} << LatticeSite::kKindBit, {}};
     const Vec3 middle = simplex.base + kCentroids[simplex.kind], scale = frame_.spacing / frame_.finest();
     for (int axis = 0; axis < 3; ++axis)
         site.centroid.at[axis] = static_cast<std::uint32_t>(
             static_cast<std::int64_t>(middle[axis] * scale[axis] * (1 / LatticePoint::kStep) + 0.5));
-    for (std::uint32_t n = 0; n < kPairs[simplex.node_count()]; ++n) sites_.push_back(site);
-    kinds_.push_back(simplex.kind);
-    first_site_.push_back(sites_.end());
+    const std::uint32_t first = sites_.end();
+    for (std::uint32_t n = 0; n < count_of(simplex); ++n) sites_.push_back(site);
+    locals_.push_back({vertex.position, {first, sites_.end()}});
 }
 
-LatticeSites::CornerSites LatticeSites::add_face(const ChunkFace& face) {
+void LatticeSites::add_face(const ChunkFace& face) {
     const std::uint32_t interface = interface_of(face.labels);
-    if (interface == kNoInterface) return {kNoSite, kNoSite, kNoSite};
+    if (interface == kNoInterface) return;
     const auto& [v, labels] = face;
-    const Vec3 a = window_.origin[v[0]], b = window_.origin[v[1]], c = window_.origin[v[2]];
+    const Vec3 a = locals_[v[0]].position, b = locals_[v[1]].position, c = locals_[v[2]].position;
     const double per_square = 1 / (frame_.finest() * frame_.finest());
     const Float3 normal((labels[0] < labels[1] ? per_square : -per_square) * cross(b - a, c - a));
-    const CornerSites sites{site_of(v[0], interface), site_of(v[1], interface), site_of(v[2], interface)};
+    const CornerSites sites{site_of(locals_[v[0]], interface), site_of(locals_[v[1]], interface),
+                            site_of(locals_[v[2]], interface)};
     for (std::uint32_t s : sites) sites_[s].normal += normal;
-    return sites;
+    corners_.push_back(sites);
 }
 
 /// Faces that follow each other are often of one interface.
@@ -64,16 +65,18 @@ std::uint32_t LatticeSites::interface_of(std::array<Label, 2> labels) {
 }
 
 /// The first free site of the vertex if the interface is new to it.
-std::uint32_t LatticeSites::site_of(std::uint32_t vertex, std::uint32_t interface) {
-    const NumberRange own = of_vertex(vertex);
-    for (std::uint32_t s = own.first; s < own.end; ++s) {
-        if (sites_[s].interface == kNoInterface) sites_[s].interface = interface;
-        if (sites_[s].interface == interface) return s;
+std::uint32_t LatticeSites::site_of(const Local& vertex, std::uint32_t interface) {
+    for (std::uint32_t s = vertex.sites.first; s < vertex.sites.end; ++s) {
+        std::uint32_t& code = sites_[s].code;
+        if (!is_used(s)) code = (code & ~kNoInterface) | interface;
+        if (sites_[s].interface() == interface) return s;
     }
-    throw Error(ErrorCode::kInput,
-                "smoothing in the lattice: more regions meet at vertex " + std::to_string(vertex) +
-                    " than its lattice simplex has nodes; only an unsmoothed, undecimated reconstruction of sections "
-                    "can be smoothed so");
+    throw Error(
+        ErrorCode::kInput,
+        "smoothing in the lattice: more regions meet at " + std::to_string(vertex.position.x) + ", " +
+            std::to_string(vertex.position.y) + ", " + std::to_string(vertex.position.z) +
+            " than the vertex's lattice simplex has nodes; only an unsmoothed, undecimated reconstruction of sections "
+            "can be smoothed so");
 }
 
 void LatticeSites::end_normals(std::uint32_t chunk) {
@@ -83,13 +86,11 @@ void LatticeSites::end_normals(std::uint32_t chunk) {
 
 /// Adds the normals at the corners of the faces of a chunk.
 void LatticeSites::add_up(int pass, std::uint32_t chunk) {
-    SlidingArray<Float3>& sums = sums_[pass];
+    SlidingPages<Float3>& sums = sums_[pass];
     sums.grow(of_chunk(chunk).end);
     const auto normal_of = [&](std::uint32_t s) { return pass == 0 ? sites_[s].normal : sums_[0][s]; };
-    const NumberRange faces = window_.faces_of(chunk);
-    for (std::uint32_t f = faces.first; f < faces.end; ++f) {
+    for (std::uint32_t f = starts_[chunk].face; f < starts_[chunk + 1].face; ++f) {
         const auto [a, b, c] = corners_[f];
-        if (a == kNoSite) continue;
         const Float3 sum = normal_of(a) + normal_of(b) + normal_of(c);
         sums[a] += sum;
         sums[b] += sum;
@@ -99,26 +100,18 @@ void LatticeSites::add_up(int pass, std::uint32_t chunk) {
 
 void LatticeSites::average_normals(int pass, std::uint32_t chunk) {
     if (chunk == 0) add_up(pass, 0);
-    if (chunk + 1 < window_.chunk_end()) add_up(pass, chunk + 1);
+    if (chunk + 1 < chunk_end()) add_up(pass, chunk + 1);
     const NumberRange own = of_chunk(chunk);
-    SlidingArray<Float3>& sums = sums_[pass];
+    SlidingPages<Float3>& sums = sums_[pass];
     for (std::uint32_t s = own.first; s < own.end; ++s) {
         sums[s] = unit(sums[s], pass == 0 ? sites_[s].normal : sums_[0][s]);
         if (pass == 1) sites_[s].normal = sums[s];
     }
     if (pass == 0) return;
-    // Pass 1 of the chunk that follows reads the normals of this one.
+    // Pass 1 has added up the faces of the chunk that follows, too.
+    sums_[0].drop_before(own.end);
     sums_[1].drop_before(own.end);
-    if (chunk == 0) return;
-    sums_[0].drop_before(own.first);
-    corners_.drop_before(window_.faces_of(chunk).first);
-}
-
-void LatticeSites::drop_before(std::uint32_t v) {
-    const std::uint32_t site = first_site_[v];
-    kinds_.drop_before(v);
-    first_site_.drop_before(v);
-    sites_.drop_before(site);
+    corners_.drop_before(starts_[std::min(chunk + 2, chunk_end())].face);
 }
 
 }  // namespace regionmesh

@@ -53,8 +53,9 @@ LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder&
       order_(order),
       spacing_(order.frame.spacing / order.frame.finest()),
       margins_{kLatticeMargin, order.inner_margin},
-      sites_(window_, order.frame),
-      lines_(window_, sites_, margins_) {
+      sites_(order.frame),
+      lines_(order.frame, margins_) {
+    first_weight_.push_back(0);
     for (double size = largest_block(order.frame, options.reach); size >= smoothing::kSmallestBlock; size /= 2)
         levels_.emplace_back(sites_, estimates_,
                              LatticeLevel::Options{.size = size,
@@ -83,18 +84,21 @@ std::uint32_t LatticeSmoother::most_chunks() const {
 }
 
 std::uint32_t LatticeSmoother::one_behind(std::uint32_t done_before) const {
-    return is_last_ && done_before == window_.chunk_end() ? done_before : done_before - std::min(done_before, 1u);
+    return is_last_ && done_before == chunks_.end() ? done_before : done_before - std::min(done_before, 1u);
 }
 
 bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     const Timer timer(report_.filter_seconds);
     is_last_ = is_last;
-    const std::uint32_t number = window_.chunk_end();
-    window_.add(chunk);
+    std::vector<LatticeVertex>& vertices = parts_.vertices;
+    vertices.clear();
+    for (const ChunkVertex& vertex : chunk.vertices)
+        vertices.push_back({simplex_of(vertex.position, order_.frame), vertex.sides});
+    chunks_.push_back(chunk, vertices);
     next_low_.push_back(next_low);
-    sites_.add_chunk(number);
+    sites_.add(chunk, vertices);
 
-    for (; made_ < one_behind(window_.chunk_end()); ++made_) sites_.end_normals(made_);
+    for (; made_ < one_behind(chunks_.end()); ++made_) sites_.end_normals(made_);
     std::uint32_t done = made_;
     for (int pass = 0; pass < LatticeSites::kNormalPasses; ++pass) {
         for (; averaged_[pass] < one_behind(done); ++averaged_[pass]) sites_.average_normals(pass, averaged_[pass]);
@@ -102,101 +106,144 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     }
     for (; added_ < done; ++added_) add_to_levels(added_);
     refine();
-    const bool is_all = is_last_ && added_ == window_.chunk_end();
+    const bool is_all = is_last_ && added_ == chunks_.end();
     while (placed_ < added_ && (is_all || last_layer_[placed_] < levels_.back().refined())) place(placed_++);
-    for (; linked_ < one_behind(placed_); ++linked_) lines_.link(linked_);
+    for (; linked_ < one_behind(placed_); ++linked_) lines_.link(linked_, chunks_, parts_);
     done = linked_;
     for (std::uint32_t sweep = 0; sweep < LatticeLines::kSweeps; ++sweep) {
         for (; swept_[sweep] < one_behind(done); ++swept_[sweep]) lines_.sweep(sweep, swept_[sweep], options_.threads);
         done = swept_[sweep];
     }
-    for (; finished_ < done; ++finished_) finish(finished_);
     note_bytes();
     return true;
 }
 
 void LatticeSmoother::add_to_levels(std::uint32_t chunk) {
-    const NumberRange vertices = window_.vertices_of(chunk);
-    const double finest = order_.frame.finest(), origin = order_.frame.origin[order_.axis];
+    const LatticeFrame& frame = order_.frame;
+    const double finest = frame.finest(), origin = frame.origin[order_.axis];
     const double next_low = (next_low_[chunk] - origin) / finest;
-    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) {
-        const double along = (window_.origin[v][order_.axis] - origin) / finest;
-        const NumberRange sites = sites_.of_vertex(v);
-        for (std::uint32_t s = sites.first; s < sites.end; ++s)
-            if (sites_.is_used(s))
-                for (LatticeLevel& level : levels_) level.add(s, along);
+    chunks_.unpack_vertices(chunk, parts_.vertices);
+    for (const LatticeVertex& vertex : parts_.vertices) {
+        const double along = (centroid_along(order_.axis, vertex.simplex, frame) - origin) / finest;
+        const NumberRange sites{added_sites_, added_sites_ + LatticeSites::count_of(vertex.simplex)};
+        for (LatticeLevel& level : levels_) level.add(sites, along);
+        added_sites_ = sites.end;
     }
     // No site of the chunk lies beyond.
     last_layer_.push_back(std::isfinite(next_low) ? levels_.back().layer_of(next_low) : 0);
-    const bool is_end = is_last_ && chunk + 1 == window_.chunk_end();
+    const bool is_end = is_last_ && chunk + 1 == chunks_.end();
     for (LatticeLevel& level : levels_) level.seal_before(is_end ? level.layer_end() : level.layer_of(next_low));
 }
 
 void LatticeSmoother::refine() {
-    const bool is_all = is_last_ && added_ == window_.chunk_end();
+    const bool is_all = is_last_ && added_ == chunks_.end();
     for (LatticeLevel& level : levels_) level.refine(is_all);
+    drop_sites();
+}
+
+/// Sites that have been added to the levels, and that none of them reads any more.
+void LatticeSmoother::drop_sites() {
+    std::uint32_t first = added_sites_;
+    for (const LatticeLevel& level : levels_) first = level.first_read(first);
+    sites_.drop_before(first);
 }
 
 /// Where the interface crosses the edge of a vertex.
-Vec3 LatticeSmoother::position_on_edge(std::uint32_t v) const {
-    const SiteEstimate& estimate = estimates_[sites_.first_of(v)];
-    const SimplexEdges edges = edges_of(sites_.kind(v), spacing_);
-    const double steep = dot(estimate.slope.wide(), edges.edges[0]);
+double LatticeSmoother::weight_on_edge(int kind, std::uint32_t site) const {
+    const SiteEstimate& estimate = estimates_[site];
+    const double steep = dot(estimate.slope.wide(), edges_of(kind, spacing_).edges[0]);
     const double step = estimate.rest < 1 && steep != 0 ? -estimate.height / steep : 0;
-    const double weight = std::clamp(0.5 + step, kLatticeMargin, 1 - kLatticeMargin);
-    return position_in(simplex_in(window_, sites_, v), {1 - weight, weight, 0, 0}, order_.frame);
+    return std::clamp(0.5 + step, kLatticeMargin, 1 - kLatticeMargin);
 }
 
 /// Puts the vertices of a chunk nearest to their interfaces.
 void LatticeSmoother::place(std::uint32_t chunk) {
     constexpr std::uint32_t kTask = 4096;  // vertices
-    const LatticeFrame& frame = order_.frame;
-    const NumberRange vertices = window_.vertices_of(chunk);
-    for (std::uint32_t v = vertices.first; v < vertices.end; ++v) positions_.push_back(window_.origin[v]);
-    estimates_.grow(std::max(estimates_.end(), sites_.of_chunk(chunk).end));  // sites that are not used are in no level
-    const auto nearest_to_interfaces = [&](std::uint32_t v, const SimplexEdges& edges) {
-        NearestPoint nearest{edges.count};
-        const NumberRange sites = sites_.of_vertex(v);
-        for (std::uint32_t s = sites.first; s < sites.end; ++s)
-            if (estimates_[s].rest < 1 && dot(estimates_[s].slope, estimates_[s].slope) > 0)
-                nearest.add(estimates_[s], edges);
-        return nearest;
+    chunks_.unpack_vertices(chunk, parts_.vertices);
+    const std::vector<LatticeVertex>& vertices = parts_.vertices;
+    const auto [first_site, end_site] = sites_.of_chunk(chunk);
+    estimates_.grow(std::max(estimates_.end(), end_site));  // sites that are not used are in no level
+    struct Place {
+        std::uint32_t site, weight;
     };
-    parallel_for((vertices.size() + kTask - 1) / kTask, options_.threads, [&](std::uint32_t task) {
-        const std::uint32_t first = vertices.first + task * kTask, end = std::min(vertices.end, first + kTask);
-        for (std::uint32_t v = first; v < end; ++v) {
-            if (sites_.of_vertex(v).size() == 0) continue;
-            if (sites_.kind(v) < kFirstTriangle) {
-                positions_[v] = position_on_edge(v);
-                continue;
-            }
-            const SimplexEdges edges = edges_of(sites_.kind(v), spacing_);
-            const Barycentric weights = weights_of(nearest_to_interfaces(v, edges).solve(), edges.count);
-            positions_[v] = position_in(simplex_in(window_, sites_, v),
-                                        clamp_inside(weights, edges.count + 1, margins_.of(sites_.kind(v))), frame);
+    std::vector<Place> places;
+    Place next{first_site, weights_.end()};
+    for (const LatticeVertex& vertex : vertices) {
+        places.push_back(next);
+        next.site += LatticeSites::count_of(vertex.simplex);
+        if (!LatticeLines::has(vertex.simplex)) ++next.weight;
+    }
+    weights_.grow(next.weight);
+    const auto count = static_cast<std::uint32_t>(vertices.size());
+    parallel_for((count + kTask - 1) / kTask, options_.threads, [&](std::uint32_t task) {
+        for (std::uint32_t v = task * kTask; v < std::min(count, (task + 1) * kTask); ++v) {
+            const LatticeSimplex& simplex = vertices[v].simplex;
+            if (LatticeLines::has(simplex) || LatticeSites::count_of(simplex) == 0) continue;
+            const double weight = weight_on_edge(simplex.kind, places[v].site);
+            weights_[places[v].weight] = rounded({1 - weight, weight, 0, 0}, 2)[0];
         }
     });
-    for (std::uint32_t v = vertices.first; v < vertices.end; ++v)
-        if (sites_.kind(v) >= kFirstTriangle)
-            lines_.add(v, nearest_to_interfaces(v, edges_of(sites_.kind(v), spacing_)), positions_[v]);
+    for (std::uint32_t v = 0; v < count; ++v)
+        if (LatticeLines::has(vertices[v].simplex)) place_on_line(vertices[v].simplex, places[v].site);
     lines_.end_chunk();
+    first_weight_.push_back(weights_.end());
+    estimates_.drop_before(end_site);
+    sites_.drop_chunks_before(chunk + 1);
 }
 
-void LatticeSmoother::finish(std::uint32_t chunk) {
-    lines_.for_positions(chunk, [&](std::uint32_t v, Vec3 at) { positions_[v] = at; });
-    note_chunk(window_, chunk, positions_, report_);
+void LatticeSmoother::place_on_line(const LatticeSimplex& simplex, std::uint32_t first_site) {
+    const SimplexEdges edges = edges_of(simplex.kind, spacing_);
+    NearestPoint nearest{edges.count};
+    const std::uint32_t end = first_site + LatticeSites::count_of(simplex);
+    for (std::uint32_t s = first_site; s < end; ++s)
+        if (estimates_[s].rest < 1 && dot(estimates_[s].slope, estimates_[s].slope) > 0)
+            nearest.add(estimates_[s], edges);
+    const Barycentric weights = weights_of(nearest.solve(), edges.count);
+    const Barycentric inside = clamp_inside(weights, edges.count + 1, margins_.of(simplex.kind));
+    lines_.add(simplex, nearest, position_in(simplex, inside, order_.frame));
+}
+
+/// The chunk that went in, with its vertices at their final positions.
+void LatticeSmoother::move_vertices(std::uint32_t chunk, Chunk& moved) {
+    const LatticeFrame& frame = order_.frame;
+    chunks_.unpack(chunk, parts_);
+    moved.clear();
+    std::vector<Vec3> before = std::move(carried_before_), after = std::move(carried_);
+    std::uint32_t weight = first_weight_[chunk], node = lines_.first_of(chunk);
+    for (const auto& [simplex, sides] : parts_.vertices) {
+        const Vec3 origin = centroid_in(simplex, frame);
+        Vec3 at = origin;
+        if (LatticeLines::has(simplex)) {
+            at = lines_.position(node++);
+        } else {
+            const std::uint32_t second = weights_[weight++];
+            if (second > 0) at = position_in(simplex, FixedWeights{second, 0, 0}, frame);
+        }
+        before.push_back(origin);
+        after.push_back(at);
+        moved.vertices.push_back({at, sides});
+    }
+    moved.carried = parts_.carried;
+    moved.faces = parts_.faces;
+    moved.active = parts_.active;
+    note_chunk({parts_.carried, before, after, parts_.faces}, report_);
+    carried_before_.clear();
+    carried_.clear();
+    for (const std::uint32_t local : parts_.active) {
+        carried_before_.push_back(before[local]);
+        carried_.push_back(after[local]);
+    }
 }
 
 bool LatticeSmoother::next(Chunk& chunk) {
-    if (released_ == finished_) return false;
-    window_.copy_out(released_, positions_, chunk);
+    if (released_ == swept_[LatticeLines::kSweeps - 1]) return false;
+    move_vertices(released_, chunk);
+    weights_.drop_before(first_weight_[released_ + 1]);
     ++released_;
-    // Each stage reads one chunk back.
-    const std::uint32_t last = released_ - 1, first = window_.vertices_of(last).first;
-    window_.drop_before(released_);
-    positions_.drop_before(first);
-    estimates_.drop_before(std::min(sites_.first_of(first), estimates_.end()));
-    sites_.drop_before(first);
+    const std::uint32_t last = released_ - 1;
+    chunks_.drop_before(released_);
+    first_weight_.drop_before(last);
+    // Sweeps read one chunk back.
     lines_.drop_before(last);
     last_layer_.drop_before(last);
     next_low_.drop_before(last);
@@ -204,13 +251,13 @@ bool LatticeSmoother::next(Chunk& chunk) {
 }
 
 double LatticeSmoother::safe_high() const {
-    if (is_last_ && released_ == window_.chunk_end()) return HUGE_VAL;
+    if (is_last_ && released_ == chunks_.end()) return HUGE_VAL;
     return released_ == 0 ? order_.frame.origin[order_.axis] : next_low_[released_ - 1];
 }
 
 void LatticeSmoother::note_bytes() {
-    report_.window_chunks = std::max(report_.window_chunks, window_.chunk_end() - released_);
-    std::uint64_t bytes = window_.bytes() + sites_.bytes() + estimates_.bytes() + lines_.bytes() + positions_.bytes();
+    report_.window_chunks = std::max(report_.window_chunks, chunks_.end() - released_);
+    std::uint64_t bytes = chunks_.bytes() + sites_.bytes() + estimates_.bytes() + lines_.bytes() + weights_.bytes();
     for (const LatticeLevel& level : levels_) bytes += level.bytes();
     report_.window_bytes = std::max(report_.window_bytes, bytes);
 }

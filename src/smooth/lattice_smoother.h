@@ -7,6 +7,7 @@
 #include "smooth/lattice_level.h"
 #include "smooth/lattice_lines.h"
 #include "smooth/lattice_sites.h"
+#include "smooth/packed_chunks.h"
 
 namespace regionmesh {
 
@@ -17,7 +18,8 @@ std::array<std::uint32_t, 3> lattice_reach(const SmoothOptions& options, const L
 /// docs/explanation/lattice-smoothing.md. Requires a surface made by StripMesher with QuadCuts::kCones: other cuts can
 /// cross. The sites of a chunk are made, their normals averaged, the levels refined, the vertices placed and the lines
 /// swept, each as soon as the chunks that follow have come as far as it reads. Whether the surface comes in chunks or
-/// as one gives the same positions, bit for bit.
+/// as one gives the same positions, bit for bit. Each array holds the chunks between the first stage that writes it and
+/// the last that reads it; vertices and faces are packed in between (packed_chunks.h).
 class LatticeSmoother final : public ChunkSmoother {
 public:
     LatticeSmoother(const SmoothOptions& options, const ChunkOrder& order);
@@ -35,9 +37,11 @@ public:
 private:
     void add_to_levels(std::uint32_t chunk);
     void refine();
-    Vec3 position_on_edge(std::uint32_t v) const;
+    double weight_on_edge(int kind, std::uint32_t site) const;
     void place(std::uint32_t chunk);
-    void finish(std::uint32_t chunk);
+    void place_on_line(const LatticeSimplex& simplex, std::uint32_t first_site);
+    void move_vertices(std::uint32_t chunk, Chunk& moved);
+    void drop_sites();
     /// Chunks that a stage may have done when the one before has done `done_before` and must be one chunk ahead.
     std::uint32_t one_behind(std::uint32_t done_before) const;
     void note_bytes();
@@ -46,17 +50,22 @@ private:
     ChunkOrder order_;
     Vec3 spacing_;  // in finest spacings
     LatticeMargins margins_;
-    SurfaceWindow window_;
+    PackedChunks chunks_;
     LatticeSites sites_;
-    SlidingArray<SiteEstimate> estimates_;  // by site
+    SlidingPages<SiteEstimate> estimates_;  // by site; until its vertex is placed
     std::deque<LatticeLevel> levels_;       // coarse to fine
     LatticeLines lines_;
-    SlidingArray<Vec3> positions_;
-    SlidingArray<double> next_low_;          // by chunk
-    SlidingArray<std::int64_t> last_layer_;  // by chunk: of the finest level
+    // Of placed vertices that are not in lines_ the weight of the second node, in order.
+    SlidingPages<std::uint32_t> weights_;
+    SlidingArray<std::uint32_t> first_weight_;    // by chunk, and one more
+    std::vector<Vec3> carried_before_, carried_;  // positions of the vertices carried to the chunk that is next out
+    PackedChunks::Parts parts_;                   // of the chunk in hand
+    SlidingArray<double> next_low_;               // by chunk
+    SlidingArray<std::int64_t> last_layer_;       // by chunk: of the finest level
     bool is_last_ = false;
+    std::uint32_t added_sites_ = 0;  // to the levels
     std::uint32_t made_ = 0, averaged_[LatticeSites::kNormalPasses] = {}, added_ = 0, placed_ = 0, linked_ = 0,
-                  swept_[LatticeLines::kSweeps] = {}, finished_ = 0, released_ = 0;
+                  swept_[LatticeLines::kSweeps] = {}, released_ = 0;
     SmoothReport report_;
 };
 

@@ -34,7 +34,7 @@ BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vect
                         .tiles = tile_count(tiles),
                         .tiles_in_flight = kTilesInFlight};
     demand.fewest_chunk_strips = demand.chunk_strips;
-    demand.window_bytes_per_face = kWindowBytesPerFace + filter_bytes_per_face(options.smooth.filter);
+    demand.window_bytes_per_face = window_bytes_per_face(options.smooth.filter, kWindowBytesPerFace);
     demand.is_decimating = is_decimating(options);
     demand.preserves_volume = options.preserve_volume;
     demand.asked_budget = options.face_budget;
