@@ -7,6 +7,7 @@
 #include "blocks/block_faces.h"
 #include "blocks/manifest.h"
 #include "blocks/piece.h"
+#include "blocks/quotas.h"
 #include "blocks/simplify_block.h"
 #include "regionmesh/blocks.h"
 #include "stream/target.h"
@@ -41,7 +42,7 @@ private:
     void reconstruct_pass();
     void sweep_blocks(const BlockGrid& blocks, IndexBox sweep, std::uint32_t done);
     Piece reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk faces);
-    void seam_pass(const std::vector<double>& shares);
+    void seam_pass();
     void trim_passes();
     void complete();
 
@@ -52,7 +53,7 @@ private:
     BlockSimplifyOptions simplify_options() const;
     std::vector<PieceHeader> headers() const;
     std::filesystem::path path_of(std::uint32_t pass, std::uint32_t block) const;
-    Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const std::vector<double>& shares,
+    Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const CommonThreshold& common,
                  std::optional<std::uint64_t> goal);
     void remove_parts();
 

@@ -9,9 +9,14 @@
 
 namespace regionmesh {
 
-/// The share of its faces that each block keeps, so that all together keep about `target`: each what its sample keeps
-/// at one threshold, common to all blocks. The threshold follows from the sum of the histograms in the headers.
-std::vector<double> shares_at_common_threshold(std::span<const PieceHeader> pieces, double target);
+/// What blocks keep at one threshold.
+struct CommonThreshold {
+    double threshold;            // in units of scale^4
+    std::vector<double> shares;  // of its faces, by block
+};
+
+/// The threshold at which all blocks together keep about `target` faces, by the sum of the histograms in the headers.
+CommonThreshold common_threshold(std::span<const PieceHeader> pieces, double target);
 
 /// Faces to which some blocks go down when all have `faces` and more than `target`, by block: the excess comes out of
 /// the largest blocks, a hundredth of their faces each. Blocks at their limit give none. Collapses remove two faces at

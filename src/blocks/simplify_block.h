@@ -8,6 +8,7 @@
 #include "blocks/piece.h"
 #include "mesh/chunk.h"
 #include "regionmesh/simplify.h"
+#include "simplify/tuning.h"
 #include "stream/target.h"
 
 namespace regionmesh {
@@ -26,6 +27,7 @@ struct BlockSimplifyOptions {
     SimplifyOptions simplify;  // without a target
     std::uint32_t threads = 0;
     std::uint32_t in_flight = 16;
+    double first_threshold = kFirstThreshold;  // where the search for that of a target begins
 };
 
 /// The first stage: tiles, up to the threshold of the first stage of a run without blocks, and never below the share

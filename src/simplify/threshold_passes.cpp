@@ -170,7 +170,9 @@ PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOpti
         tiles.in_flight = std::clamp(static_cast<std::uint32_t>(held / options.tile_faces / kPartsInFlight), 1u,
                                      std::max(tiles.in_flight, 1u));
         tiles.faces_in_flight = held / kPartsInFlight;
-        double threshold = target == 0 ? HUGE_VAL : pass == 0 ? kFirstThreshold : result.threshold * kNextThreshold;
+        double threshold = target == 0 ? HUGE_VAL
+                           : pass == 0 ? options.first_threshold
+                                       : result.threshold * kNextThreshold;
         std::optional<TileResult> done = pass_over(faces, tiles, target, threshold);
         if (!done) break;
         chunk = std::move(done->left);

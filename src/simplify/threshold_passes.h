@@ -9,10 +9,11 @@
 namespace regionmesh {
 
 struct PassOptions {
-    std::uint64_t target_faces;             // of the chunk, about; 0: as far as the largest cost and error allow
-    SafeInterval safe = {};                 // along the sweep: faces outside it stay as they are
-    std::uint32_t tile_faces = kTileFaces;  // about this number in a tile
-    TileOptions tiles;                      // threshold and share are searched for
+    std::uint64_t target_faces;                // of the chunk, about; 0: as far as the largest cost and error allow
+    SafeInterval safe = {};                    // along the sweep: faces outside it stay as they are
+    std::uint32_t tile_faces = kTileFaces;     // about this number in a tile
+    TileOptions tiles;                         // threshold and share are searched for
+    double first_threshold = kFirstThreshold;  // where the search begins
 };
 
 struct PassResult {
