@@ -36,10 +36,14 @@ void print_findings(const std::string& name, const CheckReport& report) {
     print_orient_hint(report);
 }
 
-/// Where the model was made from a lattice.
+/// Whether there are samples, and regions that have an inside.
+bool has_samples(const Settings& settings) {
+    return settings.reconstruct.cap && !settings.sections.empty() && is_lattice(settings, settings.sections);
+}
+
 std::optional<SampleAgreement> compare_with_sections(const Settings& settings, MeshFile& file,
                                                      const CheckOptions& options) {
-    if (settings.sections.empty() || !is_lattice(settings, settings.sections)) return {};
+    if (!has_samples(settings)) return {};
     const auto reader = open_lattice(settings, settings.sections);
     return compare_samples(file.mesh, file.labels, options.background, *reader);
 }
@@ -76,8 +80,10 @@ int check_folder(const Settings& given) {
         if (!has_lattice_of(path, reader->info()))
             throw Error(ErrorCode::kInput, settings.sections.front() + ": its samples do not lie where those of " +
                                                path + " do; give the volume that the model was made from");
-        reader->rewind();
-        samples = compare_block_samples(path, file.labels, options.background, *reader);
+        if (has_samples(settings)) {
+            reader->rewind();
+            samples = compare_block_samples(path, file.labels, options.background, *reader);
+        }
     }
     const CheckReport report = check_block_folder(path, options);
     if (!settings.json.empty())
