@@ -68,7 +68,9 @@ void fill(const Foam& foam, std::int64_t z, std::vector<std::uint64_t>& section)
     }
 }
 
-bool write(std::FILE* file, const void* bytes, std::size_t count) { return std::fwrite(bytes, 1, count, file) == count; }
+bool write(std::FILE* file, const void* bytes, std::size_t count) {
+    return std::fwrite(bytes, 1, count, file) == count;
+}
 
 std::string header(const Foam& foam, const char* type) {
     std::string text = std::string("{'descr': '") + type + "', 'fortran_order': False, 'shape': (" +
@@ -98,7 +100,8 @@ int main(int argc, char** argv) {
     std::vector<std::uint8_t> bytes(is_small ? section.size() : 0);
     for (std::int64_t z = 0; is_good && z < foam.size[2]; ++z) {
         fill(foam, z, section);
-        for (std::size_t n = 0; n < bytes.size(); ++n) bytes[n] = static_cast<std::uint8_t>(section[n] % kSmallLabels + 1);
+        for (std::size_t n = 0; n < bytes.size(); ++n)
+            bytes[n] = static_cast<std::uint8_t>(section[n] % kSmallLabels + 1);
         is_good = is_small ? write(file, bytes.data(), bytes.size()) : write(file, section.data(), section.size() * 8);
     }
     is_good = file && std::fclose(file) == 0 && is_good;
