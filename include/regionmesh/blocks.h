@@ -86,14 +86,16 @@ MeshFile describe_block_folder(const std::filesystem::path& folder);
 CheckReport check_block_folder(const std::filesystem::path& folder, const CheckOptions& options = {});
 
 /// Calls on_section with the labels of each section of samples, as Voxeliser::next() gives them, along the sweep of the
-/// volume, and returns Voxeliser::contradictions(). Holds one layer of pieces. Requires a volume with the lattice of
-/// the folder (has_lattice_of()).
+/// volume, and returns Voxeliser::contradictions(). Holds the faces of one layer of pieces, or of a part of the layer
+/// where it has more than `most_faces`, and one piece. Requires a volume with the lattice of the folder
+/// (has_lattice_of()).
 std::uint64_t voxelise_block_folder(const std::filesystem::path& folder, const VolumeInfo& volume,
                                     const std::vector<Label>& background,
-                                    const std::function<void(std::span<const Label>)>& on_section);
+                                    const std::function<void(std::span<const Label>)>& on_section,
+                                    std::uint64_t most_faces = 4'000'000);
 
-/// compare_samples() in layers of pieces along the sweep of the reader: holds one layer. Requires a reader with the
-/// lattice of the folder (has_lattice_of()).
+/// compare_samples() in layers of pieces along the sweep of the reader, as voxelise_block_folder(). Requires a reader
+/// with the lattice of the folder (has_lattice_of()).
 SampleAgreement compare_block_samples(const std::filesystem::path& folder, LabelTable& labels,
                                       const std::vector<Label>& background, SectionReader& reader);
 

@@ -95,6 +95,18 @@ Mesh read_layer(const Folder& folder, int axis, double low, double high) {
     return mesh;
 }
 
+/// Into how many parts a layer of pieces is cut along an axis, so that each has about `most_faces` faces or fewer.
+std::uint32_t parts_of_layer(const Folder& folder, int axis, const IndexBox& cells, std::uint64_t most_faces) {
+    std::uint64_t faces = 0;
+    for (std::uint32_t block = 0; block < folder.manifest.pieces.size(); ++block)
+        if (folder.grid.cells(block).low[axis] == cells.low[axis]) faces += folder.manifest.pieces[block].faces;
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(faces / most_faces + 1, 1, cells.size()[axis]));
+}
+
+std::uint32_t section_of_part(std::uint32_t first, std::uint32_t end, std::uint32_t part, std::uint32_t parts) {
+    return first + static_cast<std::uint32_t>(std::uint64_t{end - first} * part / parts);
+}
+
 bool is_same(const Lattice& a, const Lattice& b) {
     return a.size == b.size && a.spacing == b.spacing && a.origin == b.origin && a.direction == b.direction;
 }
@@ -123,7 +135,8 @@ bool has_lattice_of(const fs::path& folder, const VolumeInfo& volume) {
 
 std::uint64_t voxelise_block_folder(const fs::path& path, const VolumeInfo& volume,
                                     const std::vector<Label>& background,
-                                    const std::function<void(std::span<const Label>)>& on_section) {
+                                    const std::function<void(std::span<const Label>)>& on_section,
+                                    std::uint64_t most_faces) {
     const Folder folder{path};
     const Lattice lattice = piece_lattice(folder.manifest);
     const int axis = volume.sweep.axes[2];
@@ -132,17 +145,22 @@ std::uint64_t voxelise_block_folder(const fs::path& path, const VolumeInfo& volu
     const auto counts = folder.grid.counts();
     const std::uint32_t step = axis == 0 ? 1 : axis == 1 ? counts[0] : counts[0] * counts[1];
     std::uint64_t contradictions = 0;
+    const auto at = [&](double section) { return lattice.origin[axis] + section * lattice.spacing[axis]; };
     for (std::uint32_t layer = 0; layer < counts[axis]; ++layer) {
         const IndexBox cells = folder.grid.cells(layer * step);
         const std::uint32_t first = cells.low[axis];
         const std::uint32_t end = layer + 1 < counts[axis] ? cells.high[axis] : volume.lattice.size[axis];
-        // A section more on each side, for rounding of positions turned in space.
-        const auto at = [&](double section) { return lattice.origin[axis] + section * lattice.spacing[axis]; };
-        const Mesh mesh = read_layer(folder, axis, at(first - 1.0), at(end));
-        Voxeliser voxeliser(mesh, {.lattice = volume.lattice, .sweep = volume.sweep, .background = background});
-        voxeliser.skip_to(first);
-        for (std::uint32_t section = first; section < end && voxeliser.next(found); ++section) on_section(found);
-        contradictions += voxeliser.contradictions();
+        const std::uint32_t parts = parts_of_layer(folder, axis, cells, most_faces);
+        for (std::uint32_t part = 0; part < parts; ++part) {
+            const std::uint32_t low = section_of_part(first, end, part, parts);
+            const std::uint32_t high = section_of_part(first, end, part + 1, parts);
+            // A section more on each side, for rounding of positions turned in space.
+            const Mesh mesh = read_layer(folder, axis, at(low - 1.0), at(high));
+            Voxeliser voxeliser(mesh, {.lattice = volume.lattice, .sweep = volume.sweep, .background = background});
+            voxeliser.skip_to(low);
+            for (std::uint32_t section = low; section < high && voxeliser.next(found); ++section) on_section(found);
+            contradictions += voxeliser.contradictions();
+        }
     }
     return contradictions;
 }

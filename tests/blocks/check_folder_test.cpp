@@ -76,6 +76,22 @@ TEST_F(CheckFolder, piece_by_piece_finds_the_same_as_the_whole) {
     }
 }
 
+TEST_F(CheckFolder, layers_are_voxelised_in_parts_where_they_have_many_faces) {
+    test::ArrayVolume volume = test::grain_volume({30, 28, 27}, 12, 4);
+    make(volume, 0.5);
+    MeshFile model = read_block_folder(folder_);
+    const CheckOptions options = options_for(model);
+    const auto labels = [&](std::uint64_t most_faces) {
+        std::vector<Label> all;
+        const auto put = [&](std::span<const Label> section) { all.insert(all.end(), section.begin(), section.end()); };
+        EXPECT_EQ(voxelise_block_folder(folder_, volume.info(), options.background, put, most_faces), 0u);
+        return all;
+    };
+    const std::vector<Label> whole = labels(1'000'000);
+    EXPECT_EQ(whole.size(), 30u * 28 * 27);
+    for (const std::uint64_t most_faces : {1u, 700u, 3000u}) EXPECT_EQ(labels(most_faces), whole) << most_faces;
+}
+
 TEST_F(CheckFolder, finds_a_face_that_is_missing_and_one_that_was_moved) {
     make(test::grain_volume({30, 28, 27}, 12, 4), 0.5);
     MeshFile model = read_block_folder(folder_);
