@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,6 +73,6 @@ std::string lines_csv(const Mesh& mesh, const LabelTable& labels, const std::vec
                       const LabelNames& names = {});
 
 /// Writes `text` as an OutputFile. Throws Error(kOutput).
-void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options = {});
+void write_text(const std::filesystem::path& path, std::string_view text, const OutputOptions& options = {});
 
 }  // namespace regionmesh

@@ -147,8 +147,6 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
 
 /// Makes the folder, and a manifest that says which run it belongs to.
 void make_folder(const BlockOptions& blocks) {
-    const auto there = read_manifest(blocks.folder);
-    if (there) return require_same_run(*there, blocks.identity, blocks.folder);
     std::error_code error;
     if (!fs::is_directory(blocks.folder, error)) fs::create_directory(blocks.folder, error);
     if (error) throw Error(ErrorCode::kOutput, blocks.folder.string() + ": cannot be made: " + error.message());
@@ -168,7 +166,10 @@ void begin_run(const OpenSections& open, const ReconstructOptions& options, cons
         const auto there = read_manifest(blocks.folder);
         // Nothing is written for an input that cannot be read.
         if (!there || !there->is_surveyed) input.emplace(open, options);
-        make_folder(blocks);
+        if (there)
+            require_same_run(*there, blocks.identity, blocks.folder);
+        else
+            make_folder(blocks);
     }
     tasks.end_phase();
     if (read_manifest(blocks.folder)->is_surveyed) return;

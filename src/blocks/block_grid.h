@@ -27,16 +27,16 @@ public:
     std::uint32_t count() const { return grid_.tile_count(); }
     std::array<std::uint32_t, 3> counts() const { return {grid_.count(0), grid_.count(1), grid_.count(2)}; }
     std::uint32_t block_at(Vec3 centroid) const { return grid_.tile_at(centroid); }
-    /// Whether a box has a point that block_at() puts into the block, or touches its walls.
-    bool reaches(const Box& box, std::uint32_t block) const {
-        const auto from = place(block_at(box.low)), to = place(block_at(box.high)), own = place(block);
-        const Box walls = limits(block);
-        bool has_point = true, is_touching = true;
+    /// Holds all points that block_at() puts into the block, however they are rounded, and its walls.
+    Box reach(std::uint32_t block) const {
+        constexpr double kMargin = 0x1p-8;  // of a cell: coordinates have 12 bits below the spacing or more
+        const auto own = place(block), end = counts();
+        Box reach = limits(block);
         for (int axis = 0; axis < 3; ++axis) {
-            has_point = has_point && from[axis] <= own[axis] && own[axis] <= to[axis];
-            is_touching = is_touching && walls.low[axis] <= box.high[axis] && box.low[axis] <= walls.high[axis];
+            reach.low[axis] = own[axis] == 0 ? -HUGE_VAL : reach.low[axis] - kMargin * grid_.spacing[axis];
+            reach.high[axis] = own[axis] + 1 == end[axis] ? HUGE_VAL : reach.high[axis] + kMargin * grid_.spacing[axis];
         }
-        return has_point || is_touching;
+        return reach;
     }
     /// Its walls, exactly where the samples lie.
     Box limits(std::uint32_t block) const { return grid_.limits(block); }

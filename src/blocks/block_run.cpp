@@ -280,12 +280,12 @@ Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>
 
 void BlockRun::seam_pass() {
     const std::vector<PieceHeader> before = headers();
+    const BlockGrid blocks = grid(1);
     CommonThreshold common{.threshold = kFirstThreshold, .shares = std::vector<double>(before.size(), 0.0)};
     // Each block may end below its goal by a face or two.
     if (has_target())
-        common = common_threshold(
-            before, std::min(static_cast<double>(target()) + 2.0 * grid(1).count(), double(face_count())));
-    const BlockGrid blocks = grid(1);
+        common = common_threshold(before,
+                                  std::min(static_cast<double>(target()) + 2.0 * blocks.count(), double(face_count())));
     // Blocks with many faces round them first: they take longest, and ranks then end at about the same time.
     std::vector<std::uint64_t> faces(blocks.count());
     for (std::uint32_t block = 0; block < blocks.count(); ++block) {

@@ -9,6 +9,7 @@
 #include "blocks/own_faces.h"
 #include "cells/strip_mesher.h"
 #include "regionmesh/error.h"
+#include "smooth/tuning.h"
 #include "stream/footprint.h"
 
 namespace regionmesh {
@@ -16,8 +17,6 @@ namespace {
 
 /// Blocks are not made smaller than this number of cells for memory: nearly all of their faces would be on the rim.
 constexpr std::uint32_t kFewestCells = 64;
-/// Bytes for each face in the window of smoothing.
-constexpr double kWindowBytes = 64;
 /// A block may have more faces than the mean.
 constexpr double kUneven = 2;
 /// Sections that the window of smoothing holds, about.
@@ -53,8 +52,8 @@ public:
         }
         constexpr double kPerSample = 2 * sizeof(Label) + static_cast<double>(StripMesher::kBytesPerSample);
         return static_cast<double>(kProcessBytes) + section * kPerSample +
-               faces_per_cell_ *
-                   (section * sections * kWindowBytes + layer * kChunkBytesPerFace + one * kTilesBytesPerFace);
+               faces_per_cell_ * (section * sections * smoothing::kLatticeBytesPerFace + layer * kChunkBytesPerFace +
+                                  one * kTilesBytesPerFace);
     }
 
 private:

@@ -95,12 +95,20 @@ Mesh read_layer(const Folder& folder, int axis, double low, double high) {
     return mesh;
 }
 
-/// Into how many parts a layer of pieces is cut along an axis, so that each has about `most_faces` faces or fewer.
-std::uint32_t parts_of_layer(const Folder& folder, int axis, const IndexBox& cells, std::uint64_t most_faces) {
+/// The blocks of a layer across an axis.
+IndexBox layer_of(const BlockGrid& grid, int axis, std::uint32_t layer) {
+    IndexBox blocks{{}, grid.counts()};
+    blocks.low[axis] = layer;
+    blocks.high[axis] = layer + 1;
+    return blocks;
+}
+
+/// Into how many parts a layer of pieces is cut, so that each has about `most_faces` faces or fewer.
+std::uint32_t parts_of_layer(const Folder& folder, const IndexBox& layer, std::uint32_t sections,
+                             std::uint64_t most_faces) {
     std::uint64_t faces = 0;
-    for (std::uint32_t block = 0; block < folder.manifest.pieces.size(); ++block)
-        if (folder.grid.cells(block).low[axis] == cells.low[axis]) faces += folder.manifest.pieces[block].faces;
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(faces / most_faces + 1, 1, cells.size()[axis]));
+    folder.grid.for_blocks(layer, [&](std::uint32_t block) { faces += folder.manifest.pieces[block].faces; });
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(faces / most_faces + 1, 1, sections));
 }
 
 std::uint32_t section_of_part(std::uint32_t first, std::uint32_t end, std::uint32_t part, std::uint32_t parts) {
@@ -142,15 +150,14 @@ std::uint64_t voxelise_block_folder(const fs::path& path, const VolumeInfo& volu
     const int axis = volume.sweep.axes[2];
     std::vector<Label> found(std::size_t{volume.lattice.size[volume.sweep.axes[0]]} *
                              volume.lattice.size[volume.sweep.axes[1]]);
-    const auto counts = folder.grid.counts();
-    const std::uint32_t step = axis == 0 ? 1 : axis == 1 ? counts[0] : counts[0] * counts[1];
+    const std::uint32_t layers = folder.grid.counts()[axis];
     std::uint64_t contradictions = 0;
     const auto at = [&](double section) { return lattice.origin[axis] + section * lattice.spacing[axis]; };
-    for (std::uint32_t layer = 0; layer < counts[axis]; ++layer) {
-        const IndexBox cells = folder.grid.cells(layer * step);
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const IndexBox blocks = layer_of(folder.grid, axis, layer), cells = folder.grid.cells(blocks);
         const std::uint32_t first = cells.low[axis];
-        const std::uint32_t end = layer + 1 < counts[axis] ? cells.high[axis] : volume.lattice.size[axis];
-        const std::uint32_t parts = parts_of_layer(folder, axis, cells, most_faces);
+        const std::uint32_t end = layer + 1 < layers ? cells.high[axis] : volume.lattice.size[axis];
+        const std::uint32_t parts = parts_of_layer(folder, blocks, cells.size()[axis], most_faces);
         for (std::uint32_t part = 0; part < parts; ++part) {
             const std::uint32_t low = section_of_part(first, end, part, parts);
             const std::uint32_t high = section_of_part(first, end, part + 1, parts);

@@ -10,6 +10,12 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0u;
 
+bool overlap(const Box& a, const Box& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
+    return true;
+}
+
 bool is_within(const Box& inner, const Box& outer) {
     for (int axis = 0; axis < 3; ++axis)
         if (inner.low[axis] < outer.low[axis] || inner.high[axis] > outer.high[axis]) return false;
@@ -45,16 +51,20 @@ std::uint32_t block_of(const BlockGrid& grid, const Chunk& chunk, const ChunkFac
                     {chunk.vertices[v[0]].position, chunk.vertices[v[1]].position, chunk.vertices[v[2]].position});
 }
 
-std::size_t SharedVertices::Hash::operator()(const std::array<std::uint64_t, 3>& bits) const {
+PositionBits bits_of(Vec3 position) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
+    return {bits(position.x), bits(position.y), bits(position.z)};
+}
+
+std::size_t SharedVertices::Hash::operator()(const PositionBits& bits) const {
     return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]);
 }
 
 std::uint32_t SharedVertices::number(Vec3 position, std::uint32_t next) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0 is 0
-    return numbers_.try_emplace({bits(position.x), bits(position.y), bits(position.z)}, next).first->second;
+    return numbers_.try_emplace(bits_of(position), next).first->second;
 }
 
-bool BlockGatherer::needs(const Box& box) const { return grid_.reaches(box, block_); }
+bool BlockGatherer::needs(const Box& box) const { return overlap(box, reach_); }
 
 std::uint32_t BlockGatherer::number(const PieceVertex& vertex, std::uint32_t& place) {
     if (place != kNone) return place;
@@ -74,7 +84,7 @@ void BlockGatherer::add(const Piece& piece, double keep) {
     for (const PieceFace& face : piece.faces) {
         const std::array<Vec3, 3> corners = corners_of(piece, face);
         const Box box = box_of(corners);
-        if (!grid_.reaches(box, block_)) continue;
+        if (!needs(box)) continue;
         const bool is_own = block_of(grid_, corners) == block_;
         ChunkFace made{{}, face.labels};
         for (int n = 0; n < 3; ++n)

@@ -18,6 +18,10 @@ std::uint32_t block_of(const BlockGrid& grid, const std::array<Vec3, 3>& corners
 /// The same of a chunk that carries no vertices.
 std::uint32_t block_of(const BlockGrid& grid, const Chunk& chunk, const ChunkFace& face);
 
+/// The bits of the coordinates, the same for 0 and -0: positions that are equal have equal bits.
+using PositionBits = std::array<std::uint64_t, 3>;
+PositionBits bits_of(Vec3 position);
+
 /// Numbers of vertices that several pieces may have, by their exact position.
 class SharedVertices {
 public:
@@ -27,16 +31,16 @@ public:
 
 private:
     struct Hash {
-        std::size_t operator()(const std::array<std::uint64_t, 3>& bits) const;
+        std::size_t operator()(const PositionBits& bits) const;
     };
-    std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, Hash> numbers_;
+    std::unordered_map<PositionBits, std::uint32_t, Hash> numbers_;
 };
 
 /// The faces of a block, out of the pieces of another plan of blocks.
 class BlockGatherer {
 public:
     BlockGatherer(const BlockGrid& grid, std::uint32_t block)
-        : grid_(grid), block_(block), limits_(grid.limits(block)) {}
+        : grid_(grid), block_(block), limits_(grid.limits(block)), reach_(grid.reach(block)) {}
 
     /// Whether a piece with this box may have faces that belong to the block or touch it.
     bool needs(const Box& box) const;
@@ -54,7 +58,7 @@ private:
 
     const BlockGrid& grid_;
     std::uint32_t block_;
-    Box limits_;
+    Box limits_, reach_;
     Chunk chunk_;
     SharedVertices shared_;
     std::vector<bool> is_locked_;

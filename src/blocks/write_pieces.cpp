@@ -4,30 +4,17 @@
 #include "blocks/join.h"
 #include "blocks/piece_mesh.h"
 #include "regionmesh/blocks.h"
+#include "regionmesh/census.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<Label> background_of(const Manifest& manifest, LabelTable& labels) {
-    std::vector<Label> background;
-    for (const InputLabel label : manifest.background) background.push_back(labels.dense(label));
-    return background;
-}
-
-void write_text_file(const fs::path& path, const std::string& text, const OutputOptions& options) {
-    OutputFile file(path, options);
-    file.write(text);
-    file.commit();
-}
-
-}  // namespace
 
 std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& path, const OutputOptions& options) {
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
-    const WriteOptions write{.background = background_of(manifest, labels),
+    const WriteOptions write{.background = dense_background(manifest.background, labels),
                              .names = manifest.names,
                              .space = manifest.space,
                              .output = options};
@@ -41,19 +28,19 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
         written.push_back(file);
         pieces += fmt::format("    <Piece Source=\"{}\"/>\n", file.filename().string());
     }
-    write_text_file(path,
-                    "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                    "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PPolyData GhostLevel=\"0\">\n"
-                    "    <PPoints>\n      <PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n    </PPoints>\n"
-                    "    <PPointData>\n      <PDataArray type=\"Int8\" Name=\"NodeType\"/>\n    </PPointData>\n"
-                    "    <PCellData>\n"
-                    "      <PDataArray type=\"Int64\" Name=\"BoundaryLabels\" NumberOfComponents=\"2\"/>\n"
-                    "      <PDataArray type=\"Int64\" Name=\"Region\"/>\n"
-                    "      <PDataArray type=\"Int64\" Name=\"Neighbour\"/>\n"
-                    "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"
-                    "    </PCellData>\n" +
-                        pieces + "  </PPolyData>\n</VTKFile>\n",
-                    options);
+    write_text(path,
+               "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+               "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PPolyData GhostLevel=\"0\">\n"
+               "    <PPoints>\n      <PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n    </PPoints>\n"
+               "    <PPointData>\n      <PDataArray type=\"Int8\" Name=\"NodeType\"/>\n    </PPointData>\n"
+               "    <PCellData>\n"
+               "      <PDataArray type=\"Int64\" Name=\"BoundaryLabels\" NumberOfComponents=\"2\"/>\n"
+               "      <PDataArray type=\"Int64\" Name=\"Region\"/>\n"
+               "      <PDataArray type=\"Int64\" Name=\"Neighbour\"/>\n"
+               "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"
+               "    </PCellData>\n" +
+                   pieces + "  </PPolyData>\n</VTKFile>\n",
+               options);
     written.push_back(path);
     return written;
 }

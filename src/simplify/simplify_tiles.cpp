@@ -103,23 +103,6 @@ TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
     return result;
 }
 
-TileCounts try_tiles(TiledFaces& faces, std::span<const std::uint32_t> numbers, const TileOptions& options) {
-    TileCounts counts;
-    const std::uint32_t in_flight = tiles_in_flight(faces, numbers, options);
-    std::vector<Tile> tiles(in_flight);
-    const auto work = [&](std::uint32_t n, std::uint32_t place) {
-        simplify_tile(tiles[place], faces, numbers[n], options);
-    };
-    const auto finish = [&](std::uint32_t n, std::uint32_t place) {
-        counts.faces += faces.faces_of(numbers[n]).size();
-        counts.left_faces += tiles[place].left_faces();
-        counts.inside += tiles[place].inside_count();
-        counts.left_inside += tiles[place].left_inside();
-    };
-    parallel_in_order(static_cast<std::uint32_t>(numbers.size()), in_flight, options.threads, {work, finish});
-    return counts;
-}
-
 std::vector<TileCounts> try_thresholds(TiledFaces& faces, std::span<const std::uint32_t> numbers,
                                        const TileOptions& options, std::span<const double> thresholds) {
     std::vector<TileCounts> sums(thresholds.size());

@@ -98,8 +98,7 @@ public:
 
 private:
     double left_at(double threshold) {
-        options_.threshold = threshold;
-        const TileCounts counts = try_tiles(faces_, tiles_, options_);
+        const TileCounts counts = try_thresholds(faces_, tiles_, options_, {{threshold}}).front();
         const auto share = [](std::uint64_t left, std::uint64_t of) {
             return (static_cast<double>(left) + 1) / (static_cast<double>(of) + 1);
         };

@@ -22,12 +22,6 @@ constexpr std::uint64_t kSortBytes = 32 << 20, kFewestFaces = 20000;
 constexpr std::uint32_t kMostLevels = 8;
 
 using Place = std::array<std::uint32_t, 3>;  // of a block or a part, along the axes
-using PositionBits = std::array<std::uint64_t, 3>;
-
-PositionBits bits_of(Vec3 p) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0 is 0
-    return {bits(p.x), bits(p.y), bits(p.z)};
-}
 
 Vec3 position_of(const PositionBits& bits) {
     return {std::bit_cast<double>(bits[0]), std::bit_cast<double>(bits[1]), std::bit_cast<double>(bits[2])};
@@ -74,7 +68,7 @@ private:
 /// For the shared vertices of each piece, the first level at which all pieces that have one are in one part.
 class SharedLevels {
 public:
-    SharedLevels(const Precomputed& precomputed, const std::array<std::uint32_t, 3>& counts) : counts_(counts) {
+    SharedLevels(const Precomputed& precomputed, const BlockGrid& grid) : grid_(grid) {
         const Manifest& manifest = precomputed.manifest;
         for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
             if (manifest.pieces[block].faces == 0) continue;
@@ -84,10 +78,6 @@ public:
         uses_.finish();
         find_levels();
         has_next_ = levels_.next(next_);
-    }
-
-    Place place_of(std::uint32_t block) const {
-        return {block % counts_[0], block / counts_[0] % counts_[1], block / counts_[0] / counts_[1]};
     }
 
     /// Sets free_from of the vertices of a piece. Requires pieces in the order of their numbers.
@@ -122,8 +112,8 @@ private:
             int bits = 0;
             for (const Use& use : same)
                 for (int axis = 0; axis < 3; ++axis)
-                    bits =
-                        std::max<int>(bits, std::bit_width(place_of(use.block)[axis] ^ place_of(same[0].block)[axis]));
+                    bits = std::max<int>(
+                        bits, std::bit_width(grid_.place(use.block)[axis] ^ grid_.place(same[0].block)[axis]));
             for (const Use& use : same) levels_.add({use.block, 1u + static_cast<std::uint32_t>(bits), use.position});
             same.clear();
         };
@@ -133,7 +123,7 @@ private:
         levels_.finish();
     }
 
-    std::array<std::uint32_t, 3> counts_;
+    const BlockGrid& grid_;
     ExternalSort<Use> uses_{kSortBytes};
     ExternalSort<Level> levels_{kSortBytes};
     Level next_{};
@@ -207,10 +197,10 @@ public:
         : precomputed_(precomputed),
           manifest_(precomputed.manifest),
           visit_(visit),
-          counts_(BlockGrid(piece_lattice(manifest_), manifest_.block_cells, manifest_.shift).counts()) {}
+          grid_(piece_lattice(manifest_), manifest_.block_cells, manifest_.shift) {}
 
     void make(std::uint32_t levels) {
-        if (levels > 1) shared_.emplace(precomputed_, counts_);
+        if (levels > 1) shared_.emplace(precomputed_, grid_);
         for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block) {
             if (manifest_.pieces[block].faces == 0) continue;
             const Piece piece = read_entry(manifest_, precomputed_.folder, block);
@@ -218,7 +208,7 @@ public:
             if (levels == 1) continue;
             Part part = part_of(piece);
             shared_->set(block, part);
-            add(1, shared_->place_of(block), part);
+            add(1, grid_.place(block), part);
         }
         shared_.reset();
         for (std::uint32_t level = 2; level < levels; ++level) make_from_parts(level);
@@ -238,7 +228,7 @@ private:
     void make_from_parts(std::uint32_t level) {
         const std::unique_ptr<StoredParts> last = std::exchange(made_, std::make_unique<StoredParts>());
         Place end;
-        for (int axis = 0; axis < 3; ++axis) end[axis] = ((counts_[axis] - 1) >> (level - 1)) + 1;
+        for (int axis = 0; axis < 3; ++axis) end[axis] = ((grid_.counts()[axis] - 1) >> (level - 1)) + 1;
         for (std::uint32_t n = 0; n < end[0] * end[1] * end[2]; ++n) {
             const Place place{n % end[0], n / end[0] % end[1], n / end[0] / end[1]};
             Part whole;
@@ -254,7 +244,7 @@ private:
     const Precomputed& precomputed_;
     const Manifest& manifest_;
     const std::function<void(std::uint32_t, const Mesh&)>& visit_;
-    std::array<std::uint32_t, 3> counts_;
+    BlockGrid grid_;
     std::optional<SharedLevels> shared_;
     std::unique_ptr<StoredParts> made_ = std::make_unique<StoredParts>();
 };

@@ -6,7 +6,9 @@
 
 #include "blocks/precomputed/precomputed.h"
 #include "mesh/region_colours.h"
+#include "regionmesh/census.h"
 #include "regionmesh/error.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 namespace {
@@ -15,12 +17,6 @@ namespace fs = std::filesystem;
 
 /// Regions that a state selects: each is one request and more.
 constexpr std::size_t kMostSelected = 100;
-
-std::vector<Label> dense_labels(const std::vector<InputLabel>& inputs, LabelTable& labels) {
-    std::vector<Label> dense;
-    for (const InputLabel label : inputs) dense.push_back(labels.dense(label));
-    return dense;
-}
 
 /// Those with the most faces, in the order of their labels.
 std::vector<Label> largest_regions(const WrittenRegions& regions) {
@@ -49,9 +45,7 @@ std::string Precomputed::id(Label label) const {
 }
 
 void Precomputed::write(const fs::path& name, std::string_view content) const {
-    OutputFile file(output / name, options.output);
-    file.write(content);
-    file.commit();
+    write_text(output / name, content, options.output);
 }
 
 void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions) {
@@ -97,7 +91,7 @@ void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& re
 std::uint64_t write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& options) {
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
-    std::vector<Label> background = dense_labels(manifest.background, labels);
+    std::vector<Label> background = dense_background(manifest.background, labels);
     const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options};
     for (Label label = 0; label < manifest.label_count; ++label)
         if (precomputed.is_region(label)) precomputed.id(label);  // refuses before the work

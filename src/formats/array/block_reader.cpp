@@ -13,24 +13,11 @@ namespace {
 constexpr std::uint64_t kFewBytes = std::uint64_t{1} << 20;      // smaller blocks get more sections
 constexpr std::uint64_t kCrossBytes = std::uint64_t{256} << 20;  // most bytes of a block, for sweeps along x and y
 
-class BlockReader final : public NumberedSections {
+class BlockReader final : public CroppedSections {
 public:
     BlockReader(std::unique_ptr<BlockSource> source, VolumeInfo info, const BlockLayout& layout)
-        : NumberedSections(std::move(info)), source_(std::move(source)), layout_(layout) {
-        box_.high = info_.lattice.size;
+        : CroppedSections(std::move(info)), source_(std::move(source)), layout_(layout) {
         plan_blocks();
-    }
-
-    bool crop(const IndexBox& box) override {
-        for (int axis = 0; axis < 3; ++axis) {
-            box_.high[axis] = box_.low[axis] + box.high[axis];
-            box_.low[axis] += box.low[axis];
-        }
-        info_.lattice = cropped(info_.lattice, box);
-        held_ = 0;
-        plan_blocks();
-        rewind();
-        return true;
     }
 
 private:
@@ -40,7 +27,8 @@ private:
                        layout_.format, section);
     }
 
-    void plan_blocks() {
+    void plan_blocks() override {
+        held_ = 0;
         const int swept = info_.sweep.axes[2];
         section_bytes_ = std::uint64_t{section_width()} * section_height() * sample_bytes(layout_.format.type);
         chunk_ = std::clamp<std::uint64_t>(layout_.chunk[swept], 1, box_.high[swept]);
@@ -72,7 +60,6 @@ private:
 
     std::unique_ptr<BlockSource> source_;
     BlockLayout layout_;
-    IndexBox box_;  // of the file
     std::uint64_t section_bytes_ = 0;
     std::uint64_t chunk_ = 1;  // sections that one chunk crosses
     std::uint64_t depth_ = 1;  // most sections of a block

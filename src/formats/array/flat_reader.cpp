@@ -20,28 +20,15 @@ constexpr std::uint64_t kChunkBytes = std::uint64_t{4} << 20;
 constexpr std::uint64_t kFarPitch = std::uint64_t{64} << 10;  // runs with a larger pitch are read one by one
 
 /// A block is some consecutive sections in the file's own order of axes: runs of bytes.
-class FlatReader final : public NumberedSections {
+class FlatReader final : public CroppedSections {
 public:
     FlatReader(InputFile file, VolumeInfo info, const FlatLayout& layout)
-        : NumberedSections(std::move(info)),
+        : CroppedSections(std::move(info)),
           file_(std::move(file)),
           layout_(layout),
           bytes_(sample_bytes(layout.format.type)),
-          file_size_(info_.lattice.size),
-          box_{{0, 0, 0}, file_size_} {
+          file_size_(info_.lattice.size) {
         plan_blocks();
-    }
-
-    bool crop(const IndexBox& box) override {
-        for (int axis = 0; axis < 3; ++axis) {
-            box_.high[axis] = box_.low[axis] + box.high[axis];
-            box_.low[axis] += box.low[axis];
-        }
-        info_.lattice = cropped(info_.lattice, box);
-        block_count_ = 0;
-        plan_blocks();
-        rewind();
-        return true;
     }
 
 private:
@@ -61,7 +48,8 @@ private:
     /// Sections that are swept in the order of the file and not cropped follow each other.
     bool is_straight() const { return info_.sweep.axes[2] == layout_.order[2] && info_.lattice.size == file_size_; }
 
-    void plan_blocks() {
+    void plan_blocks() override {
+        block_count_ = 0;
         const std::uint64_t budget = is_straight() ? kStraightBlockBytes : kBlockBytes;
         const std::uint64_t most = std::min<std::uint64_t>(kBlockSections, section_count());
         block_sections_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(budget / section_bytes(), 1, most));
@@ -142,7 +130,6 @@ private:
     FlatLayout layout_;
     std::uint64_t bytes_;  // of a sample
     std::array<std::uint32_t, 3> file_size_;
-    IndexBox box_;  // of the file
     std::uint32_t block_sections_ = 1;
     std::vector<std::byte> block_;
     std::uint32_t block_first_ = 0;

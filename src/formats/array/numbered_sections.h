@@ -35,4 +35,28 @@ private:
     std::uint32_t next_ = 0;
 };
 
+/// The part that readers share which reach any box of the file in blocks of sections.
+class CroppedSections : public NumberedSections {
+public:
+    bool crop(const IndexBox& box) final {
+        for (int axis = 0; axis < 3; ++axis) {
+            box_.high[axis] = box_.low[axis] + box.high[axis];
+            box_.low[axis] += box.low[axis];
+        }
+        info_.lattice = cropped(info_.lattice, box);
+        plan_blocks();
+        rewind();
+        return true;
+    }
+
+protected:
+    explicit CroppedSections(VolumeInfo info) : NumberedSections(std::move(info)), box_{{}, info_.lattice.size} {}
+
+    IndexBox box_;  // of the file
+
+private:
+    /// Forgets the block that is held, and plans those of the box: sets info_.held_bytes.
+    virtual void plan_blocks() = 0;
+};
+
 }  // namespace regionmesh::formats

@@ -181,7 +181,7 @@ std::string check_json(const CheckReport& report, const LabelTable& labels, cons
     return text_of(json);
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text, const OutputOptions& options) {
+void write_text(const std::filesystem::path& path, std::string_view text, const OutputOptions& options) {
     OutputFile file(path, options);
     file.write(text);
     file.commit();
