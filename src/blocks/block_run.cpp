@@ -260,31 +260,29 @@ Piece BlockRun::reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk
 }
 
 /// A block out of the pieces of the pass before, simplified to `goal` faces, or else to the shares of theirs.
-Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const CommonThreshold& common,
-                       std::optional<std::uint64_t> goal) {
+Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>& before,
+                       const std::vector<double>& shares, std::optional<std::uint64_t> goal) {
     const BlockGrid blocks = grid(header.pass);
     BlockGatherer gatherer(blocks, header.block);
     for (std::uint32_t n = 0; n < before.size(); ++n)
         if (before[n].faces > 0 && gatherer.needs(before[n].box))
-            gatherer.add(read_piece(path_of(manifest_.pieces[n].pass, n)), common.shares[n]);
+            gatherer.add(read_piece(path_of(manifest_.pieces[n].pass, n)), shares[n]);
     BlockChunk block{
         .cells = blocks.cells(header.block), .lattice = volume_->shape.lattice, .sweep = manifest_.sweep, .chunk = {}};
     gatherer.take(block);
     if (!goal) goal = static_cast<std::uint64_t>(std::llround(gatherer.goal()));
     PieceHeader own = header;
-    BlockSimplifyOptions simplify = simplify_options();
-    simplify.first_threshold = common.threshold;
-    own.is_at_limit = simplify_to(block, *goal, simplify);
+    own.is_at_limit = simplify_to(block, *goal, simplify_options());
     return piece_of(block, blocks, own);
 }
 
 void BlockRun::seam_pass() {
     const std::vector<PieceHeader> before = headers();
     const BlockGrid blocks = grid(1);
-    CommonThreshold common{.threshold = kFirstThreshold, .shares = std::vector<double>(before.size(), 0.0)};
+    std::vector<double> shares(before.size());
     // Each block may end below its goal by a face or two.
     if (has_target())
-        common = common_threshold(before,
+        shares = shares_at_target(before,
                                   std::min(static_cast<double>(target()) + 2.0 * blocks.count(), double(face_count())));
     // Blocks with many faces round them first: they take longest, and ranks then end at about the same time.
     std::vector<std::uint64_t> faces(blocks.count());
@@ -296,7 +294,7 @@ void BlockRun::seam_pass() {
     std::vector<std::uint32_t> all(blocks.count());
     std::iota(all.begin(), all.end(), 0);
     std::ranges::stable_sort(all, [&](std::uint32_t a, std::uint32_t b) { return faces[a] > faces[b]; });
-    run_pass(1, "seams", all, [&](const PieceHeader& header) { return remade(header, before, common, {}); });
+    run_pass(1, "seams", all, [&](const PieceHeader& header) { return remade(header, before, shares, {}); });
 }
 
 /// Takes the last faces above the target out of some blocks, with their rims as they are.
@@ -314,7 +312,7 @@ void BlockRun::trim_passes() {
         for (std::uint32_t block = 0; block < goals.size(); ++block)
             if (goals[block] < faces[block]) changing.push_back(block);
         if (changing.empty()) return;
-        const CommonThreshold unused{.threshold = kFirstThreshold, .shares = std::vector<double>(before.size())};
+        const std::vector<double> unused(before.size());
         run_pass(pass, "trim", changing,
                  [&](const PieceHeader& header) { return remade(header, before, unused, goals[header.block]); });
     }

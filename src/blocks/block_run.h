@@ -53,7 +53,7 @@ private:
     BlockSimplifyOptions simplify_options() const;
     std::vector<PieceHeader> headers() const;
     std::filesystem::path path_of(std::uint32_t pass, std::uint32_t block) const;
-    Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const CommonThreshold& common,
+    Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const std::vector<double>& shares,
                  std::optional<std::uint64_t> goal);
     void remove_parts();
 

@@ -37,7 +37,7 @@ double faces_at(std::span<const PieceHeader> pieces, double log_threshold) {
 
 }  // namespace
 
-CommonThreshold common_threshold(std::span<const PieceHeader> pieces, double target) {
+std::vector<double> shares_at_target(std::span<const PieceHeader> pieces, double target) {
     constexpr int kHalvings = 60;
     double low = std::log(trial_threshold(-kMostThresholdTrials)),
            high = std::log(trial_threshold(2 * kMostThresholdTrials));
@@ -47,9 +47,9 @@ CommonThreshold common_threshold(std::span<const PieceHeader> pieces, double tar
     }
     const double all = faces_at(pieces, high);
     const double scale = all > 0 ? target / all : 1;
-    CommonThreshold common{.threshold = std::exp(high), .shares = {}};
-    for (const PieceHeader& piece : pieces) common.shares.push_back(std::min(share_at(piece, high) * scale, 1.0));
-    return common;
+    std::vector<double> shares;
+    for (const PieceHeader& piece : pieces) shares.push_back(std::min(share_at(piece, high) * scale, 1.0));
+    return shares;
 }
 
 std::vector<std::uint64_t> trimmed(std::span<const std::uint64_t> faces, const std::vector<bool>& is_at_limit,

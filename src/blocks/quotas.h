@@ -9,14 +9,9 @@
 
 namespace regionmesh {
 
-/// What blocks keep at one threshold.
-struct CommonThreshold {
-    double threshold;            // in units of scale^4
-    std::vector<double> shares;  // of its faces, by block
-};
-
-/// The threshold at which all blocks together keep about `target` faces, by the sum of the histograms in the headers.
-CommonThreshold common_threshold(std::span<const PieceHeader> pieces, double target);
+/// The shares of their faces that blocks keep at the threshold at which all together keep about `target` faces, by the
+/// sum of the histograms in the headers.
+std::vector<double> shares_at_target(std::span<const PieceHeader> pieces, double target);
 
 /// Faces to which some blocks go down when all have `faces` and more than `target`, by block: the excess comes out of
 /// the largest blocks, a hundredth of their faces each. Blocks at their limit give none. Collapses remove two faces at

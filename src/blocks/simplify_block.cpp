@@ -102,9 +102,7 @@ std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block,
 bool simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options) {
     const std::uint64_t goal = target + block.other_faces;
     if (block.chunk.faces.size() <= goal) return false;
-    const PassOptions passes{.target_faces = target == 0 ? 0 : goal,
-                             .tiles = tile_options(options),
-                             .first_threshold = options.first_threshold};
+    const PassOptions passes{.target_faces = target == 0 ? 0 : goal, .tiles = tile_options(options)};
     simplify_in_passes(block.chunk, plan_of(block), passes);
     Mesh mesh = mesh_of(block.chunk);
     block.chunk.clear();

@@ -27,7 +27,6 @@ struct BlockSimplifyOptions {
     SimplifyOptions simplify;  // without a target
     std::uint32_t threads = 0;
     std::uint32_t in_flight = 16;
-    double first_threshold = kFirstThreshold;  // where the search for that of a target begins
 };
 
 /// The first stage: tiles, up to the threshold of the first stage of a run without blocks, and never below the share

@@ -52,6 +52,7 @@ public:
         : mesh_(mesh),
           options_(options),
           is_refreshing_(bounds.refresh),
+          histogram_(bounds.histogram),
           tree_(mesh),
           outside_(mesh, bounds.limits),
           placement_((count_labels(mesh), make_placement(mesh, options))),
@@ -66,7 +67,12 @@ public:
                     .max_error = options.max_error} {}
 
     CollapseResult run() {
+        const std::uint32_t faces = mesh_.face_count(), vertices = mesh_.vertex_count();
         sweep();
+        if (histogram_) {
+            histogram_->removed.assign(histogram_->costs.size() + 1, {});
+            histogram_->removed.front() = {faces - mesh_.face_count(), vertices - mesh_.vertex_count()};
+        }
         for (;;) {
             if (is_at_target()) break;
             result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
@@ -97,8 +103,9 @@ private:
     /// The prepass, as long as a whole sweep stays above the target.
     void sweep() {
         const double scale2 = options_.scale * options_.scale;
-        Prepass prepass(mesh_, tree_, *placement_, collapse_, options_,
-                        std::min(options_.max_cost, placement_->prepass_cost() * scale2 * scale2));
+        double most = std::min(options_.max_cost, placement_->prepass_cost() * scale2 * scale2);
+        if (histogram_) most = std::min(most, histogram_->costs.front());
+        Prepass prepass(mesh_, tree_, *placement_, collapse_, options_, most);
         for (int n = 0; n < kMostSweeps && mesh_.face_count() * kLeastSweepLeft > options_.target_faces; ++n) {
             const std::uint32_t before = mesh_.face_count();
             if (2 * prepass.sweep(result_.verdicts) < kLeastSweepGain * before) break;
@@ -129,7 +136,10 @@ private:
         const Verdict verdict = examine(collapse_, [&] { return placement_->place(mesh_, star); });
         ++result_.verdicts[static_cast<int>(verdict)];
         if (verdict == Verdict::kAccepted) {
-            apply();
+            apply([&] {
+                placement_->rank(mesh_, star.goes, {&star.stays, 1}, edge_costs_);
+                return double{edge_costs_.front().cost};
+            });
         } else {
             if (depends_on_place(verdict)) add_half(star.goes, star.stays);
             candidates_.refuse();
@@ -165,26 +175,38 @@ private:
         gather_half(mesh_, goes, stays, collapse_.star);
         const Verdict verdict = examine(collapse_, [&] { return Places{collapse_.star.at_stays}; });
         ++result_.verdicts[static_cast<int>(verdict)];
-        if (verdict == Verdict::kAccepted) apply();
+        if (verdict == Verdict::kAccepted) {
+            apply([&] {
+                placement_->rank_halves(mesh_, goes, {&stays, 1}, half_costs_);
+                return half_costs_.front().cost;
+            });
+        }
     }
 
-    void apply() {
+    /// `cost()` is asked for only where it is noted.
+    template <class Cost>
+    void apply(Cost&& cost) {
         const EdgeStar& star = collapse_.star;
+        const double noted = histogram_ ? cost() : 0;
+        const std::uint32_t before = mesh_.face_count();
         placement_->collapse(mesh_, star, collapse_.position);
         collapse_edge(mesh_, tree_, collapse_);
         candidates_.update(star.goes, star.stays);
+        if (histogram_) histogram_->add(noted, before - mesh_.face_count());
     }
 
     Mesh& mesh_;
     const SimplifyOptions& options_;
     bool is_refreshing_;
+    CostHistogram* histogram_;
     FaceTree tree_;
     FixedOutside outside_;
     std::unique_ptr<Placement> placement_;
     Candidates candidates_;
     HalfCandidates halves_;
     Collapse collapse_;
-    std::vector<HalfCost> half_costs_;  // of one edge
+    std::vector<EdgeCost> edge_costs_;  // of one edge
+    std::vector<HalfCost> half_costs_;
     CollapseResult result_;
     std::uint64_t steps_ = 0;
 };

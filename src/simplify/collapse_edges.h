@@ -1,6 +1,10 @@
 // One mesh simplified by one heap on one thread: prepass, then ranked collapses (P 3.5-3.7).
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include "mesh/safe_interval.h"
 #include "regionmesh/simplify.h"
 #include "simplify/collapse.h"
@@ -15,10 +19,26 @@ inline Box box_of(SafeInterval safe, int axis) {
     return box;
 }
 
+/// What collapses removed, by their cost: those of the prepass with the first one.
+struct CostHistogram {
+    struct Removed {
+        std::uint32_t faces = 0, vertices = 0;
+    };
+    std::vector<double> costs;          // upper bounds, which rise
+    std::vector<Removed> removed = {};  // one more than costs, for what is dearer
+
+    void add(double cost, std::uint32_t faces) {
+        Removed& bin = removed[std::ranges::lower_bound(costs, cost) - costs.begin()];
+        bin.faces += faces;
+        ++bin.vertices;
+    }
+};
+
 struct CollapseBounds {
     Box limits = kUnbounded;  // faces that reach out of it stay as they are; merged vertices stay strictly inside,
                               // unless on a side of the sampled box
     bool refresh = true;      // begin again when candidates run out (P 3.7)
+    CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
 };
 
 struct CollapseResult {

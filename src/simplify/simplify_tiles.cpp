@@ -12,45 +12,48 @@ namespace regionmesh {
 namespace {
 
 /// Collapses the edges of a tile that is taken out, up to a threshold.
-VerdictCounts collapse_up_to(double threshold, Mesh& mesh, std::uint32_t target_faces, const Box& limits,
+VerdictCounts collapse_up_to(double threshold, Mesh& mesh, const CollapseBounds& bounds, std::uint32_t target_faces,
                              const TileOptions& options) {
     SimplifyOptions own = options.simplify;
     own.on_progress = {};
     own.target_faces = target_faces;
     own.max_cost = std::min(options.simplify.max_cost, threshold * std::pow(own.scale, 4));
-    return collapse_edges(mesh, own, {.limits = limits, .refresh = false}).verdicts;
+    return collapse_edges(mesh, own, bounds).verdicts;
 }
 
 /// First what is free, where that may go further than the rest.
 VerdictCounts simplify_tile(Tile& tile, TiledFaces& faces, std::uint32_t number, const TileOptions& options) {
     tile.take_out(faces, number);
-    const Box limits = faces.grid().limits(number);
+    const CollapseBounds bounds{.limits = faces.grid().limits(number), .refresh = false};
     const std::uint32_t face_count = tile.mesh().face_count();
     const auto faces_at = [&](double share) { return static_cast<std::uint32_t>(std::ceil(share * face_count)); };
     VerdictCounts verdicts{};
     if (options.free_share < options.keep_share)
-        verdicts = collapse_up_to(kFreeCost, tile.mesh(), faces_at(options.free_share), limits, options);
-    add(verdicts, collapse_up_to(options.threshold, tile.mesh(), faces_at(options.keep_share), limits, options));
+        verdicts = collapse_up_to(kFreeCost, tile.mesh(), bounds, faces_at(options.free_share), options);
+    add(verdicts, collapse_up_to(options.threshold, tile.mesh(), bounds, faces_at(options.keep_share), options));
     tile.note_left(faces, number);
     return verdicts;
 }
 
-/// What a tile has left after each of the thresholds.
+/// What a tile has left at each of the thresholds.
 std::vector<TileCounts> counts_at(std::span<const double> thresholds, Tile& tile, TiledFaces& faces,
                                   std::uint32_t number, const TileOptions& options) {
     tile.take_out(faces, number);
     const Mesh& mesh = tile.mesh();
-    const std::uint32_t mesh_faces = mesh.face_count(), mesh_vertices = mesh.vertex_count();
     const std::uint64_t own_faces = faces.faces_of(number).size(), inside = tile.inside_count();
-    const auto target = static_cast<std::uint32_t>(std::ceil(options.keep_share * mesh_faces));
+    CostHistogram histogram;
+    for (const double threshold : thresholds)
+        histogram.costs.push_back(threshold * std::pow(options.simplify.scale, 4));
+    collapse_up_to(thresholds.back(), tile.mesh(),
+                   {.limits = faces.grid().limits(number), .refresh = false, .histogram = &histogram},
+                   static_cast<std::uint32_t>(std::ceil(options.keep_share * mesh.face_count())), options);
+    histogram.removed.resize(thresholds.size());
+    TileCounts left{own_faces, own_faces, inside, inside};
     std::vector<TileCounts> counts;
-    for (const double threshold : thresholds) {
-        if (mesh.face_count() > target)
-            collapse_up_to(threshold, tile.mesh(), target, faces.grid().limits(number), options);
-        counts.push_back({.faces = own_faces,
-                          .left_faces = own_faces - (mesh_faces - mesh.face_count()),
-                          .inside = inside,
-                          .left_inside = inside - (mesh_vertices - mesh.vertex_count())});
+    for (const auto& [removed_faces, removed_vertices] : histogram.removed) {
+        left.left_faces -= removed_faces;
+        left.left_inside -= removed_vertices;
+        counts.push_back(left);
     }
     tile.note_left(faces, number);
     return counts;

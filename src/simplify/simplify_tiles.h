@@ -44,8 +44,8 @@ struct TileCounts {
     std::uint64_t faces = 0, left_faces = 0;    // their own
     std::uint64_t inside = 0, left_inside = 0;  // vertices that are not locked
 };
-/// Simplifies some tiles at several thresholds, which rise, each going on from the one before, and leaves them as they
-/// were. A tile ends at `keep_share`.
+/// Simplifies some tiles up to the last of some thresholds, which rise; returns what was left at each, and leaves the
+/// tiles as they were. A tile ends at `keep_share`.
 std::vector<TileCounts> try_thresholds(TiledFaces& faces, std::span<const std::uint32_t> tiles,
                                        const TileOptions& options, std::span<const double> thresholds);
 

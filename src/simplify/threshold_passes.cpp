@@ -64,72 +64,66 @@ std::vector<std::uint32_t> sample(const TiledFaces& faces) {
     return chosen;
 }
 
-/// Searches for the threshold at which a sample keeps a share of its faces, and not much less of the vertices that are
+/// The thresholds at which a sample of the tiles keeps a share of its faces, and not much less of the vertices that are
 /// not locked.
 class ThresholdSearch {
 public:
-    ThresholdSearch(TiledFaces& faces, const TileOptions& options)
-        : faces_(faces), tiles_(sample(faces)), options_(options) {}
-
-    double find(double share, double threshold) {
-        for (int n = 0; n < kMostThresholds; ++n) {
-            const double left = left_at(threshold);
-            is_free_ = n > 0 && left < share && threshold * kMuchLower < last_threshold_ &&
-                       left < last_left_ * (1 + kNearEnough);
-            threshold = next(threshold, left, share);
-            if (is_free_ || std::abs(left / share - 1) < kNearEnough) break;
-        }
-        return threshold;
+    /// Shares down to `options.keep_share` can be found, those above `most` are of no interest.
+    ThresholdSearch(TiledFaces& faces, const TileOptions& options, double most) {
+        const std::vector<std::uint32_t> tiles = sample(faces);
+        trial(faces, tiles, options, kFirstThreshold);
+        if (left_.front() < most) trial(faces, tiles, options, kFirstThreshold / kThresholdRange);
     }
 
-    /// A much lower threshold left no more, and both left too few: the collapses are free, and no threshold leaves
-    /// enough.
-    bool is_free() const { return is_free_; }
+    /// All thresholds leave less: the collapses are free.
+    bool is_free(double share) const { return left_.front() < share; }
 
-    /// The threshold to try after one that left the share `left`.
-    double next(double threshold, double left, double share) {
-        if (last_threshold_ > 0 && last_threshold_ != threshold)
-            power_ = std::clamp(std::log(left / last_left_) / std::log(threshold / last_threshold_),
-                                kMostThresholdPower, kLeastThresholdPower);
-        last_threshold_ = threshold;
-        last_left_ = left;
-        return threshold * std::clamp(std::pow(share / left, 1 / power_), 1 / kMostThresholdStep, kMostThresholdStep);
+    /// Between thresholds that were tried the share left is a power of the threshold.
+    double at(double share) const {
+        if (is_free(share)) return thresholds_.front();
+        const auto after = std::ranges::find_if(left_, [&](double left) { return left < share; });
+        if (after == left_.end()) return HUGE_VAL;
+        const auto n = after - left_.begin();
+        const double part = std::log(share / left_[n - 1]) / std::log(left_[n] / left_[n - 1]);
+        return thresholds_[n - 1] * std::pow(kThresholdStep, part);
     }
 
 private:
-    double left_at(double threshold) {
-        const TileCounts counts = try_thresholds(faces_, tiles_, options_, {{threshold}}).front();
+    void trial(TiledFaces& faces, std::span<const std::uint32_t> tiles, const TileOptions& options, double first) {
+        thresholds_.clear();
+        left_.clear();
+        for (double threshold = first; threshold <= first * kThresholdRange; threshold *= kThresholdStep)
+            thresholds_.push_back(threshold);
         const auto share = [](std::uint64_t left, std::uint64_t of) {
             return (static_cast<double>(left) + 1) / (static_cast<double>(of) + 1);
         };
-        return std::min(share(counts.left_faces, counts.faces),
-                        share(counts.left_inside, counts.inside) / kLeastInside);
+        for (const TileCounts& counts : try_thresholds(faces, tiles, options, thresholds_))
+            left_.push_back(std::min(share(counts.left_faces, counts.faces),
+                                     share(counts.left_inside, counts.inside) / kLeastInside));
     }
 
-    TiledFaces& faces_;
-    std::vector<std::uint32_t> tiles_;
-    TileOptions options_;
-    double power_ = kThresholdPower, last_threshold_ = 0, last_left_ = 0;
-    bool is_free_ = false;
+    std::vector<double> thresholds_, left_;  // shares left, which fall
 };
 
-/// One pass; nothing where all thresholds tried leave less than the target. Sets the threshold found.
-std::optional<TileResult> pass_over(TiledFaces& faces, TileOptions options, double target, double& threshold) {
+/// One pass; nothing where all thresholds leave less than the target.
+std::optional<TileResult> pass_over(TiledFaces& faces, TileOptions options, double target) {
     const auto held = static_cast<double>(faces.chunk().faces.size());
     options.keep_share = target / held * kLeastShare;
-    ThresholdSearch search(faces, options);
+    options.threshold = HUGE_VAL;
     double share = target * kPassMargin / held;
-    if (target > 0) threshold = search.find(share, threshold);
-    if (search.is_free()) options.keep_share = share;  // every tile gives the same share
+    std::optional<ThresholdSearch> search;
+    if (target > 0) search.emplace(faces, options, share);
+    if (search && search->is_free(share)) options.keep_share = share;  // every tile gives the same share
+    double of_sample = share;
     for (int n = 0; n < kMostAttempts; ++n) {
-        options.threshold = threshold;
+        if (search) options.threshold = search->at(of_sample);
         TileResult done = simplify_tiles(faces, options);
         const auto left = static_cast<double>(done.left.faces.size());
         if (left >= target) return done;
         share *= kPassMargin;
+        of_sample *= share * held / left;
         // A larger least share, too: where collapses are free, no threshold leaves more.
         options.keep_share += target / held * (1 + kMostAbove - kLeastShare) / (kMostAttempts - 1);
-        threshold = search.next(threshold, left / held, share);
     }
     return {};
 }
@@ -137,7 +131,7 @@ std::optional<TileResult> pass_over(TiledFaces& faces, TileOptions options, doub
 }  // namespace
 
 PassResult simplify_below(Chunk& chunk, const TilePlan& plan, const PassOptions& options) {
-    PassResult result{.threshold = options.tiles.threshold};
+    PassResult result;
     TileOptions tiles = options.tiles;
     const auto total = static_cast<double>(chunk.faces.size());
     for (int pass = 0; pass < kLowPasses; ++pass) {
@@ -166,18 +160,12 @@ PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOpti
         const TileGrid grid = grid_of(plan, options, held, pass);
         TiledFaces faces(chunk, {}, grid, options.tiles.threads);
         TileOptions tiles = options.tiles;
-        tiles.in_flight = std::clamp(static_cast<std::uint32_t>(held / options.tile_faces / kPartsInFlight), 1u,
-                                     std::max(tiles.in_flight, 1u));
-        tiles.faces_in_flight = held / kPartsInFlight;
-        double threshold = target == 0 ? HUGE_VAL
-                           : pass == 0 ? options.first_threshold
-                                       : result.threshold * kNextThreshold;
-        std::optional<TileResult> done = pass_over(faces, tiles, target, threshold);
+        tiles.faces_in_flight = std::max<std::uint64_t>(held / kPartsInFlight, kFacesInFlight);
+        std::optional<TileResult> done = pass_over(faces, tiles, target);
         if (!done) break;
         chunk = std::move(done->left);
         add(result.verdicts, done->verdicts);
         ++result.passes;
-        result.threshold = threshold;
         if (static_cast<double>(chunk.faces.size()) > static_cast<double>(held) * (1 - kLeastPassGain)) break;
     }
     return result;

@@ -9,17 +9,15 @@
 namespace regionmesh {
 
 struct PassOptions {
-    std::uint64_t target_faces;                // of the chunk, about; 0: as far as the largest cost and error allow
-    SafeInterval safe = {};                    // along the sweep: faces outside it stay as they are
-    std::uint32_t tile_faces = kTileFaces;     // about this number in a tile
-    TileOptions tiles;                         // threshold and share are searched for
-    double first_threshold = kFirstThreshold;  // where the search begins
+    std::uint64_t target_faces;             // of the chunk, about; 0: as far as the largest cost and error allow
+    SafeInterval safe = {};                 // along the sweep: faces outside it stay as they are
+    std::uint32_t tile_faces = kTileFaces;  // about this number in a tile
+    TileOptions tiles;                      // threshold and share are searched for
 };
 
 struct PassResult {
     VerdictCounts verdicts{};
     std::uint32_t passes = 0;
-    double threshold = 0;  // of the last pass, in units of scale^4
 };
 
 /// The first stage of a mesh that did not come in runs of strips: kLowPasses passes up to the threshold of

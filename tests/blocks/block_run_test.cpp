@@ -3,12 +3,13 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <barrier>
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <thread>
 
 #include "regionmesh/blocks.h"
@@ -233,7 +234,7 @@ TEST(BlockRun, damaged_folders_are_refused) {
 /// Threads that stand for processes: one list of tasks.
 class SharedTasks {
 public:
-    explicit SharedTasks(std::uint32_t processes) : processes_(processes), barrier_(processes) {}
+    explicit SharedTasks(std::uint32_t processes) : processes_(processes) {}
 
     class Process final : public BlockTasks {
     public:
@@ -244,11 +245,7 @@ public:
             const std::uint32_t task = shared_.next_++;
             return task < count ? std::optional(task) : std::nullopt;
         }
-        void end_phase() override {
-            shared_.barrier_.arrive_and_wait();
-            shared_.next_ = 0;
-            shared_.barrier_.arrive_and_wait();
-        }
+        void end_phase() override { shared_.meet(); }
 
     private:
         SharedTasks& shared_;
@@ -256,8 +253,25 @@ public:
     };
 
 private:
+    /// Waits for all processes; the last one to come begins the list anew. std::barrier of libstdc++ 12 can miss that
+    /// it is woken.
+    void meet() {
+        std::unique_lock lock(mutex_);
+        const std::uint32_t phase = phase_;
+        if (++waiting_ == processes_) {
+            waiting_ = 0;
+            next_ = 0;
+            ++phase_;
+            all_are_here_.notify_all();
+        } else {
+            all_are_here_.wait(lock, [&] { return phase_ != phase; });
+        }
+    }
+
     std::uint32_t processes_;
-    std::barrier<> barrier_;
+    std::mutex mutex_;
+    std::condition_variable all_are_here_;
+    std::uint32_t waiting_ = 0, phase_ = 0;
     std::atomic<std::uint32_t> next_ = 0;
 };
 

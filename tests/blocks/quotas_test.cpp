@@ -27,18 +27,18 @@ double kept(const std::vector<PieceHeader>& blocks, const std::vector<double>& s
 TEST(Quotas, take_more_from_blocks_whose_collapses_cost_less) {
     const std::vector<PieceHeader> blocks{block(1000, 0.9, -0.1), block(1000, 0.3, -0.1), block(0, 1, 0)};
     for (const double target : {1900.0, 1100.0, 700.0, 300.0}) {
-        const std::vector<double> shares = common_threshold(blocks, target).shares;
+        const std::vector<double> shares = shares_at_target(blocks, target);
         EXPECT_NEAR(kept(blocks, shares), target, 1) << target;
         EXPECT_GT(shares[0], shares[1]);
     }
     // At one threshold the first keeps three times as much as the second, beyond the first trial.
-    const std::vector<double> shares = common_threshold(blocks, 600).shares;
+    const std::vector<double> shares = shares_at_target(blocks, 600);
     EXPECT_NEAR(shares[0] / shares[1], 3, 1e-6);
 }
 
 TEST(Quotas, keep_all_where_the_target_is_all) {
     const std::vector<PieceHeader> blocks{block(1000, 0.9, -0.1), block(500, 0.2, -0.3)};
-    EXPECT_NEAR(kept(blocks, common_threshold(blocks, 1500).shares), 1500, 1);
+    EXPECT_NEAR(kept(blocks, shares_at_target(blocks, 1500)), 1500, 1);
 }
 
 std::uint64_t sum(const std::vector<std::uint64_t>& faces) {
