@@ -23,7 +23,6 @@ TEST_F(CliDicom, an_oblique_segmentation_and_the_same_labels_in_nrrd_are_the_sam
     for (const char* name : {"explicit.dcm", "map_16_rle.dcm"}) {
         make(file(name), "dicom.vtp");
         EXPECT_EQ(text_of(out("dicom.vtp")), text_of(out("nrrd.vtp"))) << name << ": faces, names, colours and space";
-        EXPECT_THAT(text_of(out("dicom.vtp")), HasSubstr("left kidney"));
         std::filesystem::remove(out("dicom.vtp"));
     }
 }
@@ -36,7 +35,7 @@ TEST_F(CliDicom, check_finds_every_sample_in_its_region) {
 }
 
 TEST_F(CliDicom, an_overlap_is_one_warning) {
-    for (const std::string command : {"info ", "reconstruct -o " + out("m.vtp") + " "}) {
+    for (const std::string& command : {std::string("info "), "reconstruct -o " + out("m.vtp") + " "}) {
         const Ran ran = run(command + file("other/overlap.dcm"));
         EXPECT_EQ(ran.code, 0) << ran.error;
         EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
