@@ -161,6 +161,9 @@ DcmPixelData* SegmentationFile::Parts::pixels() {
 /// Why samples cannot be read; empty where they can.
 std::string SegmentationFile::Parts::obstacle() {
     if (pixels() == nullptr) return "holds no samples (Pixel Data); fetch it again";
+    Uint16 channels = 1;
+    dataset().findAndGetUint16(DCM_SamplesPerPixel, channels);
+    if (channels != 1) return "has " + std::to_string(channels) + " numbers at each sample; export it with labels";
     if (is_native()) {
         const std::uint64_t stored = pixels()->getLength(dataset().getOriginalXfer());
         const std::uint64_t needed = (frames * frame_bits() + 7) / 8;

@@ -46,7 +46,7 @@ def write_png(path, section):
 def test_every_example_is_tested_and_listed():
     page = (FOLDER / "README.md").read_text()
     names = {path.name for path in FOLDER.glob("*.py")}
-    assert len(names) == 11
+    assert len(names) == 10
     for name in names:
         assert f"`{name}`" in page
         assert f'run("{name}"' in Path(__file__).read_text()

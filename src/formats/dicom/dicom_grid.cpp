@@ -15,7 +15,7 @@ namespace {
 constexpr double kMostOff = 0.05;  // of a spacing: a frame off the grid
 constexpr double kMostDifference =
     1e-4;                              // between numbers of frames that mean the same: less than kMostOff at sample 500
-constexpr double kSameSection = 0.01;  // of the expected distance: frames of one section
+constexpr double kSameSection = 0.01;  // of the smallest distance that the file says: frames of one section
 constexpr double kMostDrift = 1e-3;    // of the distance, over all sections, by which a rounded number may differ
 constexpr double kRounding = 1e-12;
 constexpr const char* kResample = "; resample the segmentation to one regular grid, in 3D Slicer for example";
@@ -25,10 +25,13 @@ constexpr const char* kResample = "; resample the segmentation to one regular gr
     fail(source, fmt::format("frame {}: {}", frame + 1, text));
 }
 
+/// Numbers that are there, and whose differences and products are finite.
 template <std::size_t kCount>
-bool are_finite(const std::array<double, kCount>& numbers) {
-    return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
+bool are_usable(const std::array<double, kCount>& numbers) {
+    return std::ranges::all_of(numbers, [](double number) { return std::abs(number) < 1e30; });
 }
+
+Vec3 position_of(const DicomFrame& frame) { return {frame.position[0], frame.position[1], frame.position[2]}; }
 
 template <std::size_t kCount>
 bool differ(const std::array<double, kCount>& a, const std::array<double, kCount>& b) {
@@ -45,9 +48,9 @@ void require_frame(const std::string& source, std::span<const DicomFrame> frames
             fail_frame(source, number,
                        fmt::format("has no {}; export the segmentation with its place in the patient", what));
     };
-    require(are_finite(frame.position), "position (ImagePositionPatient)");
-    require(are_finite(frame.orientation), "orientation (ImageOrientationPatient)");
-    require(are_finite(frame.pixel_spacing), "distance of samples (PixelSpacing)");
+    require(are_usable(frame.position), "position (ImagePositionPatient)");
+    require(are_usable(frame.orientation), "orientation (ImageOrientationPatient)");
+    require(are_usable(frame.pixel_spacing), "distance of samples (PixelSpacing)");
     if (differ(first.orientation, frame.orientation))
         fail_frame(source, number,
                    fmt::format("its orientation ({}) is not that of frame 1 ({}){}", fmt::join(frame.orientation, ", "),
@@ -81,11 +84,11 @@ Columns directions(const std::string& source, const DicomFrame& frame) {
 bool is_distance(double number) { return std::isfinite(number) && number > 0; }
 
 /// Heights along the normal at which frames lie, lowest first, each once.
-std::vector<double> distinct_heights(std::vector<double> heights, double expected) {
+std::vector<double> distinct_heights(std::vector<double> heights, double finest) {
     std::ranges::sort(heights);
     std::vector<double> distinct{heights.front()};
     for (const double height : heights)
-        if (height - distinct.back() > kSameSection * expected) distinct.push_back(height);
+        if (height - distinct.back() > kSameSection * finest) distinct.push_back(height);
     return distinct;
 }
 
@@ -114,13 +117,34 @@ double distance_of_sections(const DicomFrame& frame, const std::vector<double>& 
     for (const double expected : {frame.between_slices, smallest}) {
         if (!is_distance(expected)) continue;
         const double count = count_distances(heights, expected), mean = range / count;
+        if (count > double{kMaxAxisSamples}) continue;
         if (first == 0) first = expected;
         if (std::abs(mean - expected) > kMostOff * expected || !are_multiples(heights, mean)) continue;
         for (const double said : {frame.between_slices, frame.thickness})
             if (is_distance(said) && std::abs(range - count * said) <= kMostDrift * said) return said;
         return mean;
     }
-    return first;
+    return first > 0 ? first : smallest;
+}
+
+/// By frame; `columns` are perpendicular. Refuses a frame that is off the grid.
+std::vector<std::uint32_t> sections_of(const std::string& source, std::span<const DicomFrame> frames,
+                                       const Columns& columns, Vec3 origin) {
+    std::vector<std::uint32_t> sections(frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Vec3 off = position_of(frames[i]) - origin;
+        std::array<double, 3> places;  // in spacings
+        for (int axis = 0; axis < 3; ++axis) places[axis] = dot(off, columns[axis]) / length2(columns[axis]);
+        const double section = std::round(places[2]);
+        const double most = std::max({std::abs(places[0]), std::abs(places[1]), std::abs(places[2] - section)});
+        if (!(most <= kMostOff)) {
+            fail_frame(source, i,
+                       fmt::format("its position ({}) is {:.2f} spacings off the grid of the others{}",
+                                   fmt::join(frames[i].position, ", "), most, kResample));
+        }
+        sections[i] = static_cast<std::uint32_t>(section);
+    }
+    return sections;
 }
 
 }  // namespace
@@ -130,9 +154,6 @@ DicomGrid find_grid(const std::string& source, const DicomObject& object, std::s
     for (std::size_t i = 0; i < frames.size(); ++i) require_frame(source, frames, i);
     const DicomFrame& first = frames.front();
     const Columns along = directions(source, first);
-    const auto position = [&](std::size_t i) {
-        return Vec3{frames[i].position[0], frames[i].position[1], frames[i].position[2]};
-    };
     const auto [between_rows, between_columns] = first.pixel_spacing;
     if (!is_distance(between_rows) || !is_distance(between_columns))
         fail_frame(source, 0,
@@ -140,40 +161,31 @@ DicomGrid find_grid(const std::string& source, const DicomObject& object, std::s
                                between_columns));
 
     std::vector<double> heights(frames.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) heights[i] = dot(position(i) - position(0), along[2]);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        heights[i] = dot(position_of(frames[i]) - position_of(first), along[2]);
     double distance = is_distance(first.between_slices) ? first.between_slices
                       : is_distance(first.thickness)    ? first.thickness
                       : spacing                         ? spacing->z
                                                         : 0;
-    const std::vector<double> distinct =
-        distinct_heights(heights, distance > 0 ? distance : std::min(between_rows, between_columns));
+    double finest = std::min(between_rows, between_columns);
+    for (const double said : {first.between_slices, first.thickness})
+        if (is_distance(said)) finest = std::min(finest, said);
+    const std::vector<double> distinct = distinct_heights(heights, finest);
     if (distinct.size() > 1) distance = distance_of_sections(first, distinct);
     if (!is_distance(distance))
         fail(source, "has one section, and no SpacingBetweenSlices or SliceThickness; give --spacing X,Y,Z");
 
     const auto lowest = static_cast<std::size_t>(std::ranges::min_element(heights) - heights.begin());
-    DicomGrid grid{.lattice = {}, .sections = std::vector<std::uint32_t>(frames.size())};
     const double last = std::round((distinct.back() - distinct.front()) / distance);
     if (!(last < static_cast<double>(kMaxAxisSamples)))
         fail(source, fmt::format("its frames lie {} mm apart, {} sections; check the positions of the frames",
                                  distinct.back() - distinct.front(), last));
+    const Vec3 origin = position_of(frames[lowest]);
+    const Columns columns{along[0] * between_columns, along[1] * between_rows, along[2] * distance};
+    DicomGrid grid;
     grid.lattice.size = checked_size(source, {object.columns, object.rows, static_cast<std::uint64_t>(last) + 1});
-    set_affine(source, "place of its frames", "export the segmentation again",
-               {along[0] * between_columns, along[1] * between_rows, along[2] * distance}, position(lowest),
-               grid.lattice);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        const Vec3 off = position(i) - position(lowest);
-        const Vec3 places{dot(off, along[0]) / between_columns, dot(off, along[1]) / between_rows,
-                          dot(off, along[2]) / distance};
-        const double section = std::round(places.z);
-        const double most = std::max({std::abs(places.x), std::abs(places.y), std::abs(places.z - section)});
-        if (!(most <= kMostOff)) {
-            fail_frame(source, i,
-                       fmt::format("its position ({}) is {:.2f} spacings off the grid of the others{}",
-                                   fmt::join(frames[i].position, ", "), most, kResample));
-        }
-        grid.sections[i] = static_cast<std::uint32_t>(section);
-    }
+    set_affine(source, "place of its frames", "export the segmentation again", columns, origin, grid.lattice);
+    grid.sections = sections_of(source, frames, columns, origin);
     return grid;
 }
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -13,6 +11,7 @@
 #include "formats/array/volume_size.h"
 #include "formats/dicom/dicom_file.h"
 #include "formats/dicom/dicom_grid.h"
+#include "formats/dicom/dicom_samples.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -20,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSegmentation = "1.2.840.10008.5.1.4.1.1.66.4";
+constexpr double kMostSegments = 65535;
 constexpr const char* kLabelMap = "1.2.840.10008.5.1.4.1.1.66.7";
 
 /// Memory that regionmesh-dicom takes for the functional groups of a frame: 100 MB for 50,000 frames of 100 segments.
@@ -61,7 +61,7 @@ std::vector<PlacedFrame> place_frames(const fs::path& path, bool is_binary, std:
     std::vector<PlacedFrame> placed(frames.size());
     for (std::uint32_t i = 0; i < placed.size(); ++i) {
         const double segment = is_binary ? frames[i].segment : 0;
-        if (is_binary && !(segment >= 1))
+        if (is_binary && !(segment >= 1 && segment <= kMostSegments))
             fail(path, fmt::format("frame {}: has no number of a segment (ReferencedSegmentNumber); export the "
                                    "segmentation again",
                                    i + 1));
@@ -121,7 +121,7 @@ private:
             if (bits_ == 1)
                 set_label(stored, frame->label, section);
             else
-                copy_labels(stored, section);
+                copy_labels(stored, bits_, padding_, section);
         }
     }
 
@@ -130,23 +130,6 @@ private:
         if (stored.size() != frame_bytes_)
             fail_section(info_.source, frame.section, "changed while it was read; start again");
         return stored;
-    }
-
-    static void set_label(const Bytes& stored, InputLabel label, std::span<InputLabel> section) {
-        for (std::size_t b = 0; b < stored.size(); ++b)
-            for (unsigned bits = std::to_integer<unsigned>(stored[b]); bits != 0; bits &= bits - 1)
-                section[8 * b + std::countr_zero(bits)] = label;
-    }
-
-    void copy_labels(const Bytes& stored, std::span<InputLabel> section) const {
-        for (std::size_t i = 0; i < section.size(); ++i) {
-            std::uint16_t label = 0;
-            if (bits_ == 8)
-                label = std::to_integer<std::uint8_t>(stored[i]);
-            else
-                std::memcpy(&label, &stored[2 * i], sizeof label);
-            section[i] = label == padding_ ? 0 : label;
-        }
     }
 
     std::unique_ptr<DicomFile> file_;
@@ -176,7 +159,7 @@ std::unique_ptr<SectionReader> open_dicom(const fs::path& path, const ReadOption
     info.space = Space::kLps;
     info.names = object.names;
     info.colours = object.colours;
-    apply_options(info, options, "write it as .seg.nrrd");
+    apply_options(info, options);
     const std::uint64_t samples = std::uint64_t{object.rows} * object.columns;
     info.held_bytes = 3 * (samples * object.bits / 8 + 1)  // here, in the socket and in regionmesh-dicom
                       + frames.size() * (sizeof(PlacedFrame) + kGroupBytes) + object.held_bytes;
