@@ -17,8 +17,10 @@ constexpr helper::Program kProgram{.name = "regionmesh-dicom", .letters = {'D', 
 Json to_json(const Description& said) {
     Json segments = Json::array();
     for (const Segment& segment : said.segments) {
-        segments.push_back(
-            {{"number", segment.number}, {"label", segment.label}, {"recommended_lab", segment.recommended_lab}});
+        segments.push_back({{"number", segment.number},
+                            {"label", segment.label},
+                            {"recommended_lab", segment.recommended_lab},
+                            {"palette", segment.palette}});
     }
     return {{"sop_class", said.sop_class}, {"modality", said.modality},
             {"syntax", said.syntax},       {"kind", said.kind},

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "helper/serve.h"
@@ -52,6 +53,12 @@ auto known_tags() {
                                     {DCM_PhotometricInterpretation, EVR_CS},
                                     {DCM_PlanarConfiguration, EVR_US},
                                     {DCM_PixelPaddingValue, EVR_US},
+                                    {DCM_RedPaletteColorLookupTableDescriptor, EVR_US},
+                                    {DCM_GreenPaletteColorLookupTableDescriptor, EVR_US},
+                                    {DCM_BluePaletteColorLookupTableDescriptor, EVR_US},
+                                    {DCM_RedPaletteColorLookupTableData, EVR_OW},
+                                    {DCM_GreenPaletteColorLookupTableData, EVR_OW},
+                                    {DCM_BluePaletteColorLookupTableData, EVR_OW},
                                     {DCM_PixelData, EVR_PixelData},
                                     {DCM_SegmentSequence, EVR_SQ},
                                     {DCM_SegmentNumber, EVR_US},
@@ -117,6 +124,33 @@ Frame read_frame(DcmItem* item, DcmItem* shared) {
     frame.between_slices = numbers_of<1>(measures, DCM_SpacingBetweenSlices)[0];
     frame.thickness = numbers_of<1>(measures, DCM_SliceThickness)[0];
     return frame;
+}
+
+/// The entry of a value in one of the three tables, as 16 bits; nothing where the file has no such table or entry.
+std::optional<std::uint16_t> palette_entry(DcmItem& dataset, const DcmTagKey& descriptor, const DcmTagKey& table,
+                                           std::uint32_t value) {
+    Uint16 size = 0, first = 0, bits = 0;
+    const Uint16* words = nullptr;
+    unsigned long count = 0;
+    if (dataset.findAndGetUint16(descriptor, size, 0).bad() || dataset.findAndGetUint16(descriptor, first, 1).bad() ||
+        dataset.findAndGetUint16(descriptor, bits, 2).bad() || value < first ||
+        dataset.findAndGetUint16Array(table, words, &count).bad() || words == nullptr) {
+        return {};
+    }
+    const std::uint32_t entry = value - first, entries = size == 0 ? 65536 : size;
+    const bool has_words = bits == 16 || count >= entries;  // else two entries of 8 bits in a word
+    if (entry >= entries || (has_words ? entry : entry / 2) >= count) return {};
+    const std::uint16_t stored = has_words ? words[entry] : words[entry / 2] >> entry % 2 * 8 & 0xFF;
+    return bits == 16 ? stored : static_cast<std::uint16_t>((stored & 0xFF) * 257);
+}
+
+std::vector<std::uint16_t> palette_colour(DcmItem& dataset, std::uint32_t value) {
+    const std::array<std::optional<std::uint16_t>, 3> colour{
+        palette_entry(dataset, DCM_RedPaletteColorLookupTableDescriptor, DCM_RedPaletteColorLookupTableData, value),
+        palette_entry(dataset, DCM_GreenPaletteColorLookupTableDescriptor, DCM_GreenPaletteColorLookupTableData, value),
+        palette_entry(dataset, DCM_BluePaletteColorLookupTableDescriptor, DCM_BluePaletteColorLookupTableData, value)};
+    if (!colour[0] || !colour[1] || !colour[2]) return {};
+    return {*colour[0], *colour[1], *colour[2]};
 }
 
 void require(const OFCondition& condition, const std::string& what) {
@@ -265,6 +299,7 @@ Description SegmentationFile::description() {
             segment.label = stored;
         for (unsigned i = 0; i < 3 && item.findAndGetUint16(DCM_RecommendedDisplayCIELabValue, value, i).good(); ++i)
             segment.recommended_lab.push_back(value);
+        segment.palette = palette_colour(dataset, segment.number);
         said.segments.push_back(segment);
     });
     said.obstacle = parts_->obstacle();

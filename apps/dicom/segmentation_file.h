@@ -14,6 +14,7 @@ struct Segment {
     std::uint32_t number = 0;
     std::string label = {};                           // UTF-8, unless the file breaks its own character set
     std::vector<std::uint16_t> recommended_lab = {};  // CIE L*a*b* for display, three numbers or none
+    std::vector<std::uint16_t> palette = {};          // red, green and blue of a label map's palette, or none
 };
 
 /// What the file says, uninterpreted. Empty or 0 where it says nothing.

@@ -4,6 +4,7 @@
 Debian: python3-numpy python3-pydicom. Sample (x, y, z) of the 5 x 3 x 6 volumes has label (x + 2 y + 3 z) mod 4, but 0 in
 section 2, which has no frame; the tests know the same rule. Frames of 15 bits begin within a byte.
 """
+import functools
 import os
 import random
 import shutil
@@ -141,6 +142,21 @@ def latin(data):
     data.SegmentSequence[0].SegmentLabel = "Nebenhöhle"
 
 
+def segment_zero(data):
+    data.SegmentSequence[0].SegmentNumber, data.SegmentSequence[0].SegmentLabel = 0, "fluid"
+    data.PixelPaddingValue = 255
+
+
+def palette(bits, data):
+    """Entries from 1 to 3: dark red, green, blue."""
+    data.PhotometricInterpretation = "PALETTE COLOR"
+    for name, entries in (("Red", (128, 0, 0)), ("Green", (0, 255, 0)), ("Blue", (0, 0, 64))):
+        setattr(data, f"{name}PaletteColorLookupTableDescriptor", [3, 1, bits])
+        stored = bytes([*entries, 0]) if bits == 8 else numpy.array([257 * entry for entry in entries], "<u2").tobytes()
+        setattr(data, f"{name}PaletteColorLookupTableData", stored)
+    del data.SegmentSequence[0].RecommendedDisplayCIELabValue
+
+
 def nothing_between(data):
     del data.SharedFunctionalGroupsSequence[0].PixelMeasuresSequence[0].SpacingBetweenSlices
 
@@ -162,6 +178,9 @@ def other():
     changed(latin).write("other", "latin1.dcm")
     changed(lambda d: setattr(d, "SpecificCharacterSet", "ISO_IR 192") or
             setattr(d.SegmentSequence[0], "SegmentLabel", "肝")).write("other", "utf8.dcm")
+    changed(segment_zero, label_map()).write("other", "map_zero.dcm")
+    for bits in (8, 16):
+        changed(functools.partial(palette, bits), label_map()).write("other", f"palette_{bits}.dcm")
     changed(no_distance).write("other", "no_distance.dcm")
     changed(wrong_between).write("other", "wrong_between.dcm")
     changed(rounded_between).write("other", "rounded_between.dcm")

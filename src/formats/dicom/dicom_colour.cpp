@@ -33,4 +33,10 @@ std::uint32_t colour_of_lab(const std::array<std::uint16_t, 3>& stored) {
     return colour;
 }
 
+std::uint32_t colour_of_palette(const std::array<std::uint16_t, 3>& stored) {
+    std::uint32_t colour = 0;
+    for (const std::uint32_t share : stored) colour = colour << 8 | (share * 255 + 32767) / 65535;
+    return colour;
+}
+
 }  // namespace regionmesh::formats

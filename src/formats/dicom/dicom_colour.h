@@ -11,4 +11,7 @@ namespace regionmesh::formats {
 /// the standard says D50. Colours outside sRGB are clipped.
 std::uint32_t colour_of_lab(const std::array<std::uint16_t, 3>& stored);
 
+/// sRGB, 0xRRGGBB, of red, green and blue in 16 bits.
+std::uint32_t colour_of_palette(const std::array<std::uint16_t, 3>& stored);
+
 }  // namespace regionmesh::formats

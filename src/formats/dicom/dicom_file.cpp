@@ -23,7 +23,9 @@ void take_segment(const Json& json, DicomObject& object) {
     if (const std::string name = one_line(json.at("label").get<std::string>()); !name.empty())
         object.names.emplace(label, name);
     const std::vector<std::uint16_t> lab = json.at("recommended_lab");
+    const std::vector<std::uint16_t> palette = json.at("palette");
     if (lab.size() == 3) object.colours.emplace(label, colour_of_lab({lab[0], lab[1], lab[2]}));
+    if (palette.size() == 3) object.colours.emplace(label, colour_of_palette({palette[0], palette[1], palette[2]}));
 }
 
 DicomObject from_json(const Json& json) {

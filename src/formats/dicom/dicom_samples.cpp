@@ -15,14 +15,13 @@ void set_label(std::span<const std::byte> packed, InputLabel label, std::span<In
     }
 }
 
-void copy_labels(std::span<const std::byte> stored, std::uint32_t bits, std::int64_t padding,
-                 std::span<InputLabel> section) {
+void copy_labels(std::span<const std::byte> stored, std::uint32_t bits, std::span<InputLabel> section) {
     const std::size_t bytes = bits / 8;
     assert(stored.size() == section.size() * bytes);
     for (std::size_t i = 0; i < section.size(); ++i) {
         std::uint16_t label = std::to_integer<std::uint16_t>(stored[i * bytes]);
         if (bits == 16) std::memcpy(&label, &stored[i * bytes], sizeof label);
-        section[i] = label == padding ? 0 : label;
+        section[i] = label;
     }
 }
 

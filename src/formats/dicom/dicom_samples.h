@@ -13,9 +13,7 @@ namespace regionmesh::formats {
 /// ignored: they come from another process.
 void set_label(std::span<const std::byte> packed, InputLabel label, std::span<InputLabel> section);
 
-/// Copies samples of 8 bits, or of 16 in the byte order of this machine; `padding` becomes 0, none if it is -1.
-/// Requires as many as the section has.
-void copy_labels(std::span<const std::byte> stored, std::uint32_t bits, std::int64_t padding,
-                 std::span<InputLabel> section);
+/// Copies samples of 8 bits, or of 16 in the byte order of this machine. Requires as many as the section has.
+void copy_labels(std::span<const std::byte> stored, std::uint32_t bits, std::span<InputLabel> section);
 
 }  // namespace regionmesh::formats

@@ -52,7 +52,6 @@ void require_segmentation(const fs::path& path, const DicomObject& object) {
                                is_binary ? "1" : "8 or 16; write it again"));
     }
     if (!object.obstacle.empty()) fail(path, object.obstacle);
-    if (object.frames == 0) fail(path, "holds no frame; export a segmentation with at least one segment");
 }
 
 /// Ordered by section, then by segment: where segments overlap, the highest number is written last.
@@ -87,6 +86,7 @@ public:
           file_(std::move(file)),
           bits_(object.bits),
           padding_(object.padding),
+          nothing_(object.names.contains(0) && padding_ > 0 ? padding_ : 0),
           frame_bytes_((std::uint64_t{object.rows} * object.columns * object.bits + 7) / 8),
           frames_(std::move(frames)) {}
 
@@ -114,14 +114,15 @@ public:
 
 private:
     void read_section(std::uint32_t number, std::span<InputLabel> section) override {
-        std::ranges::fill(section, 0);
+        std::ranges::fill(section, nothing_);
         auto frame = std::ranges::lower_bound(frames_, number, {}, &PlacedFrame::section);
         for (; frame != frames_.end() && frame->section == number; ++frame) {
             const Bytes stored = samples(*frame);
             if (bits_ == 1)
                 set_label(stored, frame->label, section);
             else
-                copy_labels(stored, bits_, padding_, section);
+                copy_labels(stored, bits_, section);
+            if (bits_ > 1 && padding_ > 0) std::ranges::replace(section, padding_, nothing_);
         }
     }
 
@@ -135,6 +136,7 @@ private:
     std::unique_ptr<DicomFile> file_;
     std::uint32_t bits_;
     std::int64_t padding_;
+    InputLabel nothing_;  // label of no segment: 0, unless that is the number of a segment of a label map
     std::uint64_t frame_bytes_;
     std::vector<PlacedFrame> frames_;
 };
@@ -152,6 +154,7 @@ std::unique_ptr<SectionReader> open_dicom(const fs::path& path, const ReadOption
                          "again",
                          object.frames, frames.size()));
     }
+    if (frames.empty()) fail(path, "holds no frame; export a segmentation with at least one segment");
     const DicomGrid grid = find_grid(path, object, frames, options.spacing);
     VolumeInfo info =
         volume_info(path, "dicom", object.bits == 8 ? SampleType::kU8 : SampleType::kU16, grid.lattice.size);

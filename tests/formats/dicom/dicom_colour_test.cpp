@@ -18,5 +18,10 @@ TEST(DicomColour, values_outside_srgb_are_clipped) {
     EXPECT_EQ(colour_of_lab({65535, 65535, 65535}) >> 16, 0xFFu);
 }
 
+TEST(DicomColour, of_a_palette_are_rounded_to_8_bits) {
+    EXPECT_EQ(colour_of_palette({0, 65535, 32767}), 0x00FF7Fu);
+    EXPECT_EQ(colour_of_palette({257, 128, 129}), 0x010001u);
+}
+
 }  // namespace
 }  // namespace regionmesh::formats

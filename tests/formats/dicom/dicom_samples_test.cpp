@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace regionmesh::formats {
@@ -23,13 +24,14 @@ TEST(DicomSamples, bits_beyond_the_section_are_not_written) {
     EXPECT_EQ(std::ranges::count(held, 7), 10);
 }
 
-TEST(DicomSamples, padding_is_background) {
-    const std::uint16_t stored[]{3, 65535, 256, 0};
+TEST(DicomSamples, of_label_maps_are_unsigned) {
+    const std::uint16_t words[]{3, 65535, 256, 0};
     std::vector<InputLabel> section(4);
-    copy_labels(std::as_bytes(std::span(stored)), 16, 65535, section);
-    EXPECT_THAT(section, ElementsAre(3, 0, 256, 0));
-    copy_labels(std::as_bytes(std::span(stored)), 16, -1, section);
+    copy_labels(std::as_bytes(std::span(words)), 16, section);
     EXPECT_THAT(section, ElementsAre(3, 65535, 256, 0));
+    const std::uint8_t bytes[]{3, 255, 1, 0};
+    copy_labels(std::as_bytes(std::span(bytes)), 8, section);
+    EXPECT_THAT(section, ElementsAre(3, 255, 1, 0));
 }
 
 }  // namespace

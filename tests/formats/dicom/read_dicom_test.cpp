@@ -58,6 +58,12 @@ TEST(ReadDicom, segments_have_names_and_colours) {
     EXPECT_EQ(open_sections({dicom("other/utf8.dcm")})->info().names.at(1), "\xE8\x82\x9D");
 }
 
+TEST(ReadDicom, a_palette_colours_segments_without_a_recommended_colour) {
+    const LabelColours expected{{1, 0x800000}, {2, 0x00FF00}, {3, 0x000040}};
+    EXPECT_EQ(open_sections({dicom("other/palette_8.dcm")})->info().colours, expected);
+    EXPECT_EQ(open_sections({dicom("other/palette_16.dcm")})->info().colours, expected);
+}
+
 TEST(ReadDicom, samples_in_several_segments_have_the_highest_number_and_are_counted) {
     const Volume volume = read_volume({dicom("other/overlap.dcm")});
     std::vector<InputLabel> expected = all_labels();
@@ -71,6 +77,14 @@ TEST(ReadDicom, samples_in_several_segments_have_the_highest_number_and_are_coun
     EXPECT_EQ(
         volume.info.warning,
         std::to_string(count) + " samples are in several segments; they have the label of the highest segment number");
+}
+
+TEST(ReadDicom, padding_is_kept_where_a_segment_has_number_0) {
+    const Volume volume = read_volume({dicom("other/map_zero.dcm")});
+    std::vector<InputLabel> expected = all_labels();
+    std::fill_n(expected.begin() + 30, 15, 255);  // the section without a frame
+    EXPECT_EQ(volume.labels, expected);
+    EXPECT_EQ(volume.info.names.at(0), "fluid");
 }
 
 TEST(ReadDicom, the_distance_of_sections_is_that_of_the_positions) {
