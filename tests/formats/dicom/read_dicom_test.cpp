@@ -117,6 +117,12 @@ TEST(ReadDicom, a_file_of_any_extension_is_known_by_its_content) {
     EXPECT_EQ(read_volume({dicom("other/1.2.3.4")}).labels, all_labels());
 }
 
+TEST(ReadDicom, samples_that_the_helper_holds_count_as_memory) {
+    const auto held = [](const char* name) { return open_sections({dicom(name)})->info().held_bytes; };
+    EXPECT_EQ(held("deflated.dcm"), held("explicit.dcm") + 30) << "15 frames of 15 bits, padded";
+    EXPECT_GT(held("map_16_rle.dcm"), held("map_16.dcm") + 1000) << "the file";
+}
+
 TEST(ReadDicom, other_sweeps_and_layers_are_refused) {
     EXPECT_THAT(refusal({dicom("explicit.dcm")}, swept(SweepChoice::kX)), HasSubstr("only along z"));
     ReadOptions options;
