@@ -48,8 +48,8 @@ void require_segmentation(const fs::path& path, const DicomObject& object) {
     if (!is_binary && !is_map)
         fail(path, fmt::format("its segmentation type is '{}'; write BINARY or LABELMAP", object.kind));
     if (!(is_binary ? object.bits == 1 : object.bits == 8 || object.bits == 16)) {
-        fail(path, fmt::format("its samples have {} bits; {} segmentations have {}", object.bits, object.kind,
-                               is_binary ? "1" : "8 or 16; write it again"));
+        fail(path, fmt::format("its samples have {} bits; {} segmentations have {}; export it again", object.bits,
+                               object.kind, is_binary ? "1" : "8 or 16"));
     }
     if (!object.obstacle.empty()) fail(path, object.obstacle);
 }
