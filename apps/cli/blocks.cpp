@@ -152,7 +152,7 @@ int run_blocks(const Settings& settings) {
                               .output = settings.writing};
     ProgressLine line(settings.quiet || !tasks.is_first());
     const BlockReport report = reconstruct_blocks(
-        [&] { return std::make_unique<DescribedReader>(open_lattice(settings, settings.inputs), settings); },
+        [&] { return std::make_unique<DescribedReader>(open_volume(settings, settings.inputs), settings); },
         settings.reconstruct, blocks, tasks,
         [&](const BlockProgress& progress) {
             Progress shown;

@@ -44,7 +44,7 @@ bool has_samples(const Settings& settings) {
 std::optional<SampleAgreement> compare_with_sections(const Settings& settings, MeshFile& file,
                                                      const CheckOptions& options) {
     if (!has_samples(settings)) return {};
-    const auto reader = open_lattice(settings, settings.sections);
+    const auto reader = open_volume(settings, settings.sections);
     return compare_samples(file.mesh, file.labels, options.background, *reader);
 }
 
@@ -75,7 +75,7 @@ int check_folder(const Settings& given) {
     options.threads = settings.reconstruct.threads;
     std::optional<SampleAgreement> samples;
     if (!settings.sections.empty()) {
-        const auto reader = open_lattice(settings, settings.sections);
+        const auto reader = open_volume(settings, settings.sections);
         options.oracle = translate(count_labels(*reader, census_options(settings)), file.labels);
         if (!has_lattice_of(path, reader->info()))
             throw Error(ErrorCode::kInput, settings.sections.front() + ": its samples do not lie where those of " +
@@ -112,7 +112,7 @@ int run_check(const Settings& given) {
     if (is_block_folder(path) && !needs_whole(given)) return check_folder(given);
     MeshFile file = read_model(path, given.surface);
     if (lacks_background(given, file)) {
-        const auto reader = open_lattice(settings_for(given, file), given.sections);
+        const auto reader = open_volume(settings_for(given, file), given.sections);
         restore_background(file, reader->info().lattice, given.reconstruct.background.front());
     }
     const Settings settings = settings_for(given, file);

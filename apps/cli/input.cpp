@@ -1,8 +1,19 @@
 #include "input.h"
 
+#include <mutex>
+
+#include "messages.h"
 #include "regionmesh/blocks.h"
 
 namespace regionmesh::cli {
+
+std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::vector<std::string>& inputs) {
+    static std::once_flag once;
+    auto reader = open_lattice(settings, inputs);
+    const VolumeInfo& info = reader->info();
+    if (!info.warning.empty()) std::call_once(once, [&] { warn(info.source + ": " + info.warning); });
+    return reader;
+}
 
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {
     return is_block_folder(path) ? read_block_folder(path) : read_mesh(path, options);

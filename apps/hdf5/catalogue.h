@@ -5,18 +5,15 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "formats/chunked/hdf5_handle.h"
+#include "helper/serve.h"
 
 namespace regionmesh::hdf5 {
 
-/// A request that cannot be answered; the text is for the user.
-struct Refusal : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
+using helper::Refusal;
 
 /// A group or dataset, with the few numbers and words that may describe its meaning. README.md explains the members.
 struct Entry {

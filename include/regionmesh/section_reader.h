@@ -27,6 +27,7 @@ struct VolumeInfo {
     Space space = Space::kUnknown;                      // of the lattice
     LabelNames names = {};                              // given by the file, or by a table next to it
     LabelColours colours = {};                          // likewise
+    std::string warning = {};  // what the reader decided that the user may not expect: a line, or empty
 };
 
 /// Pull interface of every volume. A reader of files holds a bounded number of sections, never the whole volume.

@@ -3,10 +3,11 @@
     pip install --no-build-isolation --no-index .
 
 The wheel holds the module, the program `regionmesh`, and the shared libraries that both need beyond the C and C++
-libraries, so that it works where these are not installed. HDF5 is left out, because its library brings some thirty
-others; arrays of h5py are read all the same. Settings (pip: --config-settings KEY=VALUE) and variables:
+libraries, so that it works where these are not installed. HDF5 and DICOM are left out, because their libraries bring
+some thirty others; arrays of h5py are read all the same. Settings (pip: --config-settings KEY=VALUE) and variables:
 
     hdf5=on           with HDF5 and DREAM.3D files
+    dicom=on          with DICOM segmentations
     build-dir=FOLDER  pack what was built there with REGIONMESH_WITH_PYTHON, instead of building
     CMAKE_ARGS        more arguments of CMake
 """
@@ -58,12 +59,15 @@ def _build(settings):
     if "build-dir" in settings:
         return Path(settings["build-dir"]).resolve()
     folder = _ROOT / "build" / "wheel"
-    hdf5 = "ON" if settings.get("hdf5", "off").lower() in ("on", "1", "true") else "OFF"
+    parts = [
+        f"-DREGIONMESH_WITH_{part.upper()}=" + ("ON" if settings.get(part, "off").lower() in ("on", "1", "true") else "OFF")
+        for part in ("hdf5", "dicom")
+    ]
     configure = [
         "cmake", "-S", _ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON",
         "-DCMAKE_CXX_FLAGS_RELEASE=-O3 -DNDEBUG",
         "-DREGIONMESH_WITH_PYTHON=ON", "-DREGIONMESH_TESTS=OFF", "-DREGIONMESH_DELAUNAY=OFF",
-        f"-DREGIONMESH_WITH_HDF5={hdf5}", f"-DPython_EXECUTABLE={sys.executable}",
+        *parts, f"-DPython_EXECUTABLE={sys.executable}",
     ]  # fmt: skip
     if not (folder / "CMakeCache.txt").exists() and shutil.which("ninja"):
         configure += ["-G", "Ninja"]
@@ -115,7 +119,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Build the wheel and return its name."""
     folder = _build(config_settings or {})
     (module,) = (folder / "python" / "regionmesh").glob("_core.*.so")
-    programs = [path for path in (folder / "regionmesh", folder / "regionmesh-hdf5") if path.exists()]
+    programs = [path for path in (folder / "regionmesh", folder / "regionmesh-hdf5", folder / "regionmesh-dicom") if path.exists()]
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     tag = f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
     name = f"regionmesh-{_version()}-{tag}.whl"

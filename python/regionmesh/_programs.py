@@ -5,7 +5,11 @@ import shutil
 from pathlib import Path
 
 _FOLDER = Path(__file__).parent / "bin"
-_VARIABLES = {"regionmesh-hdf5": "REGIONMESH_HDF5_PROGRAM", "regionmesh-delaunay": "REGIONMESH_DELAUNAY"}
+_VARIABLES = {
+    "regionmesh-hdf5": "REGIONMESH_HDF5_PROGRAM",
+    "regionmesh-dicom": "REGIONMESH_DICOM_PROGRAM",
+    "regionmesh-delaunay": "REGIONMESH_DELAUNAY",
+}
 
 
 def path_of(name):

@@ -158,8 +158,15 @@ Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& r
 
 Source file_source(const std::vector<std::string>& paths, const OptionValues& options) {
     const Settings settings = settings_from(options, paths);
-    const py::gil_scoped_release release;
-    return {py::object(), open_sections({paths.begin(), paths.end()}, settings.volume)};
+    Source source;
+    {
+        const py::gil_scoped_release release;
+        source.reader = open_sections({paths.begin(), paths.end()}, settings.volume);
+    }
+    const VolumeInfo& info = source.reader->info();
+    if (!info.warning.empty() && PyErr_WarnEx(PyExc_UserWarning, (info.source + ": " + info.warning).c_str(), 1) != 0)
+        throw py::error_already_set();
+    return source;
 }
 
 Source select(Source source, const OptionValues& options) {

@@ -46,7 +46,7 @@ def write_png(path, section):
 def test_every_example_is_tested_and_listed():
     page = (FOLDER / "README.md").read_text()
     names = {path.name for path in FOLDER.glob("*.py")}
-    assert len(names) == 11
+    assert len(names) == 10
     for name in names:
         assert f"`{name}`" in page
         assert f'run("{name}"' in Path(__file__).read_text()
@@ -152,90 +152,3 @@ def test_batch(atlas, two_boxes, tmp_path):
     assert rows["boxes.npy"]["regions"] == "2" and rows["atlas.npy"]["certified"] == "True"
     assert "none.npy" in rows["none.npy"]["error"]
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["atlas.vtp", "boxes.vtp"]
-
-
-def write_segmentation(path, masks, frames, spacing=(2.0, 0.5, 0.25), kind="BINARY"):
-    """A DICOM segmentation of masks [segment, z, y, x] with the given frames (segment, z), in that order."""
-    pydicom = pytest.importorskip("pydicom")
-    from pydicom.dataset import Dataset, FileMetaDataset
-    from pydicom.pixel_data_handlers.numpy_handler import pack_bits
-
-    def item(**values):
-        made = Dataset()
-        for name, value in values.items():
-            setattr(made, name, value)
-        return made
-
-    made = item(
-        SOPClassUID="1.2.840.10008.5.1.4.1.1.66.4",
-        SOPInstanceUID="1.2.3.4",
-        Modality="SEG",
-        SegmentationType=kind,
-        SamplesPerPixel=1,
-        PhotometricInterpretation="MONOCHROME2",
-        PixelRepresentation=0,
-        Rows=masks.shape[2],
-        Columns=masks.shape[3],
-        NumberOfFrames=len(frames),
-        BitsAllocated=1,
-        BitsStored=1,
-        HighBit=0,
-        SegmentSequence=[
-            item(SegmentNumber=1, SegmentLabel="liver", RecommendedDisplayCIELabValue=[34885, 53486, 50171]),  # red
-            item(SegmentNumber=2, SegmentLabel="left kidney"),
-        ],
-        SharedFunctionalGroupsSequence=[
-            item(
-                PixelMeasuresSequence=[item(PixelSpacing=list(spacing[1:]), SliceThickness=spacing[0])],
-                PlaneOrientationSequence=[item(ImageOrientationPatient=[1, 0, 0, 0, -1, 0])],  # sections go to the feet
-            )
-        ],
-        PerFrameFunctionalGroupsSequence=[
-            item(
-                SegmentIdentificationSequence=[item(ReferencedSegmentNumber=segment + 1)],
-                PlanePositionSequence=[item(ImagePositionPatient=[-10.0, 20.0, 30.0 - z * spacing[0]])],
-            )
-            for segment, z in frames
-        ],
-    )
-    packed = pack_bits(np.concatenate([masks[segment, z].ravel() for segment, z in frames]).astype(np.uint8))
-    made.PixelData = packed + b"\0" * (len(packed) % 2)
-    made.is_little_endian, made.is_implicit_VR = True, False
-    made.file_meta = FileMetaDataset()
-    made.file_meta.MediaStorageSOPClassUID = made.SOPClassUID
-    made.file_meta.MediaStorageSOPInstanceUID = made.SOPInstanceUID
-    made.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.1"
-    pydicom.dcmwrite(path, made, write_like_original=False)
-
-
-def test_dicom_seg(two_boxes, tmp_path):
-    masks = np.stack([two_boxes == 1, two_boxes == 2])
-    frames = [(segment, z) for segment in (1, 0) for z in range(14) if masks[segment, z].any()][::-1]
-    assert len(frames) == 9
-    write_segmentation(tmp_path / "seg.dcm", masks, frames)
-    printed = run("dicom_seg.py", tmp_path / "seg.dcm", tmp_path / "labels.seg.nrrd")
-    assert "2 segments, (10, 12, 9) samples" in printed and "several segments" not in printed
-
-    header, data = (tmp_path / "labels.seg.nrrd").read_bytes().split(b"\n\n", 1)
-    assert np.array_equal(np.frombuffer(zlib.decompress(data, 31), "<u2").reshape(9, 12, 10), two_boxes[2:11])
-    text = header.decode()
-    assert "space directions: (0.25,0.0,0.0) (0.0,-0.5,0.0) (0.0,0.0,-2.0)" in text
-    assert "space origin: (-10.0,20.0,26.0)" in text
-    assert "Segment0_Name:=liver" in text and "Segment1_LabelValue:=2" in text
-    red, green, blue = (float(share) for share in text.split("Segment0_Color:=")[1].split("\n")[0].split())
-    assert red > 0.98 and green < 0.03 and blue < 0.03
-
-    mesh = regionmesh.reconstruct(tmp_path / "labels.seg.nrrd")
-    assert sorted(mesh.regions["name"]) == ["left kidney", "liver"]
-    assert mesh.space == "LPS"
-
-
-def test_dicom_seg_says_what_it_cannot_read_and_what_overlaps(two_boxes, tmp_path):
-    masks = np.stack([two_boxes == 1, two_boxes > 0])
-    frames = [(segment, z) for segment in (0, 1) for z in range(2, 11) if masks[segment, z].any()]
-    write_segmentation(tmp_path / "seg.dcm", masks, frames, kind="FRACTIONAL")
-    run("dicom_seg.py", tmp_path / "seg.dcm", tmp_path / "labels.seg.nrrd", code=1)
-    assert not (tmp_path / "labels.seg.nrrd").exists()
-    write_segmentation(tmp_path / "seg.dcm", masks, frames)
-    printed = run("dicom_seg.py", tmp_path / "seg.dcm", tmp_path / "labels.seg.nrrd")
-    assert f"{np.count_nonzero(two_boxes == 1)} samples are in several segments" in printed

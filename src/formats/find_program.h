@@ -1,4 +1,4 @@
-// Finds the programs of this project that the library runs: regionmesh-delaunay and regionmesh-hdf5.
+// Finds the programs of this project that the library runs: regionmesh-delaunay, regionmesh-hdf5 and regionmesh-dicom.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@ struct HelperProgram {
 };
 
 inline constexpr HelperProgram kHdf5Program{.name = "regionmesh-hdf5", .variable = "REGIONMESH_HDF5_PROGRAM"};
+inline constexpr HelperProgram kDicomProgram{.name = "regionmesh-dicom", .variable = "REGIONMESH_DICOM_PROGRAM"};
 inline constexpr HelperProgram kDelaunayProgram{.name = "regionmesh-delaunay", .variable = "REGIONMESH_DELAUNAY"};
 
 /// The path of the program: `given` if it is not empty, else the value of the environment variable, else the file of

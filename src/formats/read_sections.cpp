@@ -46,7 +46,7 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
     const fs::path file = formats::split_dataset(path).file;
     const formats::InputFile there(file);
     if (has_raw_option && file == path) return formats::open_raw(path, options);
-    const Format* format = formats::find_format(file);
+    const Format* format = formats::find_format(there);
     formats::require_readable(path, format);
     if (format && format->open_sections) return format->open_sections(path, options);
     formats::fail(path, "unknown format '" + formats::extension(path) + "'; regionmesh reads " + volume_extensions() +

@@ -1,6 +1,7 @@
 #include "formats/registry.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "formats/input_file.h"
 #include "formats/surface/mesh_formats.h"
@@ -11,6 +12,7 @@ namespace regionmesh::formats {
 namespace {
 
 constexpr Part kHdf5{"HDF5", REGIONMESH_WITH_HDF5 != 0};
+constexpr Part kDicom{"DICOM", REGIONMESH_WITH_DICOM != 0};
 constexpr Part kZarr{"ZARR", REGIONMESH_WITH_ZARR != 0};
 constexpr Part kTiff{"TIFF", REGIONMESH_WITH_TIFF != 0};
 constexpr Part kPng{"PNG", REGIONMESH_WITH_PNG != 0};
@@ -94,7 +96,7 @@ constexpr Format kFormats[] = {
      .read_shape = in_part<kPng, read_png_shape>(),
      .read_image = in_part<kPng, read_png_image>()},
     {.name = "other images",
-     .extensions = {".bmp", ".gif", ".jpg", ".jpeg", ".jp2", ".pbm", ".pgm", ".pnm", ".ppm", ".tga", ".webp", ".dcm"},
+     .extensions = {".bmp", ".gif", ".jpg", ".jpeg", ".jp2", ".pbm", ".pgm", ".pnm", ".ppm", ".tga", ".webp"},
      .is_image = true},
     {.name = "other images", .extensions = {".exr", ".pcx", ".pam", ".avif"}, .is_image = true},
     {.name = "raw", .extensions = {".raw"}, .open_sections = open_raw},
@@ -103,6 +105,11 @@ constexpr Format kFormats[] = {
      .part = kHdf5,
      .open_sections = in_part<kHdf5, open_hdf5>(),
      .has_datasets = true},
+    {.name = "DICOM",
+     .extensions = {".dcm", ".dicom"},
+     .part = kDicom,
+     .open_sections = in_part<kDicom, open_dicom>(),
+     .detect_file = is_dicom},
     {.name = "Zarr",
      .extensions = {".zarr"},
      .part = kZarr,
@@ -190,6 +197,13 @@ constexpr Format kFormats[] = {
 
 }  // namespace
 
+bool is_dicom(const InputFile& file) {
+    constexpr std::uint64_t kPreamble = 128;
+    std::array<char, 4> word{};
+    return file.read(kPreamble, std::as_writable_bytes(std::span(word))) == word.size() &&
+           std::string_view(word.data(), word.size()) == "DICM";
+}
+
 std::span<const Format> all_formats() { return kFormats; }
 
 std::string extension(const std::filesystem::path& path) {
@@ -203,6 +217,13 @@ const Format* find_format(const std::filesystem::path& path) {
         const auto is_wanted = [&](const char* known) { return known && wanted == known; };
         if (std::ranges::any_of(format.extensions, is_wanted)) return &format;
     }
+    return nullptr;
+}
+
+const Format* find_format(const InputFile& file) {
+    if (const Format* format = find_format(file.path())) return format;
+    for (const Format& format : kFormats)
+        if (format.detect_file && format.detect_file(file)) return &format;
     return nullptr;
 }
 

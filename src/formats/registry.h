@@ -41,9 +41,10 @@ struct Format {
     Opener* open_sections = nullptr;
     bool (*detect)(const Path& folder) = nullptr;  // for a format that is a folder: whether its files say so
     bool is_folder = false;
-    bool has_datasets = false;        // "FILE:/DATASET" names one of several volumes
-    bool is_image = false;            // a file may be one section of a volume
-    ReadShape* read_shape = nullptr;  // of one image
+    bool (*detect_file)(const InputFile&) = nullptr;  // for a format whose files may have any extension
+    bool has_datasets = false;                        // "FILE:/DATASET" names one of several volumes
+    bool is_image = false;                            // a file may be one section of a volume
+    ReadShape* read_shape = nullptr;                  // of one image
     ReadImage* read_image = nullptr;
 
     // Labelled tetrahedra.
@@ -82,6 +83,9 @@ std::string extensions_with(Member Format::*function) {
     }
     return text;
 }
+
+/// The row of the extension, else that whose content the file has; null if both are unknown.
+const Format* find_format(const InputFile& file);
 
 /// Throws Error(kInput) where the row's part is not built, or the format is known but not read.
 void require_readable(const std::filesystem::path& path, const Format* format);

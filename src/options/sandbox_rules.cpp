@@ -34,6 +34,7 @@ SandboxRules sandbox_rules(const Settings& settings) {
     const char* temporary = std::getenv("TMPDIR");
     rules.writable.emplace_back(temporary && *temporary ? temporary : "/tmp");
     rules.runnable = formats::places_of_program(formats::kHdf5Program);
+    std::ranges::move(formats::places_of_program(formats::kDicomProgram), std::back_inserter(rules.runnable));
     std::ranges::move(formats::places_of_program(formats::kDelaunayProgram, settings.tetrahedra.delaunay),
                       std::back_inserter(rules.runnable));
     return rules;

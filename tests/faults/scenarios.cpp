@@ -63,6 +63,7 @@ std::vector<Scenario> all_scenarios() {
         {"hdf5",
          {"reconstruct", "../in/v.h5", "-o", "m.dream3d", "--report", "r.json"},
          {{"v.h5", data("chunked/one.h5")}}},
+        {"dicom", {"reconstruct", "../in/v.dcm", "-o", "m.ply"}, {{"v.dcm", data("dicom/explicit.dcm")}}},
         {"points", {"reconstruct", "../in/t.csv", "-o", "m.ply", "--no-background"}, {{"t.csv", table()}}},
         {"smooth", {"smooth", "../in/m.obj", "-o", "m.glb", "--report", "r.json"}, model},
         {"decimate", {"decimate", "../in/m.obj", "-o", "m.obj", "--reduce", "10%"}, model},

@@ -181,7 +181,7 @@ std::span<const Format> formats() {
             Format{"layers", "layers", {".csv", ".collars", ".surveys", ".asc"}, layers},
 #endif
             Format{"hdf5", "chunked", {".h5"}, hdf5}, Format{"dream3d", "chunked", {".dream3d"}, volume},
-            Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
+            Format{"dicom", "dicom", {".dcm"}, volume}, Format{"zarr2", "chunked/zarr2", {}, volume, ".zarr"},
             Format{"zarr3", "chunked/zarr3", {}, volume, ".zarr"}, Format{"ome", "chunked/ome", {}, volume, ".zarr"},
             Format{"n5", "chunked/n5", {}, volume, ".n5"}, Format{"vtp", "", {".vtp"}, mesh},
             Format{"vtu", "surfaces", {".vtu"}, mesh}, Format{"vtu_mesh", "meshes", {".vtu"}, tetrahedra},

@@ -11,6 +11,7 @@ std::string program();
 /// Empty where it was not built.
 std::string delaunay_program();
 std::string hdf5_program();
+std::string dicom_program();
 std::string mpi_program();
 
 }  // namespace regionmesh::test

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/input_file.h"
 #include "regionmesh/read_sections.h"
 
 namespace regionmesh::formats {
@@ -14,9 +15,10 @@ namespace regionmesh::formats {
 using Opener = std::unique_ptr<SectionReader>(const std::filesystem::path& path, const ReadOptions& options);
 
 Opener open_npy, open_nifti, open_nrrd, open_meta_image, open_vti, open_inr, open_mgh;
-Opener open_raw;   // requires options.raw_size and options.raw_type
-Opener open_tiff;  // pages are sections
-Opener open_hdf5;  // a file, or "FILE:/PATH" of a dataset or group
+Opener open_raw;    // requires options.raw_size and options.raw_type
+Opener open_tiff;   // pages are sections
+Opener open_hdf5;   // a file, or "FILE:/PATH" of a dataset or group
+Opener open_dicom;  // a segmentation
 Opener open_zarr,
     open_n5;  // a folder: an array, an image at its finest resolution, or a group with one volume below it
 
@@ -25,6 +27,9 @@ bool is_zarr(const std::filesystem::path& folder);
 
 /// Whether a folder's own files say that it is an array of N5, a group of resolutions, or the root of a store.
 bool is_n5(const std::filesystem::path& folder);
+
+/// Whether the file begins as DICOM files do: 128 bytes of any value, then "DICM".
+bool is_dicom(const InputFile& file);
 
 /// "a.h5:/b" is the dataset /b of a.h5, unless a file has just that name. `dataset` is empty if none is named.
 struct DatasetPath {

@@ -4,7 +4,6 @@
 #include <array>
 #include <string_view>
 
-#include "formats/find_program.h"
 #include "formats/input_file.h"
 #include "formats/text/json_text.h"
 #include "regionmesh/read_sections.h"
@@ -13,23 +12,12 @@ namespace regionmesh::formats {
 namespace {
 
 using Json = nlohmann::json;
-using Magic = std::array<char, 8>;
-
-constexpr Magic kRequest{'R', 'M', 'H', '5', 'A', 'S', 'K', '1'};
-constexpr Magic kAnswer{'R', 'M', 'H', '5', 'A', 'N', 'S', '1'};
-constexpr Magic kRefusal{'R', 'M', 'H', '5', 'N', 'O', '_', '1'};
-constexpr std::uint64_t kMaxAnswer = std::uint64_t{2} << 30;
-constexpr int kOutOfMemory = 3;  // exit code
+constexpr Asked kHdf5{.program = kHdf5Program, .letters = {'H', '5'}, .library = "HDF5 library"};
 
 // Processor time of one answer: a chunk of a GiB takes a while to unpack, and so do 100,000 objects to describe.
 constexpr unsigned kFewSeconds = 3;
 constexpr unsigned kManySeconds = 30;
 constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
-
-struct Head {
-    Magic magic;
-    std::uint64_t size;
-};
 
 /// The superblock stands at the start, or after a user block of 512 bytes, 1024, 2048 and so on.
 void require_hdf5(const std::filesystem::path& path) {
@@ -67,46 +55,10 @@ Hdf5Entry from_json(const Json& json) {
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& path)
-    : path_((require_hdf5(path), path)), program_path_(find_program(kHdf5Program)) {
-    program_.emplace(program_path_, std::vector{path.string()});
-}
-
-/// A signal, an ordinary end without an answer, or a lack of memory is the fault of the file.
-void Hdf5Reader::report_end() {
-    if (program_) {
-        const PipedProgram::Ending ending = program_->end();
-        program_.reset();
-        const int code = ending.exit_code.value_or(0);
-        if (code != 0 && code != kOutOfMemory) {
-            fail(path_, program_path_.string() + " failed with exit code " + std::to_string(code) + " (" +
-                            ending.last_words + "); is it another program?");
-        }
-    }
-    fail(path_,
-         "the HDF5 library fails on this file (it crashed, or took more time or memory than it should); the file is "
-         "damaged, fetch it again");
-}
-
-Bytes Hdf5Reader::ask(const std::string& request) {
-    Head head{kRequest, request.size()};
-    const auto head_bytes = std::as_writable_bytes(std::span(&head, 1));
-    if (!program_ || !program_->send(head_bytes) || !program_->send(std::as_bytes(std::span(request))) ||
-        program_->receive(head_bytes) < sizeof head) {
-        report_end();
-    }
-    if ((head.magic != kAnswer && head.magic != kRefusal) || head.size > kMaxAnswer) {
-        program_.reset();
-        fail(path_, program_path_.string() + " did not answer as regionmesh-hdf5 does; is it another program?");
-    }
-    Bytes bytes(head.size);
-    if (program_->receive(bytes) < bytes.size()) report_end();
-    if (head.magic == kRefusal) fail(path_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    return bytes;
-}
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : path_((require_hdf5(path), path)), program_(kHdf5, path) {}
 
 std::vector<Hdf5Entry> Hdf5Reader::ask_entries(const std::string& request) {
-    const Bytes bytes = ask(request);
+    const Bytes bytes = program_.ask(request);
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     return reading(path_, [&] {
         std::vector<Hdf5Entry> entries;
@@ -123,7 +75,7 @@ std::optional<Hdf5Entry> Hdf5Reader::entry(const std::string& path) {
 std::vector<Hdf5Entry> Hdf5Reader::entries() { return ask_entries(dump({{"seconds", kManySeconds}})); }
 
 Bytes Hdf5Reader::read(const std::string& path, const Hdf5Box& box) {
-    return ask(dump({{"seconds", kManySeconds}, {"path", path}, {"start", box.start}, {"count", box.count}}));
+    return program_.ask(dump({{"seconds", kManySeconds}, {"path", path}, {"start", box.start}, {"count", box.count}}));
 }
 
 }  // namespace regionmesh::formats

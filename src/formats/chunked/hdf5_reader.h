@@ -9,12 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "formats/piped_program.h"
+#include "formats/asked_program.h"
 #include "regionmesh/section_reader.h"
 
 namespace regionmesh::formats {
-
-using Bytes = std::vector<std::byte>;
 
 /// A group or dataset, with the few numbers and words that may describe its meaning.
 struct Hdf5Entry {
@@ -37,8 +35,7 @@ struct Hdf5Box {
     std::vector<std::uint64_t> count;
 };
 
-/// Asks regionmesh-hdf5 (apps/hdf5/README.md), which ends with this object. The HDF5 library crashes on some damaged
-/// files and never ends on others: here that is an Error(kInput) that names the file. Requires one caller at a time.
+/// Asks regionmesh-hdf5 (apps/hdf5/README.md), which ends with this object. Requires one caller at a time.
 class Hdf5Reader {
 public:
     /// Throws where the file is missing or does not begin as HDF5 files do, or where the program is not found.
@@ -54,12 +51,10 @@ public:
     Bytes read(const std::string& path, const Hdf5Box& box);
 
 private:
-    Bytes ask(const std::string& request);
     std::vector<Hdf5Entry> ask_entries(const std::string& request);
-    [[noreturn]] void report_end();
 
-    std::filesystem::path path_, program_path_;
-    std::optional<PipedProgram> program_;  // none once it has failed
+    std::filesystem::path path_;
+    AskedProgram program_;
 };
 
 }  // namespace regionmesh::formats

@@ -15,11 +15,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Files of DICOM images hold samples in grey; a segmentation is one file.
+[[noreturn]] void refuse_dicom(const fs::path& path) {
+    fail(path,
+         "is a DICOM file, which is no section of labels; segment the series of images, in 3D Slicer for example, and "
+         "name "
+         "the file of the segmentation alone");
+}
+
 /// The row of a section's format. Throws where it is no image that is read.
 const Format& image_format(const fs::path& path, std::uint64_t section) {
     const Format* format = find_format(path);
     if (format && format->read_image) return *format;
     const InputFile there(path);
+    if (is_dicom(there)) refuse_dicom(path);
     if (format && format->is_image) require_readable(path, format);
     fail_section(path, section, "is no PNG or TIFF section; give one volume, or sections alone");
 }
@@ -70,6 +79,13 @@ std::vector<fs::path> list_directory(const fs::path& directory) {
     return files;
 }
 
+/// DICOM files often have no extension.
+void refuse_dicom_among(const std::vector<fs::path>& files) {
+    std::error_code ignored;
+    for (const fs::path& file : files)
+        if (fs::is_regular_file(file, ignored) && is_dicom(InputFile(file))) refuse_dicom(file);
+}
+
 }  // namespace
 
 std::unique_ptr<SectionReader> open_image(const fs::path& path, const ReadOptions& options) {
@@ -83,8 +99,10 @@ std::unique_ptr<SectionReader> open_image_list(const std::vector<fs::path>& file
 std::unique_ptr<SectionReader> open_image_directory(const fs::path& directory, const ReadOptions& options) {
     std::vector<fs::path> images;
     const Format* kind = nullptr;
-    for (const fs::path& file : list_directory(directory)) {
+    const std::vector<fs::path> files = list_directory(directory);
+    for (const fs::path& file : files) {
         const Format* format = find_format(file);
+        if (format && format->detect_file) refuse_dicom(file);
         if (!format || !format->is_image) continue;
         require_readable(file, format);
         if (!format->read_image) {
@@ -97,6 +115,7 @@ std::unique_ptr<SectionReader> open_image_directory(const fs::path& directory, c
         kind = format;
         images.push_back(file);
     }
+    if (images.empty()) refuse_dicom_among(files);
     if (images.empty()) fail(directory, "the directory holds no PNG or TIFF file; name the directory of the sections");
     return open_files(std::move(images), directory, options);
 }
