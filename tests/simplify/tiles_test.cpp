@@ -7,6 +7,7 @@
 
 #include "cells/label_census.h"
 #include "cells/strip_mesher.h"
+#include "simplify/simplify_tiles.h"
 #include "smooth/smoother.h"
 #include "stream/merger.h"
 #include "support/digest.h"
@@ -186,6 +187,32 @@ TEST(Tiles, in_flight_do_not_change_the_result) {
             digests.insert(test::digest(batch.mesh()));
         }
     EXPECT_EQ(digests.size(), 1u);
+}
+
+TEST(Tiles, trial_says_what_each_threshold_leaves) {
+    test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 12, 7);
+    const Batch batch(volume);
+    const TileGrid grid{.origin = batch.lattice.origin,
+                        .spacing = batch.lattice.spacing,
+                        .size = {39, 35, 29},
+                        .cells = {20, 18, 15},
+                        .is_bounded = true};
+    std::vector<std::uint32_t> tiles(grid.tile_count());
+    std::iota(tiles.begin(), tiles.end(), 0);
+    const std::vector<double> thresholds{1e-3, 1e-2, 0.1, 1, 10};
+    TiledFaces tried(batch.whole, {}, grid, 1);
+    const std::vector<TileCounts> counts =
+        try_thresholds(tried, tiles, {.threshold = 0, .keep_share = 0, .threads = 1, .simplify = {}}, thresholds);
+    for (std::size_t n = 0; n < thresholds.size(); ++n) {
+        SCOPED_TRACE(thresholds[n]);
+        TiledFaces faces(batch.whole, {}, grid, 1);
+        const auto left = static_cast<double>(
+            simplify_tiles(faces, {.threshold = thresholds[n], .keep_share = 0, .threads = 1, .simplify = {}})
+                .left.faces.size());
+        EXPECT_EQ(counts[n].faces, batch.whole.faces.size());
+        EXPECT_NEAR(static_cast<double>(counts[n].left_faces) / left, 1, 0.05);
+        if (n > 0) EXPECT_LT(counts[n].left_faces, counts[n - 1].left_faces);
+    }
 }
 
 TEST(Tiles, leave_carried_and_active_vertices_as_they_are) {
