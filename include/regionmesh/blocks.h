@@ -80,9 +80,9 @@ bool is_block_folder(const std::filesystem::path& folder);
 /// What a complete folder says besides its surface: `mesh` is empty. Throws like read_block_folder().
 MeshFile describe_block_folder(const std::filesystem::path& folder);
 
-/// Checks a complete folder piece by piece, with the faces of others round each: seams are checked as all else. Holds
-/// one piece and its surroundings. Does not count the components of regions, which are 0, nor look at nesting. Dense
-/// labels are those of describe_block_folder(). Throws like read_block_folder().
+/// Checks a complete folder piece by piece, with the faces of others round each: seams are checked as all else. Finds
+/// what check() finds in the whole. Holds one piece and its surroundings, and the faces on seams that later pieces
+/// need. Dense labels are those of describe_block_folder(). Throws like read_block_folder().
 CheckReport check_block_folder(const std::filesystem::path& folder, const CheckOptions& options = {});
 
 /// Calls on_section with the labels of each section of samples, as Voxeliser::next() gives them, along the sweep of the

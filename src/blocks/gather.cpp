@@ -79,7 +79,7 @@ std::uint32_t BlockGatherer::number(const PieceVertex& vertex, std::uint32_t& pl
     return place;
 }
 
-void BlockGatherer::add(const Piece& piece, double keep) {
+void BlockGatherer::add(const Piece& piece, double keep, std::vector<std::uint32_t>* taken) {
     std::vector<std::uint32_t> places(piece.vertices.size(), kNone);
     for (const PieceFace& face : piece.faces) {
         const std::array<Vec3, 3> corners = corners_of(piece, face);
@@ -90,6 +90,7 @@ void BlockGatherer::add(const Piece& piece, double keep) {
         for (int n = 0; n < 3; ++n)
             made.vertices[n] = number(piece.vertices[face.vertices[n]], places[face.vertices[n]]);
         chunk_.faces.push_back(made);
+        if (taken) taken->push_back(static_cast<std::uint32_t>(&face - piece.faces.data()));
         if (!is_own || !is_within(box, limits_))
             for (const std::uint32_t v : made.vertices) is_locked_[v] = true;
         if (is_own)

@@ -45,8 +45,8 @@ public:
     /// Whether a piece with this box may have faces that belong to the block or touch it.
     bool needs(const Box& box) const;
     /// Adds those faces. Pieces come in the order of their numbers. `keep` is the share of this piece's faces that the
-    /// goal has room for.
-    void add(const Piece& piece, double keep);
+    /// goal has room for. `taken`, if given, gets the numbers in the piece of the faces that were added.
+    void add(const Piece& piece, double keep, std::vector<std::uint32_t>* taken = nullptr);
     /// The sum over the block's own faces of the shares to keep.
     double goal() const { return goal_; }
     /// The faces, with the locked vertices as active ones: those of faces of other blocks, and corners of faces that

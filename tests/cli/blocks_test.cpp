@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/program.h"
@@ -93,6 +94,36 @@ TEST_F(BlockProgram, converts_checks_and_voxelises_a_folder) {
     EXPECT_THAT(run("info " + out("model")).out, testing::HasSubstr("faces"));
     const Ran compared = run("compare " + out("model") + ' ' + out("a.vtp") + " --samples 1000");
     EXPECT_EQ(compared.code, 0) << compared.error;
+}
+
+/// The same keys and values; numbers up to the rounding of sums.
+void expect_same(const nlohmann::json& a, const nlohmann::json& b, const std::string& where) {
+    ASSERT_EQ(a.type(), b.type()) << where;
+    ASSERT_EQ(a.size(), b.size()) << where;
+    if (a.is_object())
+        for (const auto& [key, value] : a.items()) {
+            ASSERT_TRUE(b.contains(key)) << where << ' ' << key;
+            expect_same(value, b[key], where + '/' + key);
+        }
+    else if (a.is_array())
+        for (std::size_t n = 0; n < a.size(); ++n) expect_same(a[n], b[n], where + '/' + std::to_string(n));
+    else if (a.is_number_float())
+        EXPECT_NEAR(a.get<double>(), b.get<double>(), 1e-10 * std::abs(a.get<double>())) << where;
+    else
+        EXPECT_EQ(a, b) << where;
+}
+
+TEST_F(BlockProgram, the_report_on_a_folder_is_that_on_the_model_in_one_file) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("whole.vtp")).code, 0);
+    const std::string sections = " --sections " + path("grains.raw").string() + " --size 40,40,40 --type uint8";
+    for (const std::string& options : {std::string(), sections}) {
+        for (const char* model : {"model", "whole.vtp"})
+            ASSERT_EQ(run("check " + out(model) + " --json " + out(std::string(model) + ".json") + options).code, 0);
+        const auto whole = nlohmann::json::parse(text_of(out("whole.vtp.json")));
+        expect_same(whole, nlohmann::json::parse(text_of(out("model.json"))), "");
+        EXPECT_EQ(whole.at("regions").size(), 19u);
+    }
 }
 
 TEST_F(BlockProgram, converts_a_folder_piece_by_piece_for_paraview) {
