@@ -114,7 +114,7 @@ struct PrecomputedOptions {
     bool is_sharded = false;    // not legacy: neuroglancer_uint64_sharded_v1
     std::uint32_t levels = 0;   // of detail, not legacy; 0: from the number of faces
     LabelNames names = {};      // of regions; empty: those in the folder
-    LabelColours colours = {};  // of some regions; the viewer chooses the others
+    LabelColours colours = {};  // of some regions; empty: those in the folder. The viewer chooses the others
     OutputOptions output = {};
 };
 

@@ -61,6 +61,7 @@ MeshFile describe_block_folder(const fs::path& folder) {
     const Manifest manifest = read_complete_manifest(folder);
     MeshFile file{.mesh = {}, .labels = read_labels(manifest, folder)};
     file.names = manifest.names;
+    file.colours = manifest.colours;
     file.space = manifest.space;
     file.background = manifest.background;
     return file;

@@ -16,6 +16,7 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
     LabelTable labels = read_labels(manifest, folder);
     const WriteOptions write{.background = dense_background(manifest.background, labels),
                              .names = manifest.names,
+                             .colours = manifest.colours,
                              .space = manifest.space,
                              .output = options};
     std::vector<fs::path> written;

@@ -207,6 +207,60 @@ TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {
     }
 }
 
+TEST_F(BlockProgram, names_and_colours_of_regions_are_kept) {
+    put_text(path("names.csv"), "label,name,color\n3,liver,#c00040\n5,spleen,#00ff80\n99,not there,#123456\n");
+    ASSERT_EQ(run(grains("model") + " --names " + path("names.csv").string()).code, 0);
+    const LabelNames names{{3, "liver"}, {5, "spleen"}, {99, "not there"}};
+    const LabelColours colours{{3, 0xc00040}, {5, 0x00ff80}, {99, 0x123456}};
+    const MeshFile folder = describe_block_folder(out("model"));
+    EXPECT_EQ(folder.names, names);
+    EXPECT_EQ(folder.colours, colours);
+    for (const char* output : {"whole.vtp", "m.pvtp", "m.precomputed"})
+        ASSERT_EQ(run("convert " + out("model") + ' ' + out(output)).code, 0) << output;
+    const LabelNames there{{3, "liver"}, {5, "spleen"}};
+    const LabelColours seen{{3, 0xc00040}, {5, 0x00ff80}};
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(path("out"))) {
+        if (entry.path().extension() != ".vtp") continue;
+        const MeshFile file = read_mesh(entry.path());
+        EXPECT_EQ(file.names, there) << entry.path();
+        EXPECT_EQ(file.colours, seen) << entry.path();
+        ++files;
+    }
+    EXPECT_GT(files, 30);
+    const auto properties =
+        nlohmann::json::parse(text_of(fs::path(out("m.precomputed")) / "names" / "info")).at("inline");
+    const auto& ids = properties.at("ids");
+    ASSERT_EQ(properties.at("properties").at(1).at("id"), "colour");
+    const auto at = [&](int property, const char* label) {
+        return properties.at("properties")
+            .at(property)
+            .at("values")
+            .at(static_cast<std::size_t>(std::ranges::find(ids, label) - ids.begin()));
+    };
+    EXPECT_EQ(at(0, "3"), "liver");
+    EXPECT_EQ(at(1, "3"), "#c00040");
+    EXPECT_EQ(at(1, "5"), "#00ff80");
+    EXPECT_EQ(at(1, "4"), "");
+    const auto state = nlohmann::json::parse(text_of(fs::path(out("m.precomputed")) / "state.json"));
+    EXPECT_EQ(state.at("layers").at(0).at("segmentColors").at("5"), "#00ff80");
+    const fs::path manifest = fs::path(out("model")) / "manifest.json";
+    auto json = nlohmann::json::parse(text_of(manifest));
+    json["colours"][0][1] = "red";
+    put_text(manifest, json.dump());
+    const Ran refused = run("check " + out("model"));
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.error, testing::HasSubstr("manifest.json: has the colour 'red'; write it as #ff8000"));
+    json.erase("colours");  // as in folders that were made before
+    put_text(manifest, json.dump());
+    EXPECT_TRUE(describe_block_folder(out("model")).colours.empty());
+}
+
+TEST_F(BlockProgram, an_input_that_allows_it_is_read_in_place) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    EXPECT_EQ(nlohmann::json::parse(text_of(fs::path(out("model")) / "manifest.json")).at("in_place"), true);
+}
+
 class MpiProgram : public BlockProgram {
 protected:
     void SetUp() override {
