@@ -102,11 +102,19 @@ SampleAgreement compare_block_samples(const std::filesystem::path& folder, Label
 /// Whether the samples of a volume lie where those did that the model of the folder was made from.
 bool has_lattice_of(const std::filesystem::path& folder, const VolumeInfo& volume);
 
+struct VtpPiecesOptions {
+    LabelNames names = {};      // of regions; empty: those in the folder
+    LabelColours colours = {};  // of some regions; empty: those in the folder. The others get those of a palette
+    OutputOptions output = {};
+};
+
 /// Writes each piece of a complete folder as NAME-NNNNNN.vtp beside `path`, NAME.pvtp, which ParaView opens as one
-/// model. Holds one piece. NodeType of a vertex on a seam counts the labels in its piece. Returns the files written.
+/// model. Holds one piece, and the vertices on seams that later pieces need. The point attribute GlobalIds numbers the
+/// vertices of the whole from 0, in the order of the pieces: one on a seam has the same number in all pieces that have
+/// it. NodeType of a vertex on a seam counts the labels in its piece. Returns the files written.
 std::vector<std::filesystem::path> write_vtp_pieces(const std::filesystem::path& folder,
                                                     const std::filesystem::path& path,
-                                                    const OutputOptions& options = {});
+                                                    const VtpPiecesOptions& options = {});
 
 struct PrecomputedOptions {
     double metres = 1;          // in a unit of the model

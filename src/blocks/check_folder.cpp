@@ -22,14 +22,8 @@ struct Folder {
     fs::path path;
     Manifest manifest = read_complete_manifest(path);
     BlockGrid grid{piece_lattice(manifest), manifest.block_cells, manifest.shift};
-    std::vector<Box> boxes = read_boxes();
+    std::vector<Box> boxes = piece_boxes(manifest, path);
 
-    std::vector<Box> read_boxes() const {
-        std::vector<Box> found;
-        for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
-            found.push_back(read_piece_header(piece_path(path, manifest.pieces[block].pass, block)).box);
-        return found;
-    }
     /// Around what the mesh of a piece with this box contains once it is at its place.
     Box placed(const Box& box) const {
         if (box.is_empty()) return box;

@@ -56,9 +56,7 @@ PositionBits bits_of(Vec3 position) {
     return {bits(position.x), bits(position.y), bits(position.z)};
 }
 
-std::size_t SharedVertices::Hash::operator()(const PositionBits& bits) const {
-    return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]);
-}
+std::size_t hash_of(const PositionBits& bits) { return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]); }
 
 std::uint32_t SharedVertices::number(Vec3 position, std::uint32_t next) {
     return numbers_.try_emplace(bits_of(position), next).first->second;

@@ -10,9 +10,11 @@
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "cli/program.h"
+#include "formats/vtk/vtk_numbers.h"
 #include "regionmesh/check.h"
 #include "support/random.h"
 
@@ -124,6 +126,64 @@ TEST_F(BlockProgram, the_report_on_a_folder_is_that_on_the_model_in_one_file) {
         expect_same(whole, nlohmann::json::parse(text_of(out("model.json"))), "");
         EXPECT_EQ(whole.at("regions").size(), 19u);
     }
+}
+
+/// The numbers in a point array of a .vtp file.
+std::vector<std::int64_t> point_numbers(const fs::path& path, const char* name) {
+    const formats::VtkXml xml(path, "PolyData");
+    const pugi::xml_node points = xml.dataset().child("Piece").child("PointData");
+    EXPECT_STREQ(points.attribute(name).value(), name);
+    formats::VtkNumbers numbers(xml, points.find_child_by_attribute("Name", name), std::nullopt);
+    std::vector<std::int64_t> found;
+    while (!numbers.at_end()) found.push_back(numbers.integer());
+    return found;
+}
+
+TEST_F(BlockProgram, pieces_for_paraview_number_the_vertices_of_the_whole) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("m.pvtp")).code, 0);
+    const MeshFile whole = read_block_folder(out("model"));
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(path("out")))
+        if (entry.path().extension() == ".vtp") files.insert(entry.path());
+    std::int64_t next = 0;
+    std::uint64_t points = 0;
+    for (const fs::path& file : files) {
+        const std::vector<std::int64_t> ids = point_numbers(file, "GlobalIds");
+        const Mesh mesh = std::move(read_mesh(file).mesh);
+        ASSERT_EQ(ids.size(), mesh.vertex_count());
+        points += ids.size();
+        for (std::uint32_t v = 0; v < ids.size(); ++v) {
+            ASSERT_LE(ids[v], next) << "a number was left out";
+            next = std::max(next, ids[v] + 1);
+            ASSERT_EQ(mesh.position(VertexId{v}), whole.mesh.position(VertexId{static_cast<std::uint32_t>(ids[v])}));
+        }
+    }
+    EXPECT_EQ(next, whole.mesh.vertex_count());
+    const auto manifest = nlohmann::json::parse(text_of(fs::path(out("model")) / "manifest.json"));
+    EXPECT_EQ(next, manifest.at("vertices").get<std::int64_t>());
+    EXPECT_GT(points, whole.mesh.vertex_count() + 1000) << "vertices on seams are in several pieces";
+    EXPECT_THAT(text_of(out("m.pvtp")), testing::HasSubstr("<PPointData GlobalIds=\"GlobalIds\">"));
+}
+
+TEST_F(BlockProgram, a_region_has_one_colour_in_all_pieces) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    for (const char* output : {"m.pvtp", "whole.vtp"})
+        ASSERT_EQ(run("convert " + out("model") + ' ' + out(output)).code, 0);
+    std::map<std::int64_t, std::set<std::array<std::int64_t, 3>>> colours;  // by region
+    for (const auto& entry : fs::directory_iterator(path("out"))) {
+        if (entry.path().extension() != ".vtp") continue;
+        const formats::VtkXml xml(entry.path(), "PolyData");
+        const pugi::xml_node cells = xml.dataset().child("Piece").child("CellData");
+        formats::VtkNumbers regions(xml, cells.find_child_by_attribute("Name", "Region"), std::nullopt),
+            rgb(xml, cells.find_child_by_attribute("Name", "RGB"), std::nullopt);
+        while (!regions.at_end()) {
+            const std::int64_t red = rgb.integer(), green = rgb.integer(), blue = rgb.integer();
+            colours[regions.integer()].insert({red, green, blue});
+        }
+    }
+    EXPECT_GE(colours.size(), 18u);
+    for (const auto& [region, seen] : colours) EXPECT_EQ(seen.size(), 1u) << region;
 }
 
 TEST_F(BlockProgram, converts_a_folder_piece_by_piece_for_paraview) {
