@@ -89,6 +89,11 @@ public:
     const VolumeInfo& info() const override { return info_; }
     bool next(std::span<InputLabel> section) override { return reader_->next(section); }
     void rewind() override { reader_->rewind(); }
+    bool crop(const IndexBox& box) override {
+        if (!reader_->crop(box)) return false;
+        info_.lattice = cropped(info_.lattice, box);
+        return true;
+    }
 
 private:
     std::unique_ptr<SectionReader> reader_;

@@ -29,11 +29,13 @@ bool convert_pieces(const Settings& settings) {
     if (!is_block_folder(folder))
         throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
                                            " is none; name a model such as model.vtp");
+    auto [names, colours] = describe(settings, {}, {});
     if (settings.output.ends_with(".pvtp")) {
-        const std::size_t files = write_vtp_pieces(folder, settings.output, settings.writing).size();
+        const VtpPiecesOptions options{
+            .names = std::move(names), .colours = std::move(colours), .output = settings.writing};
+        const std::size_t files = write_vtp_pieces(folder, settings.output, options).size();
         if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
     } else {
-        auto [names, colours] = describe(settings, {}, {});
         const PrecomputedOptions options{.metres = settings.metres.value_or(1),
                                          .is_legacy = settings.precomputed_is_legacy,
                                          .is_sharded = settings.precomputed_is_sharded,

@@ -80,9 +80,9 @@ bool is_block_folder(const std::filesystem::path& folder);
 /// What a complete folder says besides its surface: `mesh` is empty. Throws like read_block_folder().
 MeshFile describe_block_folder(const std::filesystem::path& folder);
 
-/// Checks a complete folder piece by piece, with the faces of others round each: seams are checked as all else. Holds
-/// one piece and its surroundings. Does not count the components of regions, which are 0, nor look at nesting. Dense
-/// labels are those of describe_block_folder(). Throws like read_block_folder().
+/// Checks a complete folder piece by piece, with the faces of others round each: seams are checked as all else. Finds
+/// what check() finds in the whole. Holds one piece and its surroundings, and the faces on seams that later pieces
+/// need. Dense labels are those of describe_block_folder(). Throws like read_block_folder().
 CheckReport check_block_folder(const std::filesystem::path& folder, const CheckOptions& options = {});
 
 /// Calls on_section with the labels of each section of samples, as Voxeliser::next() gives them, along the sweep of the
@@ -102,11 +102,19 @@ SampleAgreement compare_block_samples(const std::filesystem::path& folder, Label
 /// Whether the samples of a volume lie where those did that the model of the folder was made from.
 bool has_lattice_of(const std::filesystem::path& folder, const VolumeInfo& volume);
 
+struct VtpPiecesOptions {
+    LabelNames names = {};      // of regions; empty: those in the folder
+    LabelColours colours = {};  // of some regions; empty: those in the folder. The others get those of a palette
+    OutputOptions output = {};
+};
+
 /// Writes each piece of a complete folder as NAME-NNNNNN.vtp beside `path`, NAME.pvtp, which ParaView opens as one
-/// model. Holds one piece. NodeType of a vertex on a seam counts the labels in its piece. Returns the files written.
+/// model. Holds one piece, and the vertices on seams that later pieces need. The point attribute GlobalIds numbers the
+/// vertices of the whole from 0, in the order of the pieces: one on a seam has the same number in all pieces that have
+/// it. NodeType of a vertex on a seam counts the labels in its piece. Returns the files written.
 std::vector<std::filesystem::path> write_vtp_pieces(const std::filesystem::path& folder,
                                                     const std::filesystem::path& path,
-                                                    const OutputOptions& options = {});
+                                                    const VtpPiecesOptions& options = {});
 
 struct PrecomputedOptions {
     double metres = 1;          // in a unit of the model
@@ -114,7 +122,7 @@ struct PrecomputedOptions {
     bool is_sharded = false;    // not legacy: neuroglancer_uint64_sharded_v1
     std::uint32_t levels = 0;   // of detail, not legacy; 0: from the number of faces
     LabelNames names = {};      // of regions; empty: those in the folder
-    LabelColours colours = {};  // of some regions; the viewer chooses the others
+    LabelColours colours = {};  // of some regions; empty: those in the folder. The viewer chooses the others
     OutputOptions output = {};
 };
 

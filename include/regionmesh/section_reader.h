@@ -45,8 +45,8 @@ public:
     virtual void rewind() = 0;
 
     /// Makes the box the whole volume, with the lattice cropped(), if the samples round it need not be read: those of
-    /// an array that is not compressed, or in chunks. The next section is the first. Returns false, and changes
-    /// nothing, where it cannot. Requires a box within the volume that is not empty.
+    /// an array that is not compressed, or in chunks or tiles. The next section is the first. Returns false, and
+    /// changes nothing, where it cannot. Requires a box within the volume that is not empty.
     virtual bool crop(const IndexBox&) { return false; }
 
     std::uint32_t section_width() const { return info().lattice.size[info().sweep.axes[0]]; }

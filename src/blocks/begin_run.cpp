@@ -135,6 +135,7 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     manifest.label_count = found.labels.size();
     manifest.space = info.space;
     manifest.names = info.names;
+    manifest.colours = info.colours;
     manifest.background = options.background;
     manifest.scale_z = input.shape.scale_z;
     manifest.initial_faces = found.faces;

@@ -5,7 +5,9 @@
 
 #include "blocks/gather.h"
 #include "blocks/join.h"
+#include "blocks/piece_mesh.h"
 #include "check/check_parts.h"
+#include "mesh/extent.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/process.h"
 #include "stream/place_in_space.h"
@@ -20,13 +22,21 @@ struct Folder {
     fs::path path;
     Manifest manifest = read_complete_manifest(path);
     BlockGrid grid{piece_lattice(manifest), manifest.block_cells, manifest.shift};
-    std::vector<Box> boxes = read_boxes();
+    std::vector<Box> boxes = piece_boxes(manifest, path);
 
-    std::vector<Box> read_boxes() const {
-        std::vector<Box> found;
-        for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
-            found.push_back(read_piece_header(piece_path(path, manifest.pieces[block].pass, block)).box);
-        return found;
+    /// Around what the mesh of a piece with this box contains once it is at its place.
+    Box placed(const Box& box) const {
+        if (box.is_empty()) return box;
+        Mesh corners;
+        for (int n = 0; n < 8; ++n)
+            corners.add_vertex(
+                {(n & 1 ? box.low : box.high).x, (n & 2 ? box.low : box.high).y, (n & 4 ? box.low : box.high).z});
+        place(corners);
+        Box around = extent_of(corners, 1);
+        const double rounding = 1e-12 * (length(around.low) + length(around.high));
+        around.low = around.low - Vec3{rounding, rounding, rounding};
+        around.high = around.high + Vec3{rounding, rounding, rounding};
+        return around;
     }
     /// Moves a mesh of faces of the pieces to its place.
     void place(Mesh& mesh) const {
@@ -37,10 +47,18 @@ struct Folder {
 
 /// The faces that touch a block. Vertices are numbered by their position: in the same order in all parts.
 Mesh read_part(const Folder& folder, std::uint32_t block, MeshPart& part) {
+    part = {
+        .number = block, .of_vertex = {}, .of_face = {}, .low_of_face = {}, .key_of_face = {}, .at = [&](Vec3 place) {
+            return folder.grid.block_at(place);
+        }};
     BlockGatherer gatherer(folder.grid, block);
+    std::vector<std::uint32_t> taken;
     for (std::uint32_t n = 0; n < folder.boxes.size(); ++n)
-        if (!folder.boxes[n].is_empty() && gatherer.needs(folder.boxes[n]))
-            gatherer.add(read_entry(folder.manifest, folder.path, n), 0);
+        if (!folder.boxes[n].is_empty() && gatherer.needs(folder.boxes[n])) {
+            taken.clear();
+            gatherer.add(read_entry(folder.manifest, folder.path, n), 0, &taken);
+            for (const std::uint32_t face : taken) part.key_of_face.push_back(std::uint64_t{n} << 32 | face);
+        }
     BlockChunk gathered;
     gatherer.take(gathered);
     const Chunk& chunk = gathered.chunk;
@@ -52,9 +70,6 @@ Mesh read_part(const Folder& folder, std::uint32_t block, MeshPart& part) {
     });
     Mesh mesh;
     mesh.reserve(chunk.vertices.size(), chunk.faces.size());
-    part = {.number = block, .of_vertex = {}, .of_face = {}, .low_of_face = {}, .at = [&](Vec3 place) {
-                return folder.grid.block_at(place);
-            }};
     for (std::uint32_t n = 0; n < order.size(); ++n) {
         const ChunkVertex& vertex = chunk.vertices[order[n]];
         number[order[n]] = n;
@@ -125,15 +140,17 @@ CheckReport check_block_folder(const fs::path& path, const CheckOptions& options
     const Folder folder{path};
     Box extent;
     for (const Box& box : folder.boxes) extent.join(box);
-    Mesh middle;
-    middle.add_vertex(0.5 * (extent.low + extent.high));
-    folder.place(middle);
-    PartsCheck parts(options, middle.position(VertexId{0}));
+    const Box whole = folder.placed(extent);
+    PartsCheck parts(options, 0.5 * (whole.low + whole.high));
     for (std::uint32_t block = 0; block < folder.boxes.size(); ++block) {
         MeshPart part;
         const Mesh mesh = read_part(folder, block, part);
         parts.add(mesh, part);
     }
+    parts.begin_rays(2 * length(whole.high - whole.low));
+    for (std::uint32_t block = 0; block < folder.boxes.size(); ++block)
+        if (parts.needs(folder.placed(folder.boxes[block])))
+            parts.add_rays(mesh_of(read_entry(folder.manifest, path, block), folder.manifest));
     return parts.finish();
 }
 

@@ -56,9 +56,7 @@ PositionBits bits_of(Vec3 position) {
     return {bits(position.x), bits(position.y), bits(position.z)};
 }
 
-std::size_t SharedVertices::Hash::operator()(const PositionBits& bits) const {
-    return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]);
-}
+std::size_t hash_of(const PositionBits& bits) { return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]); }
 
 std::uint32_t SharedVertices::number(Vec3 position, std::uint32_t next) {
     return numbers_.try_emplace(bits_of(position), next).first->second;
@@ -79,7 +77,7 @@ std::uint32_t BlockGatherer::number(const PieceVertex& vertex, std::uint32_t& pl
     return place;
 }
 
-void BlockGatherer::add(const Piece& piece, double keep) {
+void BlockGatherer::add(const Piece& piece, double keep, std::vector<std::uint32_t>* taken) {
     std::vector<std::uint32_t> places(piece.vertices.size(), kNone);
     for (const PieceFace& face : piece.faces) {
         const std::array<Vec3, 3> corners = corners_of(piece, face);
@@ -90,6 +88,7 @@ void BlockGatherer::add(const Piece& piece, double keep) {
         for (int n = 0; n < 3; ++n)
             made.vertices[n] = number(piece.vertices[face.vertices[n]], places[face.vertices[n]]);
         chunk_.faces.push_back(made);
+        if (taken) taken->push_back(static_cast<std::uint32_t>(&face - piece.faces.data()));
         if (!is_own || !is_within(box, limits_))
             for (const std::uint32_t v : made.vertices) is_locked_[v] = true;
         if (is_own)

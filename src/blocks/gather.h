@@ -21,6 +21,7 @@ std::uint32_t block_of(const BlockGrid& grid, const Chunk& chunk, const ChunkFac
 /// The bits of the coordinates, the same for 0 and -0: positions that are equal have equal bits.
 using PositionBits = std::array<std::uint64_t, 3>;
 PositionBits bits_of(Vec3 position);
+std::size_t hash_of(const PositionBits& bits);
 
 /// Numbers of vertices that several pieces may have, by their exact position.
 class SharedVertices {
@@ -31,7 +32,7 @@ public:
 
 private:
     struct Hash {
-        std::size_t operator()(const PositionBits& bits) const;
+        std::size_t operator()(const PositionBits& bits) const { return hash_of(bits); }
     };
     std::unordered_map<PositionBits, std::uint32_t, Hash> numbers_;
 };
@@ -45,8 +46,8 @@ public:
     /// Whether a piece with this box may have faces that belong to the block or touch it.
     bool needs(const Box& box) const;
     /// Adds those faces. Pieces come in the order of their numbers. `keep` is the share of this piece's faces that the
-    /// goal has room for.
-    void add(const Piece& piece, double keep);
+    /// goal has room for. `taken`, if given, gets the numbers in the piece of the faces that were added.
+    void add(const Piece& piece, double keep, std::vector<std::uint32_t>* taken = nullptr);
     /// The sum over the block's own faces of the shares to keep.
     double goal() const { return goal_; }
     /// The faces, with the locked vertices as active ones: those of faces of other blocks, and corners of faces that

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "blocks/gather.h"
+#include "blocks/global_numbers.h"
 #include "blocks/piece.h"
 #include "formats/input_file.h"
 #include "regionmesh/limits.h"
@@ -37,18 +37,18 @@ std::optional<std::uint32_t> pass_of(const std::string& name) {
     return pass;
 }
 
+std::vector<Box> piece_boxes(const Manifest& manifest, const fs::path& folder) {
+    std::vector<Box> boxes;
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
+        boxes.push_back(read_piece_header(piece_path(folder, manifest.pieces[block].pass, block)).box);
+    return boxes;
+}
+
 std::uint64_t count_vertices(const Manifest& manifest, const fs::path& folder) {
-    SharedVertices shared;
-    std::uint64_t own = 0;
-    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
-        const Piece piece = read_entry(manifest, folder, block);
-        for (const PieceVertex& vertex : piece.vertices)
-            if (vertex.is_shared)
-                shared.number(vertex.position, 0);
-            else
-                ++own;
-    }
-    return own + shared.size();
+    GlobalNumbers numbers(manifest, folder);
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
+        numbers.number(read_entry(manifest, folder, block), block);
+    return numbers.count();
 }
 
 bool is_block_folder(const fs::path& folder) {
@@ -61,6 +61,7 @@ MeshFile describe_block_folder(const fs::path& folder) {
     const Manifest manifest = read_complete_manifest(folder);
     MeshFile file{.mesh = {}, .labels = read_labels(manifest, folder)};
     file.names = manifest.names;
+    file.colours = manifest.colours;
     file.space = manifest.space;
     file.background = manifest.background;
     return file;
@@ -71,19 +72,16 @@ MeshFile read_block_folder(const fs::path& folder) {
     MeshFile file = describe_block_folder(folder);
     require_mesh_size("the model in pieces", manifest.vertices, manifest.faces);
     file.mesh.reserve(manifest.vertices, manifest.faces);
-    SharedVertices shared;
-    std::vector<VertexId> ids;
+    GlobalNumbers numbers(manifest, folder);
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
         const Piece piece = read_entry(manifest, folder, block);
-        ids.clear();
-        for (const PieceVertex& vertex : piece.vertices) {
-            const std::uint32_t next = file.mesh.vertex_end();
-            const std::uint32_t number = vertex.is_shared ? shared.number(vertex.position, next) : next;
-            ids.push_back(VertexId{number});
-            if (number == next) file.mesh.add_vertex(vertex.position, vertex.sides);
-        }
+        const std::vector<std::uint64_t> ids = numbers.number(piece, block);
+        for (std::size_t n = 0; n < ids.size(); ++n)
+            if (ids[n] == file.mesh.vertex_end())
+                file.mesh.add_vertex(piece.vertices[n].position, piece.vertices[n].sides);
+        const auto id = [&](std::uint32_t n) { return VertexId{static_cast<std::uint32_t>(ids[n])}; };
         for (const PieceFace& face : piece.faces)
-            file.mesh.add_face(ids[face.vertices[0]], ids[face.vertices[1]], ids[face.vertices[2]], face.labels[0],
+            file.mesh.add_face(id(face.vertices[0]), id(face.vertices[1]), id(face.vertices[2]), face.labels[0],
                                face.labels[1]);
     }
     unscale_z(file.mesh, manifest.scale_z);

@@ -22,4 +22,7 @@ Piece read_entry(const Manifest& manifest, const std::filesystem::path& folder, 
 /// Vertices of the whole model: those that several pieces share are counted once.
 std::uint64_t count_vertices(const Manifest& manifest, const std::filesystem::path& folder);
 
+/// Of the vertices of each piece, by block.
+std::vector<Box> piece_boxes(const Manifest& manifest, const std::filesystem::path& folder);
+
 }  // namespace regionmesh

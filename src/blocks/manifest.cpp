@@ -6,7 +6,9 @@
 #include "blocks/block_grid.h"
 #include "formats/input_file.h"
 #include "formats/report/json_parts.h"
+#include "formats/text/header_text.h"
 #include "formats/text/json_text.h"
+#include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "stream/section_faces.h"
@@ -40,6 +42,8 @@ Json json_of(const Manifest& manifest) {
     json["space"] = space_name(manifest.space);
     Json& names = json["names"] = Json::array();
     for (const auto& [label, name] : manifest.names) names.push_back({label, name});
+    Json& colours = json["colours"] = Json::array();
+    for (const auto& [label, colour] : manifest.colours) colours.push_back({label, hex_of(colour)});
     json["background"] = manifest.background;
     json["block_cells"] = manifest.block_cells;
     json["shift"] = manifest.shift;
@@ -64,11 +68,17 @@ Space space_of(const std::string& name) {
     return Space::kUnknown;
 }
 
+std::uint32_t colour_of(const std::string& text, const fs::path& path) {
+    const auto colour = formats::parse_colour(text);
+    if (!colour) formats::fail(path, "has the colour '" + formats::shown(text) + "'; write it as #ff8000");
+    return *colour;
+}
+
 PieceEntry piece_of(const nlohmann::json& json) {
     return {json.at("pass"), json.at("vertices"), json.at("faces"), json.at("crc32")};
 }
 
-Manifest manifest_of(const nlohmann::json& json) {
+Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     Manifest manifest;
     for (const auto& pair : json.at("run")) manifest.identity.emplace_back(pair.at(0), pair.at(1));
     manifest.is_surveyed = json.contains("size");
@@ -85,6 +95,8 @@ Manifest manifest_of(const nlohmann::json& json) {
     manifest.label_count = json.at("labels");
     manifest.space = space_of(json.at("space"));
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
+    if (json.contains("colours"))  // added to version 1
+        for (const auto& pair : json.at("colours")) manifest.colours.emplace(pair.at(0), colour_of(pair.at(1), path));
     manifest.background = json.at("background").get<std::vector<InputLabel>>();
     manifest.block_cells = json.at("block_cells");
     manifest.shift = json.at("shift");
@@ -137,7 +149,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
         if (json->at("version") != kVersion)
             formats::fail(path, "is of version " + json->at("version").dump() + ", and this program writes version " +
                                     std::to_string(kVersion) + "; take the program that wrote it");
-        return manifest_of(*json);
+        return manifest_of(*json, path);
     });
 }
 

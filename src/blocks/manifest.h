@@ -33,6 +33,7 @@ struct Manifest {
     std::uint64_t label_count = 0;  // in labels.bin
     Space space = Space::kUnknown;
     LabelNames names = {};
+    LabelColours colours = {};
     std::vector<InputLabel> background = {};
     std::uint32_t block_cells = 0;
     std::uint32_t shift = 0;  // cells by which the first blocks of `pieces` are shorter

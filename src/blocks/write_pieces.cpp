@@ -1,8 +1,11 @@
 // Models in pieces for ParaView.
 #include <fmt/format.h>
 
+#include "blocks/global_numbers.h"
 #include "blocks/join.h"
 #include "blocks/piece_mesh.h"
+#include "formats/surface/mesh_formats.h"
+#include "mesh/region_colours.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/census.h"
 #include "regionmesh/write_report.h"
@@ -11,28 +14,57 @@ namespace regionmesh {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& path, const OutputOptions& options) {
+namespace {
+
+/// Colours for the whole model, by place: the same in all pieces.
+std::vector<std::uint32_t> colours_of(const Manifest& manifest, const fs::path& folder, const LabelTable& labels,
+                                      const std::vector<Label>& background, const LabelColours& given) {
+    RegionNeighbours neighbours;
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
+        const Mesh mesh = mesh_of(read_entry(manifest, folder, block), manifest);
+        add_neighbours(FileView(mesh, labels, background), neighbours);
+    }
+    const Mesh none;
+    FileView view(none, labels, background);
+    view.set_given_colours(given);
+    return region_colours(view, neighbours);
+}
+
+}  // namespace
+
+std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& path, const VtpPiecesOptions& options) {
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
-    const WriteOptions write{.background = dense_background(manifest.background, labels),
-                             .names = manifest.names,
-                             .space = manifest.space,
-                             .output = options};
+    const std::vector<Label> background = dense_background(manifest.background, labels);
+    const LabelNames& names = options.names.empty() ? manifest.names : options.names;
+    const LabelColours& given = options.colours.empty() ? manifest.colours : options.colours;
+    const std::vector<std::uint32_t> colours = colours_of(manifest, folder, labels, background, given);
+    GlobalNumbers numbers(manifest, folder);
     std::vector<fs::path> written;
     std::string pieces;
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
         if (manifest.pieces[block].faces == 0) continue;
-        fs::path file = path;
-        file.replace_filename(fmt::format("{}-{:06}.vtp", path.stem().string(), block));
-        write_mesh(mesh_of(read_entry(manifest, folder, block), manifest), labels, file, write);
-        written.push_back(file);
-        pieces += fmt::format("    <Piece Source=\"{}\"/>\n", file.filename().string());
+        const Piece piece = read_entry(manifest, folder, block);
+        const Mesh mesh = mesh_of(piece, manifest);
+        FileView view(mesh, labels, background, names);
+        view.set_space(manifest.space);
+        view.set_given_colours(given);
+        view.set_colours_of_whole(colours);
+        fs::path name = path;
+        name.replace_filename(fmt::format("{}-{:06}.vtp", path.stem().string(), block));
+        OutputFile file(name, options.output);
+        write_vtp_part(view, numbers.number(piece, block), file);
+        file.commit();
+        written.push_back(name);
+        pieces += fmt::format("    <Piece Source=\"{}\"/>\n", name.filename().string());
     }
     write_text(path,
                "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
                "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PPolyData GhostLevel=\"0\">\n"
                "    <PPoints>\n      <PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n    </PPoints>\n"
-               "    <PPointData>\n      <PDataArray type=\"Int8\" Name=\"NodeType\"/>\n    </PPointData>\n"
+               "    <PPointData GlobalIds=\"GlobalIds\">\n"
+               "      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"GlobalIds\"/>\n      <PDataArray type=\"Int8\" "
+               "Name=\"NodeType\"/>\n    </PPointData>\n"
                "    <PCellData>\n"
                "      <PDataArray type=\"Int64\" Name=\"BoundaryLabels\" NumberOfComponents=\"2\"/>\n"
                "      <PDataArray type=\"Int64\" Name=\"Region\"/>\n"
@@ -40,7 +72,7 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
                "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"
                "    </PCellData>\n" +
                    pieces + "  </PPolyData>\n</VTKFile>\n",
-               options);
+               options.output);
     written.push_back(path);
     return written;
 }

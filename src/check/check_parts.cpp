@@ -8,7 +8,9 @@ void PartsCheck::add(const Mesh& mesh, const MeshPart& part) {
     Findings findings(options_.listed);
     sum_faces(mesh, options_, &part, origin_, faces_, findings);
     CheckReport own;
-    check_stars(mesh, options_, stars_, own, findings, &part);
+    const PartStars stars{part, components_};
+    check_stars(mesh, options_, stars_, own, findings, &stars);
+    nesting_.add(mesh, part);
     report_.quadruple_points_inside += own.quadruple_points_inside;
     check_places(mesh, options_, findings, &part);
     if (options_.crossing) check_crossing(mesh, options_, SortedFaceTree(mesh, options_.threads), findings, &part);
@@ -29,11 +31,13 @@ CheckReport PartsCheck::finish() {
     for (Label label = 0; label < stars_.size(); ++label) {
         if (label >= regions.size()) regions.resize(label + 1);
         regions[label].euler += stars_[label].euler;
+        regions[label].components += stars_[label].components;
     }
     list_regions(options_, regions, report_);
     report_.quality = faces_.quality.report();
     report_.region_pairs = faces_.pairs.size();
     report_.lines = lines_.report();
+    nesting_.report(options_, all_);
     check_against_labels(options_, report_, all_);
     all_.move_to(report_);
     return std::move(report_);

@@ -7,6 +7,8 @@
 
 #include "check/findings.h"
 #include "check/lines.h"
+#include "check/part_components.h"
+#include "check/part_nesting.h"
 #include "check/quality_sum.h"
 #include "mesh/mesh_part.h"
 
@@ -23,17 +25,21 @@ struct FaceTotals {
 void sum_faces(const Mesh& mesh, const CheckOptions& options, const MeshPart* part, Vec3 origin, FaceTotals& totals,
                Findings& findings);
 
-/// Checks parts one after the other, and their sums at the end. Finds all that check() finds but for what only the
-/// connected whole says: `components` is 0, and nesting is not looked at. Ids in findings are those of the part, and
-/// the sentences name it.
+/// Checks parts one after the other, and their sums at the end. Finds all that check() finds. Ids in findings are those
+/// of the part, and the sentences name it.
 class PartsCheck {
 public:
     /// Volumes are measured from `origin`: the middle of the box.
-    PartsCheck(const CheckOptions& options, Vec3 origin) : options_(options), origin_(origin), all_(options.listed) {}
+    PartsCheck(const CheckOptions& options, Vec3 origin)
+        : options_(options), origin_(origin), all_(options.listed), nesting_(origin) {}
 
     /// Requires a mesh with all faces that touch a vertex or a face of the part, and vertices numbered in an order that
-    /// is the same in all parts: an edge is counted at its first vertex.
+    /// is the same in all parts: an edge is counted at its first vertex. Parts come in the order of their numbers.
     void add(const Mesh& mesh, const MeshPart& part);
+    /// After all parts, for finish(): each face in a box that needs() takes has to come in a mesh.
+    void begin_rays(double reach) { nesting_.begin_rays(reach); }
+    bool needs(const Box& box) const { return nesting_.needs(box); }
+    void add_rays(const Mesh& mesh) { nesting_.meet(mesh, options_.threads); }
     CheckReport finish();
 
 private:
@@ -43,6 +49,8 @@ private:
     FaceTotals faces_;
     LineTotals lines_;
     std::vector<RegionReport> stars_;
+    PartComponents components_;
+    PartNesting nesting_;
     CheckReport report_;
 };
 

@@ -7,22 +7,26 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/label_set.h"
 #include "mesh/mesh_part.h"
 #include "mesh/sorted_face_tree.h"
 #include "regionmesh/check.h"
 
 namespace regionmesh {
 
+struct PartStars;
+
 /// Each part of the work collects its own; they are appended in an order that does not depend on the threads.
 class Findings {
 public:
     explicit Findings(std::uint32_t listed = 0) : listed_(listed) {}
 
-    /// text() makes the sentence; called only if the finding is listed.
+    /// text() makes the sentence; called only if the finding is listed. Returns it then, until the next is added.
     template <class Text>
-    void add(ViolationKind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces, Text&& text) {
-        if (counts_[static_cast<int>(kind)]++ < listed_)
-            violations_.push_back({kind, std::move(vertices), std::move(faces), text(), {}, {}});
+    Violation* add(ViolationKind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> faces,
+                   Text&& text) {
+        if (counts_[static_cast<int>(kind)]++ >= listed_) return nullptr;
+        return &violations_.emplace_back(Violation{kind, std::move(vertices), std::move(faces), text(), {}, {}});
     }
 
     void append(Findings&& later) {
@@ -74,7 +78,7 @@ inline std::string region_name(const CheckOptions& options, Label label) {
 void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings);
 void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
-                 Findings& findings, const MeshPart* part = nullptr);
+                 Findings& findings, const PartStars* part = nullptr);
 void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findings, const MeshPart* part = nullptr);
 void check_crossing(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree& tree, Findings& findings,
                     const MeshPart* part = nullptr);
@@ -85,5 +89,6 @@ void list_regions(const CheckOptions& options, const std::vector<RegionReport>& 
 void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings);
 /// Adds the place and the labels of a violation, and appends the place to its sentence.
 void place_violation(const Mesh& mesh, Violation& violation);
+void place_violation(Vec3 at, const LabelSet& met, Violation& violation);
 
 }  // namespace regionmesh

@@ -1,33 +1,23 @@
 // Does every separate part of the surface lie in the region that its outermost faces name?
-#include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 
 #include "base/parallel_for.h"
 #include "base/union_find.h"
-#include "check/findings.h"
+#include "check/nesting_ray.h"
 
 namespace regionmesh {
 namespace {
 
-/// No simple ratios, so that a ray from a lattice point hits no edge.
-constexpr Vec3 kRay{1, 0.013748231, 0.007193377};
-
-/// A connected part of the surface. The volume inside is negative for its outermost region, and for no other.
+/// A connected part of the surface.
 struct Part {
     VertexId farthest = kNoVertex;  // along the ray
-    std::map<Label, double> volumes;
+    NestedVolumes volumes;
     bool touches_box = false;
 };
 
 /// By the smallest vertex of each part.
 using Parts = std::map<std::uint32_t, Part>;
-
-struct Hit {
-    double distance = HUGE_VAL;
-    Label label = 0;  // of the region in front of the face
-};
 
 class NestingCheck {
 public:
@@ -83,7 +73,8 @@ private:
     void gather_parts() {
         const auto add = [&](Part& part, VertexId v, bool touches_box) {
             part.touches_box |= touches_box;
-            if (part.farthest == kNoVertex || dot(kRay, mesh_.position(v)) > dot(kRay, mesh_.position(part.farthest)))
+            if (part.farthest == kNoVertex ||
+                dot(kNestingRay, mesh_.position(v)) > dot(kNestingRay, mesh_.position(part.farthest)))
                 part.farthest = v;
         };
         const auto find = [&](std::uint32_t first, std::uint32_t end) {
@@ -113,7 +104,7 @@ private:
                 if (!mesh_.is_alive(f)) continue;
                 const std::uint32_t root = joined_.find(index(mesh_[f].vertices[0]));
                 if (!last || last->first != root) last = &*parts.try_emplace(root, parts_.at(root)).first;
-                add_volume(f, last->second);
+                add(f, last->second);
             }
             return parts;
         };
@@ -125,57 +116,29 @@ private:
         });
     }
 
-    void add_volume(FaceId f, Part& part) const {
-        const auto& labels = mesh_[f].labels;
-        part.touches_box |= is_exterior(labels[1]);
-        if (part.touches_box) return;
-        const Vec3 o = mesh_.position(part.farthest);
-        const auto p = mesh_.corners(f);
-        const double sixfold = dot(p[0] - o, cross(p[1] - o, p[2] - o));
-        part.volumes[labels[0]] += sixfold;
-        part.volumes[labels[1]] -= sixfold;
+    void add(FaceId f, Part& part) const {
+        part.touches_box |= is_exterior(mesh_[f].labels[1]);
+        if (!part.touches_box) add_volume(part.volumes, mesh_, f, mesh_.position(part.farthest));
     }
 
     void look_at(const Part& part, Findings& findings) {
-        const auto outer = std::min_element(part.volumes.begin(), part.volumes.end(),
-                                            [](const auto& a, const auto& b) { return a.second < b.second; });
+        const Label outer = outermost(part.volumes);
         const Vec3 from = mesh_.position(part.farthest);
         const std::uint32_t own = joined_.find(index(part.farthest));
         Box box;
         box.add(from);
-        box.add(from + reach_ * kRay);
-        Hit nearest;
+        box.add(from + reach_ * kNestingRay);
+        NestingHit nearest;
         tree_->search(box, [&](FaceId f) {
             if (joined_.find(index(mesh_[f].vertices[0])) != own) {
-                const Hit hit = hit_at(f, from);
+                const NestingHit hit = nesting_hit(mesh_, f, from);
                 if (hit.distance < nearest.distance) nearest = hit;
             }
             return true;
         });
-        const bool leaves = nearest.distance == HUGE_VAL;
-        const bool may_leave = options_.boundary_is_open || options_.is_background(outer->first);
-        if (leaves ? may_leave || is_exterior(outer->first) : nearest.label == outer->first) return;
-        findings.add(ViolationKind::kNesting, {index(part.farthest)}, {}, [&] {
-            return "the part with vertex " + std::to_string(index(part.farthest)) + " has faces that place it in " +
-                   region_name(options_, outer->first) + ", but " +
-                   (leaves ? "nothing surrounds it" : "it lies in " + region_name(options_, nearest.label));
-        });
-    }
-
-    /// Where the ray meets a face (Moeller and Trumbore 1997).
-    Hit hit_at(FaceId f, Vec3 from) const {
-        const auto p = mesh_.corners(f);
-        const Vec3 e = p[1] - p[0], g = p[2] - p[0];
-        const Vec3 h = cross(kRay, g);
-        const double d = dot(e, h);
-        if (d == 0) return {};
-        const Vec3 s = from - p[0];
-        const double u = dot(s, h) / d;
-        const Vec3 q = cross(s, e);
-        const double v = dot(kRay, q) / d, t = dot(g, q) / d;
-        if (u < 0 || v < 0 || u + v > 1 || t <= 0) return {};
-        const bool along_normal = dot(cross(e, g), kRay) > 0;
-        return {t, mesh_[f].labels[along_normal ? 0 : 1]};
+        if (is_nested(options_, outer, nearest)) return;
+        findings.add(ViolationKind::kNesting, {index(part.farthest)}, {},
+                     [&] { return nesting_text(options_, index(part.farthest), outer, nearest); });
     }
 
     const Mesh& mesh_;

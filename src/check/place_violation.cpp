@@ -16,26 +16,30 @@ std::string text_of(double value) {
 
 }  // namespace
 
+void place_violation(Vec3 at, const LabelSet& met, Violation& violation) {
+    violation.at = at;
+    violation.labels.assign(met.begin(), met.end());
+    std::sort(violation.labels.begin(), violation.labels.end());
+    violation.text += " at (" + text_of(at.x) + ", " + text_of(at.y) + ", " + text_of(at.z) + ")";
+}
+
 void place_violation(const Mesh& mesh, Violation& violation) {
-    const auto& [kind, vertices, faces, text, at, labels] = violation;
+    const auto& vertices = violation.vertices;
+    const auto& faces = violation.faces;
+    const ViolationKind kind = violation.kind;
     LabelSet met;
     if (!vertices.empty()) {
-        violation.at = mesh.position(VertexId{vertices[0]});
         const bool is_edge = kind == ViolationKind::kOpenEdge || kind == ViolationKind::kOverfullEdge ||
                              kind == ViolationKind::kOrientation;
         met = is_edge ? edge_labels(mesh, VertexId{vertices[0]}, VertexId{vertices[1]})
                       : vertex_labels(mesh, VertexId{vertices[0]});
+        place_violation(mesh.position(VertexId{vertices[0]}), met, violation);
     } else if (!faces.empty()) {
         const auto p = mesh.corners(FaceId{faces[0]});
-        violation.at = p[0] / 3 + p[1] / 3 + p[2] / 3;
         for (std::uint32_t f : faces)
             for (Label label : mesh[FaceId{f}].labels) met.add(label);
-    } else {
-        return;
+        place_violation(p[0] / 3 + p[1] / 3 + p[2] / 3, met, violation);
     }
-    violation.labels.assign(met.begin(), met.end());
-    std::sort(violation.labels.begin(), violation.labels.end());
-    violation.text += " at (" + text_of(at->x) + ", " + text_of(at->y) + ", " + text_of(at->z) + ")";
 }
 
 }  // namespace regionmesh

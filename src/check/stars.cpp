@@ -8,6 +8,7 @@
 #include "base/union_find.h"
 #include "check/findings.h"
 #include "check/generic_star.h"
+#include "check/part_components.h"
 #include "check/region_sums.h"
 #include "mesh/fan.h"
 #include "mesh/label_set.h"
@@ -54,9 +55,10 @@ private:
     static std::uint32_t sheet(FaceId f, int side) { return 2 * index(f) + static_cast<std::uint32_t>(side); }
 
     void look_at_vertex(VertexId v) {
-        if (mesh_[v].star == kNoCorner)
-            return findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {},
-                                 [&] { return name(v) + " has no face"; });
+        if (mesh_[v].star == kNoCorner) {
+            findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {}, [&] { return name(v) + " has no face"; });
+            return;
+        }
         pages_.clear();
         labels_ = LabelSet();
         bool has_exterior = false, is_odd = false;
@@ -278,17 +280,19 @@ std::vector<RegionReport> count_components(const Mesh& mesh, const UnionFind& sh
 }  // namespace
 
 void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
-                 Findings& findings, const MeshPart* part) {
+                 Findings& findings, const PartStars* of) {
     UnionFind sheets(2 * mesh.face_end());
     for_chunks(
         mesh.vertex_end(), kCheckChunk, options.threads,
-        [&](std::uint32_t first, std::uint32_t end) { return StarCheck(mesh, options, sheets).run(first, end, part); },
+        [&](std::uint32_t first, std::uint32_t end) {
+            return StarCheck(mesh, options, sheets).run(first, end, of ? &of->part : nullptr);
+        },
         [&](StarChunk&& chunk) {
             findings.append(std::move(chunk.findings));
             add_to(regions, chunk.regions);
             report.quadruple_points_inside += chunk.quadruple_points_inside;
         });
-    if (part) return;  // of which the whole may join what looks separate
+    if (of) return of->components.add(mesh, of->part, sheets, regions);
     for_chunks(
         mesh.face_end(), kCheckChunk, options.threads,
         [&](std::uint32_t first, std::uint32_t end) { return count_components(mesh, sheets, first, end); },

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -33,6 +34,39 @@ bool is_empty_space(const CommonView& view, const std::vector<Label>& labels) {
            std::ranges::all_of(labels, [&](Label label) { return is_exterior(label) || is_background(label); });
 }
 
+bool is_before(Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); }
+
+/// Orders the points by position, so that no result depends on how the model numbers or turns its faces: files turn
+/// those whose second label is smaller. An edge keeps its form.
+void order_points(const Mesh& mesh, Simplex& simplex) {
+    const auto by_position = [&](std::uint32_t a, std::uint32_t b) {
+        return is_before(mesh.position(VertexId{a}), mesh.position(VertexId{b}));
+    };
+    auto& [a, b, c] = simplex;
+    if (is_edge(simplex)) {
+        if (by_position(b, a)) std::swap(a, b), c = b;
+        return;
+    }
+    std::ranges::sort(simplex, by_position);
+    if (b == c) std::swap(a, c);  // a face that repeats a vertex must not be taken for an edge
+}
+
+/// Simplices with the same place on the curve, in the order of their points.
+void order_ties(const Mesh& mesh, const std::vector<Simplex>& simplices, std::vector<KeyedIndex>& order) {
+    const auto by_points = [&](const KeyedIndex& a, const KeyedIndex& b) {
+        return std::ranges::lexicographical_compare(
+            simplices[a.index], simplices[b.index], is_before,
+            [&](std::uint32_t v) { return mesh.position(VertexId{v}); },
+            [&](std::uint32_t v) { return mesh.position(VertexId{v}); });
+    };
+    for (auto first = order.begin(); first != order.end();) {
+        const auto end =
+            std::find_if(first, order.end(), [&](const KeyedIndex& item) { return item.key != first->key; });
+        if (end - first > 1) std::sort(first, end, by_points);
+        first = end;
+    }
+}
+
 std::vector<KeyedIndex> along_curve(const Mesh& mesh, const std::vector<Simplex>& simplices, const Box& bounds,
                                     std::uint32_t threads) {
     const HilbertGrid grid(bounds);
@@ -46,6 +80,7 @@ std::vector<KeyedIndex> along_curve(const Mesh& mesh, const std::vector<Simplex>
         }
     });
     radix_sort(order);
+    order_ties(mesh, simplices, order);
     return order;
 }
 
@@ -124,9 +159,10 @@ SortedStrata interfaces_of(const CommonView& view, std::uint32_t threads) {
         }
         if (last_set == kNoStratum) continue;
         const auto& [a, b, c] = face.vertices;
-        // A degenerate face that repeats a vertex must not be taken for an edge.
-        found.simplices.push_back(b == c ? Simplex{index(b), index(c), index(a)}
-                                         : Simplex{index(a), index(b), index(c)});
+        Simplex simplex{index(a), index(b), index(c)};
+        if (b == c) std::swap(simplex[0], simplex[2]);  // not an edge
+        order_points(mesh, simplex);
+        found.simplices.push_back(simplex);
         found.sets.push_back(last_set);
     }
     return sorted(mesh, found, threads);
@@ -171,6 +207,7 @@ SortedStrata lines_of(const CommonView& view, bool sides_apart, std::uint32_t th
             const auto [at, is_new] = sets.try_emplace(std::move(edge.labels), static_cast<std::uint32_t>(sets.size()));
             if (is_new) found.labels.push_back(at->first);
             found.simplices.push_back({index(edge.u), index(edge.v), index(edge.v)});
+            order_points(mesh, found.simplices.back());
             found.sets.push_back(at->second);
         }
     return sorted(mesh, found, threads);

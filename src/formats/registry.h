@@ -46,6 +46,8 @@ struct Format {
     bool is_image = false;                            // a file may be one section of a volume
     ReadShape* read_shape = nullptr;                  // of one image
     ReadImage* read_image = nullptr;
+    IsTiled* is_tiled = nullptr;  // null where no image is
+    ReadWindow* read_window = nullptr;
 
     // Labelled tetrahedra.
     std::unique_ptr<TetrahedronReader> (*open_tetrahedra)(const Path&, const TetrahedraOptions&) = nullptr;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "regionmesh/label.h"
@@ -35,6 +36,9 @@ public:
     const LabelColours& given_colours() const { return *colours_; }
     /// `colours` must live as long as the view.
     void set_given_colours(const LabelColours& colours) { colours_ = &colours; }
+    /// The colours of all regions, by place, where the mesh is a part of the model that decides them; none by default.
+    const std::vector<std::uint32_t>& colours_of_whole() const { return colours_of_whole_; }
+    void set_colours_of_whole(std::vector<std::uint32_t> colours) { colours_of_whole_ = std::move(colours); }
     InputLabel exterior_label() const { return exterior_label_; }
     Space space() const { return space_; }
     void set_space(Space space) { space_ = space; }
@@ -90,6 +94,7 @@ private:
     const LabelTable& labels_;
     const LabelNames& names_;
     const LabelColours* colours_;
+    std::vector<std::uint32_t> colours_of_whole_;
     InputLabel exterior_label_;
     Space space_ = Space::kUnknown;
     std::uint32_t region_ranks_ = 0;      // ranks from here on are background or exterior

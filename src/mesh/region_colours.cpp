@@ -89,9 +89,10 @@ std::size_t nearest_in_palette(std::uint32_t colour) {
     return static_cast<std::size_t>(std::ranges::min_element(distances) - distances.begin());
 }
 
-/// By place, the places of the regions with a common interface; no background.
-std::vector<std::set<std::uint32_t>> neighbours_of(const FileView& view) {
-    std::vector<std::set<std::uint32_t>> neighbours(view.labels().size());
+}  // namespace
+
+void add_neighbours(const FileView& view, RegionNeighbours& neighbours) {
+    neighbours.resize(view.labels().size());
     const auto is_region = [&](Label label) { return !is_exterior(label) && !view.is_background(label); };
     std::array<Label, 2> last{exterior(0), exterior(0)};  // most faces have the labels of the face before
     view.for_faces([&](FaceId f) {
@@ -101,8 +102,9 @@ std::vector<std::set<std::uint32_t>> neighbours_of(const FileView& view) {
         neighbours[view.rank(a)].insert(view.rank(b));
         neighbours[view.rank(b)].insert(view.rank(a));
     });
-    return neighbours;
 }
+
+namespace {
 
 constexpr std::size_t kNoColour = kPalette.size();
 
@@ -126,8 +128,14 @@ std::size_t best_colour(const std::vector<std::size_t>& taken, const std::array<
 }  // namespace
 
 std::vector<std::uint32_t> region_colours(const FileView& view) {
+    if (!view.colours_of_whole().empty()) return view.colours_of_whole();
+    RegionNeighbours neighbours;
+    add_neighbours(view, neighbours);
+    return region_colours(view, neighbours);
+}
+
+std::vector<std::uint32_t> region_colours(const FileView& view, const RegionNeighbours& neighbours) {
     static const Distances kDistances = palette_distances();
-    const auto neighbours = neighbours_of(view);
     std::vector<std::size_t> chosen(neighbours.size(), kNoColour);
     std::array<std::size_t, kPalette.size()> uses{};
     std::vector<std::optional<std::uint32_t>> given;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,15 @@ namespace regionmesh {
 /// palette. There regions with a common interface get different colours, as far apart as possible for normal,
 /// protanopic and deuteranopic eyes. Depends on the mesh, the labels and the given colours only.
 std::vector<std::uint32_t> region_colours(const FileView& view);
+
+/// By place, the places of the regions with a common interface.
+using RegionNeighbours = std::vector<std::set<std::uint32_t>>;
+
+/// Adds those in a part of a model. All parts have the same labels and background.
+void add_neighbours(const FileView& part, RegionNeighbours& neighbours);
+
+/// The same for a model in parts, any of which is `part`.
+std::vector<std::uint32_t> region_colours(const FileView& part, const RegionNeighbours& neighbours);
 
 /// Red, green and blue.
 std::array<std::uint8_t, 3> rgb_of(std::uint32_t colour);

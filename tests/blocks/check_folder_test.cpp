@@ -9,6 +9,7 @@
 #include "blocks/piece.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/census.h"
+#include "support/random.h"
 #include "support/runs.h"
 
 namespace regionmesh {
@@ -55,25 +56,87 @@ protected:
     std::optional<test::ArrayVolume> volume_;
 };
 
+/// Field by field.
+void expect_same(const CheckReport& parts, const CheckReport& whole) {
+    EXPECT_EQ(parts.counts, whole.counts);
+    EXPECT_EQ(parts.region_pairs, whole.region_pairs);
+    EXPECT_EQ(parts.quadruple_points_inside, whole.quadruple_points_inside);
+    EXPECT_EQ(parts.lines.edges, whole.lines.edges);
+    EXPECT_NEAR(parts.lines.length, whole.lines.length, 1e-6);
+    EXPECT_NEAR(parts.lines.mean_turning_angle, whole.lines.mean_turning_angle, 1e-6);
+    EXPECT_EQ(parts.quality.histogram, whole.quality.histogram);
+    EXPECT_EQ(parts.quality.angle_histogram, whole.quality.angle_histogram);
+    EXPECT_EQ(parts.quality.min, whole.quality.min);
+    EXPECT_NEAR(parts.quality.mean, whole.quality.mean, 1e-9);
+    EXPECT_NEAR(parts.quality.min_angle, whole.quality.min_angle, 1e-9);
+    EXPECT_NEAR(parts.quality.max_angle, whole.quality.max_angle, 1e-9);
+    ASSERT_EQ(parts.regions.size(), whole.regions.size());
+    for (std::size_t n = 0; n < whole.regions.size(); ++n) {
+        EXPECT_EQ(parts.regions[n].label, whole.regions[n].label) << n;
+        EXPECT_EQ(parts.regions[n].euler, whole.regions[n].euler) << n;
+        EXPECT_EQ(parts.regions[n].components, whole.regions[n].components) << n;
+        EXPECT_NEAR(parts.regions[n].volume, whole.regions[n].volume, 1e-6) << n;
+        EXPECT_NEAR(parts.regions[n].area, whole.regions[n].area, 1e-6) << n;
+    }
+}
+
 TEST_F(CheckFolder, piece_by_piece_finds_the_same_as_the_whole) {
     make(test::grain_volume({33, 30, 28}, 20, 3), 0.7);
     MeshFile model = read_block_folder(folder_);
     const CheckOptions options = options_for(model);
     const CheckReport whole = check(model.mesh, options), parts = check_block_folder(folder_, options);
     test::expect_sound(whole);
-    test::expect_sound(parts);
-    EXPECT_EQ(parts.region_pairs, whole.region_pairs);
-    EXPECT_EQ(parts.quadruple_points_inside, whole.quadruple_points_inside);
-    EXPECT_EQ(parts.lines.edges, whole.lines.edges);
-    EXPECT_NEAR(parts.lines.length, whole.lines.length, 1e-6);
-    EXPECT_EQ(parts.quality.histogram, whole.quality.histogram);
-    EXPECT_EQ(parts.quality.min, whole.quality.min);
-    ASSERT_EQ(parts.regions.size(), whole.regions.size());
-    for (std::size_t n = 0; n < whole.regions.size(); ++n) {
-        EXPECT_EQ(parts.regions[n].euler, whole.regions[n].euler) << n;
-        EXPECT_NEAR(parts.regions[n].volume, whole.regions[n].volume, 1e-6) << n;
-        EXPECT_NEAR(parts.regions[n].area, whole.regions[n].area, 1e-6) << n;
+    expect_same(parts, whole);
+}
+
+/// Balls of random regions in label 1 and in each other, and label 0 around them: many separate surfaces, regions of
+/// many components, hollow ones, and some that several blocks share.
+test::ArrayVolume balls(std::uint64_t seed) {
+    constexpr std::uint32_t kSize = 34;
+    test::Random random(seed);
+    std::vector<InputLabel> labels(kSize * kSize * kSize, 1);
+    const auto paint = [&](Vec3 middle, double radius, InputLabel label) {
+        for (std::uint32_t n = 0; n < labels.size(); ++n) {
+            const Vec3 p{1.0 * (n % kSize), 1.0 * (n / kSize % kSize), 1.0 * (n / kSize / kSize)};
+            if (length(p - middle) < radius) labels[n] = label;
+        }
+    };
+    for (int ball = 0; ball < 40; ++ball) {
+        const Vec3 middle{random.between(2, 31), random.between(2, 31), random.between(2, 31)};
+        const double radius = random.between(1.2, 6);
+        const auto label = static_cast<InputLabel>(random.below(5));
+        paint(middle, radius, label);
+        paint(middle, radius - 1.5, (label + 1) % 5);
     }
+    return {{kSize, kSize, kSize}, std::move(labels)};
+}
+
+TEST_F(CheckFolder, components_and_nesting_are_those_of_the_whole) {
+    std::uint64_t components = 0, misplaced = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        test::ArrayVolume volume = balls(seed);
+        if (seed % 2 == 0) volume.lattice().direction = {0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, -1};
+        make(std::move(volume), 0.3);
+        MeshFile model = read_block_folder(folder_);
+        CheckOptions options = options_for(model);
+        const CheckReport whole = check(model.mesh, options);
+        test::expect_sound(whole);
+        expect_same(check_block_folder(folder_, options), whole);
+        for (const RegionReport& region : whole.regions) components += region.components;
+        // Islands of one region in a second one say that they lie in a third.
+        for (std::uint32_t block = 0; block < read_manifest(folder_)->pieces.size(); ++block)
+            change_piece(block, [](Piece& piece) {
+                for (PieceFace& face : piece.faces)
+                    if (std::ranges::is_permutation(face.labels, std::array<Label, 2>{1, 2}))
+                        std::ranges::replace(face.labels, Label{1}, Label{3});
+            });
+        options.oracle.reset();
+        const CheckReport found = check_block_folder(folder_, options);
+        expect_same(found, check(read_block_folder(folder_).mesh, options));
+        misplaced += found.counts[int(ViolationKind::kNesting)];
+    }
+    EXPECT_GT(components, 80u);
+    EXPECT_GT(misplaced, 5u);
 }
 
 TEST_F(CheckFolder, layers_are_voxelised_in_parts_where_they_have_many_faces) {

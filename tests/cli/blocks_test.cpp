@@ -9,9 +9,12 @@
 #include <chrono>
 #include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "cli/program.h"
+#include "formats/vtk/vtk_numbers.h"
 #include "regionmesh/check.h"
 #include "support/random.h"
 
@@ -95,6 +98,94 @@ TEST_F(BlockProgram, converts_checks_and_voxelises_a_folder) {
     EXPECT_EQ(compared.code, 0) << compared.error;
 }
 
+/// The same keys and values; numbers up to the rounding of sums.
+void expect_same(const nlohmann::json& a, const nlohmann::json& b, const std::string& where) {
+    ASSERT_EQ(a.type(), b.type()) << where;
+    ASSERT_EQ(a.size(), b.size()) << where;
+    if (a.is_object())
+        for (const auto& [key, value] : a.items()) {
+            ASSERT_TRUE(b.contains(key)) << where << ' ' << key;
+            expect_same(value, b[key], where + '/' + key);
+        }
+    else if (a.is_array())
+        for (std::size_t n = 0; n < a.size(); ++n) expect_same(a[n], b[n], where + '/' + std::to_string(n));
+    else if (a.is_number_float())
+        EXPECT_NEAR(a.get<double>(), b.get<double>(), 1e-10 * std::abs(a.get<double>())) << where;
+    else
+        EXPECT_EQ(a, b) << where;
+}
+
+TEST_F(BlockProgram, the_report_on_a_folder_is_that_on_the_model_in_one_file) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("whole.vtp")).code, 0);
+    const std::string sections = " --sections " + path("grains.raw").string() + " --size 40,40,40 --type uint8";
+    for (const std::string& options : {std::string(), sections}) {
+        for (const char* model : {"model", "whole.vtp"})
+            ASSERT_EQ(run("check " + out(model) + " --json " + out(std::string(model) + ".json") + options).code, 0);
+        const auto whole = nlohmann::json::parse(text_of(out("whole.vtp.json")));
+        expect_same(whole, nlohmann::json::parse(text_of(out("model.json"))), "");
+        EXPECT_EQ(whole.at("regions").size(), 19u);
+    }
+}
+
+/// The numbers in a point array of a .vtp file.
+std::vector<std::int64_t> point_numbers(const fs::path& path, const char* name) {
+    const formats::VtkXml xml(path, "PolyData");
+    const pugi::xml_node points = xml.dataset().child("Piece").child("PointData");
+    EXPECT_STREQ(points.attribute(name).value(), name);
+    formats::VtkNumbers numbers(xml, points.find_child_by_attribute("Name", name), std::nullopt);
+    std::vector<std::int64_t> found;
+    while (!numbers.at_end()) found.push_back(numbers.integer());
+    return found;
+}
+
+TEST_F(BlockProgram, pieces_for_paraview_number_the_vertices_of_the_whole) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("m.pvtp")).code, 0);
+    const MeshFile whole = read_block_folder(out("model"));
+    std::set<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(path("out")))
+        if (entry.path().extension() == ".vtp") files.insert(entry.path());
+    std::int64_t next = 0;
+    std::uint64_t points = 0;
+    for (const fs::path& file : files) {
+        const std::vector<std::int64_t> ids = point_numbers(file, "GlobalIds");
+        const Mesh mesh = std::move(read_mesh(file).mesh);
+        ASSERT_EQ(ids.size(), mesh.vertex_count());
+        points += ids.size();
+        for (std::uint32_t v = 0; v < ids.size(); ++v) {
+            ASSERT_LE(ids[v], next) << "a number was left out";
+            next = std::max(next, ids[v] + 1);
+            ASSERT_EQ(mesh.position(VertexId{v}), whole.mesh.position(VertexId{static_cast<std::uint32_t>(ids[v])}));
+        }
+    }
+    EXPECT_EQ(next, whole.mesh.vertex_count());
+    const auto manifest = nlohmann::json::parse(text_of(fs::path(out("model")) / "manifest.json"));
+    EXPECT_EQ(next, manifest.at("vertices").get<std::int64_t>());
+    EXPECT_GT(points, whole.mesh.vertex_count() + 1000) << "vertices on seams are in several pieces";
+    EXPECT_THAT(text_of(out("m.pvtp")), testing::HasSubstr("<PPointData GlobalIds=\"GlobalIds\">"));
+}
+
+TEST_F(BlockProgram, a_region_has_one_colour_in_all_pieces) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    for (const char* output : {"m.pvtp", "whole.vtp"})
+        ASSERT_EQ(run("convert " + out("model") + ' ' + out(output)).code, 0);
+    std::map<std::int64_t, std::set<std::array<std::int64_t, 3>>> colours;  // by region
+    for (const auto& entry : fs::directory_iterator(path("out"))) {
+        if (entry.path().extension() != ".vtp") continue;
+        const formats::VtkXml xml(entry.path(), "PolyData");
+        const pugi::xml_node cells = xml.dataset().child("Piece").child("CellData");
+        formats::VtkNumbers regions(xml, cells.find_child_by_attribute("Name", "Region"), std::nullopt),
+            rgb(xml, cells.find_child_by_attribute("Name", "RGB"), std::nullopt);
+        while (!regions.at_end()) {
+            const std::int64_t red = rgb.integer(), green = rgb.integer(), blue = rgb.integer();
+            colours[regions.integer()].insert({red, green, blue});
+        }
+    }
+    EXPECT_GE(colours.size(), 18u);
+    for (const auto& [region, seen] : colours) EXPECT_EQ(seen.size(), 1u) << region;
+}
+
 TEST_F(BlockProgram, converts_a_folder_piece_by_piece_for_paraview) {
     ASSERT_EQ(run(grains("model")).code, 0);
     const Ran ran = run("convert " + out("model") + ' ' + out("m.pvtp"));
@@ -174,6 +265,60 @@ TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {
         EXPECT_THAT(ran.error, testing::HasSubstr(said));
         fs::remove_all(out("model"));
     }
+}
+
+TEST_F(BlockProgram, names_and_colours_of_regions_are_kept) {
+    put_text(path("names.csv"), "label,name,color\n3,liver,#c00040\n5,spleen,#00ff80\n99,not there,#123456\n");
+    ASSERT_EQ(run(grains("model") + " --names " + path("names.csv").string()).code, 0);
+    const LabelNames names{{3, "liver"}, {5, "spleen"}, {99, "not there"}};
+    const LabelColours colours{{3, 0xc00040}, {5, 0x00ff80}, {99, 0x123456}};
+    const MeshFile folder = describe_block_folder(out("model"));
+    EXPECT_EQ(folder.names, names);
+    EXPECT_EQ(folder.colours, colours);
+    for (const char* output : {"whole.vtp", "m.pvtp", "m.precomputed"})
+        ASSERT_EQ(run("convert " + out("model") + ' ' + out(output)).code, 0) << output;
+    const LabelNames there{{3, "liver"}, {5, "spleen"}};
+    const LabelColours seen{{3, 0xc00040}, {5, 0x00ff80}};
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(path("out"))) {
+        if (entry.path().extension() != ".vtp") continue;
+        const MeshFile file = read_mesh(entry.path());
+        EXPECT_EQ(file.names, there) << entry.path();
+        EXPECT_EQ(file.colours, seen) << entry.path();
+        ++files;
+    }
+    EXPECT_GT(files, 30);
+    const auto properties =
+        nlohmann::json::parse(text_of(fs::path(out("m.precomputed")) / "names" / "info")).at("inline");
+    const auto& ids = properties.at("ids");
+    ASSERT_EQ(properties.at("properties").at(1).at("id"), "colour");
+    const auto at = [&](int property, const char* label) {
+        return properties.at("properties")
+            .at(property)
+            .at("values")
+            .at(static_cast<std::size_t>(std::ranges::find(ids, label) - ids.begin()));
+    };
+    EXPECT_EQ(at(0, "3"), "liver");
+    EXPECT_EQ(at(1, "3"), "#c00040");
+    EXPECT_EQ(at(1, "5"), "#00ff80");
+    EXPECT_EQ(at(1, "4"), "");
+    const auto state = nlohmann::json::parse(text_of(fs::path(out("m.precomputed")) / "state.json"));
+    EXPECT_EQ(state.at("layers").at(0).at("segmentColors").at("5"), "#00ff80");
+    const fs::path manifest = fs::path(out("model")) / "manifest.json";
+    auto json = nlohmann::json::parse(text_of(manifest));
+    json["colours"][0][1] = "red";
+    put_text(manifest, json.dump());
+    const Ran refused = run("check " + out("model"));
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.error, testing::HasSubstr("manifest.json: has the colour 'red'; write it as #ff8000"));
+    json.erase("colours");  // as in folders that were made before
+    put_text(manifest, json.dump());
+    EXPECT_TRUE(describe_block_folder(out("model")).colours.empty());
+}
+
+TEST_F(BlockProgram, an_input_that_allows_it_is_read_in_place) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    EXPECT_EQ(nlohmann::json::parse(text_of(fs::path(out("model")) / "manifest.json")).at("in_place"), true);
 }
 
 class MpiProgram : public BlockProgram {

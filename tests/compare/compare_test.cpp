@@ -107,6 +107,46 @@ TEST(Compare, a_model_is_at_no_distance_from_itself) {
     EXPECT_EQ(report.quality[0].histogram, report.quality[1].histogram);
 }
 
+/// The same surface, with vertices and faces in reverse order, and each face seen from its other label.
+Mesh reversed(const Mesh& mesh) {
+    Mesh made;
+    const std::uint32_t end = mesh.vertex_end();
+    for (std::uint32_t v = end; v-- > 0;) made.add_vertex(mesh.position(VertexId{v}), mesh[VertexId{v}].sides);
+    for (std::uint32_t f = mesh.face_end(); f-- > 0;) {
+        if (!mesh.is_alive(FaceId{f})) continue;
+        const auto& v = mesh[FaceId{f}].vertices;
+        const auto& labels = mesh[FaceId{f}].labels;
+        const auto id = [&](VertexId old) { return VertexId{end - 1 - index(old)}; };
+        made.add_face(id(v[2]), id(v[1]), id(v[0]), labels[1], labels[0]);
+    }
+    return made;
+}
+
+std::array<double, 8> numbers_of(const TwoSidedDistance& distance) {
+    const DistanceStatistics &a = *distance.a_to_b, &b = *distance.b_to_a;
+    return {a.rms, a.mean, a.max, a.quantile_95, b.rms, b.mean, b.max, b.quantile_95};
+}
+
+TEST(Compare, distances_do_not_depend_on_the_order_of_vertices_faces_and_corners) {
+    test::ArrayVolume volume = test::grain_volume({12, 11, 10}, 6, 11);
+    Reconstruction full = test::run(volume), model = test::run(volume, test::reduced(0.5));
+    const auto compared = [&](const Mesh& a, const Mesh& b) {
+        return compare({a, full.labels}, {b, model.labels}, kFew);
+    };
+    full.mesh.compact();
+    model.mesh.compact();
+    const CompareReport given = compared(full.mesh, model.mesh),
+                        turned = compared(reversed(full.mesh), reversed(model.mesh));
+    EXPECT_GT(given.distance.both->rms, 0);
+    EXPECT_EQ(numbers_of(given.distance), numbers_of(turned.distance));
+    ASSERT_EQ(given.interfaces.size(), turned.interfaces.size());
+    for (std::size_t n = 0; n < given.interfaces.size(); ++n)
+        EXPECT_EQ(numbers_of(given.interfaces[n].distance), numbers_of(turned.interfaces[n].distance));
+    ASSERT_EQ(given.lines.size(), turned.lines.size());
+    for (std::size_t n = 0; n < given.lines.size(); ++n)
+        EXPECT_EQ(numbers_of(given.lines[n].distance), numbers_of(turned.lines[n].distance));
+}
+
 TEST(Compare, shifted_balls) {
     constexpr double kShift = 0.01;
     const CompareReport report = compared(ball({}, 5), ball({kShift, 0, 0}, 5));

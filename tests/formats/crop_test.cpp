@@ -80,7 +80,7 @@ TEST(Crop, gives_the_labels_of_the_whole_in_every_format_and_sweep) {
             }
             expect_part(whole, nested, *reader);
         }
-    for (const char* format : {"npy", "nifti", "nrrd", "metaimage", "mgh", "zarr", "n5", "hdf5"})
+    for (const char* format : {"npy", "nifti", "nrrd", "metaimage", "mgh", "zarr", "n5", "hdf5", "tiff"})
         EXPECT_TRUE(formats.contains(format)) << format << " cannot be read in boxes";
 }
 

@@ -26,6 +26,8 @@ struct Precomputed {
 
     /// Nanometres in a unit of the model.
     double nanometres() const { return options.metres * 1e9; }
+    /// Those given now, or else those in the folder.
+    const LabelColours& colours() const { return options.colours.empty() ? manifest.colours : options.colours; }
     /// Not the exterior, not background.
     bool is_region(Label label) const;
     /// The name of a region in Neuroglancer: a decimal number. Throws Error(kInput) for a negative label.

@@ -57,7 +57,15 @@ void write_segment_names(const Precomputed& precomputed, const WrittenRegions& r
         ids.push_back(precomputed.id(label));
         values.push_back(name == names.end() ? precomputed.id(label) : name->second);
     }
-    const Json properties = Json::array({{{"id", "label"}, {"type", "label"}, {"values", values}}});
+    Json properties = Json::array({{{"id", "label"}, {"type", "label"}, {"values", values}}});
+    if (const LabelColours& given = precomputed.colours(); !given.empty()) {
+        Json colours = Json::array();
+        for (const auto& [label, faces] : regions.faces) {
+            const auto colour = given.find(precomputed.labels.input(label));
+            colours.push_back(colour == given.end() ? "" : hex_of(colour->second));
+        }
+        properties.push_back({{"id", "colour"}, {"type", "string"}, {"values", colours}});
+    }
     precomputed.write("names/info", text_of({{"@type", "neuroglancer_segment_properties"},
                                              {"inline", {{"ids", ids}, {"properties", properties}}}}));
 }
@@ -74,8 +82,8 @@ void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& re
     }
     for (const Label label : largest_regions(regions)) {
         segments.push_back(precomputed.id(label));
-        const auto colour = precomputed.options.colours.find(precomputed.labels.input(label));
-        if (colour != precomputed.options.colours.end()) colours[precomputed.id(label)] = hex_of(colour->second);
+        const auto colour = precomputed.colours().find(precomputed.labels.input(label));
+        if (colour != precomputed.colours().end()) colours[precomputed.id(label)] = hex_of(colour->second);
     }
     const Json layer{{"type", "segmentation"},       {"source", "precomputed://http://localhost:8080/" + name.string()},
                      {"name", name.stem().string()}, {"tab", "segments"},

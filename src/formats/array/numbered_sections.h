@@ -39,6 +39,7 @@ private:
 class CroppedSections : public NumberedSections {
 public:
     bool crop(const IndexBox& box) final {
+        if (!can_crop()) return false;
         for (int axis = 0; axis < 3; ++axis) {
             box_.high[axis] = box_.low[axis] + box.high[axis];
             box_.low[axis] += box.low[axis];
@@ -55,6 +56,7 @@ protected:
     IndexBox box_;  // of the file
 
 private:
+    virtual bool can_crop() const { return true; }
     /// Forgets the block that is held, and plans those of the box: sets info_.held_bytes.
     virtual void plan_blocks() = 0;
 };

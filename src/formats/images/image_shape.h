@@ -1,6 +1,7 @@
 // The size and type that all sections share, and the decoding of pixels to labels.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +25,15 @@ struct ImageShape {
 
     friend bool operator==(const ImageShape&, const ImageShape&) = default;
 };
+
+/// Pixels of an image: columns and rows from `low` to before `high`.
+struct ImageWindow {
+    std::array<std::uint32_t, 2> low{}, high{};
+
+    std::uint32_t width() const { return high[0] - low[0]; }
+    std::uint32_t height() const { return high[1] - low[1]; }
+};
+inline ImageWindow window_of(const IndexBox& box) { return {{box.low[0], box.low[1]}, {box.high[0], box.high[1]}}; }
 
 /// The type of the labels.
 SampleType label_type(const ImageShape& shape);

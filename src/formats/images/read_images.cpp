@@ -33,19 +33,31 @@ const Format& image_format(const fs::path& path, std::uint64_t section) {
     fail_section(path, section, "is no PNG or TIFF section; give one volume, or sections alone");
 }
 
-/// One file a section; one file open at a time.
-class ImageListReader final : public NumberedSections {
+/// One file a section; one file open at a time. Boxes are read if all files are of one format and the first is tiled.
+class ImageListReader final : public CroppedSections {
 public:
     ImageListReader(std::vector<fs::path> files, VolumeInfo info, const ImageShape& shape)
-        : NumberedSections(std::move(info)), files_(std::move(files)), shape_(shape) {}
+        : CroppedSections(std::move(info)), files_(std::move(files)), shape_(shape) {
+        const Format* const format = find_format(files_.front());
+        is_tiled_ = format->is_tiled && format->is_tiled(files_.front(), 0) &&
+                    std::ranges::all_of(files_, [&](const fs::path& file) { return find_format(file) == format; });
+    }
 
 private:
+    bool can_crop() const override { return is_tiled_; }
+    void plan_blocks() override {}
     void read_section(std::uint32_t number, std::span<InputLabel> section) override {
-        image_format(files_[number], number).read_image(files_[number], number, shape_, section);
+        const std::uint32_t n = box_.low[2] + number;
+        const Format& format = image_format(files_[n], n);
+        if (is_tiled_)
+            format.read_window(files_[n], n, shape_, window_of(box_), section);
+        else
+            format.read_image(files_[n], n, shape_, section);
     }
 
     std::vector<fs::path> files_;
     ImageShape shape_;
+    bool is_tiled_ = false;
 };
 
 /// The headers of all sections are read here, so that a different one is found before the work begins.

@@ -14,19 +14,26 @@
 namespace regionmesh::formats {
 namespace {
 
-/// A page a section.
-class TiffReader final : public NumberedSections {
+/// A page a section. Of pages in tiles, boxes are read.
+class TiffReader final : public CroppedSections {
 public:
     TiffReader(TiffFile file, VolumeInfo info, const ImageShape& shape)
-        : NumberedSections(std::move(info)), file_(std::move(file)), shape_(shape) {}
+        : CroppedSections(std::move(info)), file_(std::move(file)), shape_(shape) {
+        file_.read_shape(0, 0);
+        is_tiled_ = file_.is_tiled();
+    }
 
 private:
+    bool can_crop() const override { return is_tiled_; }
+    void plan_blocks() override {}
     void read_section(std::uint32_t number, std::span<InputLabel> section) override {
-        file_.read_page(number, number, shape_, section);
+        const std::uint32_t page = box_.low[2] + number;
+        file_.read_page(page, page, {shape_, window_of(box_)}, section);
     }
 
     TiffFile file_;
     ImageShape shape_;
+    bool is_tiled_ = false;
 };
 
 TiffFile open_single_page(const std::filesystem::path& path, std::uint64_t section) {
@@ -101,7 +108,18 @@ ImageShape read_tiff_shape(const std::filesystem::path& path, std::uint64_t sect
 
 void read_tiff_image(const std::filesystem::path& path, std::uint64_t section, const ImageShape& expected,
                      std::span<InputLabel> labels) {
-    open_single_page(path, section).read_page(0, section, expected, labels);
+    open_single_page(path, section).read_page(0, section, TiffFile::all_of(expected), labels);
+}
+
+bool is_tiled_tiff(const std::filesystem::path& path, std::uint64_t section) {
+    TiffFile file = open_single_page(path, section);
+    file.read_shape(0, section);
+    return file.is_tiled();
+}
+
+void read_tiff_window(const std::filesystem::path& path, std::uint64_t section, const ImageShape& expected,
+                      const ImageWindow& window, std::span<InputLabel> labels) {
+    open_single_page(path, section).read_page(0, section, {expected, window}, labels);
 }
 
 std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, const ReadOptions& options) {

@@ -210,29 +210,61 @@ void TiffFile::decode(const Blocks& blocks, Block block, std::uint64_t section, 
     if (count < wanted || messages_->first[0]) refuse(section, "a strip or tile is cut short");
 }
 
-void TiffFile::read_page(std::uint32_t page, std::uint64_t section, const ImageShape& expected,
+/// Unpacks rows of strips and tiles to the labels of a window.
+class WindowRows {
+public:
+    WindowRows(const ImageShape& shape, const ImageWindow& window, std::span<InputLabel> labels)
+        : shape_(shape), window_(window), labels_(labels) {
+        std::ranges::fill(labels, 0);
+    }
+
+    bool has_row(std::uint32_t row) const { return window_.low[1] <= row && row < window_.high[1]; }
+    /// A row of the window whose pixels begin at column `left` of the image and are `columns`.
+    void unpack(std::span<const std::byte> pixels, RowFormat format, std::uint32_t row,
+                std::array<std::uint32_t, 2> columns) {
+        const auto [left, right] = columns;
+        const std::uint32_t low = std::max(left, window_.low[0]), high = std::min(right, window_.high[0]);
+        const auto wanted =
+            labels_.subspan(std::size_t{row - window_.low[1]} * window_.width() + (low - window_.low[0]), high - low);
+        if (low == left) return unpack_row(pixels, shape_, format, wanted);
+        whole_.assign(high - left, 0);
+        const auto part = std::span(whole_).subspan(low - left);
+        std::ranges::copy(wanted, part.begin());  // channels are added to those there
+        unpack_row(pixels, shape_, format, whole_);
+        std::ranges::copy(part, wanted.begin());
+    }
+
+private:
+    const ImageShape& shape_;
+    const ImageWindow& window_;
+    std::span<InputLabel> labels_;
+    std::vector<InputLabel> whole_;  // a row up to the window's end
+};
+
+void TiffFile::read_page(std::uint32_t page, std::uint64_t section, const Wanted& wanted,
                          std::span<InputLabel> labels) {
-    check_same_shape(path_, section, read_shape(page, section), expected);
-    const Blocks all = blocks(expected, section);
+    const auto& [shape, window] = wanted;
+    check_same_shape(path_, section, read_shape(page, section), shape);
+    const Blocks all = blocks(shape, section);
     std::vector<std::byte> pixels(all.bytes);
-    std::fill(labels.begin(), labels.end(), 0);
+    WindowRows rows_of_window(shape, window, labels);
     messages_->is_decoding = true;
     // libtiff has converted wide samples to the byte order of this machine.
-    RowFormat format{.channel_count = all.planes == 1 ? expected.channels : 1,
+    RowFormat format{.channel_count = all.planes == 1 ? shape.channels : 1,
                      .is_big_endian = std::endian::native == std::endian::big};
     const auto read_block = [&](Block block) {
-        const std::uint32_t columns = std::min(all.width, expected.width - block.left);
-        const std::uint32_t rows = std::min(all.height, expected.height - block.top);
+        const std::uint32_t columns = std::min(all.width, shape.width - block.left);
+        const std::uint32_t rows = std::min(all.height, shape.height - block.top);
         decode(all, block, section, std::span(pixels).first(all.row_bytes * (all.are_tiles ? all.height : rows)));
-        for (std::size_t row = 0; row < rows; ++row) {
-            unpack_row(std::span(pixels).subspan(row * all.row_bytes, all.row_bytes), expected, format,
-                       labels.subspan((block.top + row) * expected.width + block.left, columns));
-        }
+        for (std::uint32_t row = 0; row < rows; ++row)
+            if (rows_of_window.has_row(block.top + row))
+                rows_of_window.unpack(std::span(pixels).subspan(row * all.row_bytes, all.row_bytes), format,
+                                      block.top + row, {block.left, block.left + columns});
     };
     for (int plane = 0; plane < all.planes; ++plane) {
         format.first_channel = plane;
-        for (std::uint64_t top = 0; top < expected.height; top += all.height) {
-            for (std::uint64_t left = 0; left < expected.width; left += all.width) {
+        for (std::uint64_t top = window.low[1] / all.height * all.height; top < window.high[1]; top += all.height) {
+            for (std::uint64_t left = window.low[0] / all.width * all.width; left < window.high[0]; left += all.width) {
                 read_block({static_cast<std::uint16_t>(plane), static_cast<std::uint32_t>(left),
                             static_cast<std::uint32_t>(top)});
             }

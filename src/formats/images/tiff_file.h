@@ -38,8 +38,19 @@ public:
     /// The offset of the pixels of the selected page, if they are neither compressed nor in tiles.
     std::optional<std::uint64_t> bare_offset() const;
 
-    /// Labels of a page, rows from the top. Throws if its shape is not `expected`.
-    void read_page(std::uint32_t page, std::uint64_t section, const ImageShape& expected, std::span<InputLabel> labels);
+    /// Whether the selected page is stored in tiles.
+    bool is_tiled() const { return TIFFIsTiled(tiff_.get()) != 0; }
+
+    /// What of a page is read: a window of an image with this shape.
+    struct Wanted {
+        const ImageShape& shape;
+        ImageWindow window;
+    };
+    static Wanted all_of(const ImageShape& shape) { return {shape, {{0, 0}, {shape.width, shape.height}}}; }
+
+    /// Labels of a page, rows from the top. Reads the strips and tiles that meet the window. Throws if the shape of the
+    /// page is not the wanted one.
+    void read_page(std::uint32_t page, std::uint64_t section, const Wanted& wanted, std::span<InputLabel> labels);
 
 private:
     struct Messages {

@@ -1,6 +1,7 @@
 #include "regionmesh/write_report.h"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "formats/report/json_parts.h"
@@ -113,8 +114,11 @@ void put_samples(Json& json, const SampleAgreement& samples, const LabelTable& l
     json["samples_wrong"] = samples.wrong;
     json["samples_contradicting"] = samples.contradictions;
     json["dice"] = samples.dice();
+    std::vector<Label> order(samples.regions.size());
+    std::iota(order.begin(), order.end(), Label{0});
+    std::ranges::sort(order, [&](Label a, Label b) { return labels.less(labels.input(a), labels.input(b)); });
     Json& all = json["dice_of_regions"] = Json::array();
-    for (Label label = 0; label < samples.regions.size(); ++label) {
+    for (const Label label : order) {
         const SampleAgreement::Counts& region = samples.regions[label];
         if (region.in_sections + region.in_model == 0) continue;
         all.push_back({{"label", label_json(labels.input(label), labels)},

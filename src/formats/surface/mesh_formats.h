@@ -20,6 +20,8 @@
 namespace regionmesh {
 
 void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
+/// A part of a model. `ids` are the numbers of its vertices in the whole, by vertex id: the point array GlobalIds.
+void write_vtp_part(const FileView& view, std::span<const std::uint64_t> ids, OutputFile& file);
 void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
 void write_ply(const FileView& view, OutputFile& file);
 /// Writes the faces, and beside them a .mtl file with a colour for each region.

@@ -70,9 +70,11 @@ struct Block {
 template <class T>
 class ArrayWriter {
 public:
-    ArrayWriter(OutputFile& file, std::string_view name, int components, std::uint64_t count) : file_(file) {
-        file.write(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n",
-                               vtk_type<T>(), name, components));
+    ArrayWriter(OutputFile& file, std::string_view name, int components, std::uint64_t count,
+                const char* attribute = "")
+        : file_(file) {
+        file.write(fmt::format("<DataArray type=\"{}\"{} Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n",
+                               vtk_type<T>(), attribute, name, components));
         const std::uint64_t bytes = count * sizeof(T);
         header_ = {(bytes + kBlockBytes - 1) / kBlockBytes, kBlockBytes, bytes % kBlockBytes};
         block_count_ = header_[0];
@@ -202,13 +204,25 @@ void write_head(const FileView& view, DataSet kind, OutputFile& file) {
     file.write(fmt::format("NumberOf{}=\"{}\">\n", is_grid ? "Cells" : "Polys", faces));
 }
 
-void write_points(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
+/// What points have besides their place.
+struct PointNumbers {
+    std::span<const PointArray> arrays = {};
+    std::span<const std::uint64_t> ids = {};  // by vertex id: the number in the whole model. May be empty
+};
+
+void write_points(const FileView& view, const PointNumbers& numbers, OutputFile& file) {
     const std::uint64_t count = view.mesh().vertex_count();
-    file.write("<PointData>\n");
+    file.write(numbers.ids.empty() ? "<PointData>\n" : "<PointData GlobalIds=\"GlobalIds\">\n");
+    if (!numbers.ids.empty()) {
+        // Without IdType VTK does not take the array for global ids.
+        ArrayWriter<std::int64_t> ids(file, "GlobalIds", 1, count, " IdType=\"1\"");
+        view.for_vertices([&](VertexId v) { ids.put(static_cast<std::int64_t>(numbers.ids[index(v)])); });
+        ids.close();
+    }
     ArrayWriter<std::int8_t> types(file, "NodeType", 1, count);
     view.for_vertices([&](VertexId v) { types.put(static_cast<std::int8_t>(view.node_type(v))); });
     types.close();
-    for (const PointArray& array : arrays) {
+    for (const PointArray& array : numbers.arrays) {
         ArrayWriter<double> values(file, array.name, 1, count);
         view.for_vertices([&](VertexId v) { values.put(array.values[index(v)]); });
         values.close();
@@ -266,9 +280,9 @@ void write_faces(const FileView& view, DataSet kind, OutputFile& file) {
     file.write(is_grid ? "</Cells>\n" : "</Polys>\n");
 }
 
-void write_vtk_xml(const FileView& view, DataSet kind, const std::vector<PointArray>& arrays, OutputFile& file) {
+void write_vtk_xml(const FileView& view, DataSet kind, const PointNumbers& numbers, OutputFile& file) {
     write_head(view, kind, file);
-    write_points(view, arrays, file);
+    write_points(view, numbers, file);
     write_labels(view, file);
     constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
     if (std::uint64_t{3} * view.mesh().face_count() <= kMost && view.mesh().vertex_count() <= kMost)
@@ -282,11 +296,15 @@ void write_vtk_xml(const FileView& view, DataSet kind, const std::vector<PointAr
 }  // namespace
 
 void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
-    write_vtk_xml(view, DataSet::kPolyData, arrays, file);
+    write_vtk_xml(view, DataSet::kPolyData, {.arrays = arrays}, file);
+}
+
+void write_vtp_part(const FileView& view, std::span<const std::uint64_t> ids, OutputFile& file) {
+    write_vtk_xml(view, DataSet::kPolyData, {.ids = ids}, file);
 }
 
 void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
-    write_vtk_xml(view, DataSet::kUnstructuredGrid, arrays, file);
+    write_vtk_xml(view, DataSet::kUnstructuredGrid, {.arrays = arrays}, file);
 }
 
 }  // namespace regionmesh

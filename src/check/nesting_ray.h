@@ -1,0 +1,44 @@
+// The test of nesting, for one separate part of a surface.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "check/findings.h"
+
+namespace regionmesh {
+
+/// No simple ratios, so that a ray from a lattice point hits no edge.
+inline constexpr Vec3 kNestingRay{1, 0.013748231, 0.007193377};
+
+/// Sixfold volumes of the regions inside a separate part. That of its outermost region is negative, and no other.
+using NestedVolumes = std::map<Label, double>;
+
+inline void add_volume(NestedVolumes& volumes, const Mesh& mesh, FaceId f, Vec3 origin) {
+    const auto& labels = mesh[f].labels;
+    const auto p = mesh.corners(f);
+    const double sixfold = dot(p[0] - origin, cross(p[1] - origin, p[2] - origin));
+    volumes[labels[0]] += sixfold;
+    volumes[labels[1]] -= sixfold;
+}
+
+Label outermost(const NestedVolumes& volumes);
+
+/// The nearest face on the way of a ray.
+struct NestingHit {
+    double distance = HUGE_VAL;
+    Label label = 0;  // of the region in front of the face
+};
+
+/// Where the ray from a point meets a face (Moeller and Trumbore 1997).
+NestingHit nesting_hit(const Mesh& mesh, FaceId f, Vec3 from);
+
+/// Whether a part may lie where the ray from its farthest vertex says.
+bool is_nested(const CheckOptions& options, Label outermost, const NestingHit& nearest);
+
+/// The sentence about a part that does not lie where its faces say.
+std::string nesting_text(const CheckOptions& options, std::uint32_t vertex, Label outermost, const NestingHit& nearest);
+
+}  // namespace regionmesh

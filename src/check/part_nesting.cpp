@@ -1,0 +1,149 @@
+#include "check/part_nesting.h"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "base/union_find.h"
+#include "mesh/extent.h"
+
+namespace regionmesh {
+namespace {
+
+bool overlap(const Box& a, const Box& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
+    return true;
+}
+
+/// Calls visit(FaceId, MeshPart::Span) for the faces with a corner of the part.
+template <class Visit>
+void for_own_corners(const Mesh& mesh, const MeshPart& part, Visit&& visit) {
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
+        if (mesh.is_alive(FaceId{f}))
+            if (const MeshPart::Span parts = part.span_of(mesh[FaceId{f}].vertices); parts.has_own)
+                visit(FaceId{f}, parts);
+}
+
+}  // namespace
+
+void PartNesting::join(Island& into, Island&& other) {
+    into.touches_box |= other.touches_box;
+    if (other.along > into.along) {
+        into.farthest = other.farthest, into.along = other.along;
+        into.vertex = other.vertex, into.part = other.part;
+    }
+    if (into.touches_box)
+        into.volumes.clear();
+    else
+        for (const auto& [label, volume] : other.volumes) into.volumes[label] += volume;
+}
+
+void PartNesting::add(const Mesh& mesh, const MeshPart& part) {
+    UnionFind joined(mesh.vertex_end());
+    for_own_corners(mesh, part, [&](FaceId f, const MeshPart::Span&) {
+        const auto& v = mesh[f].vertices;
+        joined.join(index(v[0]), index(v[1]));
+        joined.join(index(v[0]), index(v[2]));
+    });
+    std::map<std::uint32_t, Island> found;  // by root
+    auto last = found.end();                // consecutive vertices are mostly of the same island
+    const auto island = [&](std::uint32_t v) -> Island& {
+        const std::uint32_t root = joined.find(v);
+        if (last == found.end() || last->first != root) last = found.try_emplace(root).first;
+        return last->second;
+    };
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+        const Vertex& vertex = mesh[VertexId{v}];
+        if (!vertex.is_alive || vertex.star == kNoCorner || !part.has(VertexId{v})) continue;
+        join(island(v), {vertex.position, dot(kNestingRay, vertex.position), v, part.number, vertex.sides != 0, {}});
+    }
+    for_own_corners(mesh, part, [&](FaceId f, const MeshPart::Span& parts) {
+        if (parts.first != part.number) return;  // counted there
+        Island& own = island(index(mesh[f].vertices[0]));
+        if (is_exterior(mesh[f].labels[1])) own.touches_box = true;
+        if (own.touches_box)
+            own.volumes.clear();
+        else
+            add_volume(own.volumes, mesh, f, origin_);
+    });
+    std::unordered_map<std::uint32_t, std::uint32_t> set_of;  // by root
+    for_own_corners(mesh, part, [&](FaceId f, const MeshPart::Span& parts) {
+        if (parts.first == parts.last) return;
+        const auto [at, is_new] = set_of.try_emplace(joined.find(index(mesh[f].vertices[0])));
+        if (is_new) {
+            at->second = sets_.add();
+            open_.emplace(at->second, std::move(found.at(at->first)));
+            found.erase(at->first);
+            ++count_;
+        }
+        const auto [kept, gone] = sets_.meet(part.key_of_face[index(f)], at->second, parts.last == part.number);
+        if (kept == gone) return;
+        join(open_.at(kept), std::move(open_.at(gone)));
+        open_.erase(gone);
+        --count_;
+    });
+    count_ += found.size();
+    for (auto& [root, own] : found)
+        if (!own.touches_box) closed_.push_back(std::move(own));
+}
+
+void PartNesting::begin_rays(double reach) {
+    reach_ = reach;
+    if (count_ < 2) return;
+    for (auto& [set, own] : open_)
+        if (!own.touches_box) closed_.push_back(std::move(own));
+    for (Island& own : closed_) {
+        const Label outer = outermost(own.volumes);
+        own.volumes.clear();
+        rays_.push_back({std::move(own), outer});
+    }
+    open_.clear();
+    closed_.clear();
+}
+
+Box PartNesting::way_of(const Ray& ray) const {
+    Box way;
+    way.add(ray.from.farthest);
+    way.add(ray.from.farthest + std::min(reach_, ray.nearest.distance) * kNestingRay);
+    return way;
+}
+
+bool PartNesting::needs(const Box& box) const {
+    return std::ranges::any_of(rays_, [&](const Ray& ray) { return overlap(way_of(ray), box); });
+}
+
+void PartNesting::meet(const Mesh& mesh, std::uint32_t threads) {
+    const Box extent = extent_of(mesh, threads);
+    std::optional<SortedFaceTree> tree;
+    for (Ray& ray : rays_) {
+        const Box way = way_of(ray);
+        if (!overlap(way, extent)) continue;
+        if (!tree) tree.emplace(mesh, threads);
+        tree->search(way, [&](FaceId f) {
+            // The other faces of the island lie behind the start of the ray.
+            if (std::ranges::count(mesh.corners(f), ray.from.farthest) > 0) {
+                for (const Label label : mesh[f].labels) ray.at_start.add(label);
+                return true;
+            }
+            const NestingHit hit = nesting_hit(mesh, f, ray.from.farthest);
+            if (hit.distance < ray.nearest.distance) ray.nearest = hit;
+            return true;
+        });
+    }
+}
+
+void PartNesting::report(const CheckOptions& options, Findings& findings) const {
+    for (const Ray& ray : rays_) {
+        if (is_nested(options, ray.outer, ray.nearest)) continue;
+        Violation* const listed = findings.add(ViolationKind::kNesting, {ray.from.vertex}, {}, [&] {
+            return nesting_text(options, ray.from.vertex, ray.outer, ray.nearest);
+        });
+        if (!listed) continue;
+        place_violation(ray.from.farthest, ray.at_start, *listed);
+        listed->text += MeshPart::text_of(ray.from.part);
+    }
+}
+
+}  // namespace regionmesh

@@ -1,0 +1,57 @@
+// The test of nesting for a surface that memory does not hold at once.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "check/nesting_ray.h"
+#include "check/seam_sets.h"
+
+namespace regionmesh {
+
+/// Finds the separate parts of the surface, then sends a ray from each that does not touch the box. Holds the faces
+/// that later parts have, too, and 100 bytes for each separate part and region in it.
+class PartNesting {
+public:
+    /// Volumes are measured from `origin`.
+    explicit PartNesting(Vec3 origin) : origin_(origin) {}
+
+    /// Requires parts in the order of their numbers.
+    void add(const Mesh& mesh, const MeshPart& part);
+    /// After all parts. A ray is `reach` long.
+    void begin_rays(double reach);
+    /// Whether a ray may meet a face in the box.
+    bool needs(const Box& box) const;
+    /// Requires each face that rays may meet in one of the meshes.
+    void meet(const Mesh& mesh, std::uint32_t threads);
+    /// Vertices in findings have their number in the part that the sentence names.
+    void report(const CheckOptions& options, Findings& findings) const;
+
+private:
+    /// What is known of a separate part of the surface.
+    struct Island {
+        Vec3 farthest = {};  // along the ray
+        double along = -HUGE_VAL;
+        std::uint32_t vertex = 0, part = 0;  // the farthest
+        bool touches_box = false;
+        NestedVolumes volumes = {};  // empty if it touches the box
+    };
+    struct Ray {
+        Island from;
+        Label outer;
+        LabelSet at_start = {};
+        NestingHit nearest = {};
+    };
+    static void join(Island& into, Island&& other);
+    Box way_of(const Ray& ray) const;
+
+    Vec3 origin_;
+    SeamSets sets_;                         // of faces
+    std::map<std::uint32_t, Island> open_;  // by set; those that reached a seam
+    std::vector<Island> closed_;            // those that touch neither a seam nor the box
+    std::uint64_t count_ = 0;               // islands so far
+    double reach_ = 0;
+    std::vector<Ray> rays_;
+};
+
+}  // namespace regionmesh
