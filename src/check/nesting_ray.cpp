@@ -5,6 +5,7 @@
 namespace regionmesh {
 
 Label outermost(const NestedVolumes& volumes) {
+    if (volumes.empty()) return exterior(0);
     return std::ranges::min_element(volumes, {}, &NestedVolumes::value_type::second)->first;
 }
 

@@ -85,28 +85,24 @@ void PartNesting::add(const Mesh& mesh, const MeshPart& part) {
         --count_;
     });
     count_ += found.size();
-    for (auto& [root, own] : found)
-        if (!own.touches_box) closed_.push_back(std::move(own));
+    for (const auto& [root, own] : found) close(own);
+}
+
+void PartNesting::close(const Island& island) {
+    if (!island.touches_box) rays_.push_back({island.farthest, island.vertex, island.part, outermost(island.volumes)});
 }
 
 void PartNesting::begin_rays(double reach) {
     reach_ = reach;
-    if (count_ < 2) return;
-    for (auto& [set, own] : open_)
-        if (!own.touches_box) closed_.push_back(std::move(own));
-    for (Island& own : closed_) {
-        const Label outer = outermost(own.volumes);
-        own.volumes.clear();
-        rays_.push_back({std::move(own), outer});
-    }
+    for (const auto& [set, island] : open_) close(island);
     open_.clear();
-    closed_.clear();
+    if (count_ < 2) rays_.clear();
 }
 
 Box PartNesting::way_of(const Ray& ray) const {
     Box way;
-    way.add(ray.from.farthest);
-    way.add(ray.from.farthest + std::min(reach_, ray.nearest.distance) * kNestingRay);
+    way.add(ray.from);
+    way.add(ray.from + std::min(reach_, ray.nearest.distance) * kNestingRay);
     return way;
 }
 
@@ -123,11 +119,15 @@ void PartNesting::meet(const Mesh& mesh, std::uint32_t threads) {
         if (!tree) tree.emplace(mesh, threads);
         tree->search(way, [&](FaceId f) {
             // The other faces of the island lie behind the start of the ray.
-            if (std::ranges::count(mesh.corners(f), ray.from.farthest) > 0) {
-                for (const Label label : mesh[f].labels) ray.at_start.add(label);
+            if (std::ranges::count(mesh.corners(f), ray.from) > 0) {
+                for (const Label label : mesh[f].labels)
+                    if (const auto place = std::ranges::find_if(
+                            ray.at_start, [&](Label there) { return there == label || there == kNoLabel; });
+                        place != ray.at_start.end())
+                        *place = label;
                 return true;
             }
-            const NestingHit hit = nesting_hit(mesh, f, ray.from.farthest);
+            const NestingHit hit = nesting_hit(mesh, f, ray.from);
             if (hit.distance < ray.nearest.distance) ray.nearest = hit;
             return true;
         });
@@ -137,12 +137,15 @@ void PartNesting::meet(const Mesh& mesh, std::uint32_t threads) {
 void PartNesting::report(const CheckOptions& options, Findings& findings) const {
     for (const Ray& ray : rays_) {
         if (is_nested(options, ray.outer, ray.nearest)) continue;
-        Violation* const listed = findings.add(ViolationKind::kNesting, {ray.from.vertex}, {}, [&] {
-            return nesting_text(options, ray.from.vertex, ray.outer, ray.nearest);
+        Violation* const listed = findings.add(ViolationKind::kNesting, {ray.vertex}, {}, [&] {
+            return nesting_text(options, ray.vertex, ray.outer, ray.nearest);
         });
         if (!listed) continue;
-        place_violation(ray.from.farthest, ray.at_start, *listed);
-        listed->text += MeshPart::text_of(ray.from.part);
+        LabelSet met;
+        for (const Label label : ray.at_start)
+            if (label != kNoLabel) met.add(label);
+        place_violation(ray.from, met, *listed);
+        listed->text += MeshPart::text_of(ray.part);
     }
 }
 

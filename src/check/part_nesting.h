@@ -1,6 +1,7 @@
 // The test of nesting for a surface that memory does not hold at once.
 #pragma once
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -10,7 +11,7 @@
 namespace regionmesh {
 
 /// Finds the separate parts of the surface, then sends a ray from each that does not touch the box. Holds the faces
-/// that later parts have, too, and 100 bytes for each separate part and region in it.
+/// that later parts have, too, and 80 bytes for each separate part that does not touch the box.
 class PartNesting {
 public:
     /// Volumes are measured from `origin`.
@@ -37,21 +38,23 @@ private:
         NestedVolumes volumes = {};  // empty if it touches the box
     };
     struct Ray {
-        Island from;
+        Vec3 from;
+        std::uint32_t vertex, part;
         Label outer;
-        LabelSet at_start = {};
         NestingHit nearest = {};
+        std::array<Label, 4> at_start{kNoLabel, kNoLabel, kNoLabel, kNoLabel};  // as they are found
     };
+    static constexpr Label kNoLabel = ~Label{0};
     static void join(Island& into, Island&& other);
+    void close(const Island& island);
     Box way_of(const Ray& ray) const;
 
     Vec3 origin_;
     SeamSets sets_;                         // of faces
     std::map<std::uint32_t, Island> open_;  // by set; those that reached a seam
-    std::vector<Island> closed_;            // those that touch neither a seam nor the box
     std::uint64_t count_ = 0;               // islands so far
     double reach_ = 0;
-    std::vector<Ray> rays_;
+    std::vector<Ray> rays_;  // of islands that do not touch the box
 };
 
 }  // namespace regionmesh
