@@ -112,7 +112,7 @@ const server = await serve({ "/viewer": `${folder}-viewer`, "/model.precomputed"
 try {
     for (const [name, ...options] of [["legacy", "--precomputed", "legacy"], ["multi", "--levels", "2"], ["sharded", "--levels", "2", "--sharded"]]) {
         rmSync(`${folder}/model.precomputed`, { recursive: true, force: true });
-        run("convert", `${folder}/model`, `${folder}/model.precomputed`, "--names", `${folder}/names.csv`, "--units", "um",
+        run("convert", `${folder}/model`, `${folder}/model.precomputed`, "--units", "um",
             "--quiet", ...options);
         const near = await shows_colours_and_names(browser, server, name);
         if (name === "sharded") await loads_less_from_afar(browser, server, near);
