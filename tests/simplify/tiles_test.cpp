@@ -211,7 +211,9 @@ TEST(Tiles, trial_says_what_each_threshold_leaves) {
                 .left.faces.size());
         EXPECT_EQ(counts[n].faces, batch.whole.faces.size());
         EXPECT_NEAR(static_cast<double>(counts[n].left_faces) / left, 1, 0.05);
-        if (n > 0) EXPECT_LT(counts[n].left_faces, counts[n - 1].left_faces);
+        if (n > 0) {
+            EXPECT_LT(counts[n].left_faces, counts[n - 1].left_faces);
+        }
     }
 }
 
