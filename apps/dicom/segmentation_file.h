@@ -1,12 +1,13 @@
 // A DICOM file as far as a segmentation needs it: what it says of its segments and frames, and samples frame by frame.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "formats/dicom/dicom_frame.h"
 
 namespace regionmesh::dicom {
 
@@ -28,15 +29,7 @@ struct Description {
     std::vector<Segment> segments = {};
 };
 
-/// What a frame's functional groups, or those that all frames share, say; not a number where they do not.
-struct Frame {
-    double segment;
-    std::array<double, 3> position;       // mm, of the first sample
-    std::array<double, 6> orientation;    // along a row, along a column
-    std::array<double, 2> pixel_spacing;  // mm between rows, between columns
-    double between_slices, thickness;     // mm
-};
-static_assert(sizeof(Frame) == 14 * sizeof(double), "sent as it lies in memory");
+using Frame = formats::DicomFrame;
 
 /// Functions throw helper::Refusal.
 class SegmentationFile {

@@ -3,24 +3,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/box.h"
 #include "base/hash.h"
 
 namespace regionmesh {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
-
-bool overlap(const Box& a, const Box& b) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
-    return true;
-}
-
-bool is_within(const Box& inner, const Box& outer) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (inner.low[axis] < outer.low[axis] || inner.high[axis] > outer.high[axis]) return false;
-    return true;
-}
 
 std::array<Vec3, 3> corners_of(const Piece& piece, const PieceFace& face) {
     const auto& v = face.vertices;
@@ -56,7 +45,9 @@ PositionBits bits_of(Vec3 position) {
     return {bits(position.x), bits(position.y), bits(position.z)};
 }
 
-std::size_t hash_of(const PositionBits& bits) { return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]); }
+std::size_t PositionHash::operator()(const PositionBits& bits) const {
+    return mix64(mix64(mix64(bits[0]) ^ bits[1]) ^ bits[2]);
+}
 
 std::uint32_t SharedVertices::number(Vec3 position, std::uint32_t next) {
     return numbers_.try_emplace(bits_of(position), next).first->second;

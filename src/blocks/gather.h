@@ -21,7 +21,9 @@ std::uint32_t block_of(const BlockGrid& grid, const Chunk& chunk, const ChunkFac
 /// The bits of the coordinates, the same for 0 and -0: positions that are equal have equal bits.
 using PositionBits = std::array<std::uint64_t, 3>;
 PositionBits bits_of(Vec3 position);
-std::size_t hash_of(const PositionBits& bits);
+struct PositionHash {
+    std::size_t operator()(const PositionBits& bits) const;
+};
 
 /// Numbers of vertices that several pieces may have, by their exact position.
 class SharedVertices {
@@ -31,10 +33,7 @@ public:
     std::size_t size() const { return numbers_.size(); }
 
 private:
-    struct Hash {
-        std::size_t operator()(const PositionBits& bits) const { return hash_of(bits); }
-    };
-    std::unordered_map<PositionBits, std::uint32_t, Hash> numbers_;
+    std::unordered_map<PositionBits, std::uint32_t, PositionHash> numbers_;
 };
 
 /// The faces of a block, out of the pieces of another plan of blocks.

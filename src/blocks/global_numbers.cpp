@@ -2,19 +2,10 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "blocks/join.h"
 
 namespace regionmesh {
-namespace {
-
-bool overlap(const Box& a, const Box& b) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
-    return true;
-}
-
-}  // namespace
-
 GlobalNumbers::GlobalNumbers(const Manifest& manifest, const std::filesystem::path& folder)
     : grid_(piece_lattice(manifest), manifest.block_cells, manifest.shift), boxes_(piece_boxes(manifest, folder)) {
     for (std::uint32_t block = 0; block < boxes_.size(); ++block) {

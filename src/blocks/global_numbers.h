@@ -28,9 +28,6 @@ public:
     std::uint64_t count() const { return count_; }
 
 private:
-    struct Hash {
-        std::size_t operator()(const PositionBits& bits) const { return hash_of(bits); }
-    };
     void find_later(std::uint32_t block);
     /// The last block whose piece may have a vertex.
     std::uint32_t last_with(Vec3 position, std::uint32_t block) const;
@@ -39,7 +36,7 @@ private:
     std::vector<Box> boxes_;                   // of the pieces
     std::array<std::uint32_t, 3> overhang_{};  // blocks by which the box of a piece exceeds its block, at most
     std::vector<std::uint32_t> later_;         // pieces after this one whose boxes meet its box
-    std::unordered_map<PositionBits, std::uint64_t, Hash> seen_;
+    std::unordered_map<PositionBits, std::uint64_t, PositionHash> seen_;
     std::unordered_map<std::uint32_t, std::vector<PositionBits>> to_forget_;  // by that block
     std::uint64_t count_ = 0;
 };

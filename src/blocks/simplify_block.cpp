@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/hash.h"
 #include "regionmesh/limits.h"
 #include "simplify/collapse_edges.h"
 #include "simplify/mesh_chunk.h"
@@ -76,24 +75,15 @@ std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block,
     const TileGrid grid = grid_of(block, side, side / 2);
     TiledFaces faces(block.chunk, {}, grid, options.threads);
     std::array<double, kMostThresholdTrials> left{};
-    std::vector<std::uint32_t> full, chosen;
-    for (std::uint32_t tile = 0; tile < grid.tile_count(); ++tile)
-        if (!faces.faces_of(tile).empty()) full.push_back(tile);
-    const std::uint32_t every = std::clamp(static_cast<std::uint32_t>(full.size()) / kSampledTiles, 1u, kSampledTiles);
-    for (std::uint32_t n = 0; n + every <= full.size(); n += every)
-        chosen.push_back(full[n + static_cast<std::uint32_t>(hash_unit(n, every) * every)]);
+    const std::vector<std::uint32_t> chosen = sample_of_tiles(faces);
     if (chosen.empty()) return left;
     std::array<double, kMostThresholdTrials> thresholds;
     for (int n = 0; n < kMostThresholdTrials; ++n) thresholds[n] = trial_threshold(n);
     tiles.keep_share = least;
     const std::vector<TileCounts> counts = regionmesh::try_thresholds(faces, chosen, tiles, thresholds);
-    const auto share = [](std::uint64_t some, std::uint64_t of) {
-        return (static_cast<double>(some) + 1) / (static_cast<double>(of) + 1);
-    };
     for (int n = 0; n < kMostThresholdTrials; ++n) {
         // Locked vertices of tiles keep their resolution here, and not in the passes to come.
-        left[n] =
-            std::min(share(counts[n].left_faces, counts[n].faces), share(counts[n].left_inside, counts[n].inside));
+        left[n] = std::min(counts[n].face_share(), counts[n].inside_share());
         if (left[n] < kNearLeast * least) break;
     }
     return left;

@@ -5,17 +5,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/box.h"
 #include "base/union_find.h"
 #include "mesh/extent.h"
 
 namespace regionmesh {
 namespace {
-
-bool overlap(const Box& a, const Box& b) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
-    return true;
-}
 
 /// Calls visit(FaceId, MeshPart::Span) for the faces with a corner of the part.
 template <class Visit>

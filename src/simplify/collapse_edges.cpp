@@ -136,10 +136,7 @@ private:
         const Verdict verdict = examine(collapse_, [&] { return placement_->place(mesh_, star); });
         ++result_.verdicts[static_cast<int>(verdict)];
         if (verdict == Verdict::kAccepted) {
-            apply([&] {
-                placement_->rank(mesh_, star.goes, {&star.stays, 1}, edge_costs_);
-                return double{edge_costs_.front().cost};
-            });
+            apply(histogram_ ? cost_of_best() : 0);
         } else {
             if (depends_on_place(verdict)) add_half(star.goes, star.stays);
             candidates_.refuse();
@@ -175,24 +172,23 @@ private:
         gather_half(mesh_, goes, stays, collapse_.star);
         const Verdict verdict = examine(collapse_, [&] { return Places{collapse_.star.at_stays}; });
         ++result_.verdicts[static_cast<int>(verdict)];
-        if (verdict == Verdict::kAccepted) {
-            apply([&] {
-                placement_->rank_halves(mesh_, goes, {&stays, 1}, half_costs_);
-                return half_costs_.front().cost;
-            });
-        }
+        if (verdict == Verdict::kAccepted) apply(half_costs_.front().cost);
     }
 
-    /// `cost()` is asked for only where it is noted.
-    template <class Cost>
-    void apply(Cost&& cost) {
+    /// Without the share of the length, which its rank has.
+    double cost_of_best() {
         const EdgeStar& star = collapse_.star;
-        const double noted = histogram_ ? cost() : 0;
+        placement_->rank(mesh_, star.goes, {&star.stays, 1}, edge_costs_);
+        return edge_costs_.front().cost;
+    }
+
+    void apply(double cost) {
+        const EdgeStar& star = collapse_.star;
         const std::uint32_t before = mesh_.face_count();
         placement_->collapse(mesh_, star, collapse_.position);
         collapse_edge(mesh_, tree_, collapse_);
         candidates_.update(star.goes, star.stays);
-        if (histogram_) histogram_->add(noted, before - mesh_.face_count());
+        if (histogram_) histogram_->add(cost, before - mesh_.face_count());
     }
 
     Mesh& mesh_;

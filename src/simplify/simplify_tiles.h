@@ -39,10 +39,22 @@ TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options);
 std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint32_t> tiles,
                               const TileOptions& options);
 
+/// One of every kSampledTiles tiles that have faces, drawn by a hash.
+std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces);
+
 /// Size of a sample of tiles, before and after.
 struct TileCounts {
     std::uint64_t faces = 0, left_faces = 0;    // their own
     std::uint64_t inside = 0, left_inside = 0;  // vertices that are not locked
+
+    /// The shares that are left; 1 of nothing.
+    double face_share() const { return share(left_faces, faces); }
+    double inside_share() const { return share(left_inside, inside); }
+
+private:
+    static double share(std::uint64_t left, std::uint64_t of) {
+        return (static_cast<double>(left) + 1) / (static_cast<double>(of) + 1);
+    }
 };
 /// Simplifies some tiles up to the last of some thresholds, which rise; returns what was left at each, and leaves the
 /// tiles as they were. A tile ends at `keep_share`.

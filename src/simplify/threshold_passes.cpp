@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "base/hash.h"
 #include "simplify/collapse_edges.h"
 
 namespace regionmesh {
@@ -53,24 +52,13 @@ TileGrid grid_of(const TilePlan& plan, const PassOptions& options, std::uint64_t
     return grid;
 }
 
-/// One of every kSampledTiles tiles that have faces, drawn by a hash.
-std::vector<std::uint32_t> sample(const TiledFaces& faces) {
-    std::vector<std::uint32_t> full, chosen;
-    for (std::uint32_t tile = 0; tile < faces.grid().tile_count(); ++tile)
-        if (!faces.faces_of(tile).empty()) full.push_back(tile);
-    const std::uint32_t every = std::clamp(static_cast<std::uint32_t>(full.size()) / kSampledTiles, 1u, kSampledTiles);
-    for (std::uint32_t n = 0; n + every <= full.size(); n += every)
-        chosen.push_back(full[n + static_cast<std::uint32_t>(hash_unit(n, every) * every)]);
-    return chosen;
-}
-
 /// The thresholds at which a sample of the tiles keeps a share of its faces, and not much less of the vertices that are
 /// not locked.
 class ThresholdSearch {
 public:
     /// Shares down to `options.keep_share` can be found, those above `most` are of no interest.
     ThresholdSearch(TiledFaces& faces, const TileOptions& options, double most) {
-        const std::vector<std::uint32_t> tiles = sample(faces);
+        const std::vector<std::uint32_t> tiles = sample_of_tiles(faces);
         trial(faces, tiles, options, kFirstThreshold);
         if (left_.front() < most) trial(faces, tiles, options, kFirstThreshold / kThresholdRange);
     }
@@ -94,12 +82,8 @@ private:
         left_.clear();
         for (double threshold = first; threshold <= first * kThresholdRange; threshold *= kThresholdStep)
             thresholds_.push_back(threshold);
-        const auto share = [](std::uint64_t left, std::uint64_t of) {
-            return (static_cast<double>(left) + 1) / (static_cast<double>(of) + 1);
-        };
         for (const TileCounts& counts : try_thresholds(faces, tiles, options, thresholds_))
-            left_.push_back(std::min(share(counts.left_faces, counts.faces),
-                                     share(counts.left_inside, counts.inside) / kLeastInside));
+            left_.push_back(std::min(counts.face_share(), counts.inside_share() / kLeastInside));
     }
 
     std::vector<double> thresholds_, left_;  // shares left, which fall

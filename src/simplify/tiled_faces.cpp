@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/box.h"
 #include "base/parallel_for.h"
 #include "simplify/tuning.h"
 
 namespace regionmesh {
-namespace {
-
-bool is_within(const Box& inner, const Box& outer) {
-    return max(inner.low, outer.low) == inner.low && min(inner.high, outer.high) == inner.high;
-}
-
-}  // namespace
-
 TiledFaces::TiledFaces(const Chunk& chunk, std::span<const ChunkVertex> carried, const TileGrid& grid,
                        std::uint32_t threads)
     : chunk_(chunk), carried_(carried), grid_(grid) {

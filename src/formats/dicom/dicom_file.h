@@ -1,13 +1,13 @@
 // A DICOM segmentation, read by the program regionmesh-dicom.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "formats/asked_program.h"
+#include "formats/dicom/dicom_frame.h"
 #include "regionmesh/label_names.h"
 
 namespace regionmesh::formats {
@@ -23,16 +23,6 @@ struct DicomObject {
     LabelNames names = {};
     LabelColours colours = {};
 };
-
-/// What a frame says, as regionmesh-dicom sends it; not a number where it says nothing.
-struct DicomFrame {
-    double segment;
-    std::array<double, 3> position;       // LPS, in mm, of the first sample
-    std::array<double, 6> orientation;    // unit vectors along a row, and along a column
-    std::array<double, 2> pixel_spacing;  // mm between rows, between columns
-    double between_slices, thickness;     // mm
-};
-static_assert(sizeof(DicomFrame) == 14 * sizeof(double), "sent as it lies in memory");
 
 /// Asks regionmesh-dicom (apps/dicom/README.md). Throws Error(kInput) that names the file.
 class DicomFile {

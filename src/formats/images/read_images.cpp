@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 [[noreturn]] void refuse_dicom(const fs::path& path) {
     fail(path,
          "is a DICOM file, which is no section of labels; segment the series of images, in 3D Slicer for example, and "
-         "name "
-         "the file of the segmentation alone");
+         "name the file of the segmentation alone");
 }
 
 /// The row of a section's format. Throws where it is no image that is read.

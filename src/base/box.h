@@ -1,0 +1,22 @@
+// How boxes lie to each other.
+#pragma once
+
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+/// Whether they have a point in common, on their sides at least.
+inline bool overlap(const Box& a, const Box& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
+    return true;
+}
+
+/// Whether no point of `inner` is outside of `outer`.
+inline bool is_within(const Box& inner, const Box& outer) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (inner.low[axis] < outer.low[axis] || inner.high[axis] > outer.high[axis]) return false;
+    return true;
+}
+
+}  // namespace regionmesh
