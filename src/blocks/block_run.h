@@ -15,8 +15,10 @@
 namespace regionmesh {
 
 /// Pass 0 reconstructs the blocks and simplifies each up to a low threshold, its rim locked. Pass 1 simplifies blocks
-/// shifted by half a block, whose goals follow from a common threshold. Further passes take the last faces above the
-/// target out of a few blocks. One block needs pass 0 alone. A pass is complete when all of its pieces are; then the
+/// shifted by half a block, up to the threshold at which all keep a little more than the target. Pass 2 simplifies the
+/// blocks of pass 0 again, beyond the target, and logs the last collapses; pass 3 makes those that lead to the target.
+/// Where even all of them leave more, such pairs follow, up to higher thresholds and with other walls. Without a target
+/// there is pass 1 alone; one block needs pass 0 alone. A pass is complete when all of its pieces are; then the
 /// manifest says so, and the pieces before it go.
 class BlockRun {
 public:
@@ -28,6 +30,9 @@ public:
 private:
     /// What a pass makes of a block.
     using MakePiece = std::function<Piece(const PieceHeader&)>;
+    /// What it does to the faces of a block, of which `goal` are to be left by the shares of their pieces; returns
+    /// whether topology, quality or the largest error ended it.
+    using SimplifyBlock = std::function<bool(BlockChunk&, double goal)>;
 
     void open_volume();
     void run_passes();
@@ -36,6 +41,8 @@ private:
     PieceHeader header_of(std::uint32_t pass, std::uint32_t block) const;
     bool is_there(const PieceHeader& header);
     void keep(Piece piece);
+    void note_thresholds();
+    void note_cut(std::uint32_t pass);
     void note_pieces(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
     void end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
     void remove_passes_before(std::uint32_t pass);
@@ -43,18 +50,21 @@ private:
     void sweep_blocks(const BlockGrid& blocks, IndexBox sweep, std::uint32_t done);
     Piece reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk faces);
     void seam_pass();
-    void trim_passes();
+    void log_pass(std::uint32_t n);
+    void cut_pass(std::uint32_t n);
     void complete();
 
     bool has_target() const { return target_.faces || target_.reduce; }
     std::uint64_t target() const { return target_.of(manifest_.initial_faces); }
     std::uint64_t face_count() const;
+    std::uint32_t shift(std::uint32_t pass) const;
     BlockGrid grid(std::uint32_t pass) const;
     BlockSimplifyOptions simplify_options() const;
     std::vector<PieceHeader> headers() const;
     std::filesystem::path path_of(std::uint32_t pass, std::uint32_t block) const;
+    std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, const std::vector<PieceHeader>& before) const;
     Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const std::vector<double>& shares,
-                 std::optional<std::uint64_t> goal);
+                 const SimplifyBlock& simplify);
     void remove_parts();
 
     const OpenSections& open_;

@@ -101,7 +101,7 @@ Piece piece_of(const BlockChunk& block, const BlockGrid& grid, const PieceHeader
     std::vector<bool> is_shared(chunk.vertices.size());
     for (const std::uint32_t v : chunk.active) is_shared[v] = true;
     std::vector<std::uint32_t> numbers(chunk.vertices.size(), kNone);
-    Piece piece{header, {}, {}};
+    Piece piece{header, {}, {}, block.log};
     for (const ChunkFace& of_chunk : chunk.faces) {
         if (block_of(grid, chunk, of_chunk) != header.block) continue;
         const auto& v = of_chunk.vertices;
@@ -116,6 +116,10 @@ Piece piece_of(const BlockChunk& block, const BlockGrid& grid, const PieceHeader
             face.vertices[n] = number;
         }
         piece.faces.push_back(face);
+    }
+    for (LoggedCollapse& collapse : piece.log) {
+        collapse.goes = numbers[collapse.goes];
+        collapse.stays = numbers[collapse.stays];
     }
     return piece;
 }

@@ -56,9 +56,12 @@ Json json_of(const Manifest& manifest) {
     json["stopped"] = manifest.stopped;
     json["error_bound"] = manifest.error_bound;
     Json& pieces = json["pieces"] = Json::array();
-    for (const PieceEntry& piece : manifest.pieces)
+    for (const PieceEntry& piece : manifest.pieces) {
         pieces.push_back(
             {{"pass", piece.pass}, {"vertices", piece.vertices}, {"faces", piece.faces}, {"crc32", piece.checksum}});
+        if (piece.collapses) pieces.back()["collapses"] = *piece.collapses;
+    }
+    if (!manifest.is_complete) json["thresholds"] = {manifest.thresholds.seams, manifest.thresholds.log};
     return json;
 }
 
@@ -75,7 +78,9 @@ std::uint32_t colour_of(const std::string& text, const fs::path& path) {
 }
 
 PieceEntry piece_of(const nlohmann::json& json) {
-    return {json.at("pass"), json.at("vertices"), json.at("faces"), json.at("crc32")};
+    PieceEntry piece{json.at("pass"), json.at("vertices"), json.at("faces"), json.at("crc32")};
+    if (json.contains("collapses")) piece.collapses = json["collapses"];
+    return piece;
 }
 
 Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
@@ -108,6 +113,10 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     manifest.faces = json.at("faces");
     manifest.stopped = json.at("stopped");
     manifest.error_bound = json.at("error_bound");
+    if (json.contains("thresholds")) {
+        const auto& [seams, log] = json["thresholds"].get<std::array<double, 2>>();
+        manifest.thresholds = {seams, log};
+    }
     for (const auto& piece : json.at("pieces")) manifest.pieces.push_back(piece_of(piece));
     return manifest;
 }

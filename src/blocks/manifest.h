@@ -18,6 +18,12 @@ struct PieceEntry {
     std::uint32_t pass = 0;
     std::uint64_t vertices = 0, faces = 0;
     std::uint32_t checksum = 0;
+    std::optional<std::uint64_t> collapses = {};  // of its log, to be made in the next pass
+};
+
+/// Costs up to which the passes after the first simplify, in units of scale^4.
+struct Thresholds {
+    double seams = 0, log = 0;
 };
 
 /// docs/explanation/blocks.md lists the keys of the file.
@@ -40,6 +46,7 @@ struct Manifest {
     double scale_z = 1;
     std::uint64_t initial_faces = 0;      // counted on the labels
     std::uint32_t passes = 0;             // complete ones
+    Thresholds thresholds = {};           // where there is a target, from pass 0 on
     std::vector<PieceEntry> pieces = {};  // of the last pass that is complete, by block
     std::string stopped = {};
     double error_bound = 0;

@@ -33,6 +33,10 @@ std::uint64_t read_items(const formats::InputFile& file, std::uint64_t offset, s
     return offset + bytes.size();
 }
 
+std::uint64_t end_of_faces(const PieceHeader& header) {
+    return sizeof(header) + header.vertices * sizeof(PieceVertex) + header.faces * sizeof(PieceFace);
+}
+
 PieceHeader header_of(const formats::InputFile& file) {
     PieceHeader header;
     if (file.size() < sizeof(header)) formats::fail(file.path(), "is no piece of a model");
@@ -40,12 +44,19 @@ PieceHeader header_of(const formats::InputFile& file) {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
     if (header.magic != PieceHeader{}.magic || header.vertices >= kMost || header.faces >= kMost)
         formats::fail(file.path(), "is no piece of a model");
-    const std::uint64_t size = sizeof(header) + header.vertices * sizeof(PieceVertex) +
-                               header.faces * sizeof(PieceFace) + sizeof(std::uint32_t);
-    if (file.size() != size)
+    const std::uint64_t size = end_of_faces(header) + sizeof(std::uint32_t);
+    if (file.size() < size || (file.size() - size) % sizeof(LoggedCollapse) != 0)
         formats::fail(file.path(), std::to_string(file.size()) + " bytes instead of " + std::to_string(size) +
                                        "; remove the file, and run again");
     return header;
+}
+
+/// What is left of the file is its log.
+std::vector<LoggedCollapse> log_of(const formats::InputFile& file, const PieceHeader& header) {
+    const std::uint64_t first = end_of_faces(header);
+    std::vector<LoggedCollapse> log((file.size() - first - sizeof(std::uint32_t)) / sizeof(LoggedCollapse));
+    read_items(file, first, std::span(log));
+    return log;
 }
 
 }  // namespace
@@ -68,6 +79,11 @@ std::uint32_t write_piece(Piece& piece, const fs::path& path, const OutputOption
         checksum = add_to(checksum, bytes);
         file.write(bytes);
     }
+    if (!piece.log.empty()) {
+        const std::string_view bytes = bytes_of(std::span<const LoggedCollapse>(piece.log));
+        checksum = add_to(checksum, bytes);
+        file.write(bytes);
+    }
     file.write(bytes_of(std::span<const std::uint32_t>(&checksum, 1)));
     file.commit();
     return checksum;
@@ -75,22 +91,32 @@ std::uint32_t write_piece(Piece& piece, const fs::path& path, const OutputOption
 
 Piece read_piece(const fs::path& path) {
     const formats::InputFile file(path);
-    Piece piece{header_of(file), {}, {}};
+    Piece piece{header_of(file), {}, {}, {}};
     piece.vertices.resize(piece.header.vertices);
     piece.faces.resize(piece.header.faces);
     std::uint64_t at = read_items(file, sizeof(PieceHeader), std::span(piece.vertices));
-    at = read_items(file, at, std::span(piece.faces));
-    std::uint32_t written = 0, checksum = 0;
-    read_items(file, at, std::span(&written, 1));
+    read_items(file, at, std::span(piece.faces));
+    piece.log = log_of(file, piece.header);
+    const std::uint32_t written = read_checksum(path);
+    std::uint32_t checksum = 0;
     checksum = add_to(checksum, bytes_of(std::span<const PieceHeader>(&piece.header, 1)));
     checksum = add_to(checksum, bytes_of(std::span<const PieceVertex>(piece.vertices)));
     checksum = add_to(checksum, bytes_of(std::span<const PieceFace>(piece.faces)));
+    if (!piece.log.empty()) checksum = add_to(checksum, bytes_of(std::span<const LoggedCollapse>(piece.log)));
     if (checksum != written)
         formats::fail(path, "the checksum does not fit: the file is damaged; remove it, and run again");
     for (const PieceFace& face : piece.faces)
         for (const std::uint32_t v : face.vertices)
             if (v >= piece.vertices.size()) formats::fail(path, "a face has a vertex that is not there");
+    for (const LoggedCollapse& collapse : piece.log)
+        if (std::max(collapse.goes, collapse.stays) >= piece.vertices.size())
+            formats::fail(path, "a collapse has a vertex that is not there");
     return piece;
+}
+
+std::vector<LoggedCollapse> read_piece_log(const fs::path& path) {
+    const formats::InputFile file(path);
+    return log_of(file, header_of(file));
 }
 
 PieceHeader read_piece_header(const fs::path& path) { return header_of(formats::InputFile(path)); }

@@ -10,6 +10,7 @@
 #include "regionmesh/label.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/vec3.h"
+#include "simplify/collapse_log.h"
 
 namespace regionmesh {
 
@@ -53,16 +54,20 @@ struct Piece {
     PieceHeader header;
     std::vector<PieceVertex> vertices;
     std::vector<PieceFace> faces;
+    std::vector<LoggedCollapse> log = {};  // collapses that may still be made, of vertices that are not shared. The
+                                           // error bounds of vertices are those after all of them
 };
 
-/// Sets the counts, the box and the largest error bound, and writes header, vertices, faces and the CRC-32 of all of
-/// them. The file has its name only when it is complete. Returns the checksum.
+/// Sets the counts, the box and the largest error bound, and writes header, vertices, faces, log and the CRC-32 of
+/// all of them. The file has its name only when it is complete. Returns the checksum.
 std::uint32_t write_piece(Piece& piece, const std::filesystem::path& path, const OutputOptions& options);
 
 /// Throws Error(kInput) for a file that is not such a piece or whose checksum does not fit.
 Piece read_piece(const std::filesystem::path& path);
 /// The header alone; the rest of the file is not looked at.
 PieceHeader read_piece_header(const std::filesystem::path& path);
+/// The log alone; the checksum is not looked at.
+std::vector<LoggedCollapse> read_piece_log(const std::filesystem::path& path);
 
 /// The checksum that the file says.
 std::uint32_t read_checksum(const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -9,15 +10,19 @@
 
 namespace regionmesh {
 
-/// The shares of their faces that blocks keep at the threshold at which all together keep about `target` faces, by the
-/// sum of the histograms in the headers.
-std::vector<double> shares_at_target(std::span<const PieceHeader> pieces, double target);
+/// The threshold at which all blocks together keep about `target` faces, by the sum of the histograms in the headers;
+/// in units of scale^4.
+double threshold_at(std::span<const PieceHeader> pieces, double target);
 
-/// Faces to which some blocks go down when all have `faces` and more than `target`, by block: the excess comes out of
-/// the largest blocks, a hundredth of their faces each. Blocks at their limit give none. Collapses remove two faces at
-/// a time, or three at lines, so a block may end two below its goal: all together stay above the target even then, but
-/// for the last of them.
-std::vector<std::uint64_t> trimmed(std::span<const std::uint64_t> faces, const std::vector<bool>& is_at_limit,
-                                   std::uint64_t target);
+/// The shares of their faces that blocks keep there, in all the target.
+std::vector<double> shares_at(std::span<const PieceHeader> pieces, double target);
+
+/// How many collapses of the log of each piece are made so that the target is left of `faces`: the lowest levels first,
+/// in the order of the pieces where they are equal. The last may leave one or two less.
+std::vector<std::uint64_t> cut(std::span<const std::filesystem::path> pieces, std::uint64_t faces,
+                               std::uint64_t target);
+
+/// Makes the first `count` collapses of the log of a piece, and drops the others.
+void make_collapses(Piece& piece, std::uint64_t count);
 
 }  // namespace regionmesh

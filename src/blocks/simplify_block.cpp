@@ -53,6 +53,28 @@ std::uint32_t side_of_tiles(const BlockChunk& block) {
     return static_cast<std::uint32_t>(std::max(std::ceil(std::cbrt(cells / tiles)), 8.0));
 }
 
+Box limits_of(const BlockChunk& block) {
+    const TileGrid whole{.origin = block.lattice.origin,
+                         .spacing = block.lattice.spacing,
+                         .size = block.cells.size(),
+                         .cells = block.cells.size(),
+                         .first_cell = block.cells.low};
+    return whole.limits(0);
+}
+
+Mesh take_mesh(BlockChunk& block) {
+    Mesh mesh = mesh_of(block.chunk);
+    block.chunk.clear();
+    mesh.sort_spatially();
+    return mesh;
+}
+
+SimplifyOptions up_to(double threshold, const BlockSimplifyOptions& options) {
+    SimplifyOptions own = options.simplify;
+    own.max_cost = std::min(own.max_cost, threshold * std::pow(own.scale, 4));
+    return own;
+}
+
 }  // namespace
 
 void simplify_low(BlockChunk& block, double share, const BlockSimplifyOptions& options) {
@@ -89,22 +111,60 @@ std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block,
     return left;
 }
 
+void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, const BlockSimplifyOptions& options) {
+    const std::uint64_t goal = least + block.other_faces, held = block.chunk.faces.size();
+    if (held <= goal) return;
+    if (held < std::uint64_t{kFewestTiles} * kTileFaces) {
+        Mesh mesh = take_mesh(block);
+        SimplifyOptions own = up_to(threshold, options);
+        own.target_faces = static_cast<std::uint32_t>(goal);
+        collapse_edges(mesh, own, {.limits = limits_of(block), .refresh = false});
+        block.chunk = take_chunk(mesh);
+        return;
+    }
+    const std::uint32_t side = side_of_tiles(block);
+    const TileGrid grid = grid_of(block, side, side / 2);
+    TiledFaces faces(block.chunk, {}, grid, options.threads);
+    TileOptions tiles = tile_options(options);
+    const double share = static_cast<double>(goal) / static_cast<double>(held);
+    for (int n = 1; n <= kMostAttempts; ++n) {
+        tiles.threshold = threshold * std::pow(kTrialStep, 1 - n);
+        tiles.keep_share = n < kMostAttempts ? share * kLeastShare : share;
+        TileResult result = simplify_tiles(faces, tiles);
+        if (result.left.faces.size() < goal) continue;
+        block.chunk = std::move(result.left);
+        return;
+    }
+}
+
+bool simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options) {
+    Mesh mesh = mesh_of(block.chunk);
+    const std::vector<VertexId> ids = mesh.sort_spatially();
+    CollapseLog log;
+    const bool is_last = threshold == HUGE_VAL;
+    collapse_edges(mesh, up_to(threshold, options), {.limits = limits_of(block), .refresh = is_last, .log = &log});
+    std::vector<std::uint32_t> numbers(mesh.vertex_end());
+    for (std::uint32_t v = 0; v < ids.size(); ++v) {
+        numbers[index(ids[v])] = v;
+        if (mesh.is_alive(ids[v])) block.chunk.vertices[v].error_bound = mesh[ids[v]].error_bound();
+    }
+    block.log = std::move(log.collapses);
+    for (LoggedCollapse& collapse : block.log) {
+        collapse.goes = numbers[collapse.goes];
+        collapse.stays = numbers[collapse.stays];
+    }
+    return is_last;
+}
+
 bool simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options) {
     const std::uint64_t goal = target + block.other_faces;
     if (block.chunk.faces.size() <= goal) return false;
     const PassOptions passes{.target_faces = target == 0 ? 0 : goal, .tiles = tile_options(options)};
     simplify_in_passes(block.chunk, plan_of(block), passes);
-    Mesh mesh = mesh_of(block.chunk);
-    block.chunk.clear();
-    mesh.sort_spatially();
+    Mesh mesh = take_mesh(block);
     SimplifyOptions own = options.simplify;
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
-    const TileGrid whole{.origin = block.lattice.origin,
-                         .spacing = block.lattice.spacing,
-                         .size = block.cells.size(),
-                         .cells = block.cells.size(),
-                         .first_cell = block.cells.low};
-    const CollapseResult done = collapse_edges(mesh, own, {.limits = whole.limits(0), .refresh = true});
+    const CollapseResult done = collapse_edges(mesh, own, {.limits = limits_of(block), .refresh = true});
     block.chunk = take_chunk(mesh);
     return done.stopped != StopReason::kTarget;
 }

@@ -8,6 +8,7 @@
 #include "blocks/piece.h"
 #include "mesh/chunk.h"
 #include "regionmesh/simplify.h"
+#include "simplify/collapse_log.h"
 #include "simplify/tuning.h"
 #include "stream/target.h"
 
@@ -20,7 +21,8 @@ struct BlockChunk {
     Lattice lattice;  // of the whole volume
     Sweep sweep;
     Chunk chunk;
-    std::uint64_t other_faces = 0;  // of the chunk: those of other blocks. All their vertices are locked
+    std::uint64_t other_faces = 0;         // of the chunk: those of other blocks. All their vertices are locked
+    std::vector<LoggedCollapse> log = {};  // collapses that may still be made (Piece::log), vertices of the chunk
 };
 
 struct BlockSimplifyOptions {
@@ -40,6 +42,14 @@ double trial_threshold(int n);
 /// they are.
 std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block, double least,
                                                         const BlockSimplifyOptions& options);
+
+/// Simplifies up to a threshold, in units of scale^4, but not below `least` faces of the block's own; a large block in
+/// tiles, at whose walls cheaper edges may be left.
+void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, const BlockSimplifyOptions& options);
+
+/// Simplifies the block as a whole up to a threshold, in its log alone. Returns whether topology, quality or the
+/// largest error ended it.
+bool simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options);
 
 /// Simplifies to `target` faces of the block's own, or as far as topology, quality and the largest error allow, and
 /// returns whether these ended it.

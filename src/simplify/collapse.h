@@ -5,6 +5,7 @@
 
 #include "mesh/face_tree.h"
 #include "regionmesh/lattice.h"
+#include "simplify/collapse_log.h"
 #include "simplify/edge_star.h"
 #include "simplify/error_bound.h"
 #include "simplify/verdict/intersect_test.h"
@@ -30,6 +31,7 @@ struct Collapse {
     bool intersect_check = true;
     const Lattice* samples = nullptr;  // whose samples stay in their regions; none: any may change
     double max_error = HUGE_VAL;       // of ErrorBound
+    CollapseLog* log = nullptr;        // gets what is made
     EdgeStar star = {};
     Vec3 position = {};         // of the merged vertex
     double worst_quality3 = 0;  // third power of the least quality of a changed face
@@ -41,6 +43,14 @@ struct Collapse {
 inline void collapse_edge(Mesh& mesh, FaceTree& tree, Collapse& collapse) {
     const EdgeStar& star = collapse.star;
     const Vec3 position = collapse.position;
+    if (collapse.log)
+        collapse.log->collapses.push_back({.position = position,
+                                           .goes = index(star.goes),
+                                           .stays = index(star.stays),
+                                           .goes_bound = mesh[star.goes].error_bound(),
+                                           .stays_bound = mesh[star.stays].error_bound(),
+                                           .level = collapse.log->level,
+                                           .faces = static_cast<std::uint32_t>(star.dead.size())});
     if (collapse.max_error == HUGE_VAL) collapse.error.merged(mesh, star, position);  // else test_error did
     collapse.error.apply(mesh, star.stays);
     for (FaceId f : star.dead) {

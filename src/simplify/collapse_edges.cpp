@@ -64,7 +64,8 @@ public:
                     .limits = bounds.limits,
                     .intersect_check = options.intersect_check,
                     .samples = options.samples ? &*options.samples : nullptr,
-                    .max_error = options.max_error} {}
+                    .max_error = options.max_error,
+                    .log = bounds.log} {}
 
     CollapseResult run() {
         const std::uint32_t faces = mesh_.face_count(), vertices = mesh_.vertex_count();
@@ -122,11 +123,18 @@ private:
     }
 
     void step() {
-        if (halves_.empty() || (!candidates_.empty() && candidates_.least_rank() <= halves_.least_rank()))
+        if (halves_.empty() || (!candidates_.empty() && candidates_.least_rank() <= halves_.least_rank())) {
+            note_level(candidates_.least_rank());
             try_best();
-        else
+        } else {
+            note_level(halves_.least_rank());
             try_half(halves_.take());
+        }
         if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress();
+    }
+
+    void note_level(double rank) {
+        if (collapse_.log) collapse_.log->level = std::max(collapse_.log->level, rank);
     }
 
     /// Tests the cheapest candidate where it costs least: collapses it, or puts it aside.

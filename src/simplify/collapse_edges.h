@@ -39,6 +39,7 @@ struct CollapseBounds {
                               // unless on a side of the sampled box
     bool refresh = true;      // begin again when candidates run out (P 3.7)
     CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
+    CollapseLog* log = nullptr;          // filled; those of the prepass have level 0
 };
 
 struct CollapseResult {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -163,6 +164,22 @@ TEST(CollapseEdges, faces_that_reach_beyond_the_limits_stay) {
     EXPECT_LT(mesh.face_count(), count_before * 0.8);
     test::for_vertices(mesh, [&](VertexId v) { EXPECT_FALSE(mesh[v].is_fixed); });
     test::expect_sound(check(mesh));
+}
+
+TEST(CollapseEdges, logs_all_collapses_and_changes_nothing_by_that) {
+    Mesh silent = grains(), logged = grains();
+    const std::uint32_t held = logged.face_count();
+    CollapseLog log;
+    const CollapseResult done = collapse_edges(logged, {.max_cost = 0.1}, {.log = &log});
+    collapse_edges(silent, {.max_cost = 0.1});
+    EXPECT_EQ(test::digest(silent), test::digest(logged));
+    EXPECT_EQ(log.collapses.size(), count(done, Verdict::kAccepted));
+    EXPECT_EQ(log.collapses.front().level, 0) << "of the prepass";
+    EXPECT_GT(log.collapses.back().level, 1e-3);
+    EXPECT_TRUE(std::ranges::is_sorted(log.collapses, {}, &LoggedCollapse::level));
+    std::uint32_t removed = 0;
+    for (const LoggedCollapse& collapse : log.collapses) removed += collapse.faces;
+    EXPECT_EQ(held - removed, logged.face_count());
 }
 
 TEST(CollapseEdges, merged_vertices_stay_within_the_limits) {
