@@ -180,7 +180,8 @@ TEST(Architecture, the_library_never_forks_without_exec) {
 }
 
 TEST(Architecture, the_programs_that_read_for_the_library_share_little_with_it) {
-    const Names kShared{"helper/serve.h", "regionmesh/sandbox.h", "formats/chunked/hdf5_handle.h"};
+    const Names kShared{"helper/serve.h", "regionmesh/sandbox.h", "formats/chunked/hdf5_handle.h",
+                        "formats/dicom/dicom_frame.h"};
     for (const char* folder : {"apps/hdf5", "apps/dicom", "apps/helper"})
         for_sources(kRoot / folder, [&](const fs::path& file) {
             for (const std::string& include : includes_of(file))

@@ -9,6 +9,7 @@
 
 #include "blocks/begin_run.h"
 #include "blocks/block_size.h"
+#include "blocks/cut.h"
 #include "blocks/gather.h"
 #include "blocks/join.h"
 #include "blocks/own_faces.h"
@@ -33,7 +34,7 @@ constexpr std::uint32_t kSeams = 1, kFirstLog = 2, kFirstCut = 3, kMostLogs = 6;
 /// Multiples of the target, by the histograms of pass 0, at which the shifted blocks of pass 1 end, and the first log.
 /// AAL in blocks of 109 to 155,550 faces: rms 0.0541 with 1.08, 0.0514 with 1.2, 0.0527 with 1.4 (0.0524 without
 /// blocks). The histograms say 3 to 12 % more than is left: vertices on the walls of tiles are locked in them.
-constexpr double kSeamsAbove = 1.2, kLogAbove = 1;
+constexpr double kSeamsAbove = 1.2, kLogAbove = 0.97;
 
 /// The second log goes on to a threshold so many times higher; those that follow as far as collapses are allowed.
 constexpr double kSecondLog = 8;
@@ -306,21 +307,6 @@ Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>
     PieceHeader own = header;
     own.is_at_limit = simplify(block, gatherer.goal());
     return piece_of(block, blocks, own);
-}
-
-/// All blocks, those with many faces round them first: they take longest, and ranks then end at about the same time.
-std::vector<std::uint32_t> BlockRun::longest_first(const BlockGrid& blocks,
-                                                   const std::vector<PieceHeader>& before) const {
-    std::vector<std::uint64_t> faces(blocks.count());
-    for (std::uint32_t block = 0; block < blocks.count(); ++block) {
-        const BlockGatherer gatherer(blocks, block);
-        for (const PieceHeader& piece : before)
-            if (piece.faces > 0 && gatherer.needs(piece.box)) faces[block] += piece.faces;
-    }
-    std::vector<std::uint32_t> all(blocks.count());
-    std::iota(all.begin(), all.end(), 0);
-    std::ranges::stable_sort(all, [&](std::uint32_t a, std::uint32_t b) { return faces[a] > faces[b]; });
-    return all;
 }
 
 void BlockRun::seam_pass() {

@@ -62,7 +62,6 @@ private:
     BlockSimplifyOptions simplify_options() const;
     std::vector<PieceHeader> headers() const;
     std::filesystem::path path_of(std::uint32_t pass, std::uint32_t block) const;
-    std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, const std::vector<PieceHeader>& before) const;
     Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const std::vector<double>& shares,
                  const SimplifyBlock& simplify);
     void remove_parts();

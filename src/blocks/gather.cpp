@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
+#include <numeric>
 
 #include "base/box.h"
 #include "base/hash.h"
@@ -94,6 +96,19 @@ void BlockGatherer::take(BlockChunk& block) {
         if (is_locked_[v]) chunk_.active.push_back(v);
     block.chunk = std::move(chunk_);
     block.other_faces = other_faces_;
+}
+
+std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, std::span<const PieceHeader> pieces) {
+    std::vector<std::uint64_t> faces(blocks.count());
+    for (std::uint32_t block = 0; block < blocks.count(); ++block) {
+        const BlockGatherer gatherer(blocks, block);
+        for (const PieceHeader& piece : pieces)
+            if (piece.faces > 0 && gatherer.needs(piece.box)) faces[block] += piece.faces;
+    }
+    std::vector<std::uint32_t> order(blocks.count());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::uint32_t block) { return faces[block]; });
+    return order;
 }
 
 Piece piece_of(const BlockChunk& block, const BlockGrid& grid, const PieceHeader& header) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -65,6 +66,10 @@ private:
     std::uint64_t other_faces_ = 0;
     double goal_ = 0;
 };
+
+/// All blocks, those first that have most faces in the pieces round them: they take longest, and ranks then end at
+/// about the same time.
+std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, std::span<const PieceHeader> pieces);
 
 /// The block's own faces of a chunk as a piece; its vertices are in order of first use. Vertices that are locked, or on
 /// faces of other blocks, are shared.

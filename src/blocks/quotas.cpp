@@ -1,10 +1,7 @@
 #include "blocks/quotas.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 #include "blocks/simplify_block.h"
 
@@ -33,9 +30,6 @@ double faces_at(std::span<const PieceHeader> pieces, double log_threshold) {
     return sum;
 }
 
-/// Numbers that rise with the level, 256 for each factor of two.
-std::uint64_t rough(double level) { return std::bit_cast<std::uint64_t>(std::max(level, 0.0)) >> 44; }
-
 }  // namespace
 
 double threshold_at(std::span<const PieceHeader> pieces, double target) {
@@ -55,65 +49,6 @@ std::vector<double> shares_at(std::span<const PieceHeader> pieces, double target
     for (const PieceHeader& piece : pieces)
         shares.push_back(std::min(share_at(piece, threshold) * (all > 0 ? target / all : 1), 1.0));
     return shares;
-}
-
-std::vector<std::uint64_t> cut(std::span<const std::filesystem::path> pieces, std::uint64_t faces,
-                               std::uint64_t target) {
-    // First how many faces go by level, roughly; then level by level where the target is.
-    std::map<std::uint64_t, std::uint64_t> removed;
-    for (const auto& piece : pieces)
-        for (const LoggedCollapse& collapse : read_piece_log(piece)) removed[rough(collapse.level)] += collapse.faces;
-    auto last = removed.begin();
-    while (last != removed.end() && faces - target > last->second && faces > target) faces -= last++->second;
-    std::vector<std::uint64_t> made(pieces.size());
-    struct Next {
-        double level;
-        std::uint32_t piece, faces;
-    };
-    std::vector<Next> next;
-    for (std::uint32_t n = 0; n < pieces.size(); ++n)
-        for (const LoggedCollapse& collapse : read_piece_log(pieces[n])) {
-            if (last == removed.end() || rough(collapse.level) < last->first)
-                ++made[n];
-            else if (rough(collapse.level) == last->first)
-                next.push_back({collapse.level, n, collapse.faces});
-        }
-    std::ranges::stable_sort(next, {}, &Next::level);
-    for (const Next& collapse : next) {
-        if (faces <= target) break;
-        faces -= collapse.faces;
-        ++made[collapse.piece];
-    }
-    return made;
-}
-
-void make_collapses(Piece& piece, std::uint64_t count) {
-    const auto made = std::span<const LoggedCollapse>(piece.log).first(count),
-               dropped = std::span<const LoggedCollapse>(piece.log).subspan(count);
-    for (auto at = dropped.rbegin(); at != dropped.rend(); ++at) {
-        piece.vertices[at->goes].error_bound = at->goes_bound;
-        piece.vertices[at->stays].error_bound = at->stays_bound;
-    }
-    // Where a vertex leads to in the end: a chain of collapses is followed from its end.
-    std::vector<std::uint32_t> into(piece.vertices.size());
-    std::iota(into.begin(), into.end(), 0);
-    for (const LoggedCollapse& collapse : made) piece.vertices[collapse.stays].position = collapse.position;
-    for (auto at = made.rbegin(); at != made.rend(); ++at) into[at->goes] = into[at->stays];
-    std::erase_if(piece.faces, [&](PieceFace& face) {
-        for (std::uint32_t& v : face.vertices) v = into[v];
-        const auto& [a, b, c] = face.vertices;
-        return a == b || b == c || c == a;
-    });
-    std::uint32_t left = 0;
-    for (std::uint32_t v = 0; v < into.size(); ++v) {
-        if (into[v] != v) continue;
-        piece.vertices[left] = piece.vertices[v];
-        into[v] = left++;
-    }
-    piece.vertices.resize(left);
-    for (PieceFace& face : piece.faces)
-        for (std::uint32_t& v : face.vertices) v = into[v];
-    piece.log.clear();
 }
 
 }  // namespace regionmesh

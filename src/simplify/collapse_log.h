@@ -10,11 +10,11 @@ namespace regionmesh {
 
 /// One collapse of an edge of a mesh.
 struct LoggedCollapse {
-    Vec3 position;                  // of `stays` from then on
-    std::uint32_t goes, stays;      // vertices
-    float goes_bound, stays_bound;  // their error bounds before
-    double level;                   // the largest rank so far
-    std::uint32_t faces;            // that it removes
+    Vec3 position = {};                     // of `stays` from then on
+    std::uint32_t goes = 0, stays = 0;      // vertices
+    float goes_bound = 0, stays_bound = 0;  // their error bounds before
+    double level = 0;                       // the largest rank so far
+    std::uint32_t faces = 0;                // that it removes
     std::uint32_t unused = 0;
 };
 static_assert(sizeof(LoggedCollapse) == 56);
