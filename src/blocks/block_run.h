@@ -30,7 +30,7 @@ public:
 private:
     /// What a pass makes of a block.
     using MakePiece = std::function<Piece(const PieceHeader&)>;
-    /// What it does to the faces of a block, of which `goal` are to be left by the shares of their pieces; returns
+    /// What it does to the faces of a block. `goal` is the sum of the shares of their pieces, 0 without shares. Returns
     /// whether topology, quality or the largest error ended it.
     using SimplifyBlock = std::function<bool(BlockChunk&, double goal)>;
 
@@ -50,8 +50,8 @@ private:
     void sweep_blocks(const BlockGrid& blocks, IndexBox sweep, std::uint32_t done);
     Piece reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk faces);
     void seam_pass();
-    void log_pass(std::uint32_t n);
-    void cut_pass(std::uint32_t n);
+    void log_pass(std::uint32_t pass);
+    void cut_pass(std::uint32_t pass);
     void complete();
 
     bool has_target() const { return target_.faces || target_.reduce; }

@@ -20,7 +20,7 @@ std::vector<std::uint64_t> cut(std::span<const std::filesystem::path> pieces, st
     for (const auto& piece : pieces)
         for (const LoggedCollapse& collapse : read_piece_log(piece)) removed[rough(collapse.level)] += collapse.faces;
     auto last = removed.begin();
-    while (last != removed.end() && faces - target > last->second && faces > target) faces -= last++->second;
+    while (last != removed.end() && faces > target + last->second) faces -= last++->second;
     std::vector<std::uint64_t> made(pieces.size());
     struct Next {
         double level;

@@ -6,6 +6,7 @@
 #include "blocks/join.h"
 
 namespace regionmesh {
+
 GlobalNumbers::GlobalNumbers(const Manifest& manifest, const std::filesystem::path& folder)
     : grid_(piece_lattice(manifest), manifest.block_cells, manifest.shift), boxes_(piece_boxes(manifest, folder)) {
     for (std::uint32_t block = 0; block < boxes_.size(); ++block) {

@@ -51,12 +51,27 @@ PieceHeader header_of(const formats::InputFile& file) {
     return header;
 }
 
+std::uint32_t checksum_in(const formats::InputFile& file) {
+    std::uint32_t checksum = 0;
+    if (file.size() < sizeof(checksum)) formats::fail(file.path(), "is no piece of a model");
+    read_items(file, file.size() - sizeof(checksum), std::span(&checksum, 1));
+    return checksum;
+}
+
 /// What is left of the file is its log.
 std::vector<LoggedCollapse> log_of(const formats::InputFile& file, const PieceHeader& header) {
     const std::uint64_t first = end_of_faces(header);
     std::vector<LoggedCollapse> log((file.size() - first - sizeof(std::uint32_t)) / sizeof(LoggedCollapse));
     read_items(file, first, std::span(log));
     return log;
+}
+
+/// What the file holds before its checksum. A log that is empty is left out: zlib would begin the checksum again.
+std::vector<std::string_view> parts_of(const Piece& piece) {
+    std::vector<std::string_view> parts{bytes_of(std::span(&piece.header, 1)), bytes_of(std::span(piece.vertices)),
+                                        bytes_of(std::span(piece.faces))};
+    if (!piece.log.empty()) parts.push_back(bytes_of(std::span(piece.log)));
+    return parts;
 }
 
 }  // namespace
@@ -73,14 +88,7 @@ std::uint32_t write_piece(Piece& piece, const fs::path& path, const OutputOption
     }
     OutputFile file(path, options);
     std::uint32_t checksum = 0;
-    for (const std::string_view bytes :
-         {bytes_of(std::span<const PieceHeader>(&header, 1)), bytes_of(std::span<const PieceVertex>(piece.vertices)),
-          bytes_of(std::span<const PieceFace>(piece.faces))}) {
-        checksum = add_to(checksum, bytes);
-        file.write(bytes);
-    }
-    if (!piece.log.empty()) {
-        const std::string_view bytes = bytes_of(std::span<const LoggedCollapse>(piece.log));
+    for (const std::string_view bytes : parts_of(piece)) {
         checksum = add_to(checksum, bytes);
         file.write(bytes);
     }
@@ -97,13 +105,9 @@ Piece read_piece(const fs::path& path) {
     std::uint64_t at = read_items(file, sizeof(PieceHeader), std::span(piece.vertices));
     read_items(file, at, std::span(piece.faces));
     piece.log = log_of(file, piece.header);
-    const std::uint32_t written = read_checksum(path);
     std::uint32_t checksum = 0;
-    checksum = add_to(checksum, bytes_of(std::span<const PieceHeader>(&piece.header, 1)));
-    checksum = add_to(checksum, bytes_of(std::span<const PieceVertex>(piece.vertices)));
-    checksum = add_to(checksum, bytes_of(std::span<const PieceFace>(piece.faces)));
-    if (!piece.log.empty()) checksum = add_to(checksum, bytes_of(std::span<const LoggedCollapse>(piece.log)));
-    if (checksum != written)
+    for (const std::string_view bytes : parts_of(piece)) checksum = add_to(checksum, bytes);
+    if (checksum != checksum_in(file))
         formats::fail(path, "the checksum does not fit: the file is damaged; remove it, and run again");
     for (const PieceFace& face : piece.faces)
         for (const std::uint32_t v : face.vertices)
@@ -121,13 +125,7 @@ std::vector<LoggedCollapse> read_piece_log(const fs::path& path) {
 
 PieceHeader read_piece_header(const fs::path& path) { return header_of(formats::InputFile(path)); }
 
-std::uint32_t read_checksum(const fs::path& path) {
-    const formats::InputFile file(path);
-    std::uint32_t checksum = 0;
-    if (file.size() < sizeof(checksum)) formats::fail(path, "is no piece of a model");
-    read_items(file, file.size() - sizeof(checksum), std::span(&checksum, 1));
-    return checksum;
-}
+std::uint32_t read_checksum(const fs::path& path) { return checksum_in(formats::InputFile(path)); }
 
 std::optional<std::uint32_t> find_piece(const fs::path& path, const PieceHeader& like) {
     std::error_code ignored;

@@ -1,4 +1,4 @@
-// How many faces each block keeps, so that the whole model has the number asked for.
+// The threshold for all blocks at which the whole model has the number of faces asked for.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace regionmesh {
 /// in units of scale^4.
 double threshold_at(std::span<const PieceHeader> pieces, double target);
 
-/// The shares of their faces that blocks keep there, in all the target.
+/// The share of its faces that each block keeps at this threshold, scaled so that all blocks together keep the target.
 std::vector<double> shares_at(std::span<const PieceHeader> pieces, double target);
 
 }  // namespace regionmesh

@@ -62,11 +62,20 @@ Box limits_of(const BlockChunk& block) {
     return whole.limits(0);
 }
 
-Mesh take_mesh(BlockChunk& block) {
+/// Tiles with about kTileFaces faces, whose walls lie half a tile from those of the block.
+TileGrid threshold_grid(const BlockChunk& block) {
+    const std::uint32_t side = side_of_tiles(block);
+    return grid_of(block, side, side / 2);
+}
+
+/// The block as one mesh, with one heap.
+CollapseResult collapse_whole(BlockChunk& block, const SimplifyOptions& options, bool refresh) {
     Mesh mesh = mesh_of(block.chunk);
     block.chunk.clear();
     mesh.sort_spatially();
-    return mesh;
+    const CollapseResult done = collapse_edges(mesh, options, {.limits = limits_of(block), .refresh = refresh});
+    block.chunk = take_chunk(mesh);
+    return done;
 }
 
 SimplifyOptions up_to(double threshold, const BlockSimplifyOptions& options) {
@@ -93,8 +102,7 @@ double trial_threshold(int n) { return kFirstTrial * std::pow(kTrialStep, n); }
 std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block, double least,
                                                         const BlockSimplifyOptions& options) {
     TileOptions tiles = tile_options(options);
-    const std::uint32_t side = side_of_tiles(block);
-    const TileGrid grid = grid_of(block, side, side / 2);
+    const TileGrid grid = threshold_grid(block);
     TiledFaces faces(block.chunk, {}, grid, options.threads);
     std::array<double, kMostThresholdTrials> left{};
     const std::vector<std::uint32_t> chosen = sample_of_tiles(faces);
@@ -115,19 +123,16 @@ void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, co
     const std::uint64_t goal = least + block.other_faces, held = block.chunk.faces.size();
     if (held <= goal) return;
     if (held < std::uint64_t{kFewestTiles} * kTileFaces) {
-        Mesh mesh = take_mesh(block);
         SimplifyOptions own = up_to(threshold, options);
         own.target_faces = static_cast<std::uint32_t>(goal);
-        collapse_edges(mesh, own, {.limits = limits_of(block), .refresh = false});
-        block.chunk = take_chunk(mesh);
+        collapse_whole(block, own, false);
         return;
     }
-    const std::uint32_t side = side_of_tiles(block);
-    const TileGrid grid = grid_of(block, side, side / 2);
+    const TileGrid grid = threshold_grid(block);
     TiledFaces faces(block.chunk, {}, grid, options.threads);
     TileOptions tiles = tile_options(options);
     const double share = static_cast<double>(goal) / static_cast<double>(held);
-    for (int n = 1; n <= kMostAttempts; ++n) {
+    for (int n = 1; n <= kMostAttempts; ++n) {  // lower each time; the last keeps the share in every tile
         tiles.threshold = threshold * std::pow(kTrialStep, 1 - n);
         tiles.keep_share = n < kMostAttempts ? share * kLeastShare : share;
         TileResult result = simplify_tiles(faces, tiles);
@@ -161,12 +166,9 @@ bool simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOpt
     if (block.chunk.faces.size() <= goal) return false;
     const PassOptions passes{.target_faces = target == 0 ? 0 : goal, .tiles = tile_options(options)};
     simplify_in_passes(block.chunk, plan_of(block), passes);
-    Mesh mesh = take_mesh(block);
     SimplifyOptions own = options.simplify;
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
-    const CollapseResult done = collapse_edges(mesh, own, {.limits = limits_of(block), .refresh = true});
-    block.chunk = take_chunk(mesh);
-    return done.stopped != StopReason::kTarget;
+    return collapse_whole(block, own, true).stopped != StopReason::kTarget;
 }
 
 }  // namespace regionmesh

@@ -56,6 +56,7 @@ private:
         return (static_cast<double>(left) + 1) / (static_cast<double>(of) + 1);
     }
 };
+
 /// Simplifies some tiles up to the last of some thresholds, which rise; returns what was left at each, and leaves the
 /// tiles as they were. A tile ends at `keep_share`.
 std::vector<TileCounts> try_thresholds(TiledFaces& faces, std::span<const std::uint32_t> tiles,

@@ -8,6 +8,7 @@
 #include "simplify/tuning.h"
 
 namespace regionmesh {
+
 TiledFaces::TiledFaces(const Chunk& chunk, std::span<const ChunkVertex> carried, const TileGrid& grid,
                        std::uint32_t threads)
     : chunk_(chunk), carried_(carried), grid_(grid) {
