@@ -37,9 +37,12 @@ bool is_log(std::uint32_t pass) { return pass >= kFirstLog && (pass - kFirstLog)
 std::uint32_t logs_before(std::uint32_t pass) { return (pass - kFirstLog) / 2; }
 
 /// Multiples of the target, by the histograms of pass 0, at which the shifted blocks of pass 1 end, and the first log.
-/// AAL in blocks of 109 to 155,550 faces: rms 0.0541 with 1.08, 0.0514 with 1.2, 0.0527 with 1.4 (0.0524 without
-/// blocks). The histograms say 3 to 12 % more than is left: vertices on the walls of tiles are locked in them.
-constexpr double kSeamsAbove = 1.2, kLogAbove = 0.97;
+/// AAL in blocks of 109 to 155,550 faces: rms 0.0532 with 1.1, 0.0537 with 1.15, 0.0541 with 1.2 (0.0524 without
+/// blocks). The histograms say 6 to 27 % less than is left, since walls lock vertices.
+constexpr double kSeamsAbove = 1.1, kLogAbove = 0.9;
+
+/// Trials end at this part of the share that is asked for.
+constexpr double kTrialsBelow = 0.75;
 
 /// The second log goes on to a threshold so many times higher; those that follow as far as collapses are allowed.
 constexpr double kSecondLog = 8;
@@ -298,7 +301,7 @@ Piece BlockRun::reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk
     } else if (is_decimating_) {
         const double left = static_cast<double>(block.chunk.faces.size()) + 1;
         const double share = target_.share() * static_cast<double>(header.initial_faces) / left;
-        header.left = try_thresholds(block, std::min(share, 1.0) / 2, simplify_options());
+        header.left = try_thresholds(block, std::min(share, 1.0) * kTrialsBelow, simplify_options());
     }
     return piece_of(block, blocks, header);
 }

@@ -78,11 +78,13 @@ std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint
     return static_cast<std::uint32_t>(std::max<std::size_t>(most, 1));
 }
 
-std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces) {
+std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces, std::uint32_t least_every) {
     std::vector<std::uint32_t> full, chosen;
     for (std::uint32_t tile = 0; tile < faces.grid().tile_count(); ++tile)
         if (!faces.faces_of(tile).empty()) full.push_back(tile);
-    const std::uint32_t every = std::clamp(static_cast<std::uint32_t>(full.size()) / kSampledTiles, 1u, kSampledTiles);
+    const auto count = static_cast<std::uint32_t>(full.size());
+    const std::uint32_t every =
+        std::min(std::clamp(count / kSampledTiles, least_every, kSampledTiles), std::max(count, 1u));
     for (std::uint32_t n = 0; n + every <= full.size(); n += every)
         chosen.push_back(full[n + static_cast<std::uint32_t>(hash_unit(n, every) * every)]);
     return chosen;

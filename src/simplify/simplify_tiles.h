@@ -39,8 +39,9 @@ TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options);
 std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint32_t> tiles,
                               const TileOptions& options);
 
-/// One of every kSampledTiles tiles that have faces, drawn by a hash.
-std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces);
+/// One of every kSampledTiles tiles that have faces, drawn by a hash; of fewer where there are few, but not fewer than
+/// `least_every`.
+std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces, std::uint32_t least_every = 1);
 
 /// Size of a sample of tiles, before and after.
 struct TileCounts {
