@@ -53,16 +53,9 @@ bool GenericStar::may_be_open(Label label, VertexId v, VertexId end) const {
 }
 
 StarFault GenericStar::look_at_lines(VertexId v, const LabelSet& labels) {
-    neighbours_.clear();
-    mesh_.for_star(v, [&](FaceId f, int place) {
-        neighbours_.push_back(mesh_[f].vertices[(place + 1) % 3]);
-        neighbours_.push_back(mesh_[f].vertices[(place + 2) % 3]);
-    });
-    std::sort(neighbours_.begin(), neighbours_.end());
-    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+    edges_.gather(mesh_, v);
     triples_.clear();
-    for (VertexId w : neighbours_) {
-        const LabelSet at_edge = edge_labels(mesh_, v, w);
+    for (const LabelSet& at_edge : edges_.labels()) {
         if (at_edge.size() > 3) return StarFault::kPages;
         if (at_edge.size() < 3) continue;
         std::vector<Label>& triple = triples_.emplace_back(at_edge.begin(), at_edge.end());

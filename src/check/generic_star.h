@@ -5,6 +5,7 @@
 
 #include "mesh/fan.h"
 #include "mesh/label_set.h"
+#include "mesh/star_edges.h"
 #include "regionmesh/check.h"
 
 namespace regionmesh {
@@ -35,7 +36,7 @@ private:
     const Mesh& mesh_;
     const CheckOptions& options_;
     std::vector<FanPage> fan_;
-    std::vector<VertexId> neighbours_;
+    StarEdges edges_;
     std::vector<std::vector<Label>> triples_;
 };
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "mesh/star_edges.h"
 #include "mesh/strata.h"
 
 namespace regionmesh {
@@ -12,18 +13,13 @@ namespace {
 bool is_inside(const LabelSet& labels) { return std::none_of(labels.begin(), labels.end(), is_exterior); }
 
 /// The other ends of the line edges at v.
-void gather_line_neighbours(const Mesh& mesh, VertexId v, std::vector<VertexId>& found) {
+void gather_line_neighbours(const Mesh& mesh, VertexId v, StarEdges& edges, std::vector<VertexId>& found) {
+    edges.gather(mesh, v);
     found.clear();
-    mesh.for_star(v, [&](FaceId f, int place) {
-        for (int step = 1; step < 3; ++step) {
-            const VertexId w = mesh[f].vertices[(place + step) % 3];
-            if (std::find(found.begin(), found.end(), w) == found.end()) found.push_back(w);
-        }
-    });
-    std::erase_if(found, [&](VertexId w) {
-        const LabelSet labels = edge_labels(mesh, v, w);
-        return labels.size() < 3 || !is_inside(labels);
-    });
+    for (std::size_t n = 0; n < edges.ends().size(); ++n) {
+        const LabelSet& labels = edges.labels()[n];
+        if (labels.size() >= 3 && is_inside(labels)) found.push_back(edges.ends()[n]);
+    }
 }
 
 }  // namespace
@@ -36,11 +32,12 @@ LineReport LineTotals::report() const {
 
 LineTotals sum_lines(const Mesh& mesh, const MeshPart* part) {
     LineTotals totals;
+    StarEdges edges;
     std::vector<VertexId> ends;
     for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n) {
         const VertexId v{n};
         if (!mesh.is_alive(v) || (part && !part->has(v)) || vertex_labels(mesh, v).size() < 3) continue;
-        gather_line_neighbours(mesh, v, ends);
+        gather_line_neighbours(mesh, v, edges, ends);
         const Vec3 p = mesh.position(v);
         for (VertexId w : ends) {
             if (w < v) continue;

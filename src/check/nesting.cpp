@@ -125,16 +125,15 @@ private:
         const Label outer = outermost(part.volumes);
         const Vec3 from = mesh_.position(part.farthest);
         const std::uint32_t own = joined_.find(index(part.farthest));
-        Box box;
-        box.add(from);
-        box.add(from + reach_ * kNestingRay);
         NestingHit nearest;
-        tree_->search(box, [&](FaceId f) {
-            if (joined_.find(index(mesh_[f].vertices[0])) != own) {
-                const NestingHit hit = nesting_hit(mesh_, f, from);
-                if (hit.distance < nearest.distance) nearest = hit;
-            }
-            return true;
+        search_along(from, reach_, nearest, [&](const Box& piece) {
+            tree_->search(piece, [&](FaceId f) {
+                if (joined_.find(index(mesh_[f].vertices[0])) != own) {
+                    const NestingHit hit = nesting_hit(mesh_, f, from);
+                    if (hit.distance < nearest.distance) nearest = hit;
+                }
+                return true;
+            });
         });
         if (is_nested(options_, outer, nearest)) return;
         findings.add(ViolationKind::kNesting, {index(part.farthest)}, {},

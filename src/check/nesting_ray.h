@@ -1,11 +1,13 @@
 // The test of nesting, for one separate part of a surface.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "base/box.h"
 #include "check/findings.h"
 
 namespace regionmesh {
@@ -34,6 +36,20 @@ struct NestingHit {
 
 /// Where the ray from a point meets a face (Moeller and Trumbore 1997).
 NestingHit nesting_hit(const Mesh& mesh, FaceId f, Vec3 from);
+
+/// Calls search(Box) for pieces of the way of a ray, each as long as all before it, until one of them holds `nearest`,
+/// which it sets. Most parts lie close to what surrounds them, and the box of a whole way holds many faces.
+template <class Search>
+void search_along(Vec3 from, double reach, const NestingHit& nearest, Search&& search) {
+    constexpr double kFirstPiece = 1.0 / 256;
+    double at = 0;
+    for (double end = reach * kFirstPiece; at < reach && nearest.distance > at; at = end, end *= 2) {
+        Box box;
+        box.add(from + at * kNestingRay);
+        box.add(from + std::min(end, reach) * kNestingRay);
+        search(box);
+    }
+}
 
 /// Whether a part may lie where the ray from its farthest vertex says.
 bool is_nested(const CheckOptions& options, Label outermost, const NestingHit& nearest);

@@ -112,21 +112,27 @@ void PartNesting::meet(const Mesh& mesh, std::uint32_t threads) {
         const Box way = way_of(ray);
         if (!overlap(way, extent)) continue;
         if (!tree) tree.emplace(mesh, threads);
-        tree->search(way, [&](FaceId f) {
-            // The other faces of the island lie behind the start of the ray.
-            if (std::ranges::count(mesh.corners(f), ray.from) > 0) {
-                for (const Label label : mesh[f].labels)
-                    if (const auto place = std::ranges::find_if(
-                            ray.at_start, [&](Label there) { return there == label || there == kNoLabel; });
-                        place != ray.at_start.end())
-                        *place = label;
+        search_along(ray.from, reach_, ray.nearest, [&](const Box& piece) {
+            tree->search(piece, [&](FaceId f) {
+                meet(mesh, f, ray);
                 return true;
-            }
-            const NestingHit hit = nesting_hit(mesh, f, ray.from);
-            if (hit.distance < ray.nearest.distance) ray.nearest = hit;
-            return true;
+            });
         });
     }
+}
+
+void PartNesting::meet(const Mesh& mesh, FaceId f, Ray& ray) {
+    // The other faces of the island lie behind the start of the ray.
+    if (std::ranges::count(mesh.corners(f), ray.from) > 0) {
+        for (const Label label : mesh[f].labels)
+            if (const auto place = std::ranges::find_if(
+                    ray.at_start, [&](Label there) { return there == label || there == kNoLabel; });
+                place != ray.at_start.end())
+                *place = label;
+        return;
+    }
+    const NestingHit hit = nesting_hit(mesh, f, ray.from);
+    if (hit.distance < ray.nearest.distance) ray.nearest = hit;
 }
 
 void PartNesting::report(const CheckOptions& options, Findings& findings) const {

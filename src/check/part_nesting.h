@@ -48,6 +48,7 @@ private:
     static void join(Island& into, Island&& other);
     void close(const Island& island);
     Box way_of(const Ray& ray) const;
+    static void meet(const Mesh& mesh, FaceId f, Ray& ray);
 
     Vec3 origin_;
     SeamSets sets_;                         // of faces

@@ -45,32 +45,13 @@ void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
             v, [&](FaceId f, int place) { found.vertices.push_back(mesh_[f].vertices[place == 2 ? 0 : place + 1]); });
         found.label_counts.assign(found.vertices.size(), 2);
     } else {
-        count_edge_labels(v, found);
+        edges_.gather(mesh_, v);
+        found.vertices = edges_.ends();
+        found.label_counts.clear();
+        for (const LabelSet& labels : edges_.labels())
+            found.label_counts.push_back(static_cast<std::uint8_t>(labels.size()));
     }
     placement_.rank(mesh_, v, found.vertices, found.costs);
-}
-
-void Candidates::count_edge_labels(VertexId v, Neighbours& found) {
-    edge_labels_.clear();
-    mesh_.for_star(v, [&](FaceId f, int place) {
-        const Face& face = mesh_[f];
-        for (VertexId n : {face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3]}) {
-            const auto at = std::find(found.vertices.begin(), found.vertices.end(), n) - found.vertices.begin();
-            if (at == static_cast<std::ptrdiff_t>(found.vertices.size())) {
-                found.vertices.push_back(n);
-                edge_labels_.emplace_back();
-            }
-            for (Label label : face.labels) edge_labels_[at].labels.add(label);
-            edge_labels_[at].uses += 2;
-        }
-    });
-    found.label_counts.clear();
-    for (std::size_t n = 0; n < found.vertices.size(); ++n) {
-        // Where the surface ends sides count, too.
-        const auto& [labels, uses] = edge_labels_[n];
-        const int count = uses >= 2 * labels.size() ? labels.size() : edge_labels(mesh_, v, found.vertices[n]).size();
-        found.label_counts.push_back(static_cast<std::uint8_t>(count));
-    }
 }
 
 /// The end that would go, or none.

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesh/label_set.h"
+#include "mesh/star_edges.h"
 #include "regionmesh/simplify.h"
 #include "simplify/edge_heap.h"
 #include "simplify/placement.h"
@@ -43,11 +43,6 @@ private:
         std::vector<std::uint8_t> label_counts;  // of the edges
         std::vector<EdgeCost> costs;
     };
-    /// The labels of an edge while they are gathered, and two for each of its faces.
-    struct EdgeLabels {
-        LabelSet labels;
-        int uses = 0;
-    };
     struct Best {
         VertexId stays = kNoVertex;
         float key = 0;
@@ -55,7 +50,6 @@ private:
     };
 
     void gather_neighbours(VertexId v, Neighbours& found);
-    void count_edge_labels(VertexId v, Neighbours& found);
     int label_count(VertexId v) const { return mesh_[v].label_count; }
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
     float key(VertexId goes, VertexId stays, EdgeCost cost);
@@ -69,7 +63,7 @@ private:
     FlatArray<float> floor_;       // edges up to this key were refused since the last change
     EdgeHeap heap_;
     Neighbours neighbours_, round_merged_;
-    std::vector<EdgeLabels> edge_labels_;
+    StarEdges edges_;
     bool has_edges_over_error_ = false;
     double key_unit_;  // a power of two near 1 / scale^4: keys are single precision, and would overflow or vanish
 };
