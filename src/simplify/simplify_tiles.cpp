@@ -1,6 +1,7 @@
 #include "simplify/simplify_tiles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -60,6 +61,46 @@ std::vector<TileCounts> counts_at(std::span<const double> thresholds, Tile& tile
     return counts;
 }
 
+/// The vertices that no tile changes.
+TileResult nothing_left_of(const TiledFaces& faces) {
+    const Chunk& chunk = faces.chunk();
+    TileResult result{.left = {.carried = chunk.carried,
+                               .vertices = faces.locked_vertices(),
+                               .faces = {},
+                               .active = {},
+                               .carried_bounds = {}}};
+    // Reserved pages that are never written cost no memory.
+    result.left.vertices.reserve(chunk.vertices.size());
+    result.left.faces.reserve(chunk.faces.size());
+    for (std::uint32_t local : chunk.active) result.left.active.push_back(faces.locked_number(local));
+    return result;
+}
+
+void simplify_some(TiledFaces& faces, std::span<const std::uint32_t> numbers, const TileOptions& options,
+                   TileResult& result) {
+    const std::uint32_t in_flight = tiles_in_flight(faces, numbers, options);
+    std::vector<Tile> tiles(in_flight);
+    std::vector<VerdictCounts> verdicts(in_flight);
+    const auto work = [&](std::uint32_t n, std::uint32_t place) {
+        verdicts[place] = simplify_tile(tiles[place], faces, numbers[n], options);
+    };
+    const auto finish = [&](std::uint32_t n, std::uint32_t place) {
+        tiles[place].put_back(result.left);
+        add(result.verdicts, verdicts[place]);
+        if (options.on_share) options.on_share((n + 1.0) / static_cast<double>(numbers.size()));
+    };
+    parallel_in_order(static_cast<std::uint32_t>(numbers.size()), in_flight, options.threads, {work, finish});
+}
+
+/// Options for the tiles whose work is this part of all.
+TileOptions between(double from, double to, TileOptions options) {
+    if (options.on_share)
+        options.on_share = [from, to, all = std::move(options.on_share)](double done) {
+            all(std::lerp(from, to, done));
+        };
+    return options;
+}
+
 }  // namespace
 
 std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint32_t> tiles,
@@ -91,31 +132,26 @@ std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces, std::uint32_
 }
 
 TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options) {
-    const Chunk& chunk = faces.chunk();
-    TileResult result{.left = {.carried = chunk.carried,
-                               .vertices = faces.locked_vertices(),
-                               .faces = {},
-                               .active = {},
-                               .carried_bounds = {}}};
-    Chunk& left = result.left;
-    // Reserved pages that are never written cost no memory.
-    left.vertices.reserve(chunk.vertices.size());
-    left.faces.reserve(chunk.faces.size());
-    for (std::uint32_t local : chunk.active) left.active.push_back(faces.locked_number(local));
-    std::vector<std::uint32_t> numbers(faces.grid().tile_count());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    const std::uint32_t in_flight = tiles_in_flight(faces, numbers, options);
-    std::vector<Tile> tiles(in_flight);
-    std::vector<VerdictCounts> verdicts(in_flight);
-    const auto work = [&](std::uint32_t n, std::uint32_t place) {
-        verdicts[place] = simplify_tile(tiles[place], faces, n, options);
-    };
-    const auto finish = [&](std::uint32_t n, std::uint32_t place) {
-        tiles[place].put_back(left);
-        add(result.verdicts, verdicts[place]);
-        if (options.on_share) options.on_share((n + 1.0) / faces.grid().tile_count());
-    };
-    parallel_in_order(faces.grid().tile_count(), in_flight, options.threads, {work, finish});
+    TileResult result = nothing_left_of(faces);
+    std::vector<std::uint32_t> all(faces.grid().tile_count());
+    std::iota(all.begin(), all.end(), 0);
+    simplify_some(faces, all, options, result);
+    return result;
+}
+
+TileResult simplify_tiles_in_parts(TiledFaces& faces, const TileOptions& options,
+                                   const std::function<TileOptions(std::uint64_t, std::uint64_t)>& next) {
+    TileResult result = nothing_left_of(faces);
+    std::array<std::vector<std::uint32_t>, 2> parts;
+    std::uint64_t held = 0;
+    for (std::uint32_t n = 0; n < faces.grid().tile_count(); ++n) {
+        const bool is_first = hash_unit(n, kFirstTiles) * kFirstTiles < 1;
+        parts[is_first ? 0 : 1].push_back(n);
+        if (is_first) held += faces.faces_of(n).size();
+    }
+    const double end = static_cast<double>(parts[0].size()) / faces.grid().tile_count();
+    simplify_some(faces, parts[0], between(0, end, options), result);
+    simplify_some(faces, parts[1], between(end, 1, held > 0 ? next(held, result.left.faces.size()) : options), result);
     return result;
 }
 

@@ -34,6 +34,11 @@ struct TileResult {
 /// the changes of two tiles cannot meet. Active vertices stay active, in their order.
 TileResult simplify_tiles(TiledFaces& faces, const TileOptions& options);
 
+/// The same in two parts: first about one tile in kFirstTiles, drawn by a hash; then the others with the options that
+/// `next` makes of what the first held and what they have left.
+TileResult simplify_tiles_in_parts(TiledFaces& faces, const TileOptions& options,
+                                   const std::function<TileOptions(std::uint64_t held, std::uint64_t left)>& next);
+
 /// How many of the tiles may be out of the chunk at a time: any so many that follow each other have at most
 /// `faces_in_flight` faces with their halos. From 1 to `in_flight`.
 std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint32_t> tiles,

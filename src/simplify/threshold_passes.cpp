@@ -52,60 +52,84 @@ TileGrid grid_of(const TilePlan& plan, const PassOptions& options, std::uint64_t
     return grid;
 }
 
-/// The thresholds at which a sample of the tiles keeps a share of its faces, and not much less of the vertices that are
-/// not locked.
+/// What a sample of the tiles of the first pass keeps at each threshold.
 class ThresholdSearch {
 public:
     /// Shares down to `options.keep_share` can be found, those above `most` are of no interest.
-    ThresholdSearch(TiledFaces& faces, const TileOptions& options, double most) {
+    ThresholdSearch(TiledFaces& faces, const TileOptions& options, double most)
+        : held_(static_cast<double>(faces.chunk().faces.size())) {
         const std::vector<std::uint32_t> tiles = sample_of_tiles(faces);
         trial(faces, tiles, options, kFirstThreshold);
-        if (left_.front() < most) trial(faces, tiles, options, kFirstThreshold / kThresholdRange);
+        if (first_.front() < most) trial(faces, tiles, options, kFirstThreshold / kThresholdRange);
+    }
+
+    /// That of `pass` leaves about so many faces of the mesh. Of the first pass: and not much less of the vertices that
+    /// are not locked. Walls of those that follow lie elsewhere: all vertices may become as few.
+    double threshold(int pass, double faces) const {
+        const std::vector<double>& left = left_by(pass);
+        const double share = faces / held_;
+        if (is_free(pass, faces)) return thresholds_.front();
+        const auto after = std::ranges::find_if(left, [&](double at) { return at < share; });
+        if (after == left.end()) return HUGE_VAL;
+        // Between thresholds that were tried the share left is a power of the threshold.
+        const auto n = after - left.begin();
+        const double part = std::log(share / left[n - 1]) / std::log(left[n] / left[n - 1]);
+        return thresholds_[n - 1] * std::pow(kThresholdStep, part);
     }
 
     /// All thresholds leave less: the collapses are free.
-    bool is_free(double share) const { return left_.front() < share; }
-
-    /// Between thresholds that were tried the share left is a power of the threshold.
-    double at(double share) const {
-        if (is_free(share)) return thresholds_.front();
-        const auto after = std::ranges::find_if(left_, [&](double left) { return left < share; });
-        if (after == left_.end()) return HUGE_VAL;
-        const auto n = after - left_.begin();
-        const double part = std::log(share / left_[n - 1]) / std::log(left_[n] / left_[n - 1]);
-        return thresholds_[n - 1] * std::pow(kThresholdStep, part);
-    }
+    bool is_free(int pass, double faces) const { return left_by(pass).front() < faces / held_; }
 
 private:
     void trial(TiledFaces& faces, std::span<const std::uint32_t> tiles, const TileOptions& options, double first) {
         thresholds_.clear();
-        left_.clear();
+        first_.clear();
+        inside_.clear();
         for (double threshold = first; threshold <= first * kThresholdRange; threshold *= kThresholdStep)
             thresholds_.push_back(threshold);
-        for (const TileCounts& counts : try_thresholds(faces, tiles, options, thresholds_))
-            left_.push_back(std::min(counts.face_share(), counts.inside_share() / kLeastInside));
+        for (const TileCounts& counts : try_thresholds(faces, tiles, options, thresholds_)) {
+            inside_.push_back(counts.inside_share());
+            first_.push_back(std::min(counts.face_share(), counts.inside_share() / kLeastInside));
+        }
     }
 
-    std::vector<double> thresholds_, left_;  // shares left, which fall
+    const std::vector<double>& left_by(int pass) const { return pass == 0 ? first_ : inside_; }
+
+    double held_;
+    std::vector<double> thresholds_, first_, inside_;  // and the shares left, which fall
 };
 
-/// One pass; nothing where all thresholds leave less than the target.
-std::optional<TileResult> pass_over(TiledFaces& faces, TileOptions options, double target) {
+/// One pass; nothing where all thresholds leave less than the target. The first one sets `search`.
+std::optional<TileResult> pass_over(TiledFaces& faces, TileOptions options, double target, int pass,
+                                    std::optional<ThresholdSearch>& search) {
     const auto held = static_cast<double>(faces.chunk().faces.size());
     options.keep_share = target / held * kLeastShare;
     options.threshold = HUGE_VAL;
-    double share = target * kPassMargin / held;
-    std::optional<ThresholdSearch> search;
-    if (target > 0) search.emplace(faces, options, share);
-    if (search && search->is_free(share)) options.keep_share = share;  // every tile gives the same share
-    double of_sample = share;
+    if (target == 0) return simplify_tiles(faces, options);
+    double wanted = target * kPassMargin, aim = wanted;  // what the search is asked for, so that it is left
+    if (!search) search.emplace(faces, options, wanted / held);
+    const auto take_aim = [&](double share) {
+        options.threshold = search->threshold(pass, aim);
+        if (search->is_free(pass, aim)) options.keep_share = std::max(options.keep_share, share);  // in every tile
+    };
+    // Never a higher threshold: what is locked is left to the next pass.
+    const auto correct = [&](std::uint64_t of, std::uint64_t left) {
+        const double share_left = static_cast<double>(left) / static_cast<double>(of);
+        const double share =
+            std::max(wanted - static_cast<double>(left), 0.0) / std::max(held - static_cast<double>(of), 1.0);
+        if (share > share_left) {
+            aim *= share / share_left;
+            take_aim(share);
+        }
+        return options;
+    };
     for (int n = 0; n < kMostAttempts; ++n) {
-        if (search) options.threshold = search->at(of_sample);
-        TileResult done = simplify_tiles(faces, options);
+        take_aim(wanted / held);
+        TileResult done = simplify_tiles_in_parts(faces, options, correct);
         const auto left = static_cast<double>(done.left.faces.size());
         if (left >= target) return done;
-        share *= kPassMargin;
-        of_sample *= share * held / left;
+        wanted *= kPassMargin;
+        aim *= wanted / left;
         // A larger least share, too: where collapses are free, no threshold leaves more.
         options.keep_share += target / held * (1 + kMostAbove - kLeastShare) / (kMostAttempts - 1);
     }
@@ -137,6 +161,7 @@ PassResult simplify_below(Chunk& chunk, const TilePlan& plan, const PassOptions&
 PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOptions& options) {
     PassResult result;
     const auto target = static_cast<double>(options.target_faces);
+    std::optional<ThresholdSearch> search;
     if (chunk.faces.size() < std::uint64_t{kFewestTiles} * options.tile_faces) return result;
     for (int pass = 0; pass < kMostPasses; ++pass) {
         const std::size_t held = chunk.faces.size();
@@ -145,7 +170,7 @@ PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOpti
         TiledFaces faces(chunk, {}, grid, options.tiles.threads);
         TileOptions tiles = options.tiles;
         tiles.faces_in_flight = std::max<std::uint64_t>(held / kPartsInFlight, kFacesInFlight);
-        std::optional<TileResult> done = pass_over(faces, tiles, target);
+        std::optional<TileResult> done = pass_over(faces, tiles, target, pass, search);
         if (!done) break;
         chunk = std::move(done->left);
         add(result.verdicts, done->verdicts);

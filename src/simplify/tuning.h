@@ -129,7 +129,7 @@ inline constexpr std::uint32_t kFewestTiles = 6, kPartsInFlight = 6, kFacesInFli
 
 /// A pass aims at kPassMargin times the target, and is made while the mesh has more than kWorthPass times the target.
 /// The pass that removes less than kLeastPassGain of the faces is the last.
-inline constexpr double kPassMargin = 1.03, kWorthPass = 1.05, kLeastPassGain = 0.02;
+inline constexpr double kPassMargin = 1.03, kWorthPass = 1.1, kLeastPassGain = 0.02;
 inline constexpr int kMostPasses = 3;
 
 /// Search: 1 tile in kSampledTiles. The share left is noted at thresholds from kFirstThreshold, which is where the
@@ -137,6 +137,9 @@ inline constexpr int kMostPasses = 3;
 /// little, over the range below.
 inline constexpr std::uint32_t kSampledTiles = 8;
 inline constexpr double kFirstThreshold = kPrepassCost, kThresholdStep = 1.5, kThresholdRange = 1e9;
+
+/// One tile in kFirstTiles goes first; what it has left corrects the threshold of the others.
+inline constexpr std::uint32_t kFirstTiles = 4;
 
 /// A pass that ends below the target is repeated with a lower threshold and a larger least share, at most
 /// kMostAttempts times in all; the least share rises to kMostAbove more than the target share.
