@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <set>
+#include <vector>
 
 #include "cells/label_census.h"
 #include "cells/strip_mesher.h"
@@ -213,6 +215,48 @@ TEST(Tiles, trial_says_what_each_threshold_leaves) {
         EXPECT_NEAR(static_cast<double>(counts[n].left_faces) / left, 1, 0.05);
         if (n > 0) {
             EXPECT_LT(counts[n].left_faces, counts[n - 1].left_faces);
+        }
+    }
+}
+
+TEST(Tiles, that_go_first_say_how_the_others_go_on) {
+    test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 12, 7);
+    const Batch batch(volume);
+    const TileGrid grid{.origin = batch.lattice.origin,
+                        .spacing = batch.lattice.spacing,
+                        .size = {39, 35, 29},
+                        .cells = {10, 10, 10},
+                        .is_bounded = true};
+    const auto with = [](double threshold) {
+        return TileOptions{.threshold = threshold, .keep_share = 0, .threads = 1, .simplify = {}};
+    };
+    TiledFaces all(batch.whole, {}, grid, 1);
+    const std::size_t low = simplify_tiles(all, with(1e-3)).left.faces.size();
+    TiledFaces all_high(batch.whole, {}, grid, 1);
+    const std::size_t high = simplify_tiles(all_high, with(1)).left.faces.size();
+    for (const double next : {1e-3, 1.0}) {
+        std::uint64_t held = 0, left = 0;
+        TiledFaces faces(batch.whole, {}, grid, 1);
+        TileOptions options = with(1e-3);
+        std::vector<double> shares;
+        options.on_share = [&](double share) { shares.push_back(share); };
+        const TileResult done = simplify_tiles_in_parts(faces, options, [&](std::uint64_t of, std::uint64_t kept) {
+            held = of;
+            left = kept;
+            TileOptions own = options;
+            own.threshold = next;
+            return own;
+        });
+        EXPECT_GT(held, batch.whole.faces.size() / 20);
+        EXPECT_LT(held, batch.whole.faces.size() / 2);
+        EXPECT_LT(left, held);
+        EXPECT_TRUE(std::ranges::is_sorted(shares));
+        EXPECT_EQ(shares.back(), 1);
+        if (next == 1) {
+            EXPECT_LT(done.left.faces.size(), low);
+            EXPECT_GT(done.left.faces.size(), high);
+        } else {
+            EXPECT_EQ(done.left.faces.size(), low);
         }
     }
 }
