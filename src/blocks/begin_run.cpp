@@ -1,6 +1,6 @@
 #include "blocks/begin_run.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <optional>
 #include <span>
@@ -67,9 +67,10 @@ struct Input {
     SurveyOptions survey = {};
 };
 
-/// A part of a survey on its way from the process that made it to the first: numbers of 64 bits.
-fs::path part_path(const fs::path& folder, std::size_t count, std::size_t number) {
-    return folder / fmt::format("survey-{}-{}.part", count, number);
+/// A part of a survey on its way from the process that made it to the first: numbers of 64 bits. Its name says which
+/// samples: a run that goes on may have another number of processes, or other --memory.
+fs::path part_path(const fs::path& folder, const IndexBox& box) {
+    return folder / fmt::format("{}{}-{}.part", kSurveyPart, fmt::join(box.low, "-"), fmt::join(box.high, "-"));
 }
 
 void write_part(const PartSurvey& part, const fs::path& path, const OutputOptions& options) {
@@ -95,16 +96,16 @@ void survey_parts(const OpenSections& open, const std::vector<IndexBox>& boxes, 
                   const BlockOptions& blocks, BlockTasks& tasks, const OnBlocks& on_progress) {
     const auto count = static_cast<std::uint32_t>(boxes.size());
     while (const auto task = tasks.next(count)) {
-        const fs::path path = part_path(blocks.folder, count, *task);
+        const fs::path path = part_path(blocks.folder, boxes[*task]);
         if (!fs::exists(path)) write_part(survey_part(open, boxes[*task], survey), path, blocks.output);
         if (on_progress) on_progress({"read", *task + 1, count});
     }
     tasks.end_phase();
 }
 
-Survey join_parts(const Input& input, std::size_t count, const fs::path& folder) {
+Survey join_parts(const Input& input, const std::vector<IndexBox>& boxes, const fs::path& folder) {
     std::vector<PartSurvey> parts;
-    for (std::size_t n = 0; n < count; ++n) parts.push_back(read_part(part_path(folder, count, n)));
+    for (const IndexBox& box : boxes) parts.push_back(read_part(part_path(folder, box)));
     return join_surveys(input.info, input.survey.background, parts);
 }
 
@@ -178,10 +179,9 @@ void begin_run(const OpenSections& open, const ReconstructOptions& options, cons
     const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
     if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
     if (tasks.is_first()) {
-        const Survey found = boxes.size() > 1 ? join_parts(*input, boxes.size(), blocks.folder)
-                                              : survey_whole(*input, blocks, on_progress);
+        const Survey found =
+            boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder) : survey_whole(*input, blocks, on_progress);
         note_survey(found, *input, options, blocks);
-        for (std::size_t n = 0; n < boxes.size(); ++n) fs::remove(part_path(blocks.folder, boxes.size(), n));
     }
     tasks.end_phase();
 }

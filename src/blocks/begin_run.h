@@ -13,6 +13,9 @@ using OnBlocks = std::function<void(const BlockProgress&)>;
 /// The labels of a volume that cannot be read in place, while blocks are reconstructed: a file of the folder.
 inline constexpr const char* kStagedLabels = "volume.labels";
 
+/// Names of files of the folder that are not needed once the manifest has labels and faces begin so.
+inline constexpr const char* kSurveyPart = "survey-";
+
 /// Makes the folder, reads the input once and writes the manifest: labels, faces, size of the blocks. Where the folder
 /// has these already, it only looks whether they belong to the same run. All processes call it; they share the reading
 /// where any box of the input can be read. Throws like reconstruct_blocks().

@@ -231,7 +231,7 @@ void BlockRun::note_cut(std::uint32_t pass) {
     for (std::size_t block = 0; block < made.size(); ++block) manifest_.pieces[block].collapses = made[block];
 }
 
-/// Removes the labels, and pieces that the manifest does not name, of passes before this one.
+/// Removes the labels, parts of the survey, and pieces that the manifest does not name, of passes before this one.
 void BlockRun::remove_passes_before(std::uint32_t pass) {
     std::set<std::string> used;
     for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block)
@@ -241,7 +241,8 @@ void BlockRun::remove_passes_before(std::uint32_t pass) {
     for (const auto& entry : fs::directory_iterator(folder_)) {
         const std::string name = entry.path().filename();
         const auto number = pass_of(name);
-        if (number && *number < pass && !used.contains(name)) unused.push_back(entry.path());
+        const bool is_old_piece = number && *number < pass && !used.contains(name);
+        if (is_old_piece || name.starts_with(kSurveyPart)) unused.push_back(entry.path());
     }
     for (const fs::path& path : unused) fs::remove(path, ignored);
 }

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "formats/temporary_folder.h"
+#include "regionmesh/blocks.h"
 #include "regionmesh/error.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/write_volume.h"
@@ -59,6 +63,38 @@ TEST_F(SurveyTest, an_input_that_changes_meanwhile_is_refused) {
     std::vector<Label> section(9 * 8);
     const auto sections = boxes.open({{0, 0, 0}, {9, 8, 7}});
     EXPECT_THROW(sections->next(section), Error);
+}
+
+/// One process that takes the tasks of several.
+struct Several final : BlockTasks {
+    explicit Several(std::uint32_t count) : count(count) {}
+    std::uint32_t processes() const override { return count; }
+    std::uint32_t count;
+};
+
+TEST_F(SurveyTest, ended_on_the_way_goes_on_with_any_number_of_processes) {
+    const std::filesystem::path file = put_grains({24, 23, 22}, 12);
+    struct Ended {};
+    const auto run = [&](const char* folder, std::uint32_t processes, bool is_ended) {
+        Several tasks(processes);
+        const BlockOptions blocks{.folder = path(folder), .block_cells = 12, .identity = {}, .output = {.sync = false}};
+        reconstruct_blocks([&] { return open_sections({file}); }, {.smooth = {.passes = 0}}, blocks, tasks,
+                           [&](const BlockProgress& progress) {
+                               if (is_ended && progress.stage == std::string("read") && progress.done == 3)
+                                   throw Ended();
+                           });
+    };
+    const auto names = [&](const char* folder) {
+        std::set<std::string> found;
+        for (const auto& entry : std::filesystem::directory_iterator(path(folder)))
+            found.insert(entry.path().filename());
+        return found;
+    };
+    run("whole", 1, false);
+    for (const std::uint32_t processes : {2u, 3u}) EXPECT_THROW(run("ended", processes, true), Ended);
+    EXPECT_EQ(names("ended").size(), 1u + 2 * 3) << "a manifest, and parts of both runs";
+    run("ended", 4, false);
+    EXPECT_EQ(names("ended"), names("whole"));
 }
 
 }  // namespace
