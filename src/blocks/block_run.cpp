@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -29,23 +30,26 @@ namespace {
 namespace fs = std::filesystem;
 
 /// After pass 1 logs, in passes 2, 4, .., and cuts, in passes 3, 5, .., take turns.
-constexpr std::uint32_t kSeams = 1, kFirstLog = 2, kMostLogs = 6;
+constexpr std::uint32_t kSeams = 1, kFirstLog = 2, kMostLogs = 7;
 
 bool is_log(std::uint32_t pass) { return pass >= kFirstLog && (pass - kFirstLog) % 2 == 0; }
 
 /// How many logs came before this one; of a cut, before its log.
 std::uint32_t logs_before(std::uint32_t pass) { return (pass - kFirstLog) / 2; }
 
-/// Multiples of the target, by the histograms of pass 0, at which the shifted blocks of pass 1 end, and the first log.
-/// AAL in blocks of 109 to 155,550 faces: rms 0.0532 with 1.1, 0.0537 with 1.15, 0.0541 with 1.2 (0.0524 without
-/// blocks). The histograms say 6 to 27 % less than is left, since walls lock vertices.
-constexpr double kSeamsAbove = 1.1, kLogAbove = 0.9;
+/// Multiples of the target, by the histograms of pass 0, at which the shifted blocks of pass 1 end, and the first two
+/// logs. The histograms say 6 to 27 % less than is left, since walls lock vertices.
+constexpr double kSeamsAbove = 1.2, kFirstLogAbove = 1.05, kSecondLogAbove = 0.9;
+
+/// The first cut leaves this multiple of the target or more, so the second log reaches what lies at the walls of the
+/// first. AAL in blocks of 109 to 155,550 faces: rms 0.0532 with one log, 0.0483 with two.
+constexpr double kFirstCut = 1.05;
 
 /// Trials end at this part of the share that is asked for.
-constexpr double kTrialsBelow = 0.75;
+constexpr double kTrialsBelow = 0.85;
 
-/// The second log goes on to a threshold so many times higher; those that follow as far as collapses are allowed.
-constexpr double kSecondLog = 8;
+/// The third log goes on to a threshold so many times higher; those that follow as far as collapses are allowed.
+constexpr double kThirdLog = 8;
 
 /// The boxes of a volume whose blocks are all there.
 struct NoBoxes final : LabelBoxes {
@@ -221,13 +225,15 @@ void BlockRun::note_pieces(std::uint32_t pass, const std::vector<std::uint32_t>&
 void BlockRun::note_thresholds() {
     const std::vector<PieceHeader> pieces = headers();
     const auto at = [&](double share) { return threshold_at(pieces, share * static_cast<double>(target())); };
-    manifest_.thresholds = {at(kSeamsAbove), at(kLogAbove)};
+    manifest_.thresholds = {at(kSeamsAbove), at(kFirstLogAbove), at(kSecondLogAbove)};
 }
 
 void BlockRun::note_cut(std::uint32_t pass) {
     std::vector<fs::path> paths;
     for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block) paths.push_back(path_of(pass, block));
-    const std::vector<std::uint64_t> made = cut(paths, face_count(), target());
+    const double share = logs_before(pass) == 0 ? kFirstCut : 1;
+    const std::vector<std::uint64_t> made =
+        cut(paths, face_count(), static_cast<std::uint64_t>(share * static_cast<double>(target())));
     for (std::size_t block = 0; block < made.size(); ++block) manifest_.pieces[block].collapses = made[block];
 }
 
@@ -340,9 +346,10 @@ void BlockRun::seam_pass() {
 
 /// The seams of the pass before, and the last collapses of all.
 void BlockRun::log_pass(std::uint32_t pass) {
-    const double first = manifest_.thresholds.log;
+    const auto& [seams, first, second] = manifest_.thresholds;
+    const std::array thresholds{first, second, kThirdLog * second};
     const std::uint32_t n = logs_before(pass);
-    const double to = n == 0 ? first : n == 1 ? first * kSecondLog : HUGE_VAL;
+    const double to = n < thresholds.size() ? thresholds[n] : HUGE_VAL;
     const std::vector<PieceHeader> before = headers();
     const auto simplify = [&](BlockChunk& block, double) { return simplify_and_log(block, to, simplify_options()); };
     run_pass(pass, "rims", longest_first(grid(pass), before),

@@ -61,7 +61,8 @@ Json json_of(const Manifest& manifest) {
             {{"pass", piece.pass}, {"vertices", piece.vertices}, {"faces", piece.faces}, {"crc32", piece.checksum}});
         if (piece.collapses) pieces.back()["collapses"] = *piece.collapses;
     }
-    if (!manifest.is_complete) json["thresholds"] = {manifest.thresholds.seams, manifest.thresholds.log};
+    const auto& [seams, first_log, second_log] = manifest.thresholds;
+    if (!manifest.is_complete) json["thresholds"] = {seams, first_log, second_log};
     return json;
 }
 
@@ -114,8 +115,8 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     manifest.stopped = json.at("stopped");
     manifest.error_bound = json.at("error_bound");
     if (json.contains("thresholds")) {
-        const auto& [seams, log] = json["thresholds"].get<std::array<double, 2>>();
-        manifest.thresholds = {seams, log};
+        const auto& [seams, first_log, second_log] = json["thresholds"].get<std::array<double, 3>>();
+        manifest.thresholds = {seams, first_log, second_log};
     }
     for (const auto& piece : json.at("pieces")) manifest.pieces.push_back(piece_of(piece));
     return manifest;

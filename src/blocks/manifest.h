@@ -23,7 +23,7 @@ struct PieceEntry {
 
 /// Costs up to which the passes after the first simplify, in units of scale^4.
 struct Thresholds {
-    double seams = 0, log = 0;
+    double seams = 0, first_log = 0, second_log = 0;
 };
 
 /// docs/explanation/blocks.md lists the keys of the file.

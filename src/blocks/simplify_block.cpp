@@ -16,9 +16,9 @@ namespace {
 constexpr double kFirstTrial = 1e-3, kTrialStep = 4;
 /// They end at this multiple of the least share: tiles stop at that share themselves.
 constexpr double kNearLeast = 1.1;
-/// Faces of a tile of trials; one tile in kTrialsEvery, or fewer, is tried. AAL in blocks of 109 has 46 thousand faces
-/// in a block: trials of all tiles of kTileFaces took 1.0 of 8.4 s, these take 0.2 s.
-constexpr std::uint32_t kTrialFaces = 4096, kTrialsEvery = 4;
+/// Faces of a tile of trials; one tile in kSampledTiles is tried. AAL in blocks of 109 has 46 thousand faces in a block:
+/// trials of all tiles of kTileFaces took 1.0 of 8.4 s, these take 0.2 s.
+constexpr std::uint32_t kTrialFaces = 4096;
 
 /// Tiles of `side` cells; the walls of the outermost are those of the block.
 TileGrid grid_of(const BlockChunk& block, std::uint32_t side, std::uint32_t shift) {
@@ -108,7 +108,7 @@ std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block,
     const TileGrid grid = threshold_grid(block, kTrialFaces);
     TiledFaces faces(block.chunk, {}, grid, options.threads);
     std::array<double, kMostThresholdTrials> left{};
-    const std::vector<std::uint32_t> chosen = sample_of_tiles(faces, kTrialsEvery);
+    const std::vector<std::uint32_t> chosen = sample_of_tiles(faces, kSampledTiles);
     if (chosen.empty()) return left;
     std::array<double, kMostThresholdTrials> thresholds;
     for (int n = 0; n < kMostThresholdTrials; ++n) thresholds[n] = trial_threshold(n);
