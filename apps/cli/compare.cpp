@@ -1,12 +1,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <numeric>
 
 #include "commands.h"
 #include "input.h"
 #include "page_output.h"
 #include "printable.h"
+#include "regionmesh/blocks.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -14,11 +17,25 @@ namespace {
 constexpr std::size_t kShown = 10;  // rows of a table; the JSON has all
 constexpr std::size_t kNameWidth = 12;
 
-MeshFile read_faces(const std::string& path) {
-    MeshFile file = read_model(path);
-    if (file.mesh.face_count() == 0)
+/// A model, and what its file says about it. Where a folder is read piece by piece, `file` has no mesh.
+struct Input {
+    MeshFile file;
+    std::unique_ptr<ComparedModel> model;  // refers to the file
+};
+
+/// A folder of pieces is read piece by piece, unless the whole mesh is needed.
+std::unique_ptr<Input> open_model(const std::string& path, bool needs_mesh) {
+    auto input = std::make_unique<Input>();
+    if (is_block_folder(path) && !needs_mesh) {
+        input->file = describe_block_folder(path);
+        input->model = open_block_folder(path);
+    } else {
+        input->file = read_model(path);
+        input->model = std::make_unique<ComparedMesh>(input->file.mesh, input->file.labels);
+    }
+    if (input->model->face_count() == 0)
         throw Error(ErrorCode::kInput, fmt::format("{}: has no faces; there is nothing to compare", path));
-    return file;
+    return input;
 }
 
 /// Names, or labels as typed where there is none: "Femur", or "Femur|7|-1".
@@ -193,12 +210,14 @@ int run_compare(const Settings& given) {
     if (!given.json.empty()) require_writable(given.json, given.writing);
     require_page(given.html, given.writing);
     if (!given.distance.empty()) require_writable_mesh(given.distance, {.output = given.writing}, true);
-    const MeshFile a = read_faces(given.models[0]), b = read_faces(given.models[1]);
+    const bool needs_b = !given.html.empty(), needs_a = needs_b || !given.distance.empty();
+    const auto inputs = std::array{open_model(given.models[0], needs_a), open_model(given.models[1], needs_b)};
+    const MeshFile &a = inputs[0]->file, &b = inputs[1]->file;
     const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
-    const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
+    const CompareReport report = compare(*inputs[0]->model, *inputs[1]->model,
                                          {.samples = settings.samples,
                                           .background = settings.reconstruct.background,
-                                          .vertex_distances = !settings.distance.empty() || !settings.html.empty(),
+                                          .vertex_distances = needs_a,
                                           .threads = settings.reconstruct.threads});
     if (!report.distance.both)
         throw Error(ErrorCode::kInput,

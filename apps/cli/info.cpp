@@ -7,6 +7,7 @@
 #include "input.h"
 #include "output.h"
 #include "printable.h"
+#include "regionmesh/blocks.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -88,15 +89,18 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     return info_json(info, census);
 }
 
-std::string print_info(const Settings& given, const std::string& path, MeshFile file) {
+/// A folder of pieces is read piece by piece.
+std::string print_info(const Settings& given, const std::string& path) {
+    const bool is_folder = is_block_folder(path);
+    MeshFile file = is_folder ? describe_block_folder(path) : read_mesh(path);
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.crossing = false;
-    const CheckReport report = check(file.mesh, options);
-    const auto [low, high] = box_of_points(file.mesh);
+    const CheckReport report = is_folder ? check_block_folder(path, options) : check(file.mesh, options);
+    const ModelSize size = is_folder ? size_of_block_folder(path) : size_of(file.mesh);
+    const auto& [low, high] = size.box;
     fmt::print("file       {} (surface model)\n", printable(path));
-    fmt::print("size       {}, {}\n", counted(file.mesh.face_count(), "face"),
-               counted(file.mesh.vertex_count(), "vertex"));
+    fmt::print("size       {}, {}\n", counted(size.faces, "face"), counted(size.vertices, "vertex"));
     fmt::print("box        {:g} to {:g}, {:g} to {:g}, {:g} to {:g}\n", low.x, high.x, low.y, high.y, low.z, high.z);
     std::vector<RegionReport> regions = report.regions;
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
@@ -109,7 +113,7 @@ std::string print_info(const Settings& given, const std::string& path, MeshFile 
     });
     fmt::print("interfaces {} of regions; regionmesh check looks for violations\n",
                counted(report.region_pairs, "pair"));
-    return info_json(path, file, report);
+    return info_json(path, file, size, report);
 }
 
 /// How well drill holes are layers.
@@ -143,7 +147,7 @@ bool has_extension(const std::string& path, const std::string& extensions) {
 /// An input, or a surface model: some files may be either, and a folder too.
 std::string print_anything(const Settings& settings) {
     const std::string& path = settings.inputs.front();
-    const auto model = [&] { return print_info(settings, path, read_model(path)); };
+    const auto model = [&] { return print_info(settings, path); };
     const bool may_be_model = settings.inputs.size() == 1 &&
                               (has_extension(path, readable_extensions()) || std::filesystem::is_directory(path));
     if (!may_be_model) return print_input(settings);

@@ -12,11 +12,13 @@
 #include <vector>
 
 #include "regionmesh/check.h"
+#include "regionmesh/compare.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/reconstruct.h"
 #include "regionmesh/section_reader.h"
 #include "regionmesh/voxelise.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 
@@ -84,6 +86,13 @@ MeshFile describe_block_folder(const std::filesystem::path& folder);
 /// what check() finds in the whole. Holds one piece and its surroundings, and the faces on seams that later pieces
 /// need. Dense labels are those of describe_block_folder(). Throws like read_block_folder().
 CheckReport check_block_folder(const std::filesystem::path& folder, const CheckOptions& options = {});
+
+/// A complete folder as a model for compare(), one part for each block. Holds no faces; a part is read with the faces
+/// of others round it, so lines on seams are complete. Throws like read_block_folder().
+std::unique_ptr<ComparedModel> open_block_folder(const std::filesystem::path& folder);
+
+/// The size of the whole model of a complete folder. Holds one piece. Throws like read_block_folder().
+ModelSize size_of_block_folder(const std::filesystem::path& folder);
 
 /// Calls on_section with the labels of each section of samples, as Voxeliser::next() gives them, along the sweep of the
 /// volume, and returns Voxeliser::contradictions(). Holds the faces of one layer of pieces, or of a part of the layer

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -12,16 +13,49 @@
 
 namespace regionmesh {
 
-/// A mesh to compare. Holds references.
-struct ComparedMesh {
-    const Mesh& mesh;
-    const LabelTable& labels;
+struct MeshPart;  // src/mesh/mesh_part.h
+
+/// A model to compare: a mesh (ComparedMesh), or one that memory does not hold at once and that is read part by part
+/// (open_block_folder() in blocks.h).
+class ComparedModel {
+public:
+    virtual ~ComparedModel() = default;
+    virtual const LabelTable& labels() const = 0;
+    virtual std::uint64_t face_count() const = 0;
+    virtual std::uint64_t vertex_count() const = 0;
+    /// Whether the model distinguishes the sides of the box: it has no exterior faces, or vertices with sides.
+    virtual bool has_sides() const = 0;
+    virtual std::uint32_t part_count() const = 0;
+    /// Calls visit with a mesh and what of it belongs to a part; nullptr: all. The mesh has all faces at the vertices
+    /// of the part, and its vertices are numbered in an order that is the same in all parts.
+    virtual void read(std::uint32_t part, const std::function<void(const Mesh&, const MeshPart*)>& visit) const = 0;
+    /// What check() reports of the whole.
+    virtual CheckReport measure(const CheckOptions& options) const = 0;
+};
+
+/// A mesh in memory, one part. Holds references.
+class ComparedMesh final : public ComparedModel {
+public:
+    ComparedMesh(const Mesh& mesh, const LabelTable& labels) : mesh_(mesh), labels_(labels) {}
+    const LabelTable& labels() const override { return labels_; }
+    std::uint64_t face_count() const override { return mesh_.face_count(); }
+    std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
+    bool has_sides() const override;
+    std::uint32_t part_count() const override { return 1; }
+    void read(std::uint32_t, const std::function<void(const Mesh&, const MeshPart*)>& visit) const override {
+        visit(mesh_, nullptr);
+    }
+    CheckReport measure(const CheckOptions& options) const override { return check(mesh_, options); }
+
+private:
+    const Mesh& mesh_;
+    const LabelTable& labels_;
 };
 
 struct CompareOptions {
     std::uint64_t samples = 1'000'000;      // on the faces of each mesh; a tenth of this on its lines
     std::vector<InputLabel> background{0};  // no regions; their faces to the exterior are left out
-    bool vertex_distances = false;          // fill CompareReport::vertex_distances
+    bool vertex_distances = false;          // fill CompareReport::vertex_distances; A has to be a ComparedMesh
     std::uint32_t threads = 0;              // 0: one per core; the result does not depend on it
 };
 
@@ -64,7 +98,10 @@ struct CompareReport {
 };
 
 /// Compares by sampling (src/compare/sample.h); labels correspond if they are equal in the input. Deterministic for any
-/// number of threads. Cost: docs/compare.md.
+/// number of threads. Holds the samples and one part of each model. The nearest faces and lines are those of the whole
+/// model, however it is divided; the samples of a model differ from those of the same model in other parts. Cost:
+/// docs/compare.md. Throws what reading a part throws.
+CompareReport compare(const ComparedModel& a, const ComparedModel& b, const CompareOptions& options = {});
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options = {});
 
 }  // namespace regionmesh

@@ -43,14 +43,20 @@ std::string check_json(const CheckReport& report, const LabelTable& labels, cons
 /// Regions with a name have `name`.
 std::string compare_json(const CompareReport& report, const LabelNames& names = {});
 
+/// How large a model is.
+struct ModelSize {
+    std::uint64_t faces = 0, vertices = 0;
+    Box box{{}, {}};  // of all points; zeros without points
+};
+ModelSize size_of(const Mesh& mesh);
+
 /// What `info --json` writes about a volume, about points or tetrahedra, and about a surface model: JSON text like
-/// report_json(); docs/report.md lists the keys. `report` is the check of the model; its violations are not written.
+/// report_json(); docs/report.md lists the keys. The mesh of `file` is not looked at. `report` is the check of the
+/// model; its violations are not written.
 std::string info_json(const VolumeInfo& info, const Census& census);
 std::string info_json(const TetrahedraInfo& info, const TetrahedronCensus& census);
-std::string info_json(const std::string& source, const MeshFile& file, const CheckReport& report);
-
-/// The box of all points of a model: low and high corner. Zeros for a model without points.
-std::array<Vec3, 2> box_of_points(const Mesh& mesh);
+std::string info_json(const std::string& source, const MeshFile& file, const ModelSize& size,
+                      const CheckReport& report);
 
 /// A table of the regions as CSV, in order of label: label, name, faces, volume, area, centroid_x, _y, _z, box_low_x to
 /// box_high_z, equivalent_diameter (of the sphere of the same volume), neighbours (labels, separated by blanks; the

@@ -19,4 +19,10 @@ inline bool is_within(const Box& inner, const Box& outer) {
     return true;
 }
 
+/// From a point to the nearest one of the box; infinite for an empty box.
+inline double squared_distance(const Box& box, Vec3 p) {
+    const Vec3 outside = max(max(box.low - p, p - box.high), {});
+    return length2(outside);
+}
+
 }  // namespace regionmesh

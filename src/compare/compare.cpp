@@ -2,157 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <set>
 
 #include "base/parallel_for.h"
 #include "compare/common_labels.h"
-#include "compare/sample.h"
-#include "compare/sorted_strata.h"
+#include "compare/model_side.h"
+#include "compare/nearest_search.h"
 #include "compare/statistics.h"
-#include "compare/strata_tree.h"
 
 namespace regionmesh {
 namespace {
 
-constexpr std::uint32_t kChunk = 4096;  // samples or vertices per task; each search starts at the result before
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // no distance: the other model lacks the part
-
-std::uint32_t chunks_of(std::uint64_t count) { return static_cast<std::uint32_t>((count + kChunk - 1) / kChunk); }
-
-/// One of the two models, prepared for sampling and searching.
-struct Side {
-    Side(const CommonView& v, bool sides_apart, std::uint64_t samples, std::uint32_t threads)
-        : view(v),
-          interfaces(interfaces_of(v, threads)),
-          lines(lines_of(v, sides_apart, threads)),
-          face_tree(interfaces, threads),
-          line_tree(lines, threads),
-          face_samples(interfaces, samples, threads),
-          line_samples(lines, samples / 10, threads) {}
-    Side(const Side&) = delete;  // its parts refer to one another
-
-    const CommonView view;
-    const SortedStrata interfaces, lines;
-    const StrataTree face_tree, line_tree;
-    const Samples face_samples, line_samples;
-};
-
-/// Whether the exterior faces of the model are labelled by side of the box. Files whose exterior is no box lack that.
-bool has_sides(const Mesh& mesh) {
-    bool has_exterior = false;
-    for (std::uint32_t f = 0; f < mesh.face_end() && !has_exterior; ++f)
-        has_exterior = mesh.is_alive(FaceId{f}) && is_exterior(mesh[FaceId{f}].labels[1]);
-    if (!has_exterior) return true;
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
-        if (mesh.is_alive(VertexId{v}) && mesh[VertexId{v}].sides != 0) return true;
-    return false;
-}
-
-/// By sample of a side: distances to the other side.
-struct FaceDistances {
+/// By sample of a side: distances to the other side; NaN where it lacks the region, interface or line.
+struct Distances {
     std::vector<double> to_all;
     std::array<std::vector<double>, 2> to_region;  // of the first and the second label of the interface
-    std::vector<double> to_interface;
+    std::vector<double> to_interface, to_line;
 };
 
 /// Distances below this are rounded to 0.
-double rounding_of(const Side& a, const Side& b) {
+double rounding_of(const ModelSide& a, const ModelSide& b) {
     double largest = 0;
-    for (const Side* side : {&a, &b}) {
-        if (side->interfaces.points.empty()) continue;
-        const Box& box = side->interfaces.bounds;
+    for (const ModelSide* side : {&a, &b}) {
+        const Box& box = side->bounds();
+        if (box.is_empty()) continue;
         for (int axis = 0; axis < 3; ++axis)
             largest = std::max({largest, std::abs(box.low[axis]), std::abs(box.high[axis])});
     }
     return 1e-14 * largest;
 }
 
+/// What the samples on each interface look for in the other model.
+std::vector<Goals> interface_goals(const ModelSide& from, const ModelSide& to) {
+    std::set<Label> regions;
+    for (const auto& labels : to.interfaces().labels) regions.insert(labels.begin(), labels.end());
+    for (const Label label : from.background()) regions.erase(label);
+    std::vector<Goals> goals;
+    for (const auto& labels : from.interfaces().labels) {
+        goals.push_back({.all = !to.interfaces().labels.empty(), .stratum = to.interfaces().find(labels)});
+        for (int n = 0; n < 2; ++n)
+            if (regions.contains(labels[n])) goals.back().regions[n] = labels[n];
+    }
+    return goals;
+}
+
+std::vector<Goals> line_goals(const ModelSide& from, const ModelSide& to) {
+    std::vector<Goals> goals;
+    for (const auto& labels : from.lines().labels) goals.push_back({.stratum = to.lines().find(labels)});
+    return goals;
+}
+
 /// From one side to the other.
-class Direction {
-public:
-    Direction(const Side& from, const Side& to, double rounding, std::uint32_t threads)
-        : from_(from), to_(to), rounding_(rounding), threads_(threads) {
-        measure_faces();
-        measure_lines();
-    }
-
-    const FaceDistances& faces() const { return faces_; }
-    const std::vector<double>& lines() const { return lines_; }
-
-private:
-    double distance(const Nearest& nearest) const {
-        if (nearest.simplex == kNoSimplex) return kNone;
-        const double distance = std::sqrt(nearest.squared);
-        return distance > rounding_ ? distance : 0;
-    }
-
-    /// For each stratum of `a`, the one of `b` with the same labels.
-    static std::vector<std::uint32_t> twins(const SortedStrata& a, const SortedStrata& b) {
-        std::vector<std::uint32_t> found;
-        for (const Stratum& stratum : a.strata) found.push_back(b.find(stratum.labels));
-        return found;
-    }
-
-    bool is_region(Label label) const {
-        const auto& background = from_.view.background;
-        return !is_exterior(label) && std::ranges::find(background, label) == background.end();
-    }
-
-    /// The nearest simplex of all is also the nearest of its region and interface, so these are searched only where it
-    /// has other labels.
-    void measure_faces() {
-        const Samples& samples = from_.face_samples;
-        const auto twin_of = twins(from_.interfaces, to_.interfaces);
-        for (auto* distances : {&faces_.to_all, &faces_.to_region[0], &faces_.to_region[1], &faces_.to_interface})
-            distances->assign(samples.size(), kNone);
-        for_chunks(samples.size(), [&](std::uint64_t first, std::uint64_t last) {
-            Nearest nearest;
-            samples.for_range(first, last, [&](std::uint64_t sample, std::uint32_t stratum, Vec3 p) {
-                nearest = to_.face_tree.nearest(p, nearest);
-                if (nearest.simplex == kNoSimplex) return;
-                const double least = distance(nearest);
-                faces_.to_all[sample] = least;
-                const Stratum& there = to_.interfaces.strata[nearest.stratum];
-                for (int n = 0; n < 2; ++n) {
-                    const Label label = from_.interfaces.strata[stratum].labels[n];
-                    if (!is_region(label)) continue;
-                    faces_.to_region[n][sample] =
-                        there.contains(label) ? least : distance(to_.face_tree.nearest_of_label(p, label));
-                }
-                const std::uint32_t twin = twin_of[stratum];
-                faces_.to_interface[sample] =
-                    twin == nearest.stratum ? least : distance(to_.face_tree.nearest_of_stratum(p, twin));
-            });
-        });
-    }
-
-    void measure_lines() {
-        const Samples& samples = from_.line_samples;
-        const auto twin_of = twins(from_.lines, to_.lines);
-        lines_.assign(samples.size(), kNone);
-        for_chunks(samples.size(), [&](std::uint64_t first, std::uint64_t last) {
-            samples.for_range(first, last, [&](std::uint64_t sample, std::uint32_t stratum, Vec3 p) {
-                lines_[sample] = distance(to_.line_tree.nearest_of_stratum(p, twin_of[stratum]));
-            });
-        });
-    }
-
-    void for_chunks(std::uint64_t count, const std::function<void(std::uint64_t, std::uint64_t)>& work) const {
-        parallel_for(chunks_of(count), threads_, [&](std::uint32_t chunk) {
-            const std::uint64_t first = std::uint64_t{chunk} * kChunk;
-            work(first, std::min(count, first + kChunk));
-        });
-    }
-
-    const Side& from_;
-    const Side& to_;
-    double rounding_;
-    std::uint32_t threads_;
-    FaceDistances faces_;
-    std::vector<double> lines_;
-};
+Distances measure(ModelSide& from, ModelSide& to, double rounding, std::uint32_t threads) {
+    const auto [face_points, line_points] = from.sample();
+    NearestSearch faces(face_points, from.face_samples(), interface_goals(from, to));
+    NearestSearch lines(line_points, from.line_samples(), line_goals(from, to));
+    search(to, faces, lines, threads);
+    return {.to_all = faces.take(Goal::kAll, rounding),
+            .to_region = {faces.take(Goal::kFirstRegion, rounding), faces.take(Goal::kSecondRegion, rounding)},
+            .to_interface = faces.take(Goal::kStratum, rounding),
+            .to_line = lines.take(Goal::kStratum, rounding)};
+}
 
 /// The samples of one stratum.
 void add_part(std::vector<WeightedDistances>& parts, const std::vector<double>& distances, const Samples& samples,
@@ -171,14 +81,14 @@ TwoSidedDistance two_sided(const Parts& parts) {
     return {statistics_of(parts[0]), statistics_of(parts[1]), statistics_of(all)};
 }
 
-using Sides = std::array<const Side*, 2>;
-using Directions = std::array<const Direction*, 2>;
+using Sides = std::array<const ModelSide*, 2>;
+using Directions = std::array<Distances, 2>;
 
 TwoSidedDistance whole_distance(const Sides& sides, const Directions& directions) {
     Parts parts;
     for (int n = 0; n < 2; ++n)
-        for (std::uint32_t s = 0; s < sides[n]->interfaces.strata.size(); ++s)
-            add_part(parts[n], directions[n]->faces().to_all, sides[n]->face_samples, s);
+        for (std::uint32_t s = 0; s < sides[n]->interfaces().labels.size(); ++s)
+            add_part(parts[n], directions[n].to_all, sides[n]->face_samples(), s);
     return two_sided(parts);
 }
 
@@ -188,11 +98,11 @@ struct Place {
     int place;  // 0 or 1
 };
 
-std::vector<std::vector<Place>> places_by_label(const SortedStrata& interfaces, std::uint32_t label_count) {
+std::vector<std::vector<Place>> places_by_label(const ModelStrata& interfaces, std::uint32_t label_count) {
     std::vector<std::vector<Place>> places(label_count);
-    for (std::uint32_t s = 0; s < interfaces.strata.size(); ++s)
+    for (std::uint32_t s = 0; s < interfaces.labels.size(); ++s)
         for (int place = 0; place < 2; ++place) {
-            const Label label = interfaces.strata[s].labels[place];
+            const Label label = interfaces.labels[s][place];
             if (!is_exterior(label)) places[label].push_back({s, place});
         }
     return places;
@@ -211,32 +121,31 @@ std::vector<RegionComparison> compare_regions(const std::array<CheckReport, 2>& 
             std::ranges::lower_bound(result, region.label, {}, &RegionComparison::label)->measures[n] = region;
         }
     const std::uint32_t label_count = labels.table().size();
-    const std::array places{places_by_label(sides[0]->interfaces, label_count),
-                            places_by_label(sides[1]->interfaces, label_count)};
+    const std::array places{places_by_label(sides[0]->interfaces(), label_count),
+                            places_by_label(sides[1]->interfaces(), label_count)};
     parallel_for(static_cast<std::uint32_t>(result.size()), threads, [&](std::uint32_t r) {
         Parts parts;
         for (int n = 0; n < 2; ++n)
             for (const auto& [stratum, place] : places[n][result[r].label])
-                add_part(parts[n], directions[n]->faces().to_region[place], sides[n]->face_samples, stratum);
+                add_part(parts[n], directions[n].to_region[place], sides[n]->face_samples(), stratum);
         result[r].distance = two_sided(parts);
     });
     return result;
 }
 
-/// Interfaces or lines. `sorted`, `samples` and `distances` are those of A and B.
-std::vector<StratumComparison> compare_strata(const std::array<const SortedStrata*, 2>& sorted,
+/// Interfaces or lines. `strata`, `samples` and `distances` are those of A and B.
+std::vector<StratumComparison> compare_strata(const std::array<const ModelStrata*, 2>& strata,
                                               const std::array<const Samples*, 2>& samples,
                                               const std::array<const std::vector<double>*, 2>& distances,
                                               std::uint32_t threads) {
     std::set<std::vector<Label>> all;
-    for (const SortedStrata* side : sorted)
-        for (const Stratum& stratum : side->strata) all.insert(stratum.labels);
+    for (const ModelStrata* side : strata) all.insert(side->labels.begin(), side->labels.end());
     std::vector<StratumComparison> result;
     for (const auto& labels : all) result.push_back({.labels = labels, .measures = {}, .distance = {}});
     parallel_for(static_cast<std::uint32_t>(result.size()), threads, [&](std::uint32_t r) {
         Parts parts;
         for (int n = 0; n < 2; ++n) {
-            const std::uint32_t s = sorted[n]->find(result[r].labels);
+            const std::uint32_t s = strata[n]->find(result[r].labels);
             if (s == kNoStratum) continue;
             result[r].measures[n] = samples[n]->measure(s);
             add_part(parts[n], *distances[n], *samples[n], s);
@@ -246,69 +155,88 @@ std::vector<StratumComparison> compare_strata(const std::array<const SortedStrat
     return result;
 }
 
-std::vector<double> distances_of_vertices(const Mesh& mesh, const StrataTree& tree, double rounding,
+/// By vertex id, 0 where there is none; nothing for a model that is no mesh in memory.
+std::vector<double> distances_of_vertices(const ComparedModel& model, ModelSide& to, double rounding,
                                           std::uint32_t threads) {
-    if (tree.sorted().simplices.empty()) return {};
-    std::vector<double> result(mesh.vertex_end(), 0);
-    parallel_for(chunks_of(result.size()), threads, [&](std::uint32_t chunk) {
-        Nearest nearest;
-        const std::size_t end = std::min(result.size(), (std::size_t{chunk} + 1) * kChunk);
-        for (std::size_t n = std::size_t{chunk} * kChunk; n < end; ++n) {
-            const VertexId v{static_cast<std::uint32_t>(n)};
-            if (!mesh.is_alive(v)) continue;
-            nearest = tree.nearest(mesh.position(v), nearest);
-            const double distance = std::sqrt(nearest.squared);
-            result[n] = distance > rounding ? distance : 0;
-        }
+    std::vector<double> result;
+    if (model.part_count() != 1 || to.interfaces().labels.empty()) return result;
+    model.read(0, [&](const Mesh& mesh, const MeshPart* part) {
+        if (part) return;
+        std::vector<Vec3> points;
+        for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+            if (mesh.is_alive(VertexId{v})) points.push_back(mesh.position(VertexId{v}));
+        NearestSearch vertices(points), none({});
+        search(to, vertices, none, threads);
+        const std::vector<double> found = vertices.take(Goal::kAll, rounding);
+        result.resize(mesh.vertex_end());
+        for (std::uint32_t v = 0, n = 0; v < mesh.vertex_end(); ++v)
+            if (mesh.is_alive(VertexId{v})) result[v] = found[n++];
     });
     return result;
 }
 
 /// Measures of both models. Violations are not reported here; check does that.
-std::array<CheckReport, 2> measure(const std::array<ComparedMesh, 2>& meshes, const CompareOptions& options) {
+std::array<CheckReport, 2> measure(const std::array<const ComparedModel*, 2>& models, const CompareOptions& options) {
     std::array<CheckReport, 2> reports;
     parallel_for(2, options.threads, [&](std::uint32_t n) {
         CheckOptions check_options{.crossing = false, .listed = 0};
-        const LabelTable& labels = meshes[n].labels;
+        const LabelTable& labels = models[n]->labels();
         for (Label dense = 0; dense < labels.size(); ++dense)
             if (std::ranges::find(options.background, labels.input(dense)) != options.background.end())
                 check_options.background.push_back(dense);
-        reports[n] = check(meshes[n].mesh, check_options);
+        reports[n] = models[n]->measure(check_options);
     });
     return reports;
 }
 
 }  // namespace
 
-CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options) {
-    const CommonLabels labels(a.labels, b.labels);
-    const std::vector<Label> background = labels.common_of(options.background);
-    const bool sides_apart = has_sides(a.mesh) && has_sides(b.mesh);
-    const std::uint32_t threads = options.threads;
+bool ComparedMesh::has_sides() const {
+    bool has_exterior = false;
+    for (std::uint32_t f = 0; f < mesh_.face_end() && !has_exterior; ++f)
+        has_exterior = mesh_.is_alive(FaceId{f}) && is_exterior(mesh_[FaceId{f}].labels[1]);
+    if (!has_exterior) return true;
+    for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v)
+        if (mesh_.is_alive(VertexId{v}) && mesh_[VertexId{v}].sides != 0) return true;
+    return false;
+}
 
-    const Side side_a({a.mesh, labels, 0, background}, sides_apart, options.samples, threads);
-    const Side side_b({b.mesh, labels, 1, background}, sides_apart, options.samples, threads);
-    const double rounding = rounding_of(side_a, side_b);
-    const Direction from_a(side_a, side_b, rounding, threads), from_b(side_b, side_a, rounding, threads);
+CompareReport compare(const ComparedModel& a, const ComparedModel& b, const CompareOptions& options) {
+    const std::uint32_t threads = options.threads;
+    const auto checks = measure({&a, &b}, options);
+    const CommonLabels labels(a.labels(), b.labels());
+    const SideOptions side_options{.background = labels.common_of(options.background),
+                                   .sides_apart = a.has_sides() && b.has_sides(),
+                                   .samples = options.samples,
+                                   .threads = threads};
+    ModelSide side_a(a, labels, 0, side_options), side_b(b, labels, 1, side_options);
     const Sides sides{&side_a, &side_b};
-    const Directions directions{&from_a, &from_b};
-    const auto checks = measure({a, b}, options);
+    const double rounding = rounding_of(side_a, side_b);
 
     CompareReport report;
+    if (options.vertex_distances) report.vertex_distances = distances_of_vertices(a, side_b, rounding, threads);
+    Directions directions;
+    directions[0] = measure(side_a, side_b, rounding, threads);
+    side_b.drop_trees();
+    directions[1] = measure(side_b, side_a, rounding, threads);
+    side_a.drop_trees();
     report.labels = labels.table();
-    report.faces = {a.mesh.face_count(), b.mesh.face_count()};
-    report.vertices = {a.mesh.vertex_count(), b.mesh.vertex_count()};
+    report.faces = {a.face_count(), b.face_count()};
+    report.vertices = {a.vertex_count(), b.vertex_count()};
     report.distance = whole_distance(sides, directions);
     report.regions = compare_regions(checks, labels, sides, directions, threads);
     report.interfaces =
-        compare_strata({&side_a.interfaces, &side_b.interfaces}, {&side_a.face_samples, &side_b.face_samples},
-                       {&from_a.faces().to_interface, &from_b.faces().to_interface}, threads);
-    report.lines = compare_strata({&side_a.lines, &side_b.lines}, {&side_a.line_samples, &side_b.line_samples},
-                                  {&from_a.lines(), &from_b.lines()}, threads);
+        compare_strata({&side_a.interfaces(), &side_b.interfaces()}, {&side_a.face_samples(), &side_b.face_samples()},
+                       {&directions[0].to_interface, &directions[1].to_interface}, threads);
+    report.lines = compare_strata({&side_a.lines(), &side_b.lines()}, {&side_a.line_samples(), &side_b.line_samples()},
+                                  {&directions[0].to_line, &directions[1].to_line}, threads);
     report.quality = {checks[0].quality, checks[1].quality};
-    if (options.vertex_distances)
-        report.vertex_distances = distances_of_vertices(a.mesh, side_b.face_tree, rounding, threads);
     return report;
+}
+
+CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options) {
+    const ComparedModel &first = a, &second = b;
+    return compare(first, second, options);
 }
 
 }  // namespace regionmesh

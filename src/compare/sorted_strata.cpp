@@ -9,6 +9,7 @@
 
 #include "base/parallel_for.h"
 #include "base/radix_sort.h"
+#include "base/triangle.h"
 #include "compare/hilbert.h"
 #include "mesh/strata.h"
 
@@ -98,6 +99,20 @@ void take_points(const Mesh& mesh, SortedStrata& strata) {
         }
 }
 
+void sum_measures(SortedStrata& strata, std::uint32_t threads) {
+    strata.ends.resize(strata.simplices.size());
+    parallel_for(chunks_of(strata.ends.size()), threads, [&](std::uint32_t chunk) {
+        const std::size_t end = std::min(strata.ends.size(), (std::size_t{chunk} + 1) * kChunk);
+        for (std::size_t n = std::size_t{chunk} * kChunk; n < end; ++n) {
+            const Simplex& s = strata.simplices[n];
+            const Vec3 p = strata.points[s[0]], q = strata.points[s[1]];
+            strata.ends[n] = is_edge(s) ? length(q - p) : 0.5 * length(area_vector(p, q, strata.points[s[2]]));
+        }
+    });
+    for (const Stratum& stratum : strata.strata)
+        for (std::uint32_t n = stratum.begin + 1; n < stratum.end; ++n) strata.ends[n] += strata.ends[n - 1];
+}
+
 SortedStrata sorted(const Mesh& mesh, const Found& found, std::uint32_t threads) {
     std::vector<std::uint32_t> ranked(found.labels.size()), rank(found.labels.size());
     std::iota(ranked.begin(), ranked.end(), 0u);
@@ -119,6 +134,7 @@ SortedStrata sorted(const Mesh& mesh, const Found& found, std::uint32_t threads)
     for (const KeyedIndex& item : along_curve(mesh, found.simplices, result.bounds, threads))
         result.simplices[result.strata[rank[found.sets[item.index]]].end++] = found.simplices[item.index];
     take_points(mesh, result);
+    sum_measures(result, threads);
     return result;
 }
 
@@ -140,7 +156,7 @@ SortedStrata interfaces_of(const CommonView& view, std::uint32_t threads) {
     found.simplices.reserve(mesh.face_count());
     found.sets.reserve(mesh.face_count());
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
-        if (!mesh.is_alive(FaceId{f})) continue;
+        if (!mesh.is_alive(FaceId{f}) || (view.part && !view.part->has(FaceId{f}))) continue;
         const Face& face = mesh[FaceId{f}];
         const Label x = view.labels.common(view.which, face.labels[0]),
                     y = view.labels.common(view.which, face.labels[1]);
@@ -176,7 +192,7 @@ SortedStrata lines_of(const CommonView& view, bool sides_apart, std::uint32_t th
     };
     std::vector<std::vector<LineEdge>> by_chunk(chunks_of(mesh.vertex_end()));
     const auto look_at = [&](VertexId u, std::vector<VertexId>& neighbours, std::vector<LineEdge>& edges) {
-        if (!mesh.is_alive(u) || vertex_labels(mesh, u).size() < 3) return;
+        if (!mesh.is_alive(u) || (view.part && !view.part->has(u)) || vertex_labels(mesh, u).size() < 3) return;
         neighbours.clear();
         mesh.for_star(u, [&](FaceId f, int) {
             for (const VertexId v : mesh[f].vertices)

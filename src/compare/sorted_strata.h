@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/common_labels.h"
+#include "mesh/mesh_part.h"
 #include "regionmesh/ids.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/vec3.h"
@@ -30,19 +31,23 @@ struct Stratum {
 struct SortedStrata {
     std::vector<Vec3> points;
     std::vector<Simplex> simplices;
+    std::vector<double> ends;     // by simplex: area or length of its stratum up to and including it
     std::vector<Stratum> strata;  // in order of labels
-    Box bounds;                   // of all vertices of the model
+    Box bounds;                   // of all vertices of the mesh
 
     /// The stratum with these labels, or kNoStratum.
     std::uint32_t find(const std::vector<Label>& labels) const;
+    /// Area or length of a stratum.
+    double measure(const Stratum& stratum) const { return ends[stratum.end - 1]; }
 };
 
-/// One of the two models, in common labels.
+/// A mesh of one of the two models, in common labels.
 struct CommonView {
     const Mesh& mesh;
     const CommonLabels& labels;
-    int which = 0;                  // model 0 or 1 of `labels`
-    std::vector<Label> background;  // common; a simplex without other labels than these and the exterior is omitted
+    int which = 0;                   // model 0 or 1 of `labels`
+    std::vector<Label> background;   // common; a simplex without other labels than these and the exterior is omitted
+    const MeshPart* part = nullptr;  // which faces to take, and edges by their first vertex; nullptr: all
 };
 
 /// Interfaces: two labels each.

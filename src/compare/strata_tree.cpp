@@ -134,17 +134,22 @@ Nearest StrataTree::search(const BoxTree& tree, Vec3 p, Nearest found) const {
     return found;
 }
 
-Nearest StrataTree::nearest(Vec3 p, const Nearest& guess) const {
-    if (guess.simplex == kNoSimplex) return search(all_, p, {});
-    return search(all_, p, {squared_distance_to(p, guess.simplex, HUGE_VAL), guess.simplex, guess.stratum});
+Nearest StrataTree::nearest(Vec3 p, const Nearest& guess, double below) const {
+    Nearest first{.squared = below};
+    if (guess.simplex != kNoSimplex)
+        if (const double squared = squared_distance_to(p, guess.simplex, HUGE_VAL); squared < below)
+            first = {squared, guess.simplex, guess.stratum};
+    return search(all_, p, first);
 }
 
-Nearest StrataTree::nearest_of_label(Vec3 p, Label label) const {
-    return has_label(label) ? search(by_label_[label], p, {}) : Nearest{};
+Nearest StrataTree::nearest_of_label(Vec3 p, Label label, double below) const {
+    const Nearest none{.squared = below};
+    return has_label(label) ? search(by_label_[label], p, none) : none;
 }
 
-Nearest StrataTree::nearest_of_stratum(Vec3 p, std::uint32_t stratum) const {
-    return stratum < by_stratum_.size() ? search(by_stratum_[stratum], p, {}) : Nearest{};
+Nearest StrataTree::nearest_of_stratum(Vec3 p, std::uint32_t stratum, double below) const {
+    const Nearest none{.squared = below};
+    return stratum < by_stratum_.size() ? search(by_stratum_[stratum], p, none) : none;
 }
 
 }  // namespace regionmesh

@@ -25,11 +25,12 @@ class StrataTree {
 public:
     StrataTree(const SortedStrata& sorted, std::uint32_t threads);
 
-    /// Starts at the simplex `guess` of another point: fast where the two points are near each other.
-    Nearest nearest(Vec3 p, const Nearest& guess = {}) const;
+    /// Finds none unless its squared distance is less than `below`, which it then returns. Starts at the simplex
+    /// `guess` of another point: fast where the two points are near each other.
+    Nearest nearest(Vec3 p, const Nearest& guess = {}, double below = HUGE_VAL) const;
     /// Finds none where no stratum has the label, or the stratum does not exist.
-    Nearest nearest_of_label(Vec3 p, Label label) const;
-    Nearest nearest_of_stratum(Vec3 p, std::uint32_t stratum) const;
+    Nearest nearest_of_label(Vec3 p, Label label, double below = HUGE_VAL) const;
+    Nearest nearest_of_stratum(Vec3 p, std::uint32_t stratum, double below = HUGE_VAL) const;
 
     bool has_label(Label label) const { return label < by_label_.size() && !by_label_[label].is_empty(); }
     const SortedStrata& sorted() const { return sorted_; }

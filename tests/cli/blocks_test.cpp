@@ -128,6 +128,38 @@ TEST_F(BlockProgram, the_report_on_a_folder_is_that_on_the_model_in_one_file) {
     }
 }
 
+TEST_F(BlockProgram, info_on_a_folder_is_that_on_the_model_in_one_file) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("whole.vtp")).code, 0);
+    std::vector<nlohmann::json> found;
+    std::vector<std::string> tables;
+    for (const char* model : {"model", "whole.vtp"}) {
+        const Ran ran = run("info " + out(model) + " --json " + out("info.json"));
+        ASSERT_EQ(ran.code, 0) << ran.error;
+        tables.push_back(ran.out.substr(ran.out.find("size")));
+        found.push_back(nlohmann::json::parse(text_of(out("info.json"))));
+        found.back().erase("file");
+    }
+    EXPECT_EQ(tables[0], tables[1]);
+    EXPECT_EQ(found[0].at("regions").size(), 19u);
+    expect_same(found[0], found[1], "");
+}
+
+TEST_F(BlockProgram, a_folder_is_compared_piece_by_piece_or_joined_for_distances) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("whole.vtp")).code, 0);
+    const std::string options = " --samples 5000 --json " + out("c.json");
+    for (const std::string& more : {std::string(), " --distance " + out("d.vtp"), " --html " + out("page.html")}) {
+        const Ran ran = run("compare " + out("model") + ' ' + out("whole.vtp") + options + more);
+        ASSERT_EQ(ran.code, 0) << ran.error;
+        const auto report = nlohmann::json::parse(text_of(out("c.json")));
+        EXPECT_EQ(report.at("distance").at("both").at("max"), 0);
+        EXPECT_EQ(report.at("faces").at("a"), report.at("faces").at("b"));
+        EXPECT_EQ(report.at("vertices").at("a"), report.at("vertices").at("b"));
+    }
+    EXPECT_EQ(read_mesh(out("d.vtp")).mesh.face_count(), read_mesh(out("whole.vtp")).mesh.face_count());
+}
+
 /// The numbers in a point array of a .vtp file.
 std::vector<std::int64_t> point_numbers(const fs::path& path, const char* name) {
     const formats::VtkXml xml(path, "PolyData");

@@ -76,6 +76,27 @@ TEST_P(Soup, is_searched_as_if_one_looked_at_every_face) {
     }
 }
 
+TEST(StrataTree, finds_nothing_that_is_no_nearer_than_what_is_known) {
+    const Mesh mesh = scattered_faces(700, 3);
+    const LabelTable table = labels_up_to(6);
+    const CommonLabels labels(table, table);
+    const SortedStrata sorted = interfaces_of({mesh, labels, 0, {}}, 1);
+    const StrataTree tree(sorted, 1);
+    const Vec3 p{1, 2, 3};
+    const Nearest found = tree.nearest(p), far = tree.nearest({20, 20, 20});
+    const double least = found.squared;
+    for (const Nearest& guess : {Nearest{}, found, far}) {
+        EXPECT_EQ(tree.nearest(p, guess, 1.001 * least).simplex, found.simplex);
+        EXPECT_EQ(tree.nearest(p, guess, least).simplex, kNoSimplex);
+        EXPECT_EQ(tree.nearest(p, guess, 0.5 * least).squared, 0.5 * least);
+    }
+    const Label label = sorted.strata[found.stratum].labels[0];
+    EXPECT_EQ(tree.nearest_of_label(p, label, 1.001 * least).squared, least);
+    EXPECT_EQ(tree.nearest_of_label(p, label, least).simplex, kNoSimplex);
+    EXPECT_EQ(tree.nearest_of_stratum(p, found.stratum, 1.001 * least).squared, least);
+    EXPECT_EQ(tree.nearest_of_stratum(p, found.stratum, least).simplex, kNoSimplex);
+}
+
 TEST(StrataTree, finds_nothing_where_there_is_nothing) {
     const LabelTable table = labels_up_to(6);
     const CommonLabels labels(table, table);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "formats/report/json_parts.h"
+#include "mesh/extent.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/write_report.h"
 
@@ -65,8 +66,8 @@ std::string info_json(const TetrahedraInfo& info, const TetrahedronCensus& censu
     return text_of(json);
 }
 
-std::string info_json(const std::string& source, const MeshFile& file, const CheckReport& report) {
-    const auto [low, high] = box_of_points(file.mesh);
+std::string info_json(const std::string& source, const MeshFile& file, const ModelSize& size,
+                      const CheckReport& report) {
     std::vector<RegionReport> regions = report.regions;
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
         return file.labels.less(file.labels.input(a.label), file.labels.input(b.label));
@@ -82,28 +83,18 @@ std::string info_json(const std::string& source, const MeshFile& file, const Che
     }
     const Json json{{"kind", "model"},
                     {"file", source},
-                    {"faces", file.mesh.face_count()},
-                    {"vertices", file.mesh.vertex_count()},
-                    {"box", {{"low", three(low)}, {"high", three(high)}}},
+                    {"faces", size.faces},
+                    {"vertices", size.vertices},
+                    {"box", {{"low", three(size.box.low)}, {"high", three(size.box.high)}}},
                     {"regions", std::move(all)},
                     {"region_pairs", report.region_pairs}};
     return text_of(json);
 }
 
-std::array<Vec3, 2> box_of_points(const Mesh& mesh) {
-    std::array<Vec3, 2> box{};
-    bool is_first = true;
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
-        if (!mesh.is_alive(VertexId{v})) continue;
-        const Vec3 at = mesh.position(VertexId{v});
-        if (is_first) box = {at, at};
-        is_first = false;
-        for (int axis = 0; axis < 3; ++axis) {
-            box[0][axis] = std::min(box[0][axis], at[axis]);
-            box[1][axis] = std::max(box[1][axis], at[axis]);
-        }
-    }
-    return box;
+ModelSize size_of(const Mesh& mesh) {
+    ModelSize size{.faces = mesh.face_count(), .vertices = mesh.vertex_count()};
+    if (const Box box = extent_of(mesh, 1); !box.is_empty()) size.box = box;
+    return size;
 }
 
 }  // namespace regionmesh
