@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -14,6 +13,7 @@
 #include "blocks/gather.h"
 #include "blocks/join.h"
 #include "blocks/own_faces.h"
+#include "blocks/passes.h"
 #include "blocks/quotas.h"
 #include "blocks/staged_labels.h"
 #include "regionmesh/census.h"
@@ -28,28 +28,6 @@ namespace regionmesh {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// After pass 1 logs, in passes 2, 4, .., and cuts, in passes 3, 5, .., take turns.
-constexpr std::uint32_t kSeams = 1, kFirstLog = 2, kMostLogs = 7;
-
-bool is_log(std::uint32_t pass) { return pass >= kFirstLog && (pass - kFirstLog) % 2 == 0; }
-
-/// How many logs came before this one; of a cut, before its log.
-std::uint32_t logs_before(std::uint32_t pass) { return (pass - kFirstLog) / 2; }
-
-/// Multiples of the target, by the histograms of pass 0, at which the shifted blocks of pass 1 end, and the first two
-/// logs. The histograms say 6 to 27 % less than is left, since walls lock vertices.
-constexpr double kSeamsAbove = 1.2, kFirstLogAbove = 1.05, kSecondLogAbove = 0.9;
-
-/// The first cut leaves this multiple of the target or more, so the second log reaches what lies at the walls of the
-/// first. AAL in blocks of 109 to 155,550 faces: rms 0.0532 with one log, 0.0483 with two.
-constexpr double kFirstCut = 1.05;
-
-/// Trials end at this part of the share that is asked for.
-constexpr double kTrialsBelow = 0.85;
-
-/// The third log goes on to a threshold so many times higher; those that follow as far as collapses are allowed.
-constexpr double kThirdLog = 8;
 
 /// The boxes of a volume whose blocks are all there.
 struct NoBoxes final : LabelBoxes {
@@ -140,11 +118,7 @@ std::uint64_t BlockRun::face_count() const {
                            [](std::uint64_t sum, const PieceEntry& piece) { return sum + piece.faces; });
 }
 
-/// The walls of a log lie inside the blocks of the pass before it.
-std::uint32_t BlockRun::shift(std::uint32_t pass) const {
-    const bool is_shifted = pass == kSeams || (pass >= kFirstLog && logs_before(pass) % 2 == 1);
-    return is_shifted ? manifest_.block_cells / 2 : 0;
-}
+std::uint32_t BlockRun::shift(std::uint32_t pass) const { return is_shifted(pass) ? manifest_.block_cells / 2 : 0; }
 
 BlockGrid BlockRun::grid(std::uint32_t pass) const {
     return BlockGrid(volume_->shape.lattice, manifest_.block_cells, shift(pass));
@@ -231,9 +205,8 @@ void BlockRun::note_thresholds() {
 void BlockRun::note_cut(std::uint32_t pass) {
     std::vector<fs::path> paths;
     for (std::uint32_t block = 0; block < manifest_.pieces.size(); ++block) paths.push_back(path_of(pass, block));
-    const double share = logs_before(pass) == 0 ? kFirstCut : 1;
-    const std::vector<std::uint64_t> made =
-        cut(paths, face_count(), static_cast<std::uint64_t>(share * static_cast<double>(target())));
+    const auto left = static_cast<std::uint64_t>(left_by_cut(pass) * static_cast<double>(target()));
+    const std::vector<std::uint64_t> made = cut(paths, face_count(), left);
     for (std::size_t block = 0; block < made.size(); ++block) manifest_.pieces[block].collapses = made[block];
 }
 
@@ -346,10 +319,7 @@ void BlockRun::seam_pass() {
 
 /// The seams of the pass before, and the last collapses of all.
 void BlockRun::log_pass(std::uint32_t pass) {
-    const auto& [seams, first, second] = manifest_.thresholds;
-    const std::array thresholds{first, second, kThirdLog * second};
-    const std::uint32_t n = logs_before(pass);
-    const double to = n < thresholds.size() ? thresholds[n] : HUGE_VAL;
+    const double to = threshold_of_log(manifest_.thresholds, pass);
     const std::vector<PieceHeader> before = headers();
     const auto simplify = [&](BlockChunk& block, double) { return simplify_and_log(block, to, simplify_options()); };
     run_pass(pass, "rims", longest_first(grid(pass), before),

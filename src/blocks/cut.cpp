@@ -4,6 +4,7 @@
 #include <bit>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace regionmesh {
 namespace {
@@ -35,11 +36,19 @@ std::vector<std::uint64_t> cut(std::span<const std::filesystem::path> pieces, st
                 next.push_back({collapse.level, n, collapse.faces});
         }
     std::ranges::stable_sort(next, {}, &Next::level);
-    for (const Next& collapse : next) {
-        if (faces <= target) break;
-        faces -= collapse.faces;
-        ++made[collapse.piece];
+    auto at = next.begin();
+    for (; at != next.end() && faces >= target + at->faces; ++at) {
+        faces -= at->faces;
+        ++made[at->piece];
     }
+    if (at == next.end() || faces <= target) return made;
+    // Of the next ones of all logs, that which leaves the least below the target.
+    std::set<std::uint32_t> seen;
+    auto last_made = at;
+    for (; at != next.end(); ++at)
+        if (seen.insert(at->piece).second && faces <= target + at->faces && at->faces < last_made->faces)
+            last_made = at;
+    ++made[last_made->piece];
     return made;
 }
 

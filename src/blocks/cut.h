@@ -11,7 +11,8 @@
 namespace regionmesh {
 
 /// How many collapses of the log of each piece are made so that the target is left of `faces`: the lowest levels first,
-/// in the order of the pieces where they are equal. The last may leave one or two less.
+/// in the order of the pieces where they are equal. The last one, of those about as low, leaves the least below the
+/// target: one face, unless all of these are at lines.
 std::vector<std::uint64_t> cut(std::span<const std::filesystem::path> pieces, std::uint64_t faces,
                                std::uint64_t target);
 

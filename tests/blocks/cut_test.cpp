@@ -60,10 +60,11 @@ TEST(Cut, collapses_of_a_log_are_made_in_their_order) {
     }
 }
 
-/// A piece in a file whose collapses remove two faces each.
-std::filesystem::path with_levels(const std::filesystem::path& path, const std::vector<double>& levels) {
+/// A piece in a file, whose collapses remove so many faces each.
+std::filesystem::path with_levels(const std::filesystem::path& path, const std::vector<double>& levels,
+                                  std::uint32_t faces = 2) {
     Piece piece = fan();
-    for (const double level : levels) piece.log.push_back({.goes = 0, .stays = 1, .level = level, .faces = 2});
+    for (const double level : levels) piece.log.push_back({.goes = 0, .stays = 1, .level = level, .faces = faces});
     write_piece(piece, path, {.sync = false});
     return path;
 }
@@ -84,6 +85,18 @@ TEST_F(CutOfFiles, the_lowest_levels_of_all_logs_lead_to_the_target) {
     EXPECT_EQ(cut(pieces, 18, 4), (Made{4, 0, 3})) << "of the same level the first piece";
     EXPECT_EQ(cut(pieces, 18, 0), (Made{4, 0, 5}));
     EXPECT_EQ(cut(pieces, 30, 3), (Made{4, 0, 5})) << "all of them are not enough";
+}
+
+TEST_F(CutOfFiles, the_last_collapse_leaves_the_least_below_the_target) {
+    const std::vector<std::filesystem::path> pieces{with_levels(path("a"), {1, 1.0001}, 3),
+                                                    with_levels(path("b"), {1.0002, 1.0002}),
+                                                    with_levels(path("c"), {2}, 1)};
+    using Made = std::vector<std::uint64_t>;
+    EXPECT_EQ(cut(pieces, 20, 18), (Made{0, 1, 0}));
+    EXPECT_EQ(cut(pieces, 20, 19), (Made{0, 1, 0})) << "the level of c is far higher";
+    EXPECT_EQ(cut(pieces, 20, 17), (Made{1, 0, 0}));
+    EXPECT_EQ(cut(pieces, 20, 16), (Made{1, 1, 0})) << "one less, as with two of b";
+    EXPECT_EQ(cut(pieces, 20, 12), (Made{2, 1, 0}));
 }
 
 }  // namespace

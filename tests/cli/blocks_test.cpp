@@ -65,7 +65,7 @@ TEST_F(BlockProgram, goes_on_after_twenty_kills_and_leaves_the_same_bytes) {
     const Ran whole = run(grains("whole"));
     const auto time = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - start);
     ASSERT_EQ(whole.code, 0) << whole.error;
-    EXPECT_THAT(whole.out, testing::HasSubstr("in 27 pieces of up to 14 cells"));
+    EXPECT_THAT(whole.out, testing::HasSubstr("in 64 pieces of up to 14 cells"));
     const std::uint64_t seed = 20;
     test::Random random(seed);
     int kills = 0;
@@ -232,7 +232,7 @@ TEST_F(BlockProgram, converts_a_folder_piece_by_piece_for_paraview) {
         ++files;
     }
     EXPECT_EQ(faces, whole.mesh.face_count());
-    EXPECT_EQ(files, 27u);
+    EXPECT_EQ(files, 64u);
 }
 
 /// The numbers of a file.
@@ -319,7 +319,7 @@ TEST_F(BlockProgram, names_and_colours_of_regions_are_kept) {
         EXPECT_EQ(file.colours, seen) << entry.path();
         ++files;
     }
-    EXPECT_EQ(files, 28);
+    EXPECT_EQ(files, 65);
     const auto properties =
         nlohmann::json::parse(text_of(fs::path(out("m.precomputed")) / "names" / "info")).at("inline");
     const auto& ids = properties.at("ids");
@@ -377,7 +377,7 @@ TEST_F(MpiProgram, gives_the_same_bytes_for_1_2_and_4_ranks_as_without_mpi) {
         const std::string folder = "ranks" + std::to_string(ranks);
         const Ran ran = run_ranks(ranks, grains(folder));
         ASSERT_EQ(ran.code, 0) << ran.error;
-        EXPECT_THAT(ran.out, testing::HasSubstr("in 27 pieces of up to 14 cells"));
+        EXPECT_THAT(ran.out, testing::HasSubstr("in 64 pieces of up to 14 cells"));
         EXPECT_EQ(files_in(folder), files_in("alone"));
     }
 }
