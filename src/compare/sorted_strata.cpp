@@ -11,6 +11,7 @@
 #include "base/radix_sort.h"
 #include "base/triangle.h"
 #include "compare/hilbert.h"
+#include "mesh/star_edges.h"
 #include "mesh/strata.h"
 
 namespace regionmesh {
@@ -191,18 +192,13 @@ SortedStrata lines_of(const CommonView& view, bool sides_apart, std::uint32_t th
         std::vector<Label> labels;
     };
     std::vector<std::vector<LineEdge>> by_chunk(chunks_of(mesh.vertex_end()));
-    const auto look_at = [&](VertexId u, std::vector<VertexId>& neighbours, std::vector<LineEdge>& edges) {
+    const auto look_at = [&](VertexId u, StarEdges& star, std::vector<LineEdge>& edges) {
         if (!mesh.is_alive(u) || (view.part && !view.part->has(u)) || vertex_labels(mesh, u).size() < 3) return;
-        neighbours.clear();
-        mesh.for_star(u, [&](FaceId f, int) {
-            for (const VertexId v : mesh[f].vertices)
-                if (u < v) neighbours.push_back(v);
-        });
-        std::ranges::sort(neighbours);
-        neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-        for (const VertexId v : neighbours) {
-            const LabelSet set = edge_labels(mesh, u, v);
-            if (set.size() < 3) continue;
+        star.gather(mesh, u);
+        for (std::size_t n = 0; n < star.ends().size(); ++n) {
+            const VertexId v = star.ends()[n];
+            const LabelSet& set = star.labels()[n];
+            if (v < u || set.size() < 3) continue;
             std::vector<Label> labels;
             for (const Label label : set) labels.push_back(view.labels.common(view.which, label));
             std::ranges::sort(labels);
@@ -211,10 +207,10 @@ SortedStrata lines_of(const CommonView& view, bool sides_apart, std::uint32_t th
         }
     };
     parallel_for(static_cast<std::uint32_t>(by_chunk.size()), threads, [&](std::uint32_t chunk) {
-        std::vector<VertexId> neighbours;
+        StarEdges star;
         const std::uint64_t end = std::min<std::uint64_t>(mesh.vertex_end(), (std::uint64_t{chunk} + 1) * kChunk);
         for (std::uint64_t u = std::uint64_t{chunk} * kChunk; u < end; ++u)
-            look_at(VertexId{static_cast<std::uint32_t>(u)}, neighbours, by_chunk[chunk]);
+            look_at(VertexId{static_cast<std::uint32_t>(u)}, star, by_chunk[chunk]);
     });
     Found found;
     std::map<std::vector<Label>, std::uint32_t> sets;

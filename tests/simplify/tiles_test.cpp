@@ -191,14 +191,24 @@ TEST(Tiles, in_flight_do_not_change_the_result) {
     EXPECT_EQ(digests.size(), 1u);
 }
 
-TEST(Tiles, trial_says_what_each_threshold_leaves) {
+struct Grains {
     test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 12, 7);
-    const Batch batch(volume);
-    const TileGrid grid{.origin = batch.lattice.origin,
-                        .spacing = batch.lattice.spacing,
-                        .size = {39, 35, 29},
-                        .cells = {20, 18, 15},
-                        .is_bounded = true};
+    const Batch batch{volume};
+
+    /// Tiles of so many cells; the outermost end where the volume does.
+    TileGrid grid(std::array<std::uint32_t, 3> cells) const {
+        return {.origin = batch.lattice.origin,
+                .spacing = batch.lattice.spacing,
+                .size = {39, 35, 29},
+                .cells = cells,
+                .is_bounded = true};
+    }
+};
+
+TEST(Tiles, trial_says_what_each_threshold_leaves) {
+    const Grains grains;
+    const Batch& batch = grains.batch;
+    const TileGrid grid = grains.grid({20, 18, 15});
     std::vector<std::uint32_t> tiles(grid.tile_count());
     std::iota(tiles.begin(), tiles.end(), 0);
     const std::vector<double> thresholds{1e-3, 1e-2, 0.1, 1, 10};
@@ -220,13 +230,9 @@ TEST(Tiles, trial_says_what_each_threshold_leaves) {
 }
 
 TEST(Tiles, that_go_first_say_how_the_others_go_on) {
-    test::ArrayVolume volume = test::grain_volume({40, 36, 30}, 12, 7);
-    const Batch batch(volume);
-    const TileGrid grid{.origin = batch.lattice.origin,
-                        .spacing = batch.lattice.spacing,
-                        .size = {39, 35, 29},
-                        .cells = {10, 10, 10},
-                        .is_bounded = true};
+    const Grains grains;
+    const Batch& batch = grains.batch;
+    const TileGrid grid = grains.grid({10, 10, 10});
     const auto with = [](double threshold) {
         return TileOptions{.threshold = threshold, .keep_share = 0, .threads = 1, .simplify = {}};
     };
