@@ -16,8 +16,8 @@ namespace {
 constexpr double kFirstTrial = 1e-3, kTrialStep = 4;
 /// They end at this multiple of the least share: tiles stop at that share themselves.
 constexpr double kNearLeast = 1.1;
-/// Faces of a tile of trials; one tile in kSampledTiles is tried. AAL in blocks of 109 has 46 thousand faces in a block:
-/// trials of all tiles of kTileFaces took 1.0 of 8.4 s, these take 0.2 s.
+/// Faces of a tile of trials; one tile in kSampledTiles is tried. AAL in blocks of 109 has 46 thousand faces in a
+/// block: trials of all tiles of kTileFaces took 1.0 of 8.4 s, these take 0.2 s.
 constexpr std::uint32_t kTrialFaces = 4096;
 
 /// Tiles of `side` cells; the walls of the outermost are those of the block.
