@@ -317,7 +317,7 @@ void BlockRun::seam_pass() {
              [&](const PieceHeader& header) { return remade(header, before, least, simplify); });
 }
 
-/// The seams of the pass before, and the last collapses of all.
+/// Simplifies on from the pass before, seams too; the collapses stay in logs until the cut.
 void BlockRun::log_pass(std::uint32_t pass) {
     const double to = threshold_of_log(manifest_.thresholds, pass);
     const std::vector<PieceHeader> before = headers();

@@ -1,6 +1,4 @@
 // A folder of pieces as a model to compare, and its size.
-#include <algorithm>
-
 #include "blocks/folder_parts.h"
 #include "blocks/piece_mesh.h"
 #include "mesh/extent.h"
@@ -20,16 +18,8 @@ public:
     std::uint64_t vertex_count() const override { return folder_.manifest.vertices; }
     std::uint32_t part_count() const override { return folder_.grid.count(); }
 
-    bool has_sides() const override {
-        bool has_exterior = false;
-        for (std::uint32_t block = 0; block < part_count(); ++block) {
-            const Piece piece = read_entry(folder_.manifest, folder_.path, block);
-            if (std::ranges::any_of(piece.vertices, [](const PieceVertex& v) { return v.sides != 0; })) return true;
-            has_exterior |=
-                std::ranges::any_of(piece.faces, [](const PieceFace& face) { return is_exterior(face.labels[1]); });
-        }
-        return !has_exterior;
-    }
+    /// Pieces are of sections, whose exterior is a box.
+    bool has_sides() const override { return true; }
 
     void read(std::uint32_t block, const std::function<void(const Mesh&, const MeshPart*)>& visit) const override {
         MeshPart part;

@@ -34,8 +34,7 @@ inline constexpr double kSeamsAbove = 1.2, kFirstLogAbove = 1.05, kSecondLogAbov
 inline constexpr double kThirdLog = 8;
 
 inline double threshold_of_log(const Thresholds& thresholds, std::uint32_t pass) {
-    const auto& [seams, first, second] = thresholds;
-    const std::array known{first, second, kThirdLog * second};
+    const std::array known{thresholds.first_log, thresholds.second_log, kThirdLog * thresholds.second_log};
     const std::uint32_t n = logs_before(pass);
     return n < known.size() ? known[n] : HUGE_VAL;
 }

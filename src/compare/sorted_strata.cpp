@@ -143,11 +143,6 @@ SortedStrata sorted(const Mesh& mesh, const Found& found, std::uint32_t threads)
 
 bool Stratum::contains(Label label) const { return std::ranges::find(labels, label) != labels.end(); }
 
-std::uint32_t SortedStrata::find(const std::vector<Label>& labels) const {
-    const auto at = std::ranges::lower_bound(strata, labels, {}, &Stratum::labels);
-    return at != strata.end() && at->labels == labels ? static_cast<std::uint32_t>(at - strata.begin()) : kNoStratum;
-}
-
 SortedStrata interfaces_of(const CommonView& view, std::uint32_t threads) {
     const Mesh& mesh = view.mesh;
     Found found;

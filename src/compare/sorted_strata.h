@@ -35,8 +35,6 @@ struct SortedStrata {
     std::vector<Stratum> strata;  // in order of labels
     Box bounds;                   // of all vertices of the mesh
 
-    /// The stratum with these labels, or kNoStratum.
-    std::uint32_t find(const std::vector<Label>& labels) const;
     /// Area or length of a stratum.
     double measure(const Stratum& stratum) const { return ends[stratum.end - 1]; }
 };

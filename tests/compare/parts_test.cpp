@@ -1,8 +1,8 @@
 // A model in parts is compared as the same model in one.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "mesh/mesh_part.h"
 #include "regionmesh/compare.h"
