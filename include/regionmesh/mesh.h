@@ -27,6 +27,11 @@ struct Face {
         vertices;                // counter-clockwise seen from the second label: the normal points from first to second
     std::array<Corner, 3> next;  // next corner in the star of the vertex at the same place
     std::array<Label, 2> labels;  // the smaller dense label first
+
+    /// As labels == others, which calls a function of the C library.
+    bool has_labels(const std::array<Label, 2>& others) const {
+        return labels[0] == others[0] && labels[1] == others[1];
+    }
 };
 static_assert(sizeof(Face) == 32);
 

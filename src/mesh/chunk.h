@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/empty.h"
 #include "regionmesh/label.h"
 #include "regionmesh/vec3.h"
 
@@ -38,10 +39,10 @@ struct Chunk {
 
     void clear() {
         carried = 0;
-        vertices.clear();
-        faces.clear();
-        active.clear();
-        carried_bounds.clear();
+        empty(vertices);
+        empty(faces);
+        empty(active);
+        empty(carried_bounds);
     }
 };
 

@@ -7,6 +7,8 @@
 #include <emmintrin.h>
 #endif
 
+#include "base/lanes.h"
+
 namespace regionmesh {
 namespace {
 
@@ -58,14 +60,17 @@ void GridTree::build_upper(std::uint32_t threads) {
 }
 
 GridTree::GridBox GridTree::outward(const Box& box) const {
+    // Coordinates outside the grid are clamped to its border, on both sides of a comparison; no box reaches as far as
+    // the empty one.
+    const Double2 scale = both(cells_per_length_), middle = both(32760), outward{-1, 1},
+                  least_cell = both(kLowest + 1.0), greatest_cell = both(kHighest - 1.0);
     GridBox result;
     for (int axis = 0; axis < 3; ++axis) {
-        // Coordinates outside the grid are clamped to its border, on both sides of a comparison; no box reaches as far
-        // as the empty one.
-        const double low = (box.low[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
-        const double high = (box.high[axis] - origin_[axis]) * cells_per_length_ - 32760.0;
-        result.low[axis] = static_cast<std::int16_t>(std::clamp(low - 1, kLowest + 1.0, kHighest - 1.0));
-        result.high[axis] = static_cast<std::int16_t>(std::clamp(high + 1, kLowest + 1.0, kHighest - 1.0));
+        const Double2 ends{box.low[axis], box.high[axis]};
+        const Double2 cells = (ends - both(origin_[axis])) * scale - middle + outward;
+        const Double2 inside = least(greatest(cells, least_cell), greatest_cell);
+        result.low[axis] = static_cast<std::int16_t>(inside[0]);
+        result.high[axis] = static_cast<std::int16_t>(inside[1]);
     }
     return result;
 }

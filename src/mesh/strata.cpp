@@ -40,7 +40,7 @@ void count_labels(Mesh& mesh) {
         const auto& first = mesh[FaceId{vertex.star >> 2}].labels;
         bool is_interface = vertex.sides == 0 && first[0] != first[1];  // true for most vertices
         for (Corner c = vertex.star; c != kNoCorner && is_interface; c = mesh[FaceId{c >> 2}].next[c & 3])
-            is_interface = mesh[FaceId{c >> 2}].labels == first;
+            is_interface = mesh[FaceId{c >> 2}].has_labels(first);
         vertex.label_count = is_interface ? 2 : static_cast<std::uint8_t>(vertex_labels(mesh, VertexId{v}).size() & 31);
     }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/box.h"
 #include "mesh/strata.h"
 #include "simplify/bytes.h"
 #include "simplify/candidates.h"
@@ -20,19 +21,15 @@ namespace {
 class FixedOutside {
 public:
     FixedOutside(Mesh& mesh, const Box& box) : mesh_(mesh) {
-        const auto is_inside = [&](VertexId v) {
-            const Vec3 p = mesh.position(v);
-            return max(p, box.low) == p && min(p, box.high) == p;
-        };
-        for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
-            if (!mesh.is_alive(FaceId{f})) continue;
-            const auto& corners = mesh[FaceId{f}].vertices;
-            if (std::all_of(corners.begin(), corners.end(), is_inside)) continue;
-            for (VertexId v : corners) {
-                if (mesh[v].is_fixed) continue;
-                mesh[v].is_fixed = true;
-                fixed_.push_back(v);
-            }
+        for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+            if (!mesh.is_alive(VertexId{v}) || is_within(mesh.position(VertexId{v}), box)) continue;
+            mesh.for_star(VertexId{v}, [&](FaceId f, int) {
+                for (VertexId corner : mesh[f].vertices) {
+                    if (mesh[corner].is_fixed) continue;
+                    mesh[corner].is_fixed = true;
+                    fixed_.push_back(corner);
+                }
+            });
         }
     }
     ~FixedOutside() {

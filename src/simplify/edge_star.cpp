@@ -6,28 +6,23 @@ namespace regionmesh {
 namespace {
 
 void add_surviving(const Mesh& mesh, FaceId f, int place, EdgeStar& star) {
-    const Face& face = mesh[f];
-    const int after = place == 2 ? 0 : place + 1, before = place == 0 ? 2 : place - 1;
-    const std::size_t n = star.faces.size();
-    star.faces.push_back({f, face.vertices[after], face.vertices[before], face.vertices[place]});
-    if (n % 2 == 0) star.pairs.emplace_back();
-    StarPair& pair = star.pairs.back();
-    pair.a.put(n % 2, mesh.position(face.vertices[after]));
-    pair.b.put(n % 2, mesh.position(face.vertices[before]));
+    const auto& v = mesh[f].vertices;
+    star.faces.push_back({f, v[place == 2 ? 0 : place + 1], v[place == 0 ? 2 : place - 1], v[place]});
 }
 
 /// The measures that do not depend on where the merged vertex goes.
-void measure(EdgeStar& star) {
-    if (star.faces.size() % 2 == 1) {
-        StarPair& last = star.pairs.back();
-        last.a.put(1, last.a[0]);
-        last.b.put(1, last.b[0]);
-    }
+void measure(const Mesh& mesh, EdgeStar& star) {
+    const std::size_t count = star.faces.size();
+    star.pairs.resize((count + 1) / 2);
     Lanes3<Double2> low = both(Vec3{HUGE_VAL, HUGE_VAL, HUGE_VAL}), high = both(Vec3{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL});
     for (std::size_t n = 0; n < star.pairs.size(); ++n) {
         StarPair& pair = star.pairs[n];
-        const int last = std::min(2 * static_cast<int>(n) + 1, star.face_count() - 1);
-        const Lanes3<Double2> apex = side_by_side(star.at_apex(2 * static_cast<int>(n)), star.at_apex(last));
+        const std::size_t first = 2 * n, second = std::min(2 * n + 1, count - 1);
+        const StarFace &f = star.faces[first], &g = star.faces[second];
+        pair.a = side_by_side(mesh.position(f.a), mesh.position(g.a));
+        pair.b = side_by_side(mesh.position(f.b), mesh.position(g.b));
+        const Lanes3<Double2> apex =
+            side_by_side(star.at_apex(static_cast<int>(first)), star.at_apex(static_cast<int>(second)));
         pair.old_normal = cross(pair.a - apex, pair.b - apex);
         pair.old_length2 = dot(pair.old_normal, pair.old_normal);
         const Lanes3<Double2> link_edge = pair.b - pair.a;
@@ -45,7 +40,7 @@ bool is_one_interface(const Mesh& mesh, const EdgeStar& star) {
     if (star.faces.empty()) return true;
     const auto& labels = mesh[star.faces[0].face].labels;
     return std::all_of(star.faces.begin(), star.faces.end(),
-                       [&](const StarFace& f) { return mesh[f.face].labels == labels; });
+                       [&](const StarFace& f) { return mesh[f.face].has_labels(labels); });
 }
 
 void add_to_link(EdgeStar& star, VertexId v) {
@@ -74,7 +69,6 @@ void start(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
     star.at_goes = mesh.position(goes);
     star.at_stays = mesh.position(stays == kNoVertex ? goes : stays);
     star.faces.clear();
-    star.pairs.clear();
     star.dead.clear();
     star.apexes.clear();
     star.link.clear();
@@ -95,7 +89,7 @@ void gather_faces_of_goes(const Mesh& mesh, VertexId goes, VertexId stays, EdgeS
     star.keeps_stays = true;
     add_faces_of_goes(mesh, star);
     star.is_interface = is_one_interface(mesh, star);
-    measure(star);
+    measure(mesh, star);
 }
 
 }  // namespace
@@ -110,7 +104,7 @@ void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
             add_surviving(mesh, f, place, star);
     });
     star.is_interface = is_one_interface(mesh, star);
-    measure(star);
+    measure(mesh, star);
     gather_link(mesh, star);
 }
 
@@ -140,10 +134,7 @@ void gather_flip(const Mesh& mesh, const Flip& flip, EdgeStar& star) {
     star.is_interface = true;
     star.faces = {{flip.g, flip.u, flip.d, flip.c}, {flip.g, flip.d, flip.v, flip.c}};
     star.link = {flip.u, flip.d, flip.v};
-    StarPair& pair = star.pairs.emplace_back();
-    pair.a = side_by_side(mesh.position(flip.u), mesh.position(flip.d));
-    pair.b = side_by_side(mesh.position(flip.d), mesh.position(flip.v));
-    measure(star);
+    measure(mesh, star);
 }
 
 void set_normals(EdgeStar& star, Vec3 position) {

@@ -57,12 +57,12 @@ double ErrorBound::merged(const Mesh& mesh, const EdgeStar& star, Vec3 position)
         faces_.clear();
         dead_ids_.clear();
         for (int n = first; n < star.face_count(); ++n) {
-            if (!star.is_interface && mesh[star.faces[n].face].labels != labels) continue;
+            if (!star.is_interface && !mesh[star.faces[n].face].has_labels(labels)) continue;
             faces_.push_back(n);
             is_done_[n] = true;
         }
         for (FaceId f : star.dead)
-            if (star.is_interface || mesh[f].labels == labels) dead_ids_.push_back(f);
+            if (star.is_interface || mesh[f].has_labels(labels)) dead_ids_.push_back(f);
         dead_done += dead_ids_.size();
         bound_ = std::max(bound_, of_interface(mesh, star, position));
     }

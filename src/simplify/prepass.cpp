@@ -86,32 +86,36 @@ bool Prepass::try_to_remove(VertexId v, VerdictCounts& verdicts) {
 /// Neighbours that pass the cheap tests: strata, cost, fold and quality.
 void Prepass::find_targets(VertexId v) {
     targets_.clear();
-    gather_vertex(mesh_, v, around_);
-    if (around_.face_count() > kMostPrepassFaces) return;
-    gather_ends(v);
+    if (!gather_ends(v)) return;
     placement_.rank_halves(mesh_, v, ends_, costs_);
+    const auto is_cheap = [&](const HalfCost& cost) { return cost.is_within(max_cost_, options_.max_error); };
+    if (std::none_of(costs_.begin(), costs_.end(), is_cheap)) return;
+    gather_vertex(mesh_, v, around_);
     for (std::size_t n = 0; n < ends_.size(); ++n) {
-        if (!costs_[n].is_within(max_cost_, options_.max_error)) continue;
+        if (!is_cheap(costs_[n])) continue;
         const double quality3 = fan_quality3(around_, ends_[n], mesh_.position(ends_[n]), collapse_.bounds);
         if (quality3 > 0) targets_.push_back({ends_[n], quality3});
     }
 }
 
-void Prepass::gather_ends(VertexId v) {
+/// False where the vertex has more faces than the prepass looks at.
+bool Prepass::gather_ends(VertexId v) {
     ends_.clear();
-    if (mesh_[v].label_count == 2) {
-        for (const StarFace& face : around_.faces) add_end(face.a);
-        return;
-    }
     line_ends_.clear();
-    for (const StarFace& face : around_.faces) {
-        for (VertexId end : {face.a, face.b}) {
+    int faces = 0;
+    mesh_.for_star(v, [&](FaceId f, int place) {
+        ++faces;
+        const auto& corners = mesh_[f].vertices;
+        const VertexId after = corners[place == 2 ? 0 : place + 1], before = corners[place == 0 ? 2 : place - 1];
+        if (mesh_[v].label_count == 2) return add_end(after);  // each neighbour comes first in one face
+        for (VertexId end : {after, before}) {
             if (mesh_[end].label_count < 3 || std::find(line_ends_.begin(), line_ends_.end(), end) != line_ends_.end())
                 continue;
             line_ends_.push_back(end);
             if (edge_labels(mesh_, v, end).size() == mesh_[v].label_count) add_end(end);
         }
-    }
+    });
+    return faces <= kMostPrepassFaces;
 }
 
 void Prepass::add_end(VertexId end) {

@@ -35,7 +35,7 @@ private:
     bool may_go(VertexId v) const;
     bool try_to_remove(VertexId v, VerdictCounts& verdicts);
     void find_targets(VertexId v);
-    void gather_ends(VertexId v);
+    bool gather_ends(VertexId v);
     void add_end(VertexId end);
     Verdict test(VertexId target);
     void apply(VertexId target);

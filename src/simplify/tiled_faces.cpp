@@ -39,7 +39,8 @@ void TiledFaces::assign(std::uint32_t f, Part& part) {
     const std::uint32_t tile = grid_.tile_at((corner[0].position + corner[1].position + corner[2].position) / 3.0);
     Box box;
     for (const ChunkVertex& v : corner) box.add(v.position);
-    const bool reaches_out = !is_within(box, grid_.limits(tile));
+    if (tile != part.tile) part.tile = tile, part.limits = grid_.limits(tile);
+    const bool reaches_out = !is_within(box, part.limits);
     for (std::uint32_t local : face.vertices) mark(local, reaches_out ? kLocked : tile);
     if (reaches_out)
         grid_.for_tiles_at(box, [&](std::uint32_t other) {

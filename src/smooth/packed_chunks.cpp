@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/empty.h"
+
 namespace regionmesh {
 namespace {
 
@@ -51,6 +53,7 @@ void put_vertices(PackedBytes& to, std::span<const LatticeVertex> vertices) {
 }
 
 void take_vertices(const std::uint8_t* from, std::uint32_t count, std::vector<LatticeVertex>& vertices) {
+    empty(vertices);
     vertices.resize(count);
     Vec3 base;
     for (LatticeVertex& vertex : vertices) {
@@ -91,6 +94,7 @@ const std::uint8_t* take_faces(const std::uint8_t* from, std::uint32_t count, st
     };
     RecentLabels recent;
     std::uint32_t last = 0;
+    empty(faces);
     faces.resize(count);
     for (auto& [v, labels] : faces) {
         const std::uint64_t head = take_number(from);
@@ -115,7 +119,7 @@ const std::uint8_t* take_faces(const std::uint8_t* from, std::uint32_t count, st
 
 void PackedChunks::push_back(const Chunk& chunk, std::span<const LatticeVertex> vertices) {
     thread_local PackedBytes bytes;
-    bytes.clear();
+    empty(bytes);
     Packed packed{chunk.carried,
                   static_cast<std::uint32_t>(vertices.size()),
                   static_cast<std::uint32_t>(chunk.faces.size()),

@@ -50,6 +50,7 @@ struct Budget {
     std::uint64_t memory = 0;        // bytes to stay within
     std::uint32_t chunk_strips = 1;  // as demanded, unless only shorter chunks fit
     std::uint32_t in_flight = 1;     // tiles worked on at a time, as demanded unless only fewer fit
+    bool is_ahead = false;           // a chunk may be gathered while tiles of the one before are at work
     double share_in_flight = 1;      // of the faces of a chunk that these tiles may hold
     std::vector<ChunkMemory> chunks;
     MemoryNeed least;                                // the least memory that is enough

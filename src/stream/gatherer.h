@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "mesh/chunk.h"
@@ -12,6 +11,17 @@
 
 namespace regionmesh {
 
+/// Consecutive strips as one chunk, and where it lies.
+struct GatheredStrips {
+    Chunk chunk;
+    std::vector<ChunkVertex>
+        carried;            // vertices that the chunk carries, in its order: fixed until their last face is there
+    SafeInterval safe;      // where its faces may change: no faces of other chunks reach into it
+    std::uint32_t end = 0;  // strips gathered so far
+    bool is_last = false;
+    double safe_high = 0;  // surface that is to come lies here or beyond along the sweep
+};
+
 /// A chunk of `chunk_strips` strips at a time; the last one may be shorter.
 class Gatherer {
 public:
@@ -19,26 +29,15 @@ public:
         : strips_(strips), chunk_strips_(chunk_strips), log_(log) {}
 
     /// The next chunk; false when there is none.
-    bool next(Chunk& chunk);
-
-    /// Chunks gathered so far.
-    std::uint32_t count() const { return count_; }
-    /// Strips gathered so far.
-    std::uint32_t strip_count() const { return strips_.count(); }
-    /// The vertices that the last chunk carries, in its order. They are fixed until their last face is there.
-    std::span<const ChunkVertex> carried() const { return carried_; }
-    /// Where the faces of the last chunk may change: no faces of other chunks reach into it.
-    SafeInterval safe() const { return safe_; }
+    bool next(GatheredStrips& made);
 
 private:
     Strips& strips_;
     std::uint32_t chunk_strips_;
     RunLog& log_;
     Chunk strip_;
-    std::uint32_t count_ = 0;
-    std::vector<ChunkVertex> carried_, active_;  // active_: left by the last chunk
-    double reach_ = -HUGE_VAL;                   // highest vertex of all chunks so far along the sweep
-    SafeInterval safe_;
+    std::vector<ChunkVertex> active_;  // left by the last chunk
+    double reach_ = -HUGE_VAL;         // highest vertex of all chunks so far along the sweep
 };
 
 }  // namespace regionmesh

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -32,18 +33,25 @@ private:
     Timer timer_;
 };
 
-/// Fills the report of a result. No result depends on it.
+/// Fills the report of a result. No result depends on it. Times, strips and progress may be noted by several threads.
 class RunLog {
 public:
     RunLog(Reconstruction& result, const OnProgress& on_progress) : result_(result), on_progress_(on_progress) {}
 
     Report& report() { return result_.report; }
 
+    /// Of two threads that time stages, each must have stages of its own.
     [[nodiscard]] StageTimer time(const char* stage) { return {*this, stage}; }
+    /// The seconds of a stage, to add to.
+    double& seconds_of(const char* stage) {
+        const std::scoped_lock lock(mutex_);
+        return result_.report.seconds[stage];
+    }
 
     /// Notes the resident size for a stage. Looks at it every few milliseconds at most, and always at the first time.
     void note_resident(const std::string& stage) {
         constexpr std::chrono::milliseconds kPause{10};
+        const std::scoped_lock lock(mutex_);
         std::uint64_t& most = result_.report.stage_bytes[stage];
         const auto now = std::chrono::steady_clock::now();
         if (most != 0 && now < next_look_) return;
@@ -77,10 +85,13 @@ public:
 
     /// Notes a strip that was meshed, before smoothing.
     void note_strip(std::uint32_t strips_read, std::uint64_t faces, std::uint64_t vertices) {
-        result_.report.initial_faces += faces;
-        result_.report.initial_vertices += vertices;
-        progress_.strips_read = strips_read;
-        progress_.faces_read = result_.report.initial_faces;
+        {
+            const std::scoped_lock lock(mutex_);
+            result_.report.initial_faces += faces;
+            result_.report.initial_vertices += vertices;
+            progress_.strips_read = strips_read;
+            progress_.faces_read = result_.report.initial_faces;
+        }
         advance(WorkStage::kMesh, share_of_strips(strips_read));
         report_progress("reconstruct");
     }
@@ -92,21 +103,30 @@ public:
     }
 
     void leave_out(WorkStage stage) { shares_.leave_out(stage); }
-    void advance(WorkStage stage, double share) { shares_.advance(stage, share); }
+    void advance(WorkStage stage, double share) {
+        const std::scoped_lock lock(mutex_);
+        shares_.advance(stage, share);
+    }
 
     /// Only the thread that made the log reports; from others the call does nothing.
     void report_progress(const char* stage) {
         if (!on_progress_ || std::this_thread::get_id() != thread_) return;
-        progress_.stage = stage;
-        progress_.share = shares_.share();
-        // While tiles are at work the mesh is taken apart, and has none.
-        if (result_.mesh.face_count() > 0) progress_.faces_held = result_.mesh.face_count();
-        on_progress_(progress_);
+        Progress progress;
+        {
+            const std::scoped_lock lock(mutex_);
+            progress_.stage = stage;
+            progress_.share = shares_.share();
+            // While tiles are at work the mesh is taken apart, and has none.
+            if (result_.mesh.face_count() > 0) progress_.faces_held = result_.mesh.face_count();
+            progress = progress_;
+        }
+        on_progress_(progress);
     }
 
 private:
     double share_of_strips(double strips) const { return strips / std::max(progress_.strip_count, 1u); }
 
+    std::mutex mutex_;
     Reconstruction& result_;
     const OnProgress& on_progress_;
     Progress progress_;
@@ -118,7 +138,7 @@ private:
 };
 
 inline StageTimer::StageTimer(RunLog& log, const char* stage)
-    : log_(log), stage_(stage), timer_(log.report().seconds[stage]) {}
+    : log_(log), stage_(stage), timer_(log.seconds_of(stage)) {}
 inline StageTimer::~StageTimer() { log_.note_resident(stage_); }
 
 }  // namespace regionmesh

@@ -19,16 +19,16 @@ TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const 
                      .simplify = simplify_options(options, shape)};
 }
 
-void TileStage::run(Chunk& chunk, const Gatherer& gatherer) {
+void TileStage::run(GatheredStrips& gathered) {
     if (!is_on_) return;
     tile_options_.on_share = [&](double share) {
-        log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gatherer.strip_count() - strips_done_));
+        log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gathered.end - strips_done_));
     };
-    tile_options_.faces_in_flight =
-        static_cast<std::uint64_t>(std::ceil(plan_.budget.share_in_flight * static_cast<double>(chunk.faces.size())));
+    tile_options_.faces_in_flight = static_cast<std::uint64_t>(
+        std::ceil(plan_.budget.share_in_flight * static_cast<double>(gathered.chunk.faces.size())));
     const StageTimer timer = log_.time("decimate tiles");
-    log_.add(simplify_run(chunk, gatherer.carried(), gatherer.safe(), plan_.tiles, tile_options_));
-    strips_done_ = gatherer.strip_count();
+    log_.add(simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, tile_options_));
+    strips_done_ = gathered.end;
 }
 
 }  // namespace regionmesh

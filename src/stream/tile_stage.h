@@ -10,8 +10,10 @@ class TileStage {
 public:
     TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
-    /// Decimates the chunk that was gathered last, up to a fixed cost, and never below what the target leaves.
-    void run(Chunk& chunk, const Gatherer& gatherer);
+    /// Whether run() does anything.
+    bool is_on() const { return is_on_; }
+    /// Decimates the chunk, up to a fixed cost, and never below what the target leaves.
+    void run(GatheredStrips& gathered);
 
 private:
     const Plan& plan_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "base/exact_predicates.h"
 #include "mesh/face_meeting.h"
 
@@ -203,8 +204,7 @@ IntersectTest::Place& IntersectTest::find_place(const Mesh& mesh, VertexId v, in
     used_ += has_room;
     Place& place = has_room ? table_[at] : spare_[corner];
     const Vec3 p = mesh.position(v);
-    const bool is_in_reach = max(p, box_.low) == p && min(p, box_.high) == p;
-    place = {key_of(v), planes_.sides_of(p), 0, 0, 0, 0, is_in_reach};
+    place = {key_of(v), planes_.sides_of(p), 0, 0, 0, 0, is_within(p, box_)};
     return place;
 }
 
