@@ -1,6 +1,7 @@
 // SIMD vectors of two doubles or four floats. Every lane gives the same result as scalar arithmetic.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -27,6 +28,16 @@ Lanes load(const void* from) {
     Lanes lanes;
     std::memcpy(&lanes, from, sizeof(lanes));
     return lanes;
+}
+
+/// Columns of the four as rows.
+template <class Lanes>
+std::array<Lanes, 4> transposed(Lanes a, Lanes b, Lanes c, Lanes d) {
+    const Lanes low_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), high_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Lanes low_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5), high_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    return {__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5), __builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7),
+            __builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5),
+            __builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7)};
 }
 
 inline Double2 both(double x) { return Double2{x, x}; }
@@ -66,6 +77,13 @@ inline Float4 square_root(Float4 x) {
 #endif
 }
 
+/// Lane by lane a < b ? a : b, and a < b ? b : a.
+#if defined(__SSE2__)
+inline Double2 least(Double2 a, Double2 b) { return _mm_min_pd(a, b); }
+inline Double2 greatest(Double2 a, Double2 b) { return _mm_max_pd(b, a); }
+inline Float4 least(Float4 a, Float4 b) { return _mm_min_ps(a, b); }
+inline Float4 greatest(Float4 a, Float4 b) { return _mm_max_ps(b, a); }
+#else
 template <class T>
 T least(T a, T b) {
     return a < b ? a : b;
@@ -74,6 +92,7 @@ template <class T>
 T greatest(T a, T b) {
     return a < b ? b : a;
 }
+#endif
 
 /// Several points or vectors, one per lane.
 template <class T>

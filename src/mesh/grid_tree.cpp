@@ -62,27 +62,28 @@ void GridTree::build_upper(std::uint32_t threads) {
 GridTree::GridBox GridTree::outward(const Box& box) const {
     // Coordinates outside the grid are clamped to its border, on both sides of a comparison; no box reaches as far as
     // the empty one.
-    const Double2 scale = both(cells_per_length_), middle = both(32760), outward{-1, 1},
-                  least_cell = both(kLowest + 1.0), greatest_cell = both(kHighest - 1.0);
-    GridBox result;
-    for (int axis = 0; axis < 3; ++axis) {
-        const Double2 ends{box.low[axis], box.high[axis]};
-        const Double2 cells = (ends - both(origin_[axis])) * scale - middle + outward;
-        const Double2 inside = least(greatest(cells, least_cell), greatest_cell);
-        result.low[axis] = static_cast<std::int16_t>(inside[0]);
-        result.high[axis] = static_cast<std::int16_t>(inside[1]);
-    }
-    return result;
+    static_assert(sizeof(Box) == 3 * sizeof(Double2));  // low x y, low z and high x, high y z
+    const Double2 scale = both(cells_per_length_), least_cell = both(kLowest + 1.0), most_cell = both(kHighest - 1.0);
+    const auto cells_at = [&](int pair, Double2 origin, Double2 outward) {
+        const auto ends = load<Double2>(reinterpret_cast<const char*>(&box) + pair * sizeof(Double2));
+        return least(greatest((ends - origin) * scale - both(32760) + outward, least_cell), most_cell);
+    };
+    const Double2 low = cells_at(0, Double2{origin_.x, origin_.y}, both(-1)),
+                  ends = cells_at(1, Double2{origin_.z, origin_.x}, Double2{-1, 1}),
+                  high = cells_at(2, Double2{origin_.y, origin_.z}, both(1));
+    const auto cell = [](double x) { return static_cast<std::int16_t>(x); };
+    return {{cell(low[0]), cell(low[1]), cell(ends[0])}, {cell(ends[1]), cell(high[0]), cell(high[1])}};
 }
 
-unsigned GridTree::Boxes::meeting(const GridBox& box) const {
+unsigned GridTree::Boxes::meeting(const Boxes& others) const {
 #if defined(__SSE2__)
+    const auto eight = [](const std::int16_t* numbers) {
+        return _mm_load_si128(reinterpret_cast<const __m128i*>(numbers));
+    };
     __m128i out = _mm_setzero_si128();
     for (int axis = 0; axis < 3; ++axis) {
-        const __m128i lowest = _mm_load_si128(reinterpret_cast<const __m128i*>(low[axis]));
-        const __m128i highest = _mm_load_si128(reinterpret_cast<const __m128i*>(high[axis]));
-        out = _mm_or_si128(out, _mm_cmpgt_epi16(lowest, _mm_set1_epi16(box.high[axis])));
-        out = _mm_or_si128(out, _mm_cmplt_epi16(highest, _mm_set1_epi16(box.low[axis])));
+        out = _mm_or_si128(out, _mm_cmpgt_epi16(eight(low[axis]), eight(others.high[axis])));
+        out = _mm_or_si128(out, _mm_cmpgt_epi16(eight(others.low[axis]), eight(high[axis])));
     }
     return ~static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(out, out))) & 0xFFu;
 #else
@@ -90,7 +91,7 @@ unsigned GridTree::Boxes::meeting(const GridBox& box) const {
     for (std::uint32_t lane = 0; lane < kFan; ++lane) {
         bool in = true;
         for (int axis = 0; axis < 3; ++axis)
-            in &= low[axis][lane] <= box.high[axis] && high[axis][lane] >= box.low[axis];
+            in &= low[axis][lane] <= others.high[axis][lane] && high[axis][lane] >= others.low[axis][lane];
         mask |= static_cast<unsigned>(in) << lane;
     }
     return mask;
@@ -107,9 +108,14 @@ bool GridTree::extend(Boxes& boxes, std::uint32_t lane, const GridBox& box) {
     return grew;
 }
 
-GridTree::Boxes GridTree::Boxes::none() {
+GridTree::Boxes GridTree::Boxes::none() { return all(kNothing); }
+
+GridTree::Boxes GridTree::Boxes::all(const GridBox& box) {
     Boxes boxes;
-    for (std::uint32_t lane = 0; lane < kFan; ++lane) boxes.put(lane, kNothing);
+    for (int axis = 0; axis < 3; ++axis) {
+        std::fill_n(boxes.low[axis], kFan, box.low[axis]);
+        std::fill_n(boxes.high[axis], kFan, box.high[axis]);
+    }
     return boxes;
 }
 
@@ -189,7 +195,7 @@ bool GridTree::is_spatial() const {
 
 /// This part and later ones whose bounding boxes meet its own.
 std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
-    const GridBox own = levels_[part_level()][part].hull();
+    const Boxes own = Boxes::all(levels_[part_level()][part].hull());
     std::vector<std::uint32_t> parts;
     std::vector<Entry> stack{root()};
     while (!stack.empty()) {

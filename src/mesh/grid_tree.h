@@ -31,12 +31,15 @@ public:
 
         /// Eight empty boxes, which meet nothing.
         static Boxes none();
+        /// The same box eight times.
+        static Boxes all(const GridBox& box);
         GridBox operator[](std::uint32_t lane) const;
         void put(std::uint32_t lane, const GridBox& box);
         /// The bounding box of all eight.
         GridBox hull() const;
-        /// Bit n is set if box n meets `box`.
-        unsigned meeting(const GridBox& box) const;
+        /// Bit n is set if box n meets box n of the others.
+        unsigned meeting(const Boxes& others) const;
+        unsigned meeting(const GridBox& box) const { return meeting(all(box)); }
     };
 
     /// Rebuilds the tree; releases the old boxes first. box_of(n) returns the box at place n, or an empty box; it is
@@ -131,7 +134,7 @@ void GridTree::build(std::uint32_t count, const Box& extent, std::uint32_t threa
 
 template <class Visit>
 void GridTree::search(const Box& box, Visit&& visit) const {
-    const GridBox wanted = outward(box);
+    const Boxes wanted = Boxes::all(outward(box));
     Entry stack[128];
     int top = 0;
     stack[top++] = root();

@@ -1,5 +1,7 @@
 #include "simplify/edge_costs.h"
 
+#include <cstddef>
+
 #include "base/lanes.h"
 
 namespace regionmesh {
@@ -17,14 +19,15 @@ struct Quadrics {
 };
 
 Quadrics side_by_side(const PackedQuadric& p, const PackedQuadric& q, const PackedQuadric& r, const PackedQuadric& s) {
-    const auto four = [&](float PackedQuadric::*entry) { return Float4{p.*entry, q.*entry, r.*entry, s.*entry}; };
-    using Q = PackedQuadric;
-    Quadrics all;
-    all.xx = four(&Q::xx), all.xy = four(&Q::xy), all.xz = four(&Q::xz);
-    all.yy = four(&Q::yy), all.yz = four(&Q::yz), all.zz = four(&Q::zz);
-    all.b = {four(&Q::bx), four(&Q::by), four(&Q::bz)};
-    all.c = four(&Q::c);
-    return all;
+    const auto four = [&](std::size_t first) {
+        const auto of = [&](const PackedQuadric& quadric) {
+            return load<Float4>(reinterpret_cast<const char*>(&quadric) + first);
+        };
+        return transposed(of(p), of(q), of(r), of(s));
+    };
+    const auto [xx, xy, xz, yy] = four(offsetof(PackedQuadric, xx));
+    const auto [yz, zz, bx, by] = four(offsetof(PackedQuadric, yz));
+    return {xx, xy, xz, yy, yz, zz, {bx, by, Float4{p.bz, q.bz, r.bz, s.bz}}, Float4{p.c, q.c, r.c, s.c}};
 }
 
 /// Where sides of the box keep the coordinates of the merged vertices: relative to the middle of the edge.

@@ -34,16 +34,6 @@ Lanes3<Float4> offset(const Points4& at, const LatticePoint& from) {
     return {along(0), along(1), along(2)};
 }
 
-/// Columns of the four as rows.
-template <class Lanes>
-std::array<Lanes, 4> transposed(Lanes a, Lanes b, Lanes c, Lanes d) {
-    const Lanes low_ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), high_ab = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-    const Lanes low_cd = __builtin_shufflevector(c, d, 0, 4, 1, 5), high_cd = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-    return {__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5), __builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7),
-            __builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5),
-            __builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7)};
-}
-
 /// 1 less the square of a length measured in radii.
 struct Share {
     Float3 per_radius;

@@ -60,7 +60,6 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
                   .asked_budget = demand.asked_budget};
     const StripSums faces(demand.strip_faces);
     const std::uint64_t reading = demand.reading_bytes, per_face = chunk_bytes_per_face(demand, in_flight);
-    std::uint64_t most_ahead = 0;
     const std::uint64_t working = demand.is_decimating ? kWorkBytesPerFace : kMeshBytesPerFace;
     const auto note = [&](const MemoryNeed& need) {
         if (need.sum() > budget.least.sum()) budget.least = need;
@@ -72,7 +71,6 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
         for (std::uint64_t strip = first; strip < end; ++strip)
             window = std::max(window, window_at(demand, faces, strip));
         const std::uint64_t window_after = window_at(demand, faces, end), chunk = own * per_face;
-        most_ahead = std::max(most_ahead, faces(end, end + chunk_strips) * kChunkBytesPerFace);
         budget.chunks.push_back({before, own, reading + window + chunk, reading + window_after});
         const std::uint64_t kept = share_of(before, demand.target_share), left = share_of(own, demand.tile_share);
         note({reading, window, chunk, kept * kMeshBytesPerFace});
@@ -81,7 +79,6 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
     const std::uint64_t last =
         kMeshBytesPerFace + std::max(kCheckBytesPerFace, demand.preserves_volume ? kPreserveBytesPerFace : 0);
     note({kProcessBytes, 0, 0, share_of(faces(0, faces.size()), demand.target_share) * last});
-    budget.is_ahead = !demand.asked_budget && budget.least.sum() + most_ahead <= memory;
     return budget;
 }
 
@@ -96,6 +93,12 @@ std::uint64_t Budget::room_before(std::size_t chunk, std::uint64_t chunk_faces) 
     const std::uint64_t after = face_budget(chunk), room = after - std::min(after, chunk_faces);
     if (asked_budget) return room;
     return std::min(room, (memory - std::min(memory, chunks[chunk].gathering)) / kMeshBytesPerFace);
+}
+
+bool Budget::has_room_beside(std::size_t chunk, std::uint64_t mesh_faces) const {
+    if (asked_budget || chunk + 1 >= chunks.size()) return false;
+    return mesh_faces * kMeshBytesPerFace + chunks[chunk].gathering + chunks[chunk + 1].faces * kChunkBytesPerFace <=
+           memory;
 }
 
 std::uint64_t Budget::expected_faces(std::size_t chunk, std::uint64_t chunk_faces) const {

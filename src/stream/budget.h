@@ -50,7 +50,6 @@ struct Budget {
     std::uint64_t memory = 0;        // bytes to stay within
     std::uint32_t chunk_strips = 1;  // as demanded, unless only shorter chunks fit
     std::uint32_t in_flight = 1;     // tiles worked on at a time, as demanded unless only fewer fit
-    bool is_ahead = false;           // a chunk may be gathered while tiles of the one before are at work
     double share_in_flight = 1;      // of the faces of a chunk that these tiles may hold
     std::vector<ChunkMemory> chunks;
     MemoryNeed least;                                // the least memory that is enough
@@ -61,6 +60,8 @@ struct Budget {
     std::uint64_t face_budget(std::size_t chunk) const;
     /// Faces that the mesh may have while a chunk is gathered that will bring `chunk_faces`.
     std::uint64_t room_before(std::size_t chunk, std::uint64_t chunk_faces) const;
+    /// May the next chunk be gathered while the tiles of this one are at work, beside a mesh of so many faces?
+    bool has_room_beside(std::size_t chunk, std::uint64_t mesh_faces) const;
     /// Faces that a chunk will bring if the one before it brought `chunk_faces`.
     std::uint64_t expected_faces(std::size_t chunk, std::uint64_t chunk_faces) const;
 };

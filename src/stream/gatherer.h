@@ -14,12 +14,15 @@ namespace regionmesh {
 /// Consecutive strips as one chunk, and where it lies.
 struct GatheredStrips {
     Chunk chunk;
-    std::vector<ChunkVertex>
-        carried;            // vertices that the chunk carries, in its order: fixed until their last face is there
-    SafeInterval safe;      // where its faces may change: no faces of other chunks reach into it
-    std::uint32_t end = 0;  // strips gathered so far
+    /// The vertices that the chunk carries, in its order. They are fixed until their last face is there.
+    std::vector<ChunkVertex> carried;
+    /// Where its faces may change: no faces of other chunks reach into it.
+    SafeInterval safe;
+    /// Surface that is to come lies here or beyond along the sweep.
+    double safe_high = 0;
+    /// Strips gathered so far.
+    std::uint32_t end = 0;
     bool is_last = false;
-    double safe_high = 0;  // surface that is to come lies here or beyond along the sweep
 };
 
 /// A chunk of `chunk_strips` strips at a time; the last one may be shorter.

@@ -46,21 +46,22 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
     TileStage tiles(plan, options, strips.source().shape(), log);
     std::vector<double>& volumes = log.report().unsmoothed_volumes;
-    // A window of smoothing beside the tiles would take more memory than the time is worth (docs/performance.md).
-    const bool is_ahead = options.threads != 1 && tiles.is_on() && !strips.is_smoothing() && plan.budget.is_ahead;
+    // Smoothing has work for all threads most of the time, and beside tiles it takes more memory.
+    const bool may_gather_beside = options.threads != 1 && tiles.is_on() && !strips.is_smoothing();
     GatheredStrips now, next;
-    for (bool is_there = gatherer.next(now), is_more; is_there; is_there = is_more, std::swap(now, next)) {
+    for (bool is_more = gatherer.next(now); is_more; std::swap(now, next)) {
         if (!strips.is_smoothing() && options.preserve_volume) add_volumes(now.chunk, now.carried, volumes);
         const std::uint64_t initial_faces = now.chunk.faces.size();
         const auto gather = [&] { is_more = gatherer.next(next); };
-        if (is_ahead)
+        const bool is_beside = may_gather_beside && !now.is_last && simplify.has_room_beside();
+        if (is_beside)
             run_beside(
                 options.threads, [&] { tiles.run(now); }, gather);
         else
             tiles.run(now);
         simplify.merge(now.chunk, initial_faces);
         if (!now.is_last) simplify.keep_within_budget(now.safe_high);
-        if (!is_ahead) gather();
+        if (!is_beside) gather();
     }
     if (strips.is_smoothing()) {
         log.report().smoothing = strips.smooth_report();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/empty.h"
 #include "base/hash.h"
 #include "base/radix_sort.h"
 #include "base/union_find.h"
@@ -10,6 +11,23 @@
 
 namespace regionmesh {
 namespace {
+
+TEST(Empty, keeps_room_for_what_it_held_but_not_for_the_largest_filling) {
+    std::vector<std::uint64_t> array(1 << 20, 7);
+    empty(array);
+    EXPECT_TRUE(array.empty());
+    EXPECT_GE(array.capacity(), std::size_t{1} << 20);
+    array.resize(20000, 7);
+    empty(array);
+    EXPECT_TRUE(array.empty());
+    EXPECT_EQ(array.capacity(), 40000u);
+    array.resize(3);
+    empty(array);
+    EXPECT_LE(array.capacity() * sizeof(array[0]), std::size_t{64} << 10);
+    array.resize(5);
+    empty(array);
+    EXPECT_GE(array.capacity() * sizeof(array[0]), std::size_t{64} << 10);
+}
 
 TEST(FlatArray, grows_and_keeps_what_it_holds) {
     FlatArray<std::uint64_t> array;

@@ -1,6 +1,7 @@
 #include "simplify/verdict/intersect_test.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/box.h"
 #include "base/exact_predicates.h"
@@ -251,12 +252,16 @@ bool IntersectTest::meets(const Mesh& mesh, const EdgeStar& star, const Corners&
     const PlacedFace own{
         {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
         {mesh.position(old[0]->vertex()), mesh.position(old[1]->vertex()), mesh.position(old[2]->vertex())}};
-    if (is_degenerate({own.at[0], own.at[1], own.at[2]})) return false;  // it meets none, as in the check
-    const FacePlanes planes(own);
+    std::optional<FacePlanes> planes;
     for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);
         const PlacedFace made{{star.stays, star.faces[n].a, star.faces[n].b}, {position_, star.at_a(n), star.at_b(n)}};
-        if (boxes_overlap(own.at, made.at) && !planes.are_beside(made) && meet_outside_shared(made, own)) return true;
+        if (!boxes_overlap(own.at, made.at)) continue;
+        if (!planes) {
+            if (is_degenerate({own.at[0], own.at[1], own.at[2]})) return false;  // it meets none, as in the check
+            planes.emplace(own);
+        }
+        if (!planes->are_beside(made) && meet_outside_shared(made, own)) return true;
     }
     return false;
 }

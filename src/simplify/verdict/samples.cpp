@@ -135,10 +135,10 @@ Verdict test_samples(Collapse& collapse) {
     before.clear();
     for (int n = 0; n < star.face_count(); ++n)
         before.push_back({{star.at_apex(n), star.at_a(n), star.at_b(n)}, collapse.mesh[star.faces[n].face].labels});
-    after = before;
     for (FaceId f : star.dead) before.push_back({collapse.mesh.corners(f), collapse.mesh[f].labels});
     const SweptSamples swept = find_swept_samples(*collapse.samples, before, collapse.position);
     if (swept != SweptSamples::kPerhaps) return swept == SweptSamples::kSome ? Verdict::kSamples : Verdict::kAccepted;
+    after.assign(before.begin(), before.begin() + star.face_count());
     for (LabelledTriangle& face : after) face.at[0] = collapse.position;
     return changes_samples(*collapse.samples, before, after) ? Verdict::kSamples : Verdict::kAccepted;
 }
