@@ -21,6 +21,10 @@ struct KeyedIndex;
 using Corner = std::uint32_t;
 inline constexpr Corner kNoCorner = 0xFFFFFFFFu;
 
+/// The places of the next and the previous corner of a face, in its orientation.
+constexpr int place_after(int place) { return place == 2 ? 0 : place + 1; }
+constexpr int place_before(int place) { return place == 0 ? 2 : place - 1; }
+
 /// 32 bytes, half a cache line: a walk around a star touches one cache line per face.
 struct Face {
     std::array<VertexId, 3>
@@ -28,7 +32,7 @@ struct Face {
     std::array<Corner, 3> next;  // next corner in the star of the vertex at the same place
     std::array<Label, 2> labels;  // the smaller dense label first
 
-    /// As labels == others, which calls a function of the C library.
+    /// The same as labels == others, but inline: that comparison calls memcmp.
     bool has_labels(const std::array<Label, 2>& others) const {
         return labels[0] == others[0] && labels[1] == others[1];
     }

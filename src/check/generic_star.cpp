@@ -37,7 +37,7 @@ bool GenericStar::has_one_fan(VertexId v, Label label) {
     fan_.clear();
     mesh_.for_star(v, [&](FaceId f, int place) {
         const Face& face = mesh_[f];
-        const VertexId a = face.vertices[(place + 1) % 3], b = face.vertices[(place + 2) % 3];
+        const VertexId a = face.vertices[place_after(place)], b = face.vertices[place_before(place)];
         if (face.labels[0] == label)
             fan_.push_back({a, b, index(f)});
         else if (face.labels[1] == label)

@@ -65,7 +65,7 @@ private:
         mesh_.for_star(v, [&](FaceId f, int place) {
             const Face& face = mesh_[f];
             if (repeats_a_vertex(face)) return;  // its neighbours are checked without it
-            pages_.push_back({f, face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3], face.labels});
+            pages_.push_back({f, face.vertices[place_after(place)], face.vertices[place_before(place)], face.labels});
             is_odd |= face.labels[0] == face.labels[1];
             for (Label label : face.labels) {
                 if (is_exterior(label))

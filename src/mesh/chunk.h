@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/empty.h"
+#include "base/reused_vector.h"
 #include "regionmesh/label.h"
 #include "regionmesh/vec3.h"
 
@@ -39,10 +39,10 @@ struct Chunk {
 
     void clear() {
         carried = 0;
-        empty(vertices);
-        empty(faces);
-        empty(active);
-        empty(carried_bounds);
+        clear_reused(vertices);
+        clear_reused(faces);
+        clear_reused(active);
+        clear_reused(carried_bounds);
     }
 };
 

@@ -29,7 +29,7 @@ public:
         at = mesh_.position(v);
         mesh_.for_star(v, [&](FaceId f, int place) {
             const Face& face = mesh_[f];
-            const VertexId a = face.vertices[(place + 1) % 3], b = face.vertices[(place + 2) % 3];
+            const VertexId a = face.vertices[place_after(place)], b = face.vertices[place_before(place)];
             pages.push_back({f, a, b, mesh_.position(a), mesh_.position(b), face.labels});
         });
         return v;

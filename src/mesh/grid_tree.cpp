@@ -64,9 +64,9 @@ GridTree::GridBox GridTree::outward(const Box& box) const {
     // the empty one.
     static_assert(sizeof(Box) == 3 * sizeof(Double2));  // low x y, low z and high x, high y z
     const Double2 scale = both(cells_per_length_), least_cell = both(kLowest + 1.0), most_cell = both(kHighest - 1.0);
-    const auto cells_at = [&](int pair, Double2 origin, Double2 outward) {
+    const auto cells_at = [&](int pair, Double2 origin, Double2 rounding) {
         const auto ends = load<Double2>(reinterpret_cast<const char*>(&box) + pair * sizeof(Double2));
-        return least(greatest((ends - origin) * scale - both(32760) + outward, least_cell), most_cell);
+        return least(greatest((ends - origin) * scale - both(32760) + rounding, least_cell), most_cell);
     };
     const Double2 low = cells_at(0, Double2{origin_.x, origin_.y}, both(-1)),
                   ends = cells_at(1, Double2{origin_.z, origin_.x}, Double2{-1, 1}),

@@ -33,7 +33,7 @@ private:
         sides_.clear();
         mesh_.for_star(v, [&](FaceId f, int place) {
             const Face& face = mesh_[f];
-            const VertexId a = face.vertices[(place + 1) % 3], b = face.vertices[(place + 2) % 3];
+            const VertexId a = face.vertices[place_after(place)], b = face.vertices[place_before(place)];
             add(v, a, b, f, true);
             add(v, b, a, f, false);
         });

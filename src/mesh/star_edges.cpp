@@ -12,7 +12,7 @@ void StarEdges::gather(const Mesh& mesh, VertexId v) {
     uses_.clear();
     mesh.for_star(v, [&](FaceId f, int place) {
         const Face& face = mesh[f];
-        for (VertexId end : {face.vertices[(place + 1) % 3], face.vertices[(place + 2) % 3]}) {
+        for (VertexId end : {face.vertices[place_after(place)], face.vertices[place_before(place)]}) {
             const std::ptrdiff_t at = std::find(ends_.begin(), ends_.end(), end) - ends_.begin();
             if (at == static_cast<std::ptrdiff_t>(ends_.size())) {
                 ends_.push_back(end);

@@ -24,7 +24,7 @@ LabelSet edge_labels(const Mesh& mesh, VertexId u, VertexId v) {
     int uses = 0;
     mesh.for_star(u, [&](FaceId f, int place) {
         const Face& face = mesh[f];
-        if (face.vertices[(place + 1) % 3] != v && face.vertices[(place + 2) % 3] != v) return;
+        if (face.vertices[place_after(place)] != v && face.vertices[place_before(place)] != v) return;
         for (Label label : face.labels) set.add(label);
         uses += 2;
     });

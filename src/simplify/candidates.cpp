@@ -41,8 +41,8 @@ std::uint64_t Candidates::refresh() {
 void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
     found.vertices.clear();
     if (label_count(v) == 2) {
-        mesh_.for_star(
-            v, [&](FaceId f, int place) { found.vertices.push_back(mesh_[f].vertices[place == 2 ? 0 : place + 1]); });
+        mesh_.for_star(v,
+                       [&](FaceId f, int place) { found.vertices.push_back(mesh_[f].vertices[place_after(place)]); });
         found.label_counts.assign(found.vertices.size(), 2);
     } else {
         edges_.gather(mesh_, v);

@@ -14,7 +14,8 @@ namespace {
 /// The edge of f opposite to `place`, if it has two faces, of one interface and of the same direction.
 std::optional<Flip> find_flip(const Mesh& mesh, FaceId f, int place) {
     const auto& own = mesh[f].vertices;
-    Flip flip{.f = f, .g = f, .u = own[(place + 1) % 3], .v = own[(place + 2) % 3], .c = own[place], .d = kNoVertex};
+    Flip flip{
+        .f = f, .g = f, .u = own[place_after(place)], .v = own[place_before(place)], .c = own[place], .d = kNoVertex};
     int count = 0;
     mesh.for_star(flip.u, [&](FaceId g, int at) {
         const auto& v = mesh[g].vertices;

@@ -7,7 +7,7 @@ namespace {
 
 void add_surviving(const Mesh& mesh, FaceId f, int place, EdgeStar& star) {
     const auto& v = mesh[f].vertices;
-    star.faces.push_back({f, v[place == 2 ? 0 : place + 1], v[place == 0 ? 2 : place - 1], v[place]});
+    star.faces.push_back({f, v[place_after(place)], v[place_before(place)], v[place]});
 }
 
 /// The measures that do not depend on where the merged vertex goes.
@@ -77,7 +77,7 @@ void start(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
 void add_faces_of_goes(const Mesh& mesh, EdgeStar& star) {
     mesh.for_star(star.goes, [&](FaceId f, int place) {
         const Face& face = mesh[f];
-        const VertexId a = face.vertices[place == 2 ? 0 : place + 1], b = face.vertices[place == 0 ? 2 : place - 1];
+        const VertexId a = face.vertices[place_after(place)], b = face.vertices[place_before(place)];
         if (a != star.stays && b != star.stays) return add_surviving(mesh, f, place, star);
         star.dead.push_back(f);
         star.apexes.push_back(a == star.stays ? b : a);
@@ -100,7 +100,7 @@ void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
     add_faces_of_goes(mesh, star);
     mesh.for_star(stays, [&](FaceId f, int place) {
         const Face& face = mesh[f];
-        if (face.vertices[place == 2 ? 0 : place + 1] != goes && face.vertices[place == 0 ? 2 : place - 1] != goes)
+        if (face.vertices[place_after(place)] != goes && face.vertices[place_before(place)] != goes)
             add_surviving(mesh, f, place, star);
     });
     star.is_interface = is_one_interface(mesh, star);

@@ -143,7 +143,7 @@ void LindstromTurk::add_face(const Mesh& mesh, FaceId f, int place) {
     add_to(face.labels[1], -1, -normal, -offset);
     if (!keeps_areas_ || is_exterior(face.labels[1])) return;
     for (int n = 0; n < 3; ++n) {
-        if (n == (place + 1) % 3) continue;  // the edge of the link
+        if (n == place_after(place)) continue;  // the edge of the link
         const int next = (n + 1) % 3;
         const SideSet sides = mesh[face.vertices[n]].sides & mesh[face.vertices[next]].sides;
         for (int side = 0; side < 6; ++side) {
@@ -175,7 +175,7 @@ void LindstromTurk::add_star(const Mesh& mesh, VertexId v, VertexId except) {
     if (except != kNoVertex) line_ends_.push_back(except);
     mesh.for_star(v, [&](FaceId f, int place) {
         const auto& corners = mesh[f].vertices;
-        const VertexId a = corners[(place + 1) % 3], b = corners[(place + 2) % 3];
+        const VertexId a = corners[place_after(place)], b = corners[place_before(place)];
         if (a != except && b != except) add_face(mesh, f, place);
         if (!is_on_line) return;
         add_line(mesh, v, a);

@@ -106,7 +106,7 @@ bool Prepass::gather_ends(VertexId v) {
     mesh_.for_star(v, [&](FaceId f, int place) {
         ++faces;
         const auto& corners = mesh_[f].vertices;
-        const VertexId after = corners[place == 2 ? 0 : place + 1], before = corners[place == 0 ? 2 : place - 1];
+        const VertexId after = corners[place_after(place)], before = corners[place_before(place)];
         if (mesh_[v].label_count == 2) return add_end(after);  // each neighbour comes first in one face
         for (VertexId end : {after, before}) {
             if (mesh_[end].label_count < 3 || std::find(line_ends_.begin(), line_ends_.end(), end) != line_ends_.end())

@@ -52,8 +52,8 @@ private:
     struct Part {
         std::vector<std::uint32_t> places;  // of its faces by tile: counts first, then positions in order_
         std::vector<KeyedIndex> halo;
-        std::uint32_t tile = kNone;  // of the face before, and its limits
-        Box limits = {};
+        std::uint32_t tile = kNone;  // of the last face assigned
+        Box limits = {};             // of that tile
     };
 
     std::array<ChunkVertex, 3> corners(const ChunkFace& face) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel_for.h"
+#include "base/reused_vector.h"
 #include "regionmesh/process.h"
 #include "smooth/tuning.h"
 
@@ -91,7 +92,7 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     const Timer timer(report_.filter_seconds);
     is_last_ = is_last;
     std::vector<LatticeVertex>& vertices = parts_.vertices;
-    empty(vertices);
+    clear_reused(vertices);
     for (const ChunkVertex& vertex : chunk.vertices)
         vertices.push_back({simplex_of(vertex.position, order_.frame), vertex.sides});
     chunks_.push_back(chunk, vertices);

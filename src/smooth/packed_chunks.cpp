@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/empty.h"
+#include "base/reused_vector.h"
 
 namespace regionmesh {
 namespace {
@@ -53,8 +53,7 @@ void put_vertices(PackedBytes& to, std::span<const LatticeVertex> vertices) {
 }
 
 void take_vertices(const std::uint8_t* from, std::uint32_t count, std::vector<LatticeVertex>& vertices) {
-    empty(vertices);
-    vertices.resize(count);
+    resize_reused(vertices, count);
     Vec3 base;
     for (LatticeVertex& vertex : vertices) {
         vertex.sides = 0;
@@ -94,8 +93,7 @@ const std::uint8_t* take_faces(const std::uint8_t* from, std::uint32_t count, st
     };
     RecentLabels recent;
     std::uint32_t last = 0;
-    empty(faces);
-    faces.resize(count);
+    resize_reused(faces, count);
     for (auto& [v, labels] : faces) {
         const std::uint64_t head = take_number(from);
         const auto place = static_cast<std::uint32_t>(head % (RecentLabels::kNew + 1));
@@ -119,7 +117,7 @@ const std::uint8_t* take_faces(const std::uint8_t* from, std::uint32_t count, st
 
 void PackedChunks::push_back(const Chunk& chunk, std::span<const LatticeVertex> vertices) {
     thread_local PackedBytes bytes;
-    empty(bytes);
+    clear_reused(bytes);
     Packed packed{chunk.carried,
                   static_cast<std::uint32_t>(vertices.size()),
                   static_cast<std::uint32_t>(chunk.faces.size()),

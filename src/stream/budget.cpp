@@ -95,7 +95,7 @@ std::uint64_t Budget::room_before(std::size_t chunk, std::uint64_t chunk_faces) 
     return std::min(room, (memory - std::min(memory, chunks[chunk].gathering)) / kMeshBytesPerFace);
 }
 
-bool Budget::has_room_beside(std::size_t chunk, std::uint64_t mesh_faces) const {
+bool Budget::has_room_ahead(std::size_t chunk, std::uint64_t mesh_faces) const {
     if (asked_budget || chunk + 1 >= chunks.size()) return false;
     return mesh_faces * kMeshBytesPerFace + chunks[chunk].gathering + chunks[chunk + 1].faces * kChunkBytesPerFace <=
            memory;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/run_beside.h"
+#include "base/parallel_invoke.h"
 #include "regionmesh/error.h"
 #include "regionmesh/process.h"
 #include "regionmesh/voxelise.h"
@@ -46,22 +46,22 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
     TileStage tiles(plan, options, strips.source().shape(), log);
     std::vector<double>& volumes = log.report().unsmoothed_volumes;
-    // Smoothing has work for all threads most of the time, and beside tiles it takes more memory.
-    const bool may_gather_beside = options.threads != 1 && tiles.is_on() && !strips.is_smoothing();
+    // Not with smoothing: it uses all threads most of the time, and its window takes more memory (docs/performance.md).
+    const bool may_gather_ahead = options.threads != 1 && tiles.is_on() && !strips.is_smoothing();
     GatheredStrips now, next;
     for (bool is_more = gatherer.next(now); is_more; std::swap(now, next)) {
         if (!strips.is_smoothing() && options.preserve_volume) add_volumes(now.chunk, now.carried, volumes);
         const std::uint64_t initial_faces = now.chunk.faces.size();
         const auto gather = [&] { is_more = gatherer.next(next); };
-        const bool is_beside = may_gather_beside && !now.is_last && simplify.has_room_beside();
-        if (is_beside)
-            run_beside(
+        const bool is_ahead = may_gather_ahead && simplify.has_room_ahead();
+        if (is_ahead)
+            parallel_invoke(
                 options.threads, [&] { tiles.run(now); }, gather);
         else
             tiles.run(now);
         simplify.merge(now.chunk, initial_faces);
         if (!now.is_last) simplify.keep_within_budget(now.safe_high);
-        if (!is_beside) gather();
+        if (!is_ahead) gather();
     }
     if (strips.is_smoothing()) {
         log.report().smoothing = strips.smooth_report();

@@ -16,7 +16,7 @@ SimplifyStage::SimplifyStage(Mesh& mesh, const Plan& plan, const ReconstructOpti
                              RunLog& log)
     : mesh_(mesh), plan_(plan), options_(options), shape_(shape), log_(log), budget_(plan.budget) {}
 
-bool SimplifyStage::has_room_beside() const { return budget_.has_room_beside(merged_chunks_, mesh_.face_count()); }
+bool SimplifyStage::has_room_ahead() const { return budget_.has_room_ahead(merged_chunks_, mesh_.face_count()); }
 
 void SimplifyStage::merge(Chunk& chunk, std::uint64_t initial_faces) {
     {

@@ -14,8 +14,8 @@ public:
     SimplifyStage(Mesh& mesh, const Plan& plan, const ReconstructOptions& options, const SourceShape& shape,
                   RunLog& log);
 
-    /// May the chunk after the next one to merge be gathered while the tiles of that one are at work?
-    bool has_room_beside() const;
+    /// True if memory has room for one more chunk while the tiles of the chunk to be merged next are decimated.
+    bool has_room_ahead() const;
     /// Merges a chunk and empties it. It had `initial_faces` faces before its tiles were decimated.
     void merge(Chunk& chunk, std::uint64_t initial_faces);
     /// Makes room for the next chunk. Faces to come lie at `safe_high` or beyond along the sweep.

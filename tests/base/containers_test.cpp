@@ -3,30 +3,35 @@
 
 #include <algorithm>
 
-#include "base/empty.h"
 #include "base/hash.h"
 #include "base/radix_sort.h"
+#include "base/reused_vector.h"
 #include "base/union_find.h"
 #include "regionmesh/flat_array.h"
 
 namespace regionmesh {
 namespace {
 
-TEST(Empty, keeps_room_for_what_it_held_but_not_for_the_largest_filling) {
+TEST(ReusedVector, keeps_room_for_the_last_content_but_not_for_the_largest) {
     std::vector<std::uint64_t> array(1 << 20, 7);
-    empty(array);
+    clear_reused(array);
     EXPECT_TRUE(array.empty());
     EXPECT_GE(array.capacity(), std::size_t{1} << 20);
     array.resize(20000, 7);
-    empty(array);
+    clear_reused(array);
     EXPECT_TRUE(array.empty());
     EXPECT_EQ(array.capacity(), 40000u);
     array.resize(3);
-    empty(array);
+    clear_reused(array);
     EXPECT_LE(array.capacity() * sizeof(array[0]), std::size_t{64} << 10);
     array.resize(5);
-    empty(array);
+    clear_reused(array);
     EXPECT_GE(array.capacity() * sizeof(array[0]), std::size_t{64} << 10);
+    resize_reused(array, 1 << 20);
+    EXPECT_EQ(array.size(), std::size_t{1} << 20);
+    resize_reused(array, 20000);
+    EXPECT_EQ(array.size(), 20000u);
+    EXPECT_EQ(array.capacity(), 40000u);
 }
 
 TEST(FlatArray, grows_and_keeps_what_it_holds) {

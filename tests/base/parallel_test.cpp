@@ -9,7 +9,7 @@
 
 #include "base/parallel_for.h"
 #include "base/parallel_in_order.h"
-#include "base/run_beside.h"
+#include "base/parallel_invoke.h"
 #include "base/union_find.h"
 #include "regionmesh/stop.h"
 #include "support/random.h"
@@ -61,55 +61,55 @@ TEST(ParallelInOrder, throws_what_a_call_throws) {
         EXPECT_THROW(parallel_in_order(20, 4, threads, {work, [](std::uint32_t, std::uint32_t) {}}), std::uint32_t);
 }
 
-TEST(RunBeside, runs_both_and_helps_with_their_loops) {
+TEST(ParallelInvoke, runs_both_and_all_parts_of_their_loops) {
     for (const std::uint32_t threads : {1u, 2u, 5u})
         for (std::uint32_t round = 0; round < 50; ++round) {
-            std::vector<std::uint32_t> beside(200, 0), here(200, 0);
-            run_beside(
-                threads, [&] { parallel_for(200, threads, [&](std::uint32_t n) { beside[n] += n; }); },
-                [&] { parallel_for(200, threads, [&](std::uint32_t n) { here[n] += 2 * n; }); });
-            for (std::uint32_t n = 0; n < 200; ++n) ASSERT_EQ(beside[n] + here[n], 3 * n);
+            std::vector<std::uint32_t> other(200, 0), own(200, 0);
+            parallel_invoke(
+                threads, [&] { parallel_for(200, threads, [&](std::uint32_t n) { other[n] += n; }); },
+                [&] { parallel_for(200, threads, [&](std::uint32_t n) { own[n] += 2 * n; }); });
+            for (std::uint32_t n = 0; n < 200; ++n) ASSERT_EQ(other[n] + own[n], 3 * n);
         }
 }
 
-TEST(RunBeside, runs_here_on_its_own_thread) {
+TEST(ParallelInvoke, runs_the_second_on_its_own_thread) {
     for (const std::uint32_t threads : {1u, 2u}) {
         const std::thread::id own = std::this_thread::get_id();
         std::thread::id seen;
-        run_beside(
+        parallel_invoke(
             threads, [] {}, [&] { seen = std::this_thread::get_id(); });
         EXPECT_EQ(seen, own);
     }
 }
 
-TEST(RunBeside, throws_what_a_call_throws_after_both_have_ended) {
+TEST(ParallelInvoke, throws_what_a_call_throws_after_both_have_ended) {
     for (const std::uint32_t threads : {1u, 2u}) {
         std::atomic<bool> is_done = false;
         const auto slow = [&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             is_done = true;
         };
-        EXPECT_THROW(run_beside(
+        EXPECT_THROW(parallel_invoke(
                          threads, [] { throw 7; }, slow),
                      int);
         EXPECT_TRUE(is_done);
         std::atomic<bool> is_begun = false, is_ended = false;
-        const auto slow_beside = [&] {
+        const auto slow_other = [&] {
             is_begun = true;
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             is_ended = true;
         };
-        EXPECT_THROW(run_beside(threads, slow_beside, [] { throw 7; }), int);
+        EXPECT_THROW(parallel_invoke(threads, slow_other, [] { throw 7; }), int);
         EXPECT_EQ(is_begun, is_ended);
     }
 }
 
-TEST(RunBeside, is_stopped_on_both_threads) {
+TEST(ParallelInvoke, hands_on_the_request_to_stop) {
     for (const std::uint32_t threads : {1u, 2u}) {
         const std::atomic<bool> stop = true;
         const StopScope scope(stop);
         std::uint32_t done = 0;
-        EXPECT_THROW(run_beside(
+        EXPECT_THROW(parallel_invoke(
                          threads, [&] { parallel_for(1000, threads, [&](std::uint32_t) { ++done; }); }, [] {}),
                      Stopped);
         EXPECT_EQ(done, 0u);

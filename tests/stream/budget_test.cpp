@@ -132,14 +132,14 @@ TEST(Budget, the_next_run_is_expected_to_keep_as_much_as_the_last) {
     EXPECT_EQ(plan_budget(kPlenty, demand).expected_faces(1, 10000), 30000u);
 }
 
-TEST(Budget, a_chunk_is_gathered_beside_the_one_before_only_where_both_fit) {
+TEST(Budget, the_next_chunk_is_gathered_ahead_only_where_both_fit) {
     Budget budget = plan_budget(kPlenty, even_demand(100));
     ASSERT_GE(budget.chunks.size(), 3u);
-    EXPECT_TRUE(budget.has_room_beside(0, 1000));
-    EXPECT_FALSE(budget.has_room_beside(budget.chunks.size() - 1, 1000));  // nothing comes after it
+    EXPECT_TRUE(budget.has_room_ahead(0, 1000));
+    EXPECT_FALSE(budget.has_room_ahead(budget.chunks.size() - 1, 1000));  // nothing comes after it
     budget.memory = 1000 * kMeshBytesPerFace + budget.chunks[0].gathering + 32 * 1000 * kChunkBytesPerFace;
-    EXPECT_TRUE(budget.has_room_beside(0, 1000));
-    EXPECT_FALSE(budget.has_room_beside(0, 1001));
+    EXPECT_TRUE(budget.has_room_ahead(0, 1000));
+    EXPECT_FALSE(budget.has_room_ahead(0, 1001));
 }
 
 TEST(Census, counts_the_faces_of_each_strip) {

@@ -42,8 +42,8 @@ private:
     std::uint8_t round_of(FaceId f) const {
         unsigned taken = 0;
         for (int place = 0; place < 3; ++place) {
-            const VertexId a = mesh_[f].vertices[place], b = mesh_[f].vertices[(place + 1) % 3],
-                           c = mesh_[f].vertices[(place + 2) % 3];
+            const VertexId a = mesh_[f].vertices[place], b = mesh_[f].vertices[place_after(place)],
+                           c = mesh_[f].vertices[place_before(place)];
             mesh_.for_star(a, [&](FaceId g, int at) {
                 if (!(g < f) || mesh_[g].labels != mesh_[f].labels) return;
                 for (const int step : {1, 2})

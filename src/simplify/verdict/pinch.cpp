@@ -90,7 +90,7 @@ bool pinches_at_link(const Mesh& mesh, const EdgeStar& star, Vec3 position, cons
         bool pinched = false;
         mesh.for_star(f.a, [&](FaceId g, int place) {
             const auto& v = mesh[g].vertices;
-            const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
+            const VertexId after = v[place_after(place)], before = v[place_before(place)];
             if (pinched || (after != f.b && before != f.b)) return;
             const VertexId third = after == f.b ? before : after;
             if (third == star.goes || (third == star.stays && !star.keeps_stays)) return;
@@ -105,7 +105,7 @@ bool pinches_at_stays(const Mesh& mesh, const EdgeStar& star, const ShapeBounds&
     bool pinched = false;
     mesh.for_star(star.stays, [&](FaceId f, int place) {
         const auto& v = mesh[f].vertices;
-        const VertexId after = v[(place + 1) % 3], before = v[(place + 2) % 3];
+        const VertexId after = v[place_after(place)], before = v[place_before(place)];
         if (after == star.goes || before == star.goes) return;
         for (int n = 0; n < star.face_count(); ++n) {
             for (VertexId end : {after, before}) {

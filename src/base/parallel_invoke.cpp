@@ -1,4 +1,4 @@
-#include "base/run_beside.h"
+#include "base/parallel_invoke.h"
 
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
@@ -11,11 +11,11 @@
 
 namespace regionmesh {
 
-void run_beside(std::uint32_t threads, const std::function<void()>& beside, const std::function<void()>& here) {
+void parallel_invoke(std::uint32_t threads, const std::function<void()>& other, const std::function<void()>& own) {
     namespace tbb = oneapi::tbb;
     if (threads == 1) {
-        here();
-        beside();
+        own();
+        other();
         return;
     }
     const std::atomic<bool>* stop = stop_of_this_thread();
@@ -27,11 +27,11 @@ void run_beside(std::uint32_t threads, const std::function<void()>& beside, cons
             begun.comes_first();
             std::optional<StopScope> scope;
             if (stop != nullptr) scope.emplace(*stop);
-            beside();
+            other();
             ended.happened();
         });
-        // This thread begins nothing else while it waits for its own loops.
-        tbb::this_task_arena::isolate(here);
+        // In the loops of own(), this thread does not start other().
+        tbb::this_task_arena::isolate(own);
         group.wait();
     });
     ended.comes_first();
