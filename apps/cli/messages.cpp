@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 
 #include "page_output.h"
 #include "printable.h"
@@ -22,8 +23,10 @@ struct State {
     Clock::time_point start;
 };
 State state;
+std::mutex log_mutex;  // a model is written while another thread reports the check
 
 void put_into_log(std::string_view line) {
+    const std::scoped_lock lock(log_mutex);
     if (!state.log) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - state.start).count();
     std::fprintf(state.log, "%9.2f s  ", seconds);

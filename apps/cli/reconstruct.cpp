@@ -111,8 +111,9 @@ struct ModelNotes {
     Space space = Space::kUnknown;
 };
 
-/// Reconstructs the input, whichever kind it is of, and sets `notes` to what it says about its labels and its space.
-Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
+/// Reconstructs the input, whichever kind it is of. Sets `notes` to what it says about its labels and its space, before
+/// the model is handed on.
+Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, const OnModel& on_model) {
     ProgressLine line(settings.quiet);
     MemoryWarning memory(settings);
     return with_reader(settings, settings.inputs, [&](auto& reader) {
@@ -121,10 +122,11 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes) {
         notes.labels = describe(settings, reader.info().names, colours);
         if constexpr (requires { reader.info().space; }) notes.space = reader.info().space;
         warn_of_grey_scale(settings, reader);
-        Reconstruction made = reconstruct(reader, settings.reconstruct, [&](const Progress& progress) {
+        const auto on_progress = [&](const Progress& progress) {
             memory.show(progress);
             line.show(progress);
-        });
+        };
+        Reconstruction made = reconstruct(reader, settings.reconstruct, on_progress, on_model);
         line.clear();
         return made;
     });
@@ -142,22 +144,22 @@ int run_reconstruct(const Settings& settings) {
     std::optional<MemoryWatch> watch;
     if (settings.memory_is_hard) watch.emplace(settings.reconstruct.memory);
     ModelNotes notes;
-    Reconstruction made = reconstruct_input(settings, notes);
-    require_regions(settings, made.report.check);
-    warn_of_absent_labels(settings, made.mesh, made.labels);
-    Report& report = made.report;
     const auto& [names, colours] = notes.labels;
-    const Model model{made.mesh, made.labels, made.background, names, colours, notes.space};
-    put_line(Audience::kLog, "write");
     OutputFiles files(model_writing(settings));
     std::vector<std::filesystem::path> written;
     double writing = 0;
-    {
+    const auto write = [&](const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background) {
+        if (mesh.face_count() == 0) return;
+        put_line(Audience::kLog, "write");
         const Timer timer(writing);
-        written = write_model(settings, model, files);
-    }
+        written = write_model(settings, {mesh, labels, background, names, colours, notes.space}, files);
+    };
+    Reconstruction made = reconstruct_input(settings, notes, write);
+    require_regions(settings, made.report.check);
+    warn_of_absent_labels(settings, made.mesh, made.labels);
+    Report& report = made.report;
     report.seconds["write"] = writing;
-    report.seconds["total"] += writing;
+    const Model model{made.mesh, made.labels, made.background, names, colours, notes.space};
     write_report_file(settings, report, model, made_by(kReconstruct, settings), files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, model)},

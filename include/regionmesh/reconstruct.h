@@ -63,6 +63,12 @@ struct Reconstruction {
     Report report;
 };
 
+using OnProgress = std::function<void(const Progress&)>;
+
+/// Receives the finished model and its dense background labels, to write it or show it. With more than one thread it is
+/// called on another thread, while this one checks the model.
+using OnModel = std::function<void(const Mesh&, const LabelTable&, const std::vector<Label>& background)>;
+
 /// How sections are meshed with these options: kCompact or kTetrahedra.
 CellKind cell_kind(const ReconstructOptions& options);
 
@@ -72,16 +78,16 @@ std::uint64_t expected_bytes(const VolumeInfo& volume, std::uint64_t faces);
 /// Reads all sections, builds the mesh on the fly within the memory, decimates it to the target and checks it. Sections
 /// that can be read twice are read first to count faces and to plan memory. With more than one thread, the reader is
 /// called on a thread of its own, one call at a time. Throws Error(kInput) for a volume with fewer than two samples
-/// along an axis and, after the first pass, for a target that does not fit in the memory; and whatever the reader
-/// throws. Deterministic.
+/// along an axis and, after the first pass, for a target that does not fit in the memory; and whatever the reader or
+/// `on_model` throws. Deterministic.
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},
-                           const std::function<void(const Progress&)>& on_progress = {});
+                           const OnProgress& on_progress = {}, const OnModel& on_model = {});
 
 /// The same from labelled tetrahedra (P 3.9). They are sorted along the sweep; their faces are spilled to disk (in
 /// TMPDIR) and read back in order, so that memory holds all points, but only the active tetrahedra. Lengths and
 /// qualities are measured with z scaled; the mesh is checked as it is written, without the scale. Throws Error(kInput)
-/// for invalid tetrahedra, Error(kOutput) for a full disk, and whatever the reader throws.
+/// for invalid tetrahedra, Error(kOutput) for a full disk, and whatever the reader or `on_model` throws.
 Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& options = {},
-                           const std::function<void(const Progress&)>& on_progress = {});
+                           const OnProgress& on_progress = {}, const OnModel& on_model = {});
 
 }  // namespace regionmesh

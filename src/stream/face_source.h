@@ -11,6 +11,7 @@
 #include "regionmesh/label_table.h"
 #include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/voxelise.h"
 
 namespace regionmesh {
 
@@ -67,6 +68,10 @@ public:
     virtual LabelOracle oracle() const = 0;
     /// Moves the finished mesh to its place in space.
     virtual void place(Mesh& mesh) const = 0;
+    /// False where the input has no samples or can be read only once, and for a mesh that is open at the box.
+    virtual bool can_compare() const { return false; }
+    /// Reads the input again, and compares its samples with the finished mesh. Requires can_compare().
+    virtual SampleAgreement compare(const Mesh&, std::uint32_t /*threads*/) { return {}; }
 };
 
 }  // namespace regionmesh

@@ -32,8 +32,10 @@ void restore_volumes(Reconstruction& result, const ReconstructOptions& options, 
     result.report.preserved = preserve_volumes(result.mesh, wanted, smooth_options(options, scale));
 }
 
-void check_result(Reconstruction& result, std::optional<LabelOracle> oracle, const ReconstructOptions& options,
-                  RunLog& log) {
+namespace {
+
+void check_mesh(Reconstruction& result, std::optional<LabelOracle> oracle, const ReconstructOptions& options,
+                RunLog& log) {
     log.report_progress("check");
     const StageTimer timer = log.time("check");
     CheckOptions check_options;
@@ -45,6 +47,18 @@ void check_result(Reconstruction& result, std::optional<LabelOracle> oracle, con
     check_options.label_text = [&](Label label) { return result.labels.text(result.labels.input(label)); };
     result.report.check = check(result.mesh, check_options);
     log.advance(WorkStage::kCheck, 1);
+}
+
+}  // namespace
+
+void check_result(Reconstruction& result, FaceSource& source, std::optional<LabelOracle> oracle,
+                  const ReconstructOptions& options, RunLog& log) {
+    check_mesh(result, std::move(oracle), options, log);
+    if (!source.can_compare()) return;
+    log.report_progress("samples");
+    const StageTimer timer = log.time("samples");
+    result.report.samples = source.compare(result.mesh, options.threads);
+    log.advance(WorkStage::kSamples, 1);
 }
 
 }  // namespace regionmesh

@@ -1,4 +1,4 @@
-// The last stages, on the finished mesh: improve faces, preserve volumes, place in space, check.
+// The last stages, on the finished mesh: improve faces, preserve volumes, check.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
 /// Gives the regions the volumes that they had before smoothing and decimation, where the options ask for it.
 void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log);
 
-/// Checks the mesh as it will be written.
-void check_result(Reconstruction& result, std::optional<LabelOracle> oracle, const ReconstructOptions& options,
-                  RunLog& log);
+/// Checks the mesh as it will be written, and compares it with the samples of the source.
+void check_result(Reconstruction& result, FaceSource& source, std::optional<LabelOracle> oracle,
+                  const ReconstructOptions& options, RunLog& log);
 
 }  // namespace regionmesh

@@ -9,7 +9,6 @@
 #include "base/parallel_invoke.h"
 #include "regionmesh/error.h"
 #include "regionmesh/process.h"
-#include "regionmesh/voxelise.h"
 #include "stream/chunk_volumes.h"
 #include "stream/finish.h"
 #include "stream/gatherer.h"
@@ -71,12 +70,13 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
 }
 
 /// Leaves out of the progress what this run does not do.
-void plan_progress(RunLog& log, const Plan& plan, const ReconstructOptions& options) {
+void plan_progress(RunLog& log, const Plan& plan, const ReconstructOptions& options, bool can_compare) {
     if (options.smooth.passes == 0) log.leave_out(WorkStage::kSmooth);
     if (!plan.is_decimating)
         for (const WorkStage stage : {WorkStage::kTiles, WorkStage::kPasses, WorkStage::kTrim}) log.leave_out(stage);
     if (!options.improve) log.leave_out(WorkStage::kImprove);
     if (!options.preserve_volume) log.leave_out(WorkStage::kVolumes);
+    if (!can_compare) log.leave_out(WorkStage::kSamples);
 }
 
 /// The result of a run, or the strip at which smoothing was stuck.
@@ -87,7 +87,7 @@ struct Attempt {
 
 /// Runs all stages; smoothing holds `extra` strips more than it seems to need.
 Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint32_t extra,
-                const OnProgress& on_progress) {
+                const OnProgress& on_progress, const OnModel& on_model) {
     Attempt run;
     Reconstruction& result = run.result;
     RunLog log(result, on_progress);
@@ -97,7 +97,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     const ChunkOrder order = strip_order(shape, extra);
     Plan plan = make_plan(shape, std::move(counted), window_strips(smooth, order), options);
 
-    plan_progress(log, plan, options);
+    plan_progress(log, plan, options, source.can_compare());
     SimplifyStage simplify(result.mesh, plan, options, shape, log);
     {
         Strips strips(source, smooth, order, log);
@@ -119,39 +119,29 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     source.place(result.mesh);
     for (double& volume : result.report.unsmoothed_volumes) volume /= shape.scale_z;
     result.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
-    check_result(result, std::move(plan.oracle), options, log);
+    const auto check = [&] { check_result(result, source, std::move(plan.oracle), options, log); };
+    const auto hand_on = [&] { on_model(result.mesh, result.labels, result.background); };
+    if (on_model)
+        parallel_invoke(options.threads, hand_on, check);
+    else
+        check();
     result.report.final_faces = result.mesh.face_count();
     result.report.final_vertices = result.mesh.vertex_count();
     result.report.peak_bytes = peak_resident_bytes();
     return run;
 }
 
-/// Reads the sections once more and counts the samples that lie in another region of the finished mesh.
-void count_samples(Reconstruction& result, SectionFaces& source, const ReconstructOptions& options,
-                   const OnProgress& on_progress) {
-    if (!options.cap || !source.rewind()) return;
-    const std::uint32_t strips = source.shape().strip_count;
-    if (on_progress) on_progress({"samples", strips, strips, 0, result.mesh.face_count(), 0.99});
-    RunLog log(result, on_progress);
-    {
-        const StageTimer timer = log.time("samples");
-        result.report.samples =
-            compare_samples(result.mesh, result.labels, result.background, source.reader(), options.threads);
-    }
-    result.report.seconds["total"] += result.report.seconds["samples"];
-    result.report.peak_bytes = peak_resident_bytes();
-}
-
 }  // namespace
 
 /// Runs until smoothing holds enough strips. In the end it holds all, and cannot be stuck.
-Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options, const OnProgress& on_progress) {
+Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options, const OnProgress& on_progress,
+                           const OnModel& on_model) {
     double total = 0;
     for (std::uint32_t extra = 0;; extra = 2 * extra + stream::kExtraStrips) {
         Attempt run;
         {
             const Timer timer(total);
-            run = attempt(source, options, extra, on_progress);
+            run = attempt(source, options, extra, on_progress, on_model);
         }
         if (!run.stuck_strip) {
             run.result.report.seconds["total"] = total;
@@ -167,31 +157,31 @@ Reconstruction reconstruct(FaceSource& source, const ReconstructOptions& options
 namespace {
 
 Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOptions& options,
-                                    const OnProgress& on_progress) {
+                                    const OnProgress& on_progress, const OnModel& on_model) {
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
     SectionFaces source(ahead ? *ahead : reader,
                         {.cap = options.cap, .background = options.background, .cells = cell_kind(options)},
                         is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader.info(), options));
-    Reconstruction result = reconstruct(source, options, on_progress);
-    count_samples(result, source, options, on_progress);
-    return result;
+    return reconstruct(source, options, on_progress, on_model);
 }
 
 }  // namespace
 
-Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
+Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,
+                           const OnModel& on_model) {
     require_lattice(reader.info().source, reader.info().lattice);
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
-    if (options.room == 0) return reconstruct_sections(reader, options, on_progress);
+    if (options.room == 0) return reconstruct_sections(reader, options, on_progress, on_model);
     RoomReader cleaned(reader, options.room, options.threads);
-    Reconstruction result = reconstruct_sections(cleaned, options, on_progress);
+    Reconstruction result = reconstruct_sections(cleaned, options, on_progress, on_model);
     result.report.samples_in_room = cleaned.changed();
     return result;
 }
 
-Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& given, const OnProgress& on_progress) {
+Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,
+                           const OnModel& on_model) {
     const ReconstructOptions options = with_filter(given, SmoothFilter::kTaubin);
     require_no_lattice(options.smooth);
     TetrahedronFaces source(reader, {.cap = options.cap,
@@ -199,7 +189,7 @@ Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& 
                                      .sweep = options.sweep,
                                      .for_smoothing = options.smooth.passes > 0,
                                      .memory = options.memory});
-    return reconstruct(source, options, on_progress);
+    return reconstruct(source, options, on_progress, on_model);
 }
 
 }  // namespace regionmesh

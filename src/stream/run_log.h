@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -14,8 +13,6 @@
 #include "stream/progress_shares.h"
 
 namespace regionmesh {
-
-using OnProgress = std::function<void(const Progress&)>;
 
 class RunLog;
 

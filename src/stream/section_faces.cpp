@@ -78,4 +78,9 @@ void SectionFaces::place(Mesh& mesh) const {
     place_in_space(mesh, reader_.info().lattice);
 }
 
+SampleAgreement SectionFaces::compare(const Mesh& mesh, std::uint32_t threads) {
+    rewind();
+    return compare_samples(mesh, labels_, background_, reader_, threads);
+}
+
 }  // namespace regionmesh
