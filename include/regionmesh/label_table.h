@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -22,6 +23,8 @@ public:
         last_ = label;
         return last_dense_ = place->second;
     }
+    /// The same for each label of a row. Looks up only those that differ from the label before.
+    void dense(std::span<const InputLabel> labels, std::span<Label> result);
     /// Nothing for a label that is not in the table.
     std::optional<Label> find(InputLabel label) const {
         const auto place = dense_.find(label);

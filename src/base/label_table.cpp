@@ -5,6 +5,14 @@
 
 namespace regionmesh {
 
+void LabelTable::dense(std::span<const InputLabel> labels, std::span<Label> result) {
+    Label last = 0;
+    for (std::size_t n = 0; n < labels.size(); ++n) {
+        if (n == 0 || labels[n] != labels[n - 1]) last = dense(labels[n]);
+        result[n] = last;
+    }
+}
+
 InputLabel LabelTable::exterior_label() const {
     const InputLabel smallest = labels_.empty() ? 0 : *std::min_element(labels_.begin(), labels_.end());
     if (smallest >= 0) return -1;

@@ -13,6 +13,12 @@ constexpr std::string_view kTable =
 constexpr CornerSet k01 = 0b0011, k02 = 0b0101, k13 = 0b1010, k23 = 0b1100;
 constexpr CornerSet k0 = 0b0001, k1 = 0b0010, k2 = 0b0100, k3 = 0b1000;
 
+int label_count_of(const Partition& partition) {
+    int count = 0;
+    for (std::uint8_t n = 0; n < 8; ++n) count += partition[n] == n;
+    return count;
+}
+
 }  // namespace
 
 const std::array<std::array<CaseFace, 4>, 4> kCompactCaps{{
@@ -49,13 +55,19 @@ CompactCells::CompactCells() : entries_(kPartitionNumbers) {
         }
         ++at;
         const auto count = static_cast<std::uint16_t>(faces_.size() - first);
-        for (std::uint16_t s = 0; s < kCellSymmetries.size(); ++s) {
+        const auto label_count = static_cast<std::uint8_t>(label_count_of(labels));
+        for (std::uint8_t s = 0; s < kCellSymmetries.size(); ++s) {
             const int number = number_of(kCellSymmetries[s](labels));
-            if (!is_known[number]) entries_[number] = {first, count, s};
+            if (!is_known[number]) entries_[number] = {first, count, s, label_count};
             is_known[number] = true;
         }
     });
     assert(at == kTable.size());
+    for (unsigned others = 0; others < two_labels_.size(); ++others) {
+        std::array<Label, 8> labels{};
+        for (int n = 1; n < 8; ++n) labels[n] = others >> (n - 1) & 1;
+        two_labels_[others] = entries_[number_of(partition_of(labels))];
+    }
 }
 
 const CompactCells& CompactCells::get() {

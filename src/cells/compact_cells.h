@@ -39,7 +39,14 @@ public:
     /// Made from the table at the first call.
     static const CompactCells& get();
 
-    int face_count(const std::array<Label, 8>& labels) const { return class_of(labels).face_count; }
+    struct Counts {
+        int faces, labels;
+    };
+    /// Of a cell with these labels.
+    Counts counts(const std::array<Label, 8>& labels) const {
+        const Entry& entry = class_of(labels);
+        return {entry.face_count, entry.label_count};
+    }
 
     /// Calls visit(face) for each face of a cell with these labels.
     template <class Visit>
@@ -61,7 +68,8 @@ private:
     struct Entry {
         std::uint32_t first_face = 0;
         std::uint16_t face_count = 0;
-        std::uint16_t symmetry = 0;
+        std::uint8_t symmetry = 0;
+        std::uint8_t label_count = 0;
     };
     struct Image {
         std::array<std::uint8_t, kCellSimplexCount> vertex;
@@ -70,12 +78,19 @@ private:
     };
 
     CompactCells();
+    /// Most cells have two labels, and those a short table.
     const Entry& class_of(const std::array<Label, 8>& labels) const {
-        return entries_[number_of(partition_of(labels))];
+        unsigned others = 0;  // the nodes that differ from the first
+        for (int n = 1; n < 8; ++n) others |= unsigned(labels[n] != labels[0]) << n;
+        const Label other = labels[std::countr_zero(others | 0x80)];
+        bool is_third = false;
+        for (Label label : labels) is_third |= (label != labels[0]) & (label != other);
+        return is_third ? entries_[number_of(partition_of(labels))] : two_labels_[others >> 1];
     }
 
     std::vector<CompactFace> faces_;
-    std::vector<Entry> entries_;  // by number_of()
+    std::vector<Entry> entries_;              // by number_of()
+    std::array<Entry, 128> two_labels_ = {};  // by the set of the nodes 1 to 7 that differ from node 0
     std::array<Image, 12> images_;
 };
 

@@ -22,6 +22,20 @@ std::uint64_t faces_of(unsigned pattern) {
     }
 }
 
+/// What a node adds to the Euler characteristic of its region, 2 (N0 - N1 + N2 - N3) of the simplices with this base
+/// node and one label: by the set of steps to nodes of that label, a bit for each.
+constexpr std::array<std::int8_t, 128> make_euler_shares() {
+    std::array<std::int8_t, 128> shares{};
+    for (unsigned set = 0; set < 128; ++set)
+        for (const SimplexKind& kind : kKinds) {
+            bool is_inside = true;
+            for (int n = 1; n < kind.node_count; ++n) is_inside &= (set >> (kind.steps[n] - 1) & 1) != 0;
+            if (is_inside) shares[set] += kind.node_count % 2 == 1 ? 2 : -2;
+        }
+    return shares;
+}
+constexpr std::array<std::int8_t, 128> kEulerShares = make_euler_shares();
+
 }  // namespace
 
 LabelCensus::LabelCensus(const Lattice& lattice, Sweep sweep, StripOptions options)
@@ -88,28 +102,31 @@ void LabelCensus::look_at(std::span<const Label> low, std::span<const Label> hig
 /// The simplices whose base node is the cell's first, restricted to the steps that stay in the box.
 void LabelCensus::count_node(const Corners& labels, Step available) {
     const Label own = labels[0];
-    std::int64_t sum = 0;
-    for (const SimplexKind& kind : kKinds) {
-        bool inside = true;
-        for (int n = 1; n < kind.node_count; ++n) inside &= (kind.steps[n] & available) == kind.steps[n];
-        if (!inside) continue;
-        bool same = true;
-        for (int n = 1; n < kind.node_count; ++n) same &= labels[kind.steps[n]] == own;
-        if (kind.node_count == 2 && !same) pairs_.add(own, labels[kind.steps[1]]);
-        if (same) sum += kind.node_count % 2 == 1 ? 2 : -2;
+    unsigned same = 0;  // a bit for each step
+    for (Step step = 1; step < 8; ++step) {
+        if ((step & available) != step) continue;
+        if (labels[step] == own)
+            same |= 1u << step;
+        else
+            pairs_.add(own, labels[step]);
     }
     if (own >= euler_.size()) euler_.resize(own + 1, 0);
-    euler_[own] += sum;
+    euler_[own] += kEulerShares[same >> 1];
 }
 
 void LabelCensus::count_cell(const Corners& labels) {
+    const bool is_compact = options_.cells == CellKind::kCompact;
+    if (is_compact) {
+        const CompactCells::Counts counts = CompactCells::get().counts(labels);
+        faces_ += counts.faces;
+        if (counts.labels < 4) return;
+    }
     for (int t = kFirstTetrahedron; t < kKindCount; ++t) {
         const auto& step = kKinds[t].steps;
         const unsigned pattern = tetrahedron_pattern(labels[0], labels[step[1]], labels[step[2]], labels[7]);
-        if (options_.cells == CellKind::kTetrahedra) faces_ += faces_of(pattern);
+        if (!is_compact) faces_ += faces_of(pattern);
         quadruple_points_ += pattern == 63;
     }
-    if (options_.cells == CellKind::kCompact) faces_ += CompactCells::get().face_count(labels);
 }
 
 void LabelCensus::count_caps(const Corners& labels, unsigned sides) {

@@ -227,13 +227,6 @@ void count_runs(SampleAgreement& counts, const std::vector<Label>& background, s
     counts.samples += given.size();
 }
 
-/// The dense labels of a section; new ones are added to the table.
-void make_dense(std::span<const InputLabel> input, LabelTable& labels, std::vector<Label>& dense) {
-    dense.resize(input.size());
-    for (std::size_t n = 0; n < input.size(); ++n)
-        dense[n] = n > 0 && input[n] == input[n - 1] ? dense[n - 1] : labels.dense(input[n]);
-}
-
 /// Room for one section at a time, as given and as found in the model.
 struct ComparedSection {
     std::vector<Label> given, found;
@@ -255,8 +248,8 @@ void add(SampleAgreement& sum, const SampleAgreement& part) {
 
 void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<Label>& background,
                  std::span<const InputLabel> given, std::span<const Label> found) {
-    std::vector<Label> dense;
-    make_dense(given, labels, dense);
+    std::vector<Label> dense(given.size());
+    labels.dense(given, dense);
     counts.regions.resize(std::max<std::size_t>(counts.regions.size(), labels.size()));
     count_runs(counts, background, dense, found);
 }
@@ -273,7 +266,8 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
     SampleAgreement result;
     const auto read = [&](ComparedSection& section) {
         if (!reader.next(input)) return false;
-        make_dense(input, labels, section.given);
+        section.given.resize(samples);
+        labels.dense(input, section.given);
         section.found.resize(samples);
         return true;
     };

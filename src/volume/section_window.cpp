@@ -26,7 +26,7 @@ SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader
 bool SectionWindow::read() {
     if (!reader_.next(input_)) return false;
     low_.swap(high_);
-    for (std::size_t n = 0; n < input_.size(); ++n) high_[n] = labels_.dense(input_[n]);
+    labels_.dense(input_, high_);
     ++sections_read_;
     return true;
 }
