@@ -65,8 +65,8 @@ struct Reconstruction {
 
 using OnProgress = std::function<void(const Progress&)>;
 
-/// Receives the finished model and its dense background labels, to write it or show it. With more than one thread it is
-/// called on another thread, while this one checks the model.
+/// Receives the finished model and its dense background labels, to write it or show it. With more than one thread, and
+/// memory for both, it is called on another thread while this one checks the model; otherwise after the check.
 using OnModel = std::function<void(const Mesh&, const LabelTable&, const std::vector<Label>& background)>;
 
 /// How sections are meshed with these options: kCompact or kTetrahedra.

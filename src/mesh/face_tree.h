@@ -15,10 +15,11 @@ class FaceTree {
 public:
     using GridBox = GridTree::GridBox;
 
-    explicit FaceTree(const Mesh& mesh) { build(mesh); }
+    explicit FaceTree(const Mesh& mesh, std::uint32_t threads = 1) { build(mesh, threads); }
 
-    /// Rebuilds the tree from the living faces; releases the old boxes first.
-    void build(const Mesh& mesh);
+    /// Rebuilds the tree from the living faces, on at most `threads` threads (0: one per core); releases the old boxes
+    /// first.
+    void build(const Mesh& mesh, std::uint32_t threads = 1);
 
     /// Moves face f to `box`. The boxes above it grow and never shrink.
     void set(FaceId f, const Box& box) { boxes_.set(index(f), box); }

@@ -13,7 +13,8 @@ LabelSet vertex_labels(const Mesh& mesh, VertexId v);
 /// or background has no faces to the exterior), sides that both ends lie on count too. Three or more labels: a *line*.
 LabelSet edge_labels(const Mesh& mesh, VertexId u, VertexId v);
 
-/// Sets Vertex::label_count of all vertices. It stays valid as long as no stratum changes.
-void count_labels(Mesh& mesh);
+/// Sets Vertex::label_count of all vertices, on at most `threads` threads (0: one per core). It stays valid as long as
+/// no stratum changes.
+void count_labels(Mesh& mesh, std::uint32_t threads = 1);
 
 }  // namespace regionmesh

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "base/parallel_for.h"
 #include "mesh/strata.h"
 
 namespace regionmesh {
@@ -25,30 +26,51 @@ Candidates::Candidates(const Mesh& mesh, Placement& placement, const SimplifyOpt
 
 std::size_t Candidates::bytes() const { return partner_.bytes() + floor_.bytes() + heap_.bytes(); }
 
-std::uint64_t Candidates::refresh() {
+std::uint64_t Candidates::refresh(std::uint32_t threads) {
+    constexpr std::uint32_t kVertices = 1024;  // of a task
+    struct Part {
+        std::vector<Best> best;  // by vertex
+        std::uint64_t forbidden = 0;
+        bool has_edges_over_error = false;
+    };
+    const auto find = [&](std::uint32_t first, std::uint32_t end) {
+        Part part;
+        part.best.resize(end - first);
+        Scratch scratch;
+        for (std::uint32_t v = first; v < end; ++v)
+            if (mesh_.is_alive(VertexId{v}))
+                part.best[v - first] = best(VertexId{v}, {kNoVertex, kNoFloor}, kNoVertex, scratch);
+        part.forbidden = scratch.forbidden;
+        part.has_edges_over_error = scratch.has_edges_over_error;
+        return part;
+    };
+    std::uint32_t v = 0;
     std::uint64_t forbidden = 0;
-    has_edges_over_error_ = false;
-    for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
-        floor_[v] = kNoFloor;
-        if (mesh_.is_alive(VertexId{v}))
-            rank(VertexId{v}, best(VertexId{v}, {kNoVertex, kNoFloor}, kNoVertex, &forbidden));
-    }
+    scratch_.has_edges_over_error = false;
+    for_chunks(mesh_.vertex_end(), kVertices, placement_.ranks_in_parallel() ? threads : 1, find, [&](Part part) {
+        for (const Best& best : part.best) {
+            floor_[v] = kNoFloor;
+            rank(VertexId{v++}, best);
+        }
+        forbidden += part.forbidden;
+        scratch_.has_edges_over_error |= part.has_edges_over_error;
+    });
     return forbidden;
 }
 
 /// The edges of v with their numbers of labels and their costs. Round a vertex of two labels all edges have both, and
 /// each neighbour follows v in exactly one face.
-void Candidates::gather_neighbours(VertexId v, Neighbours& found) {
+void Candidates::gather_neighbours(VertexId v, StarEdges& edges, Neighbours& found) const {
     found.vertices.clear();
     if (label_count(v) == 2) {
         mesh_.for_star(v,
                        [&](FaceId f, int place) { found.vertices.push_back(mesh_[f].vertices[place_after(place)]); });
         found.label_counts.assign(found.vertices.size(), 2);
     } else {
-        edges_.gather(mesh_, v);
-        found.vertices = edges_.ends();
+        edges.gather(mesh_, v);
+        found.vertices = edges.ends();
         found.label_counts.clear();
-        for (const LabelSet& labels : edges_.labels())
+        for (const LabelSet& labels : edges.labels())
             found.label_counts.push_back(static_cast<std::uint8_t>(labels.size()));
     }
     placement_.rank(mesh_, v, found.vertices, found.costs);
@@ -68,11 +90,11 @@ bool Candidates::may_go(VertexId v, VertexId w) const {
 }
 
 /// Rank of an edge; infinite above the threshold or the largest error.
-float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) {
+float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge, Scratch& scratch) const {
     constexpr float kNever = std::numeric_limits<float>::infinity();
     if (!(edge.cost <= options_.max_cost)) return kNever;
     if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight) {
-        has_edges_over_error_ = true;
+        scratch.has_edges_over_error = true;
         return kNever;
     }
     const double scale2 = options_.scale * options_.scale;
@@ -81,17 +103,18 @@ float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge) {
 }
 
 /// The cheapest edge owned by v that comes after `after`, or leads to `fresh`.
-Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden) {
+Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, Scratch& scratch) const {
     Best best{kNoVertex, std::numeric_limits<float>::infinity()};
     if (mesh_[v].is_fixed) return best;
-    gather_neighbours(v, neighbours_);
-    for (std::size_t n = 0; n < neighbours_.vertices.size(); ++n) {
-        const VertexId w = neighbours_.vertices[n];
+    Neighbours& neighbours = scratch.neighbours;
+    gather_neighbours(v, scratch.edges, neighbours);
+    for (std::size_t n = 0; n < neighbours.vertices.size(); ++n) {
+        const VertexId w = neighbours.vertices[n];
         if (mesh_[w].is_fixed) continue;
-        const VertexId goes = owner(v, w, neighbours_.label_counts[n]);
-        if (forbidden && goes == kNoVertex && v < w) ++*forbidden;
+        const VertexId goes = owner(v, w, neighbours.label_counts[n]);
+        scratch.forbidden += goes == kNoVertex && v < w;
         if (goes != v) continue;
-        const Best candidate{w, key(v, w, neighbours_.costs[n])};
+        const Best candidate{w, key(v, w, neighbours.costs[n], scratch)};
         if (candidate.is_before(best) && (w == fresh || after.is_before(candidate))) best = candidate;
     }
     if (std::isinf(best.key)) best.stays = kNoVertex;
@@ -110,27 +133,27 @@ void Candidates::refuse() {
     const VertexId v = heap_.top();
     const Best refused{partner_[index(v)], heap_.top_key()};
     floor_[index(v)] = std::max(floor_[index(v)], refused.key);
-    rank(v, best(v, refused, kNoVertex, nullptr));
+    rank(v, best(v, refused, kNoVertex, scratch_));
 }
 
 void Candidates::update(VertexId goes, VertexId stays) {
     heap_.remove(goes);
     partner_[index(goes)] = kNoVertex;
-    gather_neighbours(stays, round_merged_);
+    gather_neighbours(stays, scratch_.edges, round_merged_);
     Best own{kNoVertex, std::numeric_limits<float>::infinity()};
     for (std::size_t n = 0; n < round_merged_.vertices.size(); ++n) {
         const VertexId w = round_merged_.vertices[n];
         if (mesh_[w].is_fixed) continue;
         const VertexId owner_of_edge = owner(stays, w, round_merged_.label_counts[n]);
         if (owner_of_edge == stays) {
-            const Best candidate{w, key(stays, w, round_merged_.costs[n])};
+            const Best candidate{w, key(stays, w, round_merged_.costs[n], scratch_)};
             if (candidate.is_before(own)) own = candidate;
         }
         const VertexId held = partner_[index(w)];
         if (held == goes || held == stays) {
-            rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, nullptr));
+            rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, scratch_));
         } else if (owner_of_edge == w) {
-            const Best fresh{stays, key(w, stays, round_merged_.costs[n])};
+            const Best fresh{stays, key(w, stays, round_merged_.costs[n], scratch_)};
             if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, heap_.key(w)})))
                 rank(w, fresh);
         }

@@ -16,12 +16,13 @@ class Candidates {
 public:
     Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options);
 
-    /// Gathers all candidates anew. Returns the number of edges that strata forbid.
-    std::uint64_t refresh();
+    /// Gathers all candidates anew, on at most `threads` threads (0: one per core). Returns the number of edges that
+    /// strata forbid.
+    std::uint64_t refresh(std::uint32_t threads = 1);
 
     bool empty() const { return heap_.empty(); }
     /// Whether the largest error has kept an edge out since the last refresh.
-    bool has_edges_over_error() const { return has_edges_over_error_; }
+    bool has_edges_over_error() const { return scratch_.has_edges_over_error; }
     VertexId goes() const { return heap_.top(); }
     VertexId stays() const { return partner_[index(heap_.top())]; }
     double least_rank() const { return heap_.top_key() / key_unit_; }
@@ -49,11 +50,19 @@ private:
         bool is_before(Best other) const { return key < other.key || (key == other.key && stays < other.stays); }
     };
 
-    void gather_neighbours(VertexId v, Neighbours& found);
+    /// What one thread needs to find the cheapest edges, and what it notes.
+    struct Scratch {
+        Neighbours neighbours;
+        StarEdges edges;
+        std::uint64_t forbidden = 0;
+        bool has_edges_over_error = false;
+    };
+
+    void gather_neighbours(VertexId v, StarEdges& edges, Neighbours& found) const;
     int label_count(VertexId v) const { return mesh_[v].label_count; }
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
-    float key(VertexId goes, VertexId stays, EdgeCost cost);
-    Best best(VertexId v, Best after, VertexId fresh, std::uint64_t* forbidden);
+    float key(VertexId goes, VertexId stays, EdgeCost cost, Scratch& scratch) const;
+    Best best(VertexId v, Best after, VertexId fresh, Scratch& scratch) const;
     void rank(VertexId v, Best best);
 
     const Mesh& mesh_;
@@ -62,9 +71,8 @@ private:
     FlatArray<VertexId> partner_;  // where the cheapest edge of a vertex in the heap leads
     FlatArray<float> floor_;       // edges up to this key were refused since the last change
     EdgeHeap heap_;
-    Neighbours neighbours_, round_merged_;
-    StarEdges edges_;
-    bool has_edges_over_error_ = false;
+    Scratch scratch_;
+    Neighbours round_merged_;
     double key_unit_;  // a power of two near 1 / scale^4: keys are single precision, and would overflow or vanish
 };
 

@@ -49,10 +49,11 @@ public:
         : mesh_(mesh),
           options_(options),
           is_refreshing_(bounds.refresh),
+          threads_(bounds.threads),
           histogram_(bounds.histogram),
-          tree_(mesh),
+          tree_(mesh, bounds.threads),
           outside_(mesh, bounds.limits),
-          placement_((count_labels(mesh), make_placement(mesh, options))),
+          placement_((count_labels(mesh, bounds.threads), make_placement(mesh, options))),
           candidates_(mesh, *placement_, options),
           halves_(mesh.vertex_count() / 2),
           collapse_{.mesh = mesh,
@@ -73,7 +74,7 @@ public:
         }
         for (;;) {
             if (is_at_target()) break;
-            result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh();
+            result_.verdicts[static_cast<int>(Verdict::kStrata)] += candidates_.refresh(threads_);
             halves_.clear();
             const std::uint64_t before = accepted(), over_error = count(Verdict::kError);
             while (!(candidates_.empty() && halves_.empty()) && !is_at_target()) {
@@ -116,7 +117,7 @@ private:
     void pack() {
         if (mesh_.face_count() >= mesh_.face_end() * kCompactBelow) return;
         mesh_.compact_faces();
-        tree_.build(mesh_);
+        tree_.build(mesh_, threads_);
     }
 
     void step() {
@@ -199,6 +200,7 @@ private:
     Mesh& mesh_;
     const SimplifyOptions& options_;
     bool is_refreshing_;
+    std::uint32_t threads_;
     CostHistogram* histogram_;
     FaceTree tree_;
     FixedOutside outside_;

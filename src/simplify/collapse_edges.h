@@ -40,6 +40,7 @@ struct CollapseBounds {
     bool refresh = true;      // begin again when candidates run out (P 3.7)
     CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
     CollapseLog* log = nullptr;          // filled; those of the prepass have level 0
+    std::uint32_t threads = 1;           // up to the first collapse; 0: one per core. The result is the same
 };
 
 struct CollapseResult {
@@ -51,7 +52,7 @@ struct CollapseResult {
 
 /// Collapses the cheapest edge that no verdict forbids, again and again, down to the target or up to the largest cost.
 /// Fixed vertices neither move nor go; an edge that ends in one is no candidate. Quadrics are gathered from the mesh as
-/// it comes and live for one call. Uses one thread, whatever the options say. Requires that every vertex that is not
+/// it comes and live for one call. Uses one thread, except for `bounds.threads`. Requires that every vertex that is not
 /// fixed has all its faces in the mesh. Renumbers faces. Fast when vertices and faces lie along a curve
 /// (Mesh::sort_spatially).
 CollapseResult collapse_edges(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds = {});

@@ -26,13 +26,16 @@ struct HalfCost {
     }
 };
 
-/// One instance serves one mesh from its first collapse to its last. Calls come from one thread.
+/// One instance serves one mesh from its first collapse to its last. Calls come from one thread, except where
+/// ranks_in_parallel().
 class Placement {
 public:
     virtual ~Placement() = default;
 
     /// Costs of the edges from v to each of `to`, in floats: to rank by. `costs` gets a multiple of four.
     virtual void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) = 0;
+    /// True if several threads may call rank() at a time.
+    virtual bool ranks_in_parallel() const { return false; }
 
     /// Costs where v goes to each of `to`.
     virtual void rank_halves(const Mesh& mesh, VertexId v, std::span<const VertexId> to,

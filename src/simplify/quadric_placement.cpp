@@ -15,6 +15,7 @@ public:
     void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) override {
         find_edge_costs(mesh, quadrics_, v, to, costs);
     }
+    bool ranks_in_parallel() const override { return true; }
     void rank_halves(const Mesh& mesh, VertexId v, std::span<const VertexId> to,
                      std::vector<HalfCost>& costs) override {
         const Quadric own = quadrics_[v].unpack();

@@ -68,7 +68,7 @@ SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
     if (mesh.face_count() > options.target_faces) simplify_by_tiles(mesh, options, result);
     mesh.sort_spatially();
     const std::size_t mesh_bytes = mesh.bytes();
-    const CollapseResult done = collapse_edges(mesh, options);
+    const CollapseResult done = collapse_edges(mesh, options, {.threads = options.threads});
     add(result.verdicts, done.verdicts);
     result.refreshes = done.refreshes;
     result.stopped = done.stopped;

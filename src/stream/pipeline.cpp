@@ -11,6 +11,7 @@
 #include "regionmesh/process.h"
 #include "stream/chunk_volumes.h"
 #include "stream/finish.h"
+#include "stream/footprint.h"
 #include "stream/gatherer.h"
 #include "stream/plan.h"
 #include "stream/read_ahead.h"
@@ -79,6 +80,12 @@ void plan_progress(RunLog& log, const Plan& plan, const ReconstructOptions& opti
     if (!can_compare) log.leave_out(WorkStage::kSamples);
 }
 
+/// True if the model can be written while it is checked.
+bool has_room_to_write(const Mesh& mesh, const ReconstructOptions& options) {
+    constexpr std::uint64_t kBytes = kMeshBytesPerFace + kCheckBytesPerFace + kWriteBytesPerFace;
+    return kProcessBytes + mesh.face_count() * kBytes <= options.memory;
+}
+
 /// The result of a run, or the strip at which smoothing was stuck.
 struct Attempt {
     Reconstruction result;
@@ -120,11 +127,10 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     for (double& volume : result.report.unsmoothed_volumes) volume /= shape.scale_z;
     result.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     const auto check = [&] { check_result(result, source, std::move(plan.oracle), options, log); };
-    const auto hand_on = [&] { on_model(result.mesh, result.labels, result.background); };
-    if (on_model)
-        parallel_invoke(options.threads, hand_on, check);
-    else
-        check();
+    const auto hand_on = [&] {
+        if (on_model) on_model(result.mesh, result.labels, result.background);
+    };
+    parallel_invoke(has_room_to_write(result.mesh, options) ? options.threads : 1, hand_on, check);
     result.report.final_faces = result.mesh.face_count();
     result.report.final_vertices = result.mesh.vertex_count();
     result.report.peak_bytes = peak_resident_bytes();

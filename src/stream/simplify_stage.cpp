@@ -112,7 +112,8 @@ void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     const StageTimer timer = log_.time("decimate");
     SimplifyOptions own = simplify_options(options_, shape_);
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
-    const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()), .refresh = is_last};
+    const CollapseBounds bounds{
+        .limits = box_of({.high = safe_high}, shape_.axis()), .refresh = is_last, .threads = options_.threads};
     const std::uint64_t held = mesh_.face_count();
     own.on_progress = [&] {
         const auto gone = static_cast<double>(held - mesh_.face_count());

@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 #include <limits>
+#include <vector>
 
 namespace regionmesh {
 namespace {
@@ -23,6 +24,18 @@ TEST(LabelTable, numbers_labels_in_order_of_first_appearance) {
     EXPECT_EQ(table.dense(9), 0u);
     EXPECT_EQ(table.size(), 2u);
     EXPECT_EQ(table.input(1), -4);
+}
+
+TEST(LabelTable, numbers_a_row_as_its_labels_one_by_one) {
+    LabelTable one_by_one, table;
+    const std::vector<InputLabel> row{0, 0, 5, 5, 0, -3, 5, kLowest, kLowest};
+    std::vector<Label> dense(row.size()), expected;
+    for (InputLabel label : row) expected.push_back(one_by_one.dense(label));
+    table.dense(row, dense);
+    EXPECT_EQ(dense, expected);
+    EXPECT_EQ(table.size(), one_by_one.size());
+    table.dense({}, {});
+    EXPECT_EQ(table.size(), one_by_one.size());
 }
 
 TEST(LabelTable, exterior_is_minus_one_without_negative_labels) {

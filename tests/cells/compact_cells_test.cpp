@@ -115,6 +115,21 @@ TEST(CompactCells, all_partitions_have_the_strata_of_the_tetrahedra) {
     EXPECT_GT(worst, 0.105);
 }
 
+TEST(CompactCells, faces_and_labels_of_a_cell_are_counted) {
+    for_each_partition([&](const Partition& partition) {
+        std::array<Label, 8> labels{};
+        for (int n = 0; n < 8; ++n) labels[n] = 7 + 3 * partition[n];
+        const CompactCells::Counts counts = CompactCells::get().counts(labels);
+        EXPECT_EQ(counts.labels, static_cast<int>(std::set(partition.begin(), partition.end()).size()));
+        int faces = 0;
+        CompactCells::get().for_each_face(labels, [&](const CompactFace& face) {
+            ++faces;
+            EXPECT_NE(labels[face.first], labels[face.second]);
+        });
+        EXPECT_EQ(counts.faces, faces);
+    });
+}
+
 TEST(CompactCells, volumes_are_sound_and_counted_before_they_are_meshed) {
     for (std::uint32_t labels : {2, 3, 5, 40})
         for (const test::Size& size : {test::Size{7, 6, 8}, test::Size{2, 9, 3}}) {

@@ -6,6 +6,7 @@
 
 #include "regionmesh/error.h"
 #include "regionmesh/reconstruct.h"
+#include "stream/footprint.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/strata_list.h"
@@ -178,6 +179,51 @@ TEST(Reconstruct, tells_its_progress) {
     });
     EXPECT_EQ(last, 9u);
     EXPECT_THAT(stages, testing::Contains(testing::Key("reconstruct")));
+}
+
+TEST(Reconstruct, hands_on_the_model_that_it_returns) {
+    for (const std::uint32_t threads : {1u, 2u}) {
+        test::ArrayVolume volume = test::grain_volume({14, 14, 14}, 6, 4);
+        ReconstructOptions options = reduced(0.5);
+        options.threads = threads;
+        std::uint64_t written = 0;
+        const auto write = [&](const Mesh& mesh, const LabelTable&, const std::vector<Label>& background) {
+            EXPECT_TRUE(background.empty());
+            written = test::digest(mesh);
+        };
+        const Reconstruction made = reconstruct(volume, options, {}, write);
+        test::expect_sound(made.report.check);
+        ASSERT_TRUE(made.report.samples);
+        EXPECT_EQ(made.report.samples->wrong, 0u);
+        EXPECT_EQ(written, test::digest(made.mesh));
+    }
+}
+
+TEST(Reconstruct, throws_what_the_receiver_of_the_model_throws) {
+    for (const std::uint32_t threads : {1u, 2u}) {
+        test::ArrayVolume volume = test::grain_volume({8, 8, 8}, 3, 4);
+        ReconstructOptions options = test::plain();
+        options.threads = threads;
+        const auto fail = [](const Mesh&, const LabelTable&, const std::vector<Label>&) { throw 7; };
+        EXPECT_THROW(reconstruct(volume, options, {}, fail), int);
+    }
+}
+
+TEST(Reconstruct, hands_the_model_on_after_the_check_where_memory_has_no_room_for_both) {
+    test::ArrayVolume volume = test::noise_volume({24, 24, 24}, 5, 4);
+    ReconstructOptions options = test::plain();
+    options.threads = 2;
+    const std::uint64_t faces = run(volume, options).mesh.face_count();
+    options.memory = kProcessBytes + 90 * faces;
+    bool is_checked = false, is_handed_on = false;
+    const auto note = [&](const Progress& progress) { is_checked = std::string_view(progress.stage) == "samples"; };
+    const auto write = [&](const Mesh&, const LabelTable&, const std::vector<Label>&) {
+        EXPECT_TRUE(is_checked);
+        is_handed_on = true;
+    };
+    volume.rewind();
+    reconstruct(volume, options, note, write);
+    EXPECT_TRUE(is_handed_on);
 }
 
 // Anisotropy.
