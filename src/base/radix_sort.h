@@ -16,8 +16,9 @@ struct KeyedIndex {
     std::uint32_t index;
 };
 
-/// Least significant digit first, three passes of 11 bits; needs memory for a second copy. Each pass counts the digits
-/// in each chunk of items, which gives the place where each chunk writes its items of each digit.
+/// Least significant digit first, up to three passes of 11 bits, as many as the largest key needs; needs memory for a
+/// second copy. Each pass counts the digits in each chunk of items, which gives the place where each chunk writes its
+/// items of each digit.
 inline void radix_sort(std::vector<KeyedIndex>& items, std::uint32_t threads = 1) {
     constexpr int kBits = 11;
     constexpr std::uint32_t kDigits = 1u << kBits, kChunk = 1u << 16;
@@ -25,10 +26,14 @@ inline void radix_sort(std::vector<KeyedIndex>& items, std::uint32_t threads = 1
     const std::uint32_t chunks = size / kChunk + 1;
     std::vector<KeyedIndex> other(size);
     std::vector<std::array<std::uint32_t, kDigits>> places(chunks);
-    for (int shift = 0; shift < 32; shift += kBits) {
-        const auto for_chunk = [&](std::uint32_t chunk, auto&& visit) {
-            for (std::uint32_t n = chunk * kChunk; n < std::min(size, (chunk + 1) * kChunk); ++n)
-                visit(items[n], places[chunk][items[n].key >> shift & (kDigits - 1)]);
+    std::uint32_t all_bits = 0;
+    for (const KeyedIndex& item : items) all_bits |= item.key;
+    for (int shift = 0; shift < 32 && all_bits >> shift != 0; shift += kBits) {
+        const auto for_chunk = [&, shift](std::uint32_t chunk, auto&& visit) {
+            std::uint32_t* const place = places[chunk].data();
+            const KeyedIndex* const end = items.data() + std::min(size, (chunk + 1) * kChunk);
+            for (const KeyedIndex* item = items.data() + chunk * kChunk; item != end; ++item)
+                visit(*item, place[item->key >> shift & (kDigits - 1)]);
         };
         parallel_for(chunks, threads, [&](std::uint32_t chunk) {
             places[chunk].fill(0);
@@ -38,7 +43,7 @@ inline void radix_sort(std::vector<KeyedIndex>& items, std::uint32_t threads = 1
         for (std::uint32_t digit = 0; digit < kDigits; ++digit)
             for (auto& place : places) next += std::exchange(place[digit], next);
         parallel_for(chunks, threads, [&](std::uint32_t chunk) {
-            for_chunk(chunk, [&](const KeyedIndex& item, std::uint32_t& place) { other[place++] = item; });
+            for_chunk(chunk, [to = other.data()](const KeyedIndex& item, std::uint32_t& place) { to[place++] = item; });
         });
         items.swap(other);
     }

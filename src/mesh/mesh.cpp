@@ -160,10 +160,13 @@ std::vector<KeyedIndex> Mesh::faces_along_curve() const {
         if (is_alive(FaceId{f}))
             order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
     radix_sort(order);
+    // All faces of a run have the same first vertex.
+    const auto both = [](std::uint32_t first, std::uint32_t second) { return std::uint64_t{first} << 32 | second; };
     sort_runs(order, [&](std::uint32_t f) {
-        std::array<VertexId, 3> corners = faces_[f].vertices;
-        std::sort(corners.begin(), corners.end());
-        return std::pair(corners, faces_[f].labels);
+        const auto& [a, b, c] = faces_[f].vertices;
+        const auto [low, high] = std::minmax({index(a), index(b), index(c)});
+        const std::uint32_t middle = index(a) ^ index(b) ^ index(c) ^ low ^ high;
+        return std::pair(both(middle, high), both(faces_[f].labels[0], faces_[f].labels[1]));
     });
     return order;
 }
