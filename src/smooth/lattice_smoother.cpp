@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel_for.h"
+#include "base/parallel_invoke.h"
 #include "base/reused_vector.h"
 #include "regionmesh/process.h"
 #include "smooth/tuning.h"
@@ -95,9 +96,9 @@ bool LatticeSmoother::add(const Chunk& chunk, bool is_last, double next_low) {
     clear_reused(vertices);
     for (const ChunkVertex& vertex : chunk.vertices)
         vertices.push_back({simplex_of(vertex.position, order_.frame), vertex.sides});
-    chunks_.push_back(chunk, vertices);
     next_low_.push_back(next_low);
-    sites_.add(chunk, vertices);
+    parallel_invoke(
+        options_.threads, [&] { chunks_.push_back(chunk, vertices); }, [&] { sites_.add(chunk, vertices); });
 
     for (; made_ < one_behind(chunks_.end()); ++made_) sites_.end_normals(made_);
     std::uint32_t done = made_;
