@@ -149,7 +149,7 @@ int run_reconstruct(const Settings& settings) {
     std::vector<std::filesystem::path> written;
     double writing = 0;
     const auto write = [&](const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background) {
-        if (mesh.face_count() == 0) return;
+        if (mesh.face_count() == 0) return;  // no region, which is refused after the check
         put_line(Audience::kLog, "write");
         const Timer timer(writing);
         written = write_model(settings, {mesh, labels, background, names, colours, notes.space}, files);

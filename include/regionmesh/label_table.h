@@ -23,7 +23,7 @@ public:
         last_ = label;
         return last_dense_ = place->second;
     }
-    /// The same for each label of a row. Looks up only those that differ from the label before.
+    /// The same for each label of a row, into a row as long. Looks up only those that differ from the label before.
     void dense(std::span<const InputLabel> labels, std::span<Label> result);
     /// Nothing for a label that is not in the table.
     std::optional<Label> find(InputLabel label) const {
