@@ -29,7 +29,7 @@ inline void radix_sort(std::vector<KeyedIndex>& items, std::uint32_t threads = 1
     std::uint32_t all_bits = 0;
     for (const KeyedIndex& item : items) all_bits |= item.key;
     for (int shift = 0; shift < 32 && all_bits >> shift != 0; shift += kBits) {
-        const auto for_chunk = [&, shift](std::uint32_t chunk, auto&& visit) {
+        const auto for_chunk = [&](std::uint32_t chunk, auto&& visit) {
             std::uint32_t* const place = places[chunk].data();
             const KeyedIndex* const end = items.data() + std::min(size, (chunk + 1) * kChunk);
             for (const KeyedIndex* item = items.data() + chunk * kChunk; item != end; ++item)

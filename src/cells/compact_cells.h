@@ -78,11 +78,11 @@ private:
     };
 
     CompactCells();
-    /// Most cells have two labels, and those a short table.
+    /// Cells of at most two labels, which most are, have a table of their own.
     const Entry& class_of(const std::array<Label, 8>& labels) const {
         unsigned others = 0;  // the nodes that differ from the first
         for (int n = 1; n < 8; ++n) others |= unsigned(labels[n] != labels[0]) << n;
-        const Label other = labels[std::countr_zero(others | 0x80)];
+        const Label other = labels[std::countr_zero(others | 1u << 7)];  // node 7 if none differs
         bool is_third = false;
         for (Label label : labels) is_third |= (label != labels[0]) & (label != other);
         return is_third ? entries_[number_of(partition_of(labels))] : two_labels_[others >> 1];

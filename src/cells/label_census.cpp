@@ -23,7 +23,7 @@ std::uint64_t faces_of(unsigned pattern) {
 }
 
 /// What a node adds to the Euler characteristic of its region, 2 (N0 - N1 + N2 - N3) of the simplices with this base
-/// node and one label: by the set of steps to nodes of that label, a bit for each.
+/// node and one label: by the set of steps to nodes of that label, step n as bit n - 1.
 constexpr std::array<std::int8_t, 128> make_euler_shares() {
     std::array<std::int8_t, 128> shares{};
     for (unsigned set = 0; set < 128; ++set)
@@ -102,16 +102,16 @@ void LabelCensus::look_at(std::span<const Label> low, std::span<const Label> hig
 /// The simplices whose base node is the cell's first, restricted to the steps that stay in the box.
 void LabelCensus::count_node(const Corners& labels, Step available) {
     const Label own = labels[0];
-    unsigned same = 0;  // a bit for each step
+    unsigned same = 0;  // steps to nodes with this label
     for (Step step = 1; step < 8; ++step) {
         if ((step & available) != step) continue;
         if (labels[step] == own)
-            same |= 1u << step;
+            same |= 1u << (step - 1);
         else
             pairs_.add(own, labels[step]);
     }
     if (own >= euler_.size()) euler_.resize(own + 1, 0);
-    euler_[own] += kEulerShares[same >> 1];
+    euler_[own] += kEulerShares[same];
 }
 
 void LabelCensus::count_cell(const Corners& labels) {

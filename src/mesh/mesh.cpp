@@ -160,7 +160,7 @@ std::vector<KeyedIndex> Mesh::faces_along_curve() const {
         if (is_alive(FaceId{f}))
             order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
     radix_sort(order);
-    // All faces of a run have the same first vertex.
+    // All faces of a run have the same lowest vertex.
     const auto both = [](std::uint32_t first, std::uint32_t second) { return std::uint64_t{first} << 32 | second; };
     sort_runs(order, [&](std::uint32_t f) {
         const auto& [a, b, c] = faces_[f].vertices;

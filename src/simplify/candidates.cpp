@@ -30,8 +30,7 @@ std::uint64_t Candidates::refresh(std::uint32_t threads) {
     constexpr std::uint32_t kVertices = 1024;  // of a task
     struct Part {
         std::vector<Best> best;  // by vertex
-        std::uint64_t forbidden = 0;
-        bool has_edges_over_error = false;
+        Notes notes;
     };
     const auto find = [&](std::uint32_t first, std::uint32_t end) {
         Part part;
@@ -40,22 +39,20 @@ std::uint64_t Candidates::refresh(std::uint32_t threads) {
         for (std::uint32_t v = first; v < end; ++v)
             if (mesh_.is_alive(VertexId{v}))
                 part.best[v - first] = best(VertexId{v}, {kNoVertex, kNoFloor}, kNoVertex, scratch);
-        part.forbidden = scratch.forbidden;
-        part.has_edges_over_error = scratch.has_edges_over_error;
+        part.notes = scratch.notes;
         return part;
     };
     std::uint32_t v = 0;
-    std::uint64_t forbidden = 0;
-    scratch_.has_edges_over_error = false;
+    Notes& notes = scratch_.notes = {};
     for_chunks(mesh_.vertex_end(), kVertices, placement_.ranks_in_parallel() ? threads : 1, find, [&](Part part) {
         for (const Best& best : part.best) {
             floor_[v] = kNoFloor;
             rank(VertexId{v++}, best);
         }
-        forbidden += part.forbidden;
-        scratch_.has_edges_over_error |= part.has_edges_over_error;
+        notes.forbidden += part.notes.forbidden;
+        notes.has_edges_over_error |= part.notes.has_edges_over_error;
     });
-    return forbidden;
+    return notes.forbidden;
 }
 
 /// The edges of v with their numbers of labels and their costs. Round a vertex of two labels all edges have both, and
@@ -94,7 +91,7 @@ float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge, Scratch& scr
     constexpr float kNever = std::numeric_limits<float>::infinity();
     if (!(edge.cost <= options_.max_cost)) return kNever;
     if (std::isfinite(options_.max_error) && edge.cost > options_.max_error * options_.max_error * edge.weight) {
-        scratch.has_edges_over_error = true;
+        scratch.notes.has_edges_over_error = true;
         return kNever;
     }
     const double scale2 = options_.scale * options_.scale;
@@ -112,7 +109,7 @@ Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, Scratc
         const VertexId w = neighbours.vertices[n];
         if (mesh_[w].is_fixed) continue;
         const VertexId goes = owner(v, w, neighbours.label_counts[n]);
-        scratch.forbidden += goes == kNoVertex && v < w;
+        scratch.notes.forbidden += goes == kNoVertex && v < w;
         if (goes != v) continue;
         const Best candidate{w, key(v, w, neighbours.costs[n], scratch)};
         if (candidate.is_before(best) && (w == fresh || after.is_before(candidate))) best = candidate;

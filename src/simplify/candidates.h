@@ -22,7 +22,7 @@ public:
 
     bool empty() const { return heap_.empty(); }
     /// Whether the largest error has kept an edge out since the last refresh.
-    bool has_edges_over_error() const { return scratch_.has_edges_over_error; }
+    bool has_edges_over_error() const { return scratch_.notes.has_edges_over_error; }
     VertexId goes() const { return heap_.top(); }
     VertexId stays() const { return partner_[index(heap_.top())]; }
     double least_rank() const { return heap_.top_key() / key_unit_; }
@@ -50,12 +50,16 @@ private:
         bool is_before(Best other) const { return key < other.key || (key == other.key && stays < other.stays); }
     };
 
-    /// What one thread needs to find the cheapest edges, and what it notes.
+    /// What is seen of the edges while the cheapest are sought.
+    struct Notes {
+        std::uint64_t forbidden = 0;  // by strata
+        bool has_edges_over_error = false;
+    };
+    /// What one thread needs to find the cheapest edges.
     struct Scratch {
         Neighbours neighbours;
         StarEdges edges;
-        std::uint64_t forbidden = 0;
-        bool has_edges_over_error = false;
+        Notes notes;
     };
 
     void gather_neighbours(VertexId v, StarEdges& edges, Neighbours& found) const;

@@ -1,4 +1,4 @@
-// One mesh simplified by one heap on one thread: prepass, then ranked collapses (P 3.5-3.7).
+// One mesh simplified by one heap: prepass, then ranked collapses one by one (P 3.5-3.7).
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ struct CollapseBounds {
     bool refresh = true;      // begin again when candidates run out (P 3.7)
     CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
     CollapseLog* log = nullptr;          // filled; those of the prepass have level 0
-    std::uint32_t threads = 1;           // up to the first collapse; 0: one per core. The result is the same
+    std::uint32_t threads = 1;           // 0: one per core. Collapses are made on one, the tree and first ranks on all
 };
 
 struct CollapseResult {
@@ -52,8 +52,8 @@ struct CollapseResult {
 
 /// Collapses the cheapest edge that no verdict forbids, again and again, down to the target or up to the largest cost.
 /// Fixed vertices neither move nor go; an edge that ends in one is no candidate. Quadrics are gathered from the mesh as
-/// it comes and live for one call. Uses one thread, except for `bounds.threads`. Requires that every vertex that is not
-/// fixed has all its faces in the mesh. Renumbers faces. Fast when vertices and faces lie along a curve
+/// it comes and live for one call. The result does not depend on `bounds.threads`. Requires that every vertex that is
+/// not fixed has all its faces in the mesh. Renumbers faces. Fast when vertices and faces lie along a curve
 /// (Mesh::sort_spatially).
 CollapseResult collapse_edges(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds = {});
 

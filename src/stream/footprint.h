@@ -59,7 +59,8 @@ inline constexpr std::uint64_t kCheckBytesPerFace = kTreeBytesPerFace + 6;
 inline constexpr std::uint64_t kPreserveBytesPerFace = kSmoothBytesPerFace + per_face(0, sizeof(Vec3) + 2);
 static_assert(kCheckBytesPerFace == 20 && kPreserveBytesPerFace == 100);
 
-/// Writing a model, at most. Measured: 5 a face as .vtp, 8 as .stl, 25 as .glb, 30 as .smesh, 33 as .msh.
+/// In addition to the finished mesh, at most, while it is written. Measured: 5 a face as .vtp, 8 as .stl, 25 as .glb,
+/// 30 as .smesh, 33 as .msh.
 inline constexpr std::uint64_t kWriteBytesPerFace = 36;
 
 /// A labelled point while faces of tetrahedra are made: position, label, input number, and whether it is used.
