@@ -55,7 +55,7 @@ std::uint64_t Candidates::refresh(std::uint32_t threads) {
     return notes.forbidden;
 }
 
-/// The edges of v with their numbers of labels and their costs. Round a vertex of two labels all edges have both, and
+/// The edges of v with their numbers of labels. Round a vertex of two labels all edges have both, and
 /// each neighbour follows v in exactly one face.
 void Candidates::gather_neighbours(VertexId v, StarEdges& edges, Neighbours& found) const {
     found.vertices.clear();
@@ -70,7 +70,19 @@ void Candidates::gather_neighbours(VertexId v, StarEdges& edges, Neighbours& fou
         for (const LabelSet& labels : edges.labels())
             found.label_counts.push_back(static_cast<std::uint8_t>(labels.size()));
     }
-    placement_.rank(mesh_, v, found.vertices, found.costs);
+}
+
+/// Leaves out the neighbours whose edges v does not own.
+void Candidates::keep_owned(VertexId v, Neighbours& neighbours, Notes& notes) const {
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < neighbours.vertices.size(); ++n) {
+        const VertexId w = neighbours.vertices[n];
+        if (mesh_[w].is_fixed) continue;
+        const VertexId goes = owner(v, w, neighbours.label_counts[n]);
+        notes.forbidden += goes == kNoVertex && v < w;
+        if (goes == v) neighbours.vertices[kept++] = w;
+    }
+    neighbours.vertices.resize(kept);
 }
 
 /// The end that would go, or none.
@@ -105,12 +117,10 @@ Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, Scratc
     if (mesh_[v].is_fixed) return best;
     Neighbours& neighbours = scratch.neighbours;
     gather_neighbours(v, scratch.edges, neighbours);
+    keep_owned(v, neighbours, scratch.notes);
+    placement_.rank(mesh_, v, neighbours.vertices, neighbours.costs);
     for (std::size_t n = 0; n < neighbours.vertices.size(); ++n) {
         const VertexId w = neighbours.vertices[n];
-        if (mesh_[w].is_fixed) continue;
-        const VertexId goes = owner(v, w, neighbours.label_counts[n]);
-        scratch.notes.forbidden += goes == kNoVertex && v < w;
-        if (goes != v) continue;
         const Best candidate{w, key(v, w, neighbours.costs[n], scratch)};
         if (candidate.is_before(best) && (w == fresh || after.is_before(candidate))) best = candidate;
     }
@@ -137,6 +147,7 @@ void Candidates::update(VertexId goes, VertexId stays) {
     heap_.remove(goes);
     partner_[index(goes)] = kNoVertex;
     gather_neighbours(stays, scratch_.edges, round_merged_);
+    placement_.rank(mesh_, stays, round_merged_.vertices, round_merged_.costs);
     Best own{kNoVertex, std::numeric_limits<float>::infinity()};
     for (std::size_t n = 0; n < round_merged_.vertices.size(); ++n) {
         const VertexId w = round_merged_.vertices[n];

@@ -63,6 +63,7 @@ private:
     };
 
     void gather_neighbours(VertexId v, StarEdges& edges, Neighbours& found) const;
+    void keep_owned(VertexId v, Neighbours& neighbours, Notes& notes) const;
     int label_count(VertexId v) const { return mesh_[v].label_count; }
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
     float key(VertexId goes, VertexId stays, EdgeCost cost, Scratch& scratch) const;

@@ -92,6 +92,31 @@ void gather_faces_of_goes(const Mesh& mesh, VertexId goes, VertexId stays, EdgeS
     measure(mesh, star);
 }
 
+/// Are these multiples of 1/64, and less than 2^45? Their differences are exact.
+bool are_of_few_digits(const Lanes3<Double2>& p) {
+    // Adding 1.5 * 2^46 leaves no digits beyond 1/64.
+    const Double2 round = both(0x1.8p46), most = both(0x1p45), zero = both(0);
+    unsigned ok = 3;
+    for (Double2 x : {p.x, p.y, p.z}) ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
+    return ok == 3;
+}
+
+/// Do all corners lie in one plane, exactly? True only where the coordinates have few digits, as those of samples do,
+/// and lie less than 64 apart: products of three differences are exact then.
+bool is_in_one_plane(const EdgeStar& star) {
+    const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
+    const auto is_in_plane = [&](const Lanes3<Double2>& p) {
+        const Lanes3<Double2> step = p - origin;
+        const Double2 most = both(64), zero = both(0);
+        unsigned is_near = 3;
+        for (Double2 x : {step.x, step.y, step.z}) is_near &= bits_of(greatest(x, zero - x) < most);
+        return is_near == 3 && are_of_few_digits(p) && bits_of(dot(normal, step) == zero) == 3;
+    };
+    return are_of_few_digits(origin) && is_in_plane(both(star.at_stays)) &&
+           std::all_of(star.pairs.begin(), star.pairs.end(),
+                       [&](const StarPair& pair) { return is_in_plane(pair.a) && is_in_plane(pair.b); });
+}
+
 }  // namespace
 
 void gather(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star) {
@@ -143,6 +168,12 @@ void set_normals(EdgeStar& star, Vec3 position) {
         pair.new_normal = cross(pair.a - merged, pair.b - merged);
         pair.new_length2 = dot(pair.new_normal, pair.new_normal);
     }
+}
+
+void note_flat(EdgeStar& star, Vec3 position) {
+    const auto stays_level = [&](int axis) { return star.is_level(axis) && position[axis] == star.at_goes[axis]; };
+    star.is_flat = star.is_interface &&
+                   (stays_level(0) || stays_level(1) || stays_level(2) || (star.keeps_stays && is_in_one_plane(star)));
 }
 
 }  // namespace regionmesh

@@ -37,6 +37,7 @@ struct EdgeStar {
     std::vector<VertexId> link;    // distinct vertices a, b of the surviving faces
     Box link_box;                  // round them
     bool is_interface;             // all faces have the same two labels
+    bool is_flat;                  // and lie in one plane, exactly, before and after; set by note_flat
     bool keeps_stays;              // only the faces of `goes` are here: `stays` does not move, nor do its faces change
 
     int face_count() const { return static_cast<int>(faces.size()); }
@@ -87,5 +88,9 @@ void gather_flip(const Mesh& mesh, const Flip& flip, EdgeStar& star);
 
 /// Fills in the normals that the surviving faces would have with the merged vertex at `position`.
 void set_normals(EdgeStar& star, Vec3 position);
+
+/// Notes whether all faces of the star lie in one plane, exactly, and stay there: an interface or a side of the box.
+/// Where none folds, the new faces then tile the very polygon that the old ones did.
+void note_flat(EdgeStar& star, Vec3 position);
 
 }  // namespace regionmesh

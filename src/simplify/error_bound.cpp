@@ -48,7 +48,7 @@ double ErrorBound::merged(const Mesh& mesh, const EdgeStar& star, Vec3 position)
     stays_bound_ = mesh[star.stays].error_bound();
     demands_.clear();
     bound_ = star.keeps_stays ? stays_bound_ : 0;  // its other faces keep it
-    if (stays_flat(mesh, star, position)) return bound_;
+    if (stays_flat(mesh, star)) return bound_;
     is_done_.assign(star.faces.size(), false);
     std::size_t dead_done = 0;
     for (int first = 0; first < star.face_count(); ++first) {
@@ -86,16 +86,12 @@ void ErrorBound::apply(Mesh& mesh, VertexId merged) const {
 }
 
 /// Nothing moved yet, and nothing moves: common on unsmoothed lattices.
-bool ErrorBound::stays_flat(const Mesh& mesh, const EdgeStar& star, Vec3 position) const {
-    if (goes_bound_ > 0 || stays_bound_ > 0 || mesh[star.goes].label_count != 2) return false;
+bool ErrorBound::stays_flat(const Mesh& mesh, const EdgeStar& star) const {
+    if (!star.is_flat || goes_bound_ > 0 || stays_bound_ > 0 || mesh[star.goes].label_count != 2) return false;
     if (!star.keeps_stays && mesh[star.stays].label_count != 2) return false;
     // Closed all round.
     if (star.dead.size() != 2 || star.link.size() != star.faces.size() + (star.keeps_stays ? 1 : 0)) return false;
-    int level = -1;
-    for (int axis = 0; axis < 3; ++axis)
-        if (star.is_level(axis) && position[axis] == star.at_goes[axis]) level = axis;
-    return level >= 0 &&
-           std::all_of(star.link.begin(), star.link.end(), [&](VertexId v) { return mesh[v].error_bound() == 0; });
+    return std::all_of(star.link.begin(), star.link.end(), [&](VertexId v) { return mesh[v].error_bound() == 0; });
 }
 
 double ErrorBound::of_interface(const Mesh& mesh, const EdgeStar& star, Vec3 position) {

@@ -25,7 +25,7 @@ namespace regionmesh {
 ///             (Bajaj and Schikore 1996).
 class ErrorBound {
 public:
-    /// The bound that the merged vertex gets at a position. Requires the normals of set_normals.
+    /// The bound that the merged vertex gets at a position. Requires set_normals and note_flat.
     double merged(const Mesh& mesh, const EdgeStar& star, Vec3 position);
     /// Sets the bounds that this makes necessary: of the merged vertex, and of those of the link that have to rise, to
     /// no more than that.
@@ -57,7 +57,7 @@ private:
         Point from, to;
     };
 
-    bool stays_flat(const Mesh& mesh, const EdgeStar& star, Vec3 position) const;
+    bool stays_flat(const Mesh& mesh, const EdgeStar& star) const;
     double of_interface(const Mesh& mesh, const EdgeStar& star, Vec3 position);
     double far_bound(const EdgeStar& star, Vec3 position) const;
     bool is_vertical(const Mesh& mesh, const EdgeStar& star, Vec3 position);

@@ -66,45 +66,11 @@ private:
     bool is_sure_;
 };
 
-/// Are these multiples of 1/64, and less than 2^45? Their differences are exact.
-bool are_of_few_digits(const Lanes3<Double2>& p) {
-    // Adding 1.5 * 2^46 leaves no digits beyond 1/64.
-    const Double2 round = both(0x1.8p46), most = both(0x1p45), zero = both(0);
-    unsigned ok = 3;
-    for (Double2 x : {p.x, p.y, p.z}) ok &= bits_of(((x + round) - round == x) & (greatest(x, zero - x) < most));
-    return ok == 3;
-}
-
-/// Do all corners lie in one plane, exactly? True only where the coordinates have few digits, as those of samples do,
-/// and lie less than 64 apart: products of three differences are exact then.
-bool is_in_one_plane(const EdgeStar& star) {
-    const Lanes3<Double2> origin = both(star.at_goes), normal = both(star.pairs[0].old_normal[0]);
-    const auto is_in_plane = [&](const Lanes3<Double2>& p) {
-        const Lanes3<Double2> step = p - origin;
-        const Double2 most = both(64), zero = both(0);
-        unsigned is_near = 3;
-        for (Double2 x : {step.x, step.y, step.z}) is_near &= bits_of(greatest(x, zero - x) < most);
-        return is_near == 3 && are_of_few_digits(p) && bits_of(dot(normal, step) == zero) == 3;
-    };
-    return are_of_few_digits(origin) && is_in_plane(both(star.at_stays)) &&
-           std::all_of(star.pairs.begin(), star.pairs.end(),
-                       [&](const StarPair& pair) { return is_in_plane(pair.a) && is_in_plane(pair.b); });
-}
-
-/// All faces of the star lie in one plane, exactly, and stay there: an interface or a side of the box. Since none
-/// folds, the new faces tile the very polygon that the old ones did, and nothing can be in their way.
-bool is_flat(const EdgeStar& star, Vec3 position) {
-    if (!star.is_interface) return false;
-    for (int axis = 0; axis < 3; ++axis)
-        if (star.is_level(axis) && position[axis] == star.at_goes[axis]) return true;
-    return star.keeps_stays && is_in_one_plane(star);
-}
-
 }  // namespace
 
 Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const EdgeStar& star, Vec3 position,
                                const ShapeBounds& bounds) {
-    if (is_flat(star, position)) return Verdict::kAccepted;
+    if (star.is_flat) return Verdict::kAccepted;
     position_ = position;
     const bool is_simple = is_simple_disk(star);
     box_ = star.link_box;

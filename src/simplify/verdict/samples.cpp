@@ -129,8 +129,8 @@ bool changes_samples(const Lattice& lattice, std::span<const LabelledTriangle> b
 }
 
 Verdict test_samples(Collapse& collapse) {
-    if (!collapse.samples) return Verdict::kAccepted;
     const EdgeStar& star = collapse.star;
+    if (!collapse.samples || star.is_flat) return Verdict::kAccepted;
     thread_local std::vector<LabelledTriangle> before, after;
     before.clear();
     for (int n = 0; n < star.face_count(); ++n)

@@ -64,7 +64,9 @@ Verdict verdict_at(Collapse& collapse, const Places& places) {
             set_normals(collapse.star, places.first);
         }
     }
-    return verdict == Verdict::kAccepted ? first_refusal<Step::kSurroundings>(collapse) : verdict;
+    if (verdict != Verdict::kAccepted) return verdict;
+    note_flat(collapse.star, collapse.position);
+    return first_refusal<Step::kSurroundings>(collapse);
 }
 
 }  // namespace regionmesh
