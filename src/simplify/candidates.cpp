@@ -55,34 +55,29 @@ std::uint64_t Candidates::refresh(std::uint32_t threads) {
     return notes.forbidden;
 }
 
-/// The edges of v with their numbers of labels. Round a vertex of two labels all edges have both, and
-/// each neighbour follows v in exactly one face.
-void Candidates::gather_neighbours(VertexId v, StarEdges& edges, Neighbours& found) const {
-    found.vertices.clear();
-    if (label_count(v) == 2) {
-        mesh_.for_star(v,
-                       [&](FaceId f, int place) { found.vertices.push_back(mesh_[f].vertices[place_after(place)]); });
-        found.label_counts.assign(found.vertices.size(), 2);
-    } else {
-        edges.gather(mesh_, v);
-        found.vertices = edges.ends();
-        found.label_counts.clear();
-        for (const LabelSet& labels : edges.labels())
-            found.label_counts.push_back(static_cast<std::uint8_t>(labels.size()));
-    }
+/// The number of labels of an edge: two where one end has no more.
+int Candidates::edge_label_count(VertexId v, VertexId w) const {
+    return label_count(v) == 2 || label_count(w) == 2 ? 2 : edge_labels(mesh_, v, w).size();
 }
 
-/// Leaves out the neighbours whose edges v does not own.
-void Candidates::keep_owned(VertexId v, Neighbours& neighbours, Notes& notes) const {
-    std::size_t kept = 0;
-    for (std::size_t n = 0; n < neighbours.vertices.size(); ++n) {
-        const VertexId w = neighbours.vertices[n];
-        if (mesh_[w].is_fixed) continue;
-        const VertexId goes = owner(v, w, neighbours.label_counts[n]);
-        notes.forbidden += goes == kNoVertex && v < w;
-        if (goes == v) neighbours.vertices[kept++] = w;
-    }
-    neighbours.vertices.resize(kept);
+/// Calls visit(w) for each neighbour of v. Along an edge of two labels each end follows the other in exactly one face.
+template <class Visit>
+void Candidates::for_neighbours(VertexId v, std::vector<VertexId>& seen, Visit&& visit) const {
+    seen.clear();
+    mesh_.for_star(v, [&](FaceId f, int place) {
+        const Face& face = mesh_[f];
+        const VertexId after = face.vertices[place_after(place)], before = face.vertices[place_before(place)];
+        if (label_count(v) == 2) return visit(after);
+        for (VertexId w : {after, before}) {
+            if (label_count(w) == 2) {
+                if (w == after) visit(w);
+                continue;
+            }
+            if (std::find(seen.begin(), seen.end(), w) != seen.end()) continue;
+            seen.push_back(w);
+            visit(w);
+        }
+    });
 }
 
 /// The end that would go, or none.
@@ -115,13 +110,17 @@ float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge, Scratch& scr
 Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, Scratch& scratch) const {
     Best best{kNoVertex, std::numeric_limits<float>::infinity()};
     if (mesh_[v].is_fixed) return best;
-    Neighbours& neighbours = scratch.neighbours;
-    gather_neighbours(v, scratch.edges, neighbours);
-    keep_owned(v, neighbours, scratch.notes);
-    placement_.rank(mesh_, v, neighbours.vertices, neighbours.costs);
-    for (std::size_t n = 0; n < neighbours.vertices.size(); ++n) {
-        const VertexId w = neighbours.vertices[n];
-        const Best candidate{w, key(v, w, neighbours.costs[n], scratch)};
+    scratch.owned.clear();
+    for_neighbours(v, scratch.seen, [&](VertexId w) {
+        if (mesh_[w].is_fixed) return;
+        const VertexId goes = owner(v, w, edge_label_count(v, w));
+        scratch.notes.forbidden += goes == kNoVertex && v < w;
+        if (goes == v) scratch.owned.push_back(w);
+    });
+    placement_.rank(mesh_, v, scratch.owned, scratch.costs);
+    for (std::size_t n = 0; n < scratch.owned.size(); ++n) {
+        const VertexId w = scratch.owned[n];
+        const Best candidate{w, key(v, w, scratch.costs[n], scratch)};
         if (candidate.is_before(best) && (w == fresh || after.is_before(candidate))) best = candidate;
     }
     if (std::isinf(best.key)) best.stays = kNoVertex;
@@ -146,22 +145,23 @@ void Candidates::refuse() {
 void Candidates::update(VertexId goes, VertexId stays) {
     heap_.remove(goes);
     partner_[index(goes)] = kNoVertex;
-    gather_neighbours(stays, scratch_.edges, round_merged_);
-    placement_.rank(mesh_, stays, round_merged_.vertices, round_merged_.costs);
+    round_merged_.clear();
+    for_neighbours(stays, scratch_.seen, [&](VertexId w) { round_merged_.push_back(w); });
+    placement_.rank(mesh_, stays, round_merged_, costs_round_merged_);
     Best own{kNoVertex, std::numeric_limits<float>::infinity()};
-    for (std::size_t n = 0; n < round_merged_.vertices.size(); ++n) {
-        const VertexId w = round_merged_.vertices[n];
+    for (std::size_t n = 0; n < round_merged_.size(); ++n) {
+        const VertexId w = round_merged_[n];
         if (mesh_[w].is_fixed) continue;
-        const VertexId owner_of_edge = owner(stays, w, round_merged_.label_counts[n]);
+        const VertexId owner_of_edge = owner(stays, w, edge_label_count(stays, w));
         if (owner_of_edge == stays) {
-            const Best candidate{w, key(stays, w, round_merged_.costs[n], scratch_)};
+            const Best candidate{w, key(stays, w, costs_round_merged_[n], scratch_)};
             if (candidate.is_before(own)) own = candidate;
         }
         const VertexId held = partner_[index(w)];
         if (held == goes || held == stays) {
             rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, scratch_));
         } else if (owner_of_edge == w) {
-            const Best fresh{stays, key(w, stays, round_merged_.costs[n], scratch_)};
+            const Best fresh{stays, key(w, stays, costs_round_merged_[n], scratch_)};
             if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, heap_.key(w)})))
                 rank(w, fresh);
         }

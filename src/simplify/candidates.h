@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "mesh/star_edges.h"
 #include "regionmesh/simplify.h"
 #include "simplify/edge_heap.h"
 #include "simplify/placement.h"
@@ -38,12 +37,6 @@ public:
     std::size_t bytes() const;
 
 private:
-    /// The edges of a vertex, place by place.
-    struct Neighbours {
-        std::vector<VertexId> vertices;
-        std::vector<std::uint8_t> label_counts;  // of the edges
-        std::vector<EdgeCost> costs;
-    };
     struct Best {
         VertexId stays = kNoVertex;
         float key = 0;
@@ -57,13 +50,14 @@ private:
     };
     /// What one thread needs to find the cheapest edges.
     struct Scratch {
-        Neighbours neighbours;
-        StarEdges edges;
+        std::vector<VertexId> seen, owned;  // neighbours of a vertex, those whose edges it owns
+        std::vector<EdgeCost> costs;        // of these edges
         Notes notes;
     };
 
-    void gather_neighbours(VertexId v, StarEdges& edges, Neighbours& found) const;
-    void keep_owned(VertexId v, Neighbours& neighbours, Notes& notes) const;
+    template <class Visit>
+    void for_neighbours(VertexId v, std::vector<VertexId>& seen, Visit&& visit) const;
+    int edge_label_count(VertexId v, VertexId w) const;
     int label_count(VertexId v) const { return mesh_[v].label_count; }
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
     float key(VertexId goes, VertexId stays, EdgeCost cost, Scratch& scratch) const;
@@ -77,7 +71,8 @@ private:
     FlatArray<float> floor_;       // edges up to this key were refused since the last change
     EdgeHeap heap_;
     Scratch scratch_;
-    Neighbours round_merged_;
+    std::vector<VertexId> round_merged_;        // neighbours of the merged vertex
+    std::vector<EdgeCost> costs_round_merged_;  // of its edges
     double key_unit_;  // a power of two near 1 / scale^4: keys are single precision, and would overflow or vanish
 };
 
