@@ -35,7 +35,7 @@ one checked triangle mesh in which neighbouring regions share their faces.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libregionmesh-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "zlib1g-dev, libtiff-dev, libpng-dev, libblosc-dev, libzstd-dev, liblz4-dev, libcsv-dev, libminizip-dev, libdraco-dev, libpugixml-dev, libfmt-dev, libgmp-dev, libmpfr-dev, libtbb-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "zlib1g-dev, libtiff-dev, libpng-dev, libblosc-dev, libzstd-dev, liblz4-dev, libcsv-dev, libdeflate-dev, libminizip-dev, libdraco-dev, libpugixml-dev, libfmt-dev, libgmp-dev, libmpfr-dev, libtbb-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "C++ library: static libraries, headers and the files that CMake's
 find_package reads.")
 

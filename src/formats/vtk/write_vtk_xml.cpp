@@ -1,12 +1,13 @@
 // VTK PolyData and UnstructuredGrid in XML: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #include <fmt/format.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <new>
 #include <span>
 #include <string>
@@ -29,7 +30,7 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t kBlockBytes = 1 << 20;  // uncompressed; a multiple of the size of every number
 constexpr std::uint32_t kMostBlocks = 4;      // compressed at a time
 constexpr std::size_t kProbeBytes = 1 << 15;
-constexpr int kStored = 0, kFast = 1;  // levels of zlib
+constexpr int kStored = 0, kFast = 1;  // levels
 
 template <class T>
 constexpr const char* vtk_type() {
@@ -40,27 +41,37 @@ constexpr const char* vtk_type() {
     if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
 }
 
-// Smoothed positions hardly compress: zlib would take most of the time to save a tenth of their size. A block whose
-// beginning shrinks by less than an eighth is stored.
-int compression_level(std::span<const Bytef> block, std::span<Bytef> scratch) {
-    const std::size_t probe = std::min(kProbeBytes, block.size());
-    uLongf size = scratch.size();
-    compress2(scratch.data(), &size, block.data(), probe, kFast);
-    return size > probe / 8 * 7 ? kStored : kFast;
-}
+// Makes streams of zlib.
+class Compressor {
+public:
+    explicit Compressor(int level) : made_(libdeflate_alloc_compressor(level), libdeflate_free_compressor) {
+        if (!made_) throw std::bad_alloc();
+    }
+    static std::size_t bound(std::size_t bytes) { return libdeflate_zlib_compress_bound(nullptr, bytes); }
+    // Returns the size. Requires room for bound(plain.size()) bytes.
+    std::size_t pack(std::span<const std::byte> plain, std::span<std::byte> packed) {
+        return libdeflate_zlib_compress(made_.get(), plain.data(), plain.size(), packed.data(), packed.size());
+    }
+
+private:
+    std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> made_;
+};
 
 // What one thread compresses at a time.
 struct Block {
-    std::vector<Bytef> plain = std::vector<Bytef>(kBlockBytes);
+    std::vector<std::byte> plain = std::vector<std::byte>(kBlockBytes);
     std::size_t used = 0;
-    std::vector<Bytef> packed = std::vector<Bytef>(compressBound(kBlockBytes));
-    uLongf packed_size = 0;
+    std::vector<std::byte> packed = std::vector<std::byte>(Compressor::bound(kBlockBytes));
+    std::size_t packed_size = 0;
+    Compressor fast = Compressor(kFast), stored = Compressor(kStored);
 
+    // Smoothed positions hardly compress, which would take most of the time to save a tenth of their size. A block
+    // whose beginning shrinks by less than an eighth is stored.
     void pack() {
-        const int level = compression_level(std::span(plain).first(used), packed);
-        packed_size = packed.size();
-        const int status = compress2(packed.data(), &packed_size, plain.data(), used, level);
-        if (status != Z_OK) throw std::bad_alloc();  // the room suffices, so only memory can fail
+        const std::span own = std::span<const std::byte>(plain).first(used);
+        const std::size_t probe = std::min(kProbeBytes, used);
+        const bool is_stored = fast.pack(own.first(probe), packed) > probe / 8 * 7;
+        packed_size = (is_stored ? stored : fast).pack(own, packed);
     }
 };
 
@@ -110,7 +121,7 @@ private:
         for (Block& block : std::span(blocks_).first(full_)) {
             header_.push_back(block.packed_size);
             text_.clear();
-            encoder_.encode(std::as_bytes(std::span(block.packed).first(block.packed_size)), text_);
+            encoder_.encode(std::span(block.packed).first(block.packed_size), text_);
             file_.write(text_);
             block.used = 0;
         }
