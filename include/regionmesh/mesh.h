@@ -120,6 +120,13 @@ public:
     /// The same for faces only.
     void compact_faces();
 
+    /// The arrays, with free places in between. Empties the mesh.
+    struct Arrays {
+        FlatArray<Vertex> vertices;
+        FlatArray<Face> faces;
+    };
+    Arrays release();
+
     /// Reverses the orientation of all faces; labels stay. For a map of the positions that mirrors.
     void flip_faces();
 

@@ -117,6 +117,12 @@ void Mesh::move_star(VertexId from, VertexId to) {
     remove_vertex(from);
 }
 
+Mesh::Arrays Mesh::release() {
+    Arrays arrays{std::move(vertices_), std::move(faces_)};
+    *this = {};
+    return arrays;
+}
+
 void Mesh::flip_faces() {
     for (Face& face : faces_) {
         if (face.vertices[0] == kNoVertex) continue;

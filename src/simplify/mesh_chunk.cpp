@@ -2,25 +2,34 @@
 
 namespace regionmesh {
 
-Chunk take_chunk(Mesh& mesh) {
+Chunk take_chunk(Mesh& mesh, std::span<const VertexId> active) {
     Chunk chunk;
-    std::vector<std::uint32_t> numbers(mesh.vertex_end());
     chunk.vertices.reserve(mesh.vertex_count());
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
-        const Vertex& vertex = mesh[VertexId{v}];
+    chunk.faces.reserve(mesh.face_count());
+    // Vertices are released before faces are copied.
+    auto [vertices, faces] = mesh.release();
+    std::vector<std::uint32_t> numbers(vertices.size());
+    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+        const Vertex& vertex = vertices[v];
         if (!vertex.is_alive) continue;
         numbers[v] = static_cast<std::uint32_t>(chunk.vertices.size());
         chunk.vertices.push_back({vertex.position, vertex.sides, vertex.error_bound()});
-        if (vertex.is_fixed) chunk.active.push_back(numbers[v]);
     }
-    chunk.faces.reserve(mesh.face_count());
-    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
-        if (!mesh.is_alive(FaceId{f})) continue;
-        const auto& [a, b, c] = mesh[FaceId{f}].vertices;
-        chunk.faces.push_back({{numbers[index(a)], numbers[index(b)], numbers[index(c)]}, mesh[FaceId{f}].labels});
+    vertices = {};
+    for (const auto& [corners, next, labels] : faces) {
+        const auto [a, b, c] = corners;
+        if (a == kNoVertex) continue;
+        chunk.faces.push_back({{numbers[index(a)], numbers[index(b)], numbers[index(c)]}, labels});
     }
-    mesh = {};
+    for (VertexId v : active) chunk.active.push_back(numbers[index(v)]);
     return chunk;
+}
+
+Chunk take_chunk(Mesh& mesh) {
+    std::vector<VertexId> fixed;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        if (mesh.is_alive(VertexId{v}) && mesh[VertexId{v}].is_fixed) fixed.push_back(VertexId{v});
+    return take_chunk(mesh, fixed);
 }
 
 Mesh mesh_of(const Chunk& chunk) {

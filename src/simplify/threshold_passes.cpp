@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "regionmesh/process.h"
 #include "simplify/collapse_edges.h"
 
 namespace regionmesh {
@@ -107,13 +108,17 @@ std::optional<TileResult> pass_over(TiledFaces& faces, TileOptions options, doub
     options.threshold = HUGE_VAL;
     if (target == 0) return simplify_tiles(faces, options);
     double wanted = target * kPassMargin, aim = wanted;  // what the search is asked for, so that it is left
-    if (!search) search.emplace(faces, options, wanted / held);
+    if (!search) {
+        search.emplace(faces, options, wanted / held);
+        give_back_freed_memory();
+    }
     const auto take_aim = [&](double share) {
         options.threshold = search->threshold(pass, aim);
         if (search->is_free(pass, aim)) options.keep_share = std::max(options.keep_share, share);  // in every tile
     };
     // Never a higher threshold: what is locked is left to the next pass.
     const auto correct = [&](std::uint64_t of, std::uint64_t left) {
+        give_back_freed_memory();
         const double share_left = static_cast<double>(left) / static_cast<double>(of);
         const double share =
             std::max(wanted - static_cast<double>(left), 0.0) / std::max(held - static_cast<double>(of), 1.0);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "simplify/mesh_chunk.h"
+
 namespace regionmesh {
 
 void Merger::add(const Chunk& chunk) {
@@ -27,25 +29,8 @@ void Merger::add(const Chunk& chunk) {
 }
 
 Chunk Merger::take_apart() {
-    Chunk chunk;
-    std::vector<std::uint32_t> locals(mesh_.vertex_end());
-    chunk.vertices.reserve(mesh_.vertex_count());
-    for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
-        const Vertex& vertex = mesh_[VertexId{v}];
-        if (!vertex.is_alive) continue;
-        locals[v] = static_cast<std::uint32_t>(chunk.vertices.size());
-        chunk.vertices.push_back({vertex.position, vertex.sides, vertex.error_bound()});
-    }
-    chunk.faces.reserve(mesh_.face_count());
-    for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
-        if (!mesh_.is_alive(FaceId{f})) continue;
-        const auto& corners = mesh_[FaceId{f}].vertices;
-        chunk.faces.push_back({{locals[index(corners[0])], locals[index(corners[1])], locals[index(corners[2])]},
-                               mesh_[FaceId{f}].labels});
-    }
-    for (VertexId v : active_) chunk.active.push_back(locals[index(v)]);
+    Chunk chunk = take_chunk(mesh_, active_);
     active_.clear();
-    mesh_ = {};
     return chunk;
 }
 

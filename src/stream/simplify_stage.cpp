@@ -5,6 +5,7 @@
 
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
+#include "simplify/mesh_chunk.h"
 #include "simplify/threshold_passes.h"
 #include "stream/footprint.h"
 #include "stream/stage_options.h"
@@ -97,9 +98,8 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
                                    .in_flight = budget_.in_flight,
                                    .simplify = simplify_options(options_, shape_),
                                    .on_share = on_share};
-    const std::size_t held = mesh_.face_count(), mesh_bytes = mesh_.bytes();
+    log_.note_bytes(mesh_.face_count(), take_chunk_bytes(mesh_.vertex_end(), mesh_.face_end()));
     Chunk whole = merger_.take_apart();
-    log_.note_bytes(held, mesh_bytes + whole.vertices.size() * sizeof(ChunkVertex) + held * sizeof(ChunkFace));
     give_back_freed_memory();
     const PassOptions passes{.target_faces = goal, .safe = {.high = safe_high}, .tiles = tile_options};
     log_.add(simplify_in_passes(whole, plan_.tiles, passes).verdicts);
