@@ -67,7 +67,7 @@ public:
         constexpr double kSlack = 1e-3;
         for (int axis = 0; axis < 3; ++axis) {
             const double size = blocks.size_along(axis);
-            const std::int64_t block = blocks.cell_of(own, axis) / LatticeBlocks::kCells;
+            const std::int64_t block = blocks.block_of(own, axis);
             const auto place = [&](const LatticePoint& p) {
                 return p.at[axis] * LatticePoint::kStep / size - static_cast<double>(block);
             };
@@ -88,6 +88,28 @@ private:
     float square_[3][2 * NearRuns::kRings + 1];
 };
 
+/// Where the blocks near that of `own` have their corners, from the centre of a fit, in finest spacings.
+class LatticeFits::Corners {
+public:
+    Corners(const LatticeBlocks& blocks, const LatticePoint& own, const LatticePoint& centre) {
+        if (blocks.parts_sites()) return;  // there are no samples
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int64_t first = blocks.block_of(own, axis) - NearRuns::kRings;
+            for (int k = 0; k < 2 * NearRuns::kRings + 1; ++k) {
+                const auto steps = static_cast<std::int32_t>(blocks.corner_of(first + k, axis) - centre.at[axis]);
+                from_centre_[axis][k] = static_cast<float>(LatticePoint::kStep) * static_cast<float>(steps);
+            }
+        }
+    }
+    Float3 of(const NearRun& near) const {
+        const auto along = [&](int axis) { return from_centre_[axis][near.offset[axis] + NearRuns::kRings]; };
+        return {along(0), along(1), along(2)};
+    }
+
+private:
+    float from_centre_[3][2 * NearRuns::kRings + 1];
+};
+
 LatticeFits::LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options)
     : sites_(sites), blocks_(blocks), options_(options), steps_(blocks.spacing) {}
 
@@ -105,15 +127,16 @@ LatticeFits::Sites4 LatticeFits::gather(const std::uint32_t* numbers, std::uint3
 
 void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, std::span<const NearRun> near,
                             std::vector<FitPlace>& found) const {
-    const LatticePoint first = sites_[row.sites[row.runs[run].site]].centroid;
-    const Float3 &low = row.runs[run].low, &high = row.runs[run].high;
-    const Gaps gaps(blocks_, first, first + low, first + high);
+    const LatticePoint& first = sites_[row.sites[row.runs[run].site]].centroid;
+    const LatticePoint corner = blocks_.corner_of_block(first);
+    const Float3 low = blocks_.from_units(row.runs[run].low), high = blocks_.from_units(row.runs[run].high);
+    const Gaps gaps(blocks_, first, corner + low, corner + high);
     const auto beyond = [](float at, float low_, float high_) { return std::max({low_ - at, at - high_, 0.0f}); };
     for (const NearRun& other : near) {
         if (!gaps.is_within(kBlend, other)) continue;
         const bool is_own = other.row == &row && other.run == run;
         for (std::uint32_t f = (*other).fit; f < other.next().fit; ++f) {
-            const Float3 d = other.row->fits[f].quadric.centre - first;
+            const Float3 d = other.row->fits[f].quadric.centre - corner;
             const Float3 gap{beyond(d.x, low.x, high.x), beyond(d.y, low.y, high.y), beyond(d.z, low.z, high.z)};
             if (is_own || blocks_.distance2(gap) < kBlend * kBlend) found.push_back({other.row, other.run, f});
         }
@@ -126,16 +149,17 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearR
         auto& [quadric, accepted] = row.fits[f];
         const TangentFrame frame(quadric.normal);
         const Gaps gaps(blocks_, own, quadric.centre, quadric.centre);
+        const Corners corners(blocks_, own, quadric.centre);
         const float reach = kReach * static_cast<float>(options_.size);
         if (!options_.takes_all) {
             HeightQuadric trial = quadric;
-            const HeightSamples& few = choose(quadric, frame, gaps, near, kTrialStride);
+            const HeightSamples& few = choose(quadric, frame, gaps, corners, near, kTrialStride);
             accepted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds)
                            ? acceptance(trial, gaps, near, kTrialTolerance)
                            : 1;
             if (accepted == 0) continue;
         }
-        const HeightSamples& chosen = choose(quadric, frame, gaps, near, 1);
+        const HeightSamples& chosen = choose(quadric, frame, gaps, corners, near, 1);
         if (!quadric.fit(chosen, frame, blocks_.spacing, reach, options_.takes_all ? kFinestRounds : kRounds))
             accepted = -1;
         else
@@ -147,19 +171,18 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearR
 /// all are taken, some perhaps with weight 0, or none; of the fours of a run every `stride`th. Valid until the next
 /// call on the same thread.
 const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                                         std::span<const NearRun> near, std::uint32_t stride) const {
+                                         const Corners& corners, std::span<const NearRun> near,
+                                         std::uint32_t stride) const {
     thread_local HeightSamples chosen;
     const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
     const Share share_of{(1 / kReach) * blocks_.per_size};
-    const LatticePoint centre = quadric.centre;
     std::uint32_t count = 0, most = 0;
     for (const NearRun& other : near)
         most += other.next().samples - (*other).samples + (other.next().site - (*other).site + 3) / 4;
     if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
     HeightSamples::Four* const fours = chosen.fours.data();
-    const auto consider = [&](const Points4& at, const Lanes3<Float4>& normals, Float4 sites, const Kinds4& kind) {
-        const Lanes3<Float4> d = offset(at, centre);
-        const Float4 share = share_of(d), along = dot(normals, normal);
+    const auto consider = [&](const Lanes3<Float4>& d, Float4 along, Float4 sites, const Kinds4& kind) {
+        const Float4 share = share_of(d);
         const Mask4 counts = share > 0 && along > kSameSheet;
         if (bits_of(counts) == 0) return;
         const Float4 weight = share * share * along * sites;
@@ -173,13 +196,18 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
             for (std::uint32_t n = (*other).site; n < end; n += 4 * stride) {
                 const Sites4 sites = gather(&row.sites[n], end - n);
                 const auto one = [&](std::uint32_t lane) { return n + lane < end ? 1.0f : 0.0f; };
-                consider(sites.at, sites.normal, Float4{1, one(1), one(2), one(3)}, sites.kind);
+                consider(offset(sites.at, quadric.centre), dot(sites.normal, normal), Float4{1, one(1), one(2), one(3)},
+                         sites.kind);
             }
             continue;
         }
         const LatticeSamples* const end = row.samples.data() + other.next().samples;
-        for (const LatticeSamples* s = row.samples.data() + (*other).samples; s < end; s += stride)
-            consider(s->at, s->normal, __builtin_convertvector(s->count, Float4), s->kind);
+        const Float3 corner = corners.of(other), &unit = blocks_.unit;
+        for (const LatticeSamples* s = row.samples.data() + (*other).samples; s < end; s += stride) {
+            const Lanes3<Float4> p = s->positions();
+            consider({corner.x + unit.x * p.x, corner.y + unit.y * p.y, corner.z + unit.z * p.z},
+                     dot(s->normals(), normal) * all_four(LatticeSamples::kNormalUnit), s->counts(), s->kind);
+        }
     }
     chosen.count = count;
     return chosen;

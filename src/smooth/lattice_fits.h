@@ -49,10 +49,11 @@ private:
     struct Sites4;
     struct Blend4;
     class Gaps;
+    class Corners;
 
     Sites4 gather(const std::uint32_t* numbers, std::uint32_t count) const;
     const HeightSamples& choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                                std::span<const NearRun> near, std::uint32_t stride) const;
+                                const Corners& corners, std::span<const NearRun> near, std::uint32_t stride) const;
     float acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                      float most_missed) const;
     Float4 misses(const HeightQuadric& quadric, const Sites4& sites) const;

@@ -9,6 +9,10 @@
 namespace regionmesh {
 namespace {
 
+std::int16_t in_normal_units(float x) {
+    return static_cast<std::int16_t>(static_cast<int>(32768.5f + x * (1 / LatticeSamples::kNormalUnit)) - 32768);
+}
+
 /// Groups of sites in a block are one sheet above this cosine.
 constexpr float kJoins = 0.7f;
 
@@ -24,11 +28,11 @@ struct Group {
 };
 
 /// By direction; a group that faces about the same way as a larger one joins it. Positions are sums of offsets from the
-/// first sample.
+/// first sample, in units.
 std::vector<Group>& groups_of(std::span<const LatticeSamples> samples) {
     thread_local std::vector<Group> groups, joined;
     groups.clear();
-    const LatticePoint first = samples[0].position(0);
+    const Float3 first = samples[0].position_of(0);
     for (const LatticeSamples& four : samples)
         for (int lane = 0; lane < 4 && four.count[lane] > 0; ++lane) {
             const Float3 normal = four.normal_of(lane);
@@ -36,8 +40,8 @@ std::vector<Group>& groups_of(std::span<const LatticeSamples> samples) {
             auto group =
                 std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.direction == direction; });
             if (group == groups.end()) group = groups.insert(group, {{}, {}, 0, direction});
-            const float count = four.count[lane];
-            group->position += count * (four.position(lane) - first);
+            const auto count = static_cast<float>(four.count[lane]);
+            group->position += count * (four.position_of(lane) - first);
             group->normal += count * normal;
             group->count += count;
         }
@@ -69,7 +73,15 @@ LatticeBlocks::LatticeBlocks(const LatticeFrame& frame, double block_size, int s
     const auto least = static_cast<float>(block_size);
     size = {std::max(least, spacing.x), std::max(least, spacing.y), std::max(least, spacing.z)};
     per_size = {1 / size.x, 1 / size.y, 1 / size.z};
-    for (int axis = 0; axis < 3; ++axis) cells_per_length_[axis] = kCells / size_along(axis);
+    constexpr double kMostUnits = 65000;
+    for (int axis = 0; axis < 3; ++axis) {
+        cells_per_length_[axis] = kCells / size_along(axis);
+        while (std::ldexp(kMostUnits, unit_bits_[axis]) * LatticePoint::kStep < size_along(axis)) ++unit_bits_[axis];
+    }
+    const auto unit_along = [&](int axis) {
+        return std::ldexp(static_cast<float>(LatticePoint::kStep), unit_bits_[axis]);
+    };
+    unit = {unit_along(0), unit_along(1), unit_along(2)};
 }
 
 /// The small shift keeps centroids on a plane between cells on one side of it, whatever their rounding. Coordinates are
@@ -97,8 +109,8 @@ void LatticeRow::sort(const LatticeSites& of, const LatticeBlocks& blocks) {
     sort_by_key(keyed);
     for (std::size_t n = 0; n < keyed.size(); ++n) sites[n] = keyed[n].site;
     make_runs(keyed);
-    make_samples(of, keyed);
-    place_fits();
+    make_samples(of, blocks, keyed);
+    place_fits(of, blocks);
     if (blocks.parts_sites()) samples.clear();
     sites.shrink_to_fit();
     keys.shrink_to_fit();
@@ -143,21 +155,31 @@ void LatticeRow::make_runs(const std::vector<KeyedSite>& keyed) {
 }
 
 /// One sample for the sites of a run that have the same key.
-void LatticeRow::make_samples(const LatticeSites& of, const std::vector<KeyedSite>& keyed) {
+void LatticeRow::make_samples(const LatticeSites& of, const LatticeBlocks& blocks,
+                              const std::vector<KeyedSite>& keyed) {
     for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
         runs[r].samples = static_cast<std::uint32_t>(samples.size());
         const std::uint32_t end = runs[r + 1].site;
-        const LatticePoint& corner = of[sites[runs[r].site]].centroid;
+        const LatticePoint corner = blocks.corner_of_block(of[sites[runs[r].site]].centroid);
+        LatticeRun& run = runs[r];
+        run.low.fill(~0);
+        const auto note = [&](const LatticePoint& p) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::uint16_t at = blocks.in_units(p, corner, axis);
+                run.low[axis] = std::min<std::uint16_t>(run.low[axis], at - 1);
+                run.high[axis] = std::max<std::uint16_t>(run.high[axis], at + 1);
+            }
+        };
         int lane = 4;
         for (std::uint32_t first = runs[r].site, next; first < end; first = next) {
             const LatticeSite& site = of[sites[first]];
             Float3 offset, normal = site.normal;
-            runs[r].add(site.centroid - corner);
+            note(site.centroid);
             for (next = first + 1; next < end && keyed[next].key == keyed[first].key; ++next) {
                 const LatticeSite& other = of[sites[next]];
                 offset += other.centroid - site.centroid;
                 normal += other.normal;
-                runs[r].add(other.centroid - corner);
+                note(other.centroid);
             }
             const auto count = static_cast<float>(next - first);
             if (next > first + 1) normal = (1 / length(normal)) * normal;
@@ -167,8 +189,11 @@ void LatticeRow::make_samples(const LatticeSites& of, const std::vector<KeyedSit
                 lane = 0;
             }
             LatticeSamples& four = samples.back();
-            for (int axis = 0; axis < 3; ++axis) four.at[axis][lane] = at.at[axis];
-            four.normal.x[lane] = normal.x, four.normal.y[lane] = normal.y, four.normal.z[lane] = normal.z;
+            const float normals[3] = {normal.x, normal.y, normal.z};
+            for (int axis = 0; axis < 3; ++axis) {
+                four.at[axis][lane] = blocks.in_units(at, corner, axis);
+                four.normal[axis][lane] = in_normal_units(normals[axis]);
+            }
             four.count[lane] = static_cast<std::uint16_t>(next - first);
             four.kind[lane] = site.kind();
             ++lane;
@@ -177,12 +202,14 @@ void LatticeRow::make_samples(const LatticeSites& of, const std::vector<KeyedSit
     runs.back().samples = static_cast<std::uint32_t>(samples.size());
 }
 
-void LatticeRow::place_fits() {
+void LatticeRow::place_fits(const LatticeSites& of, const LatticeBlocks& blocks) {
     for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
         runs[r].fit = static_cast<std::uint32_t>(fits.size());
+        const LatticePoint corner = blocks.corner_of_block(of[sites[runs[r].site]].centroid);
         const std::span own(samples.data() + runs[r].samples, samples.data() + runs[r + 1].samples);
         for (const Group& group : groups_of(own)) {
-            fits.emplace_back().quadric.centre = own[0].position(0) + (1 / group.count) * group.position;
+            fits.emplace_back().quadric.centre =
+                corner + blocks.from_units(own[0].position_of(0) + (1 / group.count) * group.position);
             fits.back().quadric.normal = (1 / length(group.normal)) * group.normal;
         }
     }

@@ -19,6 +19,7 @@ struct LatticeBlocks {
 
     Float3 spacing, size;  // of samples, of blocks; in finest spacings
     Float3 per_size;       // inverses of size
+    Float3 unit;           // of positions in a block, in finest spacings
     int layer_axis, row_axis, place_axis;
 
     LatticeBlocks(const LatticeFrame& frame, double block_size, int sweep_axis);
@@ -33,6 +34,30 @@ struct LatticeBlocks {
     std::int64_t cell_of(const LatticePoint& p, int axis) const {
         return cell_of(p.at[axis] * LatticePoint::kStep, axis);
     }
+    std::int64_t block_of(const LatticePoint& p, int axis) const { return cell_of(p, axis) / kCells; }
+
+    /// Positions in a block have 16 bits along each axis: they count from its corner in units, which are powers of two
+    /// of steps.
+    std::uint32_t corner_of(std::int64_t block, int axis) const {
+        constexpr std::int64_t kBefore = 16;  // units; the small shift of cell_of is less
+        const auto begin =
+            static_cast<std::int64_t>(static_cast<double>(block) * size_along(axis) / LatticePoint::kStep);
+        return static_cast<std::uint32_t>(begin - (kBefore << unit_bits_[axis]));
+    }
+    LatticePoint corner_of_block(const LatticePoint& p) const {
+        const auto along = [&](int axis) { return corner_of(block_of(p, axis), axis); };
+        return {{along(0), along(1), along(2)}};
+    }
+    /// In finest spacings from the corner.
+    Float3 from_units(Float3 p) const { return {unit.x * p.x, unit.y * p.y, unit.z * p.z}; }
+    Float3 from_units(const std::array<std::uint16_t, 3>& p) const {
+        return from_units(Float3{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+    }
+    std::uint16_t in_units(const LatticePoint& p, const LatticePoint& corner, int axis) const {
+        const std::uint32_t half = (1u << unit_bits_[axis]) >> 1;
+        return static_cast<std::uint16_t>((p.at[axis] - corner.at[axis] + half) >> unit_bits_[axis]);
+    }
+
     /// Square of a length measured in blocks.
     float distance2(Float3 d) const {
         const Float3 in_blocks{d.x * per_size.x, d.y * per_size.y, d.z * per_size.z};
@@ -41,6 +66,7 @@ struct LatticeBlocks {
 
 private:
     Vec3 cells_per_length_;
+    std::array<int, 3> unit_bits_{};
 };
 
 /// The axis along which a normal is longest, and its sign: sites of a block are parted by it.
@@ -51,17 +77,31 @@ inline std::uint8_t direction_of(Float3 normal) {
     return static_cast<std::uint8_t>(2 * axis + (signs[axis] > 0));
 }
 
-using Short4 = std::uint16_t __attribute__((vector_size(8)));
+/// Four samples of one block. Lanes without one have no sites.
+struct LatticeSamples {
+    static constexpr float kNormalUnit = 1.0f / 32767;
 
-/// Four samples. Lanes without one have no sites.
-struct alignas(16) LatticeSamples {
-    std::array<Unsigned4, 3> at;
-    Lanes3<Float4> normal;
-    Short4 count{};  // of sites
+    std::uint16_t at[3][4];     // LatticeBlocks::in_units
+    std::int16_t normal[3][4];  // in kNormalUnit
+    std::uint16_t count[4]{};   // of sites
     Kinds4 kind{1, 1, 1, 1};
 
-    LatticePoint position(int lane) const { return {{at[0][lane], at[1][lane], at[2][lane]}}; }
-    Float3 normal_of(int lane) const { return {normal.x[lane], normal.y[lane], normal.z[lane]}; }
+    Lanes3<Float4> positions() const { return {as_floats(at[0]), as_floats(at[1]), as_floats(at[2])}; }
+    Lanes3<Float4> normals() const { return {as_floats(normal[0]), as_floats(normal[1]), as_floats(normal[2])}; }
+    Float4 counts() const { return as_floats(count); }
+    Float3 position_of(int lane) const { return lane_of(positions(), lane); }
+    Float3 normal_of(int lane) const { return kNormalUnit * lane_of(normals(), lane); }
+
+private:
+    using Signed4 = std::int16_t __attribute__((vector_size(8)));
+    using Natural4 = std::uint16_t __attribute__((vector_size(8)));
+    static Float4 as_floats(const std::int16_t (&four)[4]) { return as_floats(load<Signed4>(four)); }
+    static Float4 as_floats(const std::uint16_t (&four)[4]) { return as_floats(load<Natural4>(four)); }
+    template <class Four>
+    static Float4 as_floats(Four four) {
+        return __builtin_convertvector(__builtin_convertvector(four, Lane4), Float4);
+    }
+    static Float3 lane_of(const Lanes3<Float4>& p, int lane) { return {p.x[lane], p.y[lane], p.z[lane]}; }
 };
 
 struct LatticeFit {
@@ -69,19 +109,14 @@ struct LatticeFit {
     float accepted = 0;  // 0 to 1; below 0: could not be fitted
 };
 
-static_assert(sizeof(LatticeSamples) == 112);
+static_assert(sizeof(LatticeSamples) == 60);
 
 /// Sites of one interface in one block. Ranges end where those of the next run begin.
 struct LatticeRun {
     std::uint32_t site, samples = 0;
     std::uint32_t fit : 31 = 0;
-    std::uint32_t is_wanted : 1 = 0;  // its fits are made, or will be
-    Float3 low{}, high{};             // box of its sites, from the first of them
-
-    void add(Float3 d) {
-        low = {std::min(low.x, d.x), std::min(low.y, d.y), std::min(low.z, d.z)};
-        high = {std::max(high.x, d.x), std::max(high.y, d.y), std::max(high.z, d.z)};
-    }
+    std::uint32_t is_wanted : 1 = 0;             // its fits are made, or will be
+    std::array<std::uint16_t, 3> low{}, high{};  // round the box of its sites, in units from the corner of the block
 };
 
 /// By interface, then block along the row, which may lie up to two before the first.
@@ -109,8 +144,8 @@ private:
 
     void sort_by_key(std::vector<KeyedSite>& keyed);
     void make_runs(const std::vector<KeyedSite>& keyed);
-    void make_samples(const LatticeSites& of, const std::vector<KeyedSite>& keyed);
-    void place_fits();
+    void make_samples(const LatticeSites& of, const LatticeBlocks& blocks, const std::vector<KeyedSite>& keyed);
+    void place_fits(const LatticeSites& of, const LatticeBlocks& blocks);
 };
 
 /// A run within kRings blocks of another of the same interface.
