@@ -28,9 +28,9 @@ inline constexpr double kTaubinPassesPerUnit = 20, kLaplacianPassesPerUnit = 10;
 
 /// Least weight of a node of a vertex's simplex: below 1/4.
 inline constexpr double kLatticeMargin = 0.01;
-/// Bytes of its window per face: packed chunks, sites, estimates, and samples of the levels. Measured: 44 for the aal
-/// atlas (compact cells or tetrahedra), 49 with sections five times as far apart, 58 and 61 for polycrystals of small
-/// grains; 123 for noise of 256 labels, where most vertices are on lines.
+/// Bytes of its window per face: packed chunks, sites, estimates, and samples of the levels. Measured: 40 for the aal
+/// atlas (45 with a background, 46 with sections five times as far apart), 33 and 40 for foams, 57 for an atlas of
+/// smaller regions; 100 for noise of 256 labels, where most vertices are on lines.
 inline constexpr std::uint64_t kLatticeBytesPerFace = 64;
 /// Sizes of blocks in finest spacings. Terraces are as many samples wide as sections are far apart, for the same slope,
 /// so anisotropic lattices start one scale coarser.

@@ -71,7 +71,7 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
         for (std::uint64_t strip = first; strip < end; ++strip)
             window = std::max(window, window_at(demand, faces, strip));
         const std::uint64_t window_after = window_at(demand, faces, end), chunk = own * per_face;
-        budget.chunks.push_back({before, own, reading + window + chunk, reading + window_after});
+        budget.chunks.push_back({before, own, reading + window + chunk, chunk, reading + window_after});
         const std::uint64_t kept = share_of(before, demand.target_share), left = share_of(own, demand.tile_share);
         note({reading, window, chunk, kept * kMeshBytesPerFace});
         note({reading, window_after, 0, (kept + left) * working});
@@ -97,8 +97,9 @@ std::uint64_t Budget::room_before(std::size_t chunk, std::uint64_t chunk_faces) 
 
 bool Budget::has_room_ahead(std::size_t chunk, std::uint64_t mesh_faces) const {
     if (asked_budget || chunk + 1 >= chunks.size()) return false;
-    return mesh_faces * kMeshBytesPerFace + chunks[chunk].gathering + chunks[chunk + 1].faces * kChunkBytesPerFace <=
-           memory;
+    const ChunkMemory &now = chunks[chunk], &next = chunks[chunk + 1];
+    const std::uint64_t reading_and_window = std::max(now.gathering - now.tiles, next.gathering - next.tiles);
+    return mesh_faces * kMeshBytesPerFace + reading_and_window + now.tiles + next.faces * kChunkBytesPerFace <= memory;
 }
 
 std::uint64_t Budget::expected_faces(std::size_t chunk, std::uint64_t chunk_faces) const {

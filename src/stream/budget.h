@@ -29,11 +29,11 @@ struct BudgetDemand {
     std::optional<std::uint64_t> asked_budget = {};  // most faces held at once, whatever memory says
 };
 
-/// Bytes in addition to the mesh while a chunk of strips is gathered and its tiles are decimated, and once it is
-/// merged.
+/// Bytes in addition to the mesh while a chunk of strips is gathered and its tiles are decimated, of these the bytes of
+/// the chunk and its tiles, and bytes once it is merged.
 struct ChunkMemory {
     std::uint64_t faces_before, faces;  // before simplification: of the strips before, and of its own
-    std::uint64_t gathering, merged;
+    std::uint64_t gathering, tiles, merged;
 };
 
 /// The moment that needs most.

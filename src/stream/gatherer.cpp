@@ -9,10 +9,15 @@ bool Gatherer::next(GatheredStrips& made) {
     const std::uint32_t first = strips_.count();
     Chunk& chunk = made.chunk;
     chunk.clear();
+    // Room that is never written costs no memory, and growth would hold two copies.
+    chunk.vertices.reserve(most_vertices_ + most_vertices_ / 4);
+    chunk.faces.reserve(most_faces_ + most_faces_ / 4);
     while (strips_.count() - first < chunk_strips_ && strips_.next(strip_)) {
         const StageTimer timer = log_.time("reconstruct");
         chunk.append(strip_);
     }
+    most_vertices_ = std::max(most_vertices_, chunk.vertices.size());
+    most_faces_ = std::max(most_faces_, chunk.faces.size());
     made.end = strips_.count();
     made.is_last = strips_.is_at_end();
     made.safe_high = strips_.safe_high();

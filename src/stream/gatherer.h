@@ -39,8 +39,9 @@ private:
     std::uint32_t chunk_strips_;
     RunLog& log_;
     Chunk strip_;
-    std::vector<ChunkVertex> active_;  // left by the last chunk
-    double reach_ = -HUGE_VAL;         // highest vertex of all chunks so far along the sweep
+    std::vector<ChunkVertex> active_;                 // left by the last chunk
+    double reach_ = -HUGE_VAL;                        // highest vertex of all chunks so far along the sweep
+    std::size_t most_vertices_ = 0, most_faces_ = 0;  // of a chunk so far
 };
 
 }  // namespace regionmesh

@@ -46,13 +46,15 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
     TileStage tiles(plan, options, strips.source().shape(), log);
     std::vector<double>& volumes = log.report().unsmoothed_volumes;
-    // Not with smoothing: it uses all threads most of the time, and its window takes more memory (docs/performance.md).
-    const bool may_gather_ahead = options.threads != 1 && tiles.is_on() && !strips.is_smoothing();
+    const bool may_gather_ahead = options.threads != 1 && tiles.is_on();
     GatheredStrips now, next;
     for (bool is_more = gatherer.next(now); is_more; std::swap(now, next)) {
         if (!strips.is_smoothing() && options.preserve_volume) add_volumes(now.chunk, now.carried, volumes);
         const std::uint64_t initial_faces = now.chunk.faces.size();
-        const auto gather = [&] { is_more = gatherer.next(next); };
+        const auto gather = [&] {
+            is_more = gatherer.next(next);
+            give_back_freed_memory();
+        };
         const bool is_ahead = may_gather_ahead && simplify.has_room_ahead();
         if (is_ahead)
             parallel_invoke(

@@ -50,12 +50,15 @@ TEST_F(Messages, go_into_the_log_with_the_command_and_the_stages_quiet_or_not) {
     const std::string log = text_of(out("run.log"));
     EXPECT_THAT(log, MatchesRegex(" +[0-9.]+ s  regionmesh reconstruct .*"));
     std::size_t at = 0;
-    for (const char* said : {"count: 0 %", "reconstruct: ", "decimate: ", "check: 9", "samples: 99 %", "write\n",
+    for (const char* said : {"count: 0 %", "reconstruct: ", "decimate: ", "check: 9", "samples: 99 %",
                              "seconds: ", "made: 1 region, ", "checked: ", "written: "}) {
         const std::size_t found = log.find(said, at);
         EXPECT_NE(found, std::string::npos) << said << " is not in\n" << log;
         if (found != std::string::npos) at = found;
     }
+    // At the same time as the check.
+    const std::size_t written = log.find(" s  write\n");
+    EXPECT_TRUE(log.find("decimate: ") < written && written < log.find("seconds: ")) << log;
 }
 
 TEST_F(Messages, of_an_error_are_in_the_log) {

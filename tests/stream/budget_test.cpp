@@ -142,6 +142,20 @@ TEST(Budget, the_next_chunk_is_gathered_ahead_only_where_both_fit) {
     EXPECT_FALSE(budget.has_room_ahead(0, 1001));
 }
 
+TEST(Budget, gathering_ahead_has_the_larger_window_of_both_chunks) {
+    BudgetDemand demand = even_demand(100);
+    demand.window_strips = 4;
+    demand.window_bytes_per_face = 64;
+    std::fill(demand.strip_faces.begin() + 32, demand.strip_faces.end(), 3000);
+    Budget budget = plan_budget(kPlenty, demand);
+    const ChunkMemory &now = budget.chunks[0], &next = budget.chunks[1];
+    ASSERT_GT(next.gathering - next.tiles, now.gathering - now.tiles);
+    budget.memory =
+        1000 * kMeshBytesPerFace + next.gathering - next.tiles + now.tiles + next.faces * kChunkBytesPerFace;
+    EXPECT_TRUE(budget.has_room_ahead(0, 1000));
+    EXPECT_FALSE(budget.has_room_ahead(0, 1001));
+}
+
 TEST(Census, counts_the_faces_of_each_strip) {
     test::ArrayVolume volume = test::grain_volume({12, 11, 10}, 6, 3);
     const Census census = count_labels(volume, {.background = {}, .cells = CellKind::kTetrahedra});
