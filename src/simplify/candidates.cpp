@@ -55,12 +55,12 @@ std::uint64_t Candidates::refresh(std::uint32_t threads) {
     return notes.forbidden;
 }
 
-/// The number of labels of an edge: two where one end has no more.
+/// The number of labels of an edge: two where an end has no more.
 int Candidates::edge_label_count(VertexId v, VertexId w) const {
     return label_count(v) == 2 || label_count(w) == 2 ? 2 : edge_labels(mesh_, v, w).size();
 }
 
-/// Calls visit(w) for each neighbour of v. Along an edge of two labels each end follows the other in exactly one face.
+/// Calls visit(w) for each neighbour of v. Round a vertex of two labels each neighbour follows v in exactly one face.
 template <class Visit>
 void Candidates::for_neighbours(VertexId v, std::vector<VertexId>& seen, Visit&& visit) const {
     seen.clear();
@@ -69,10 +69,6 @@ void Candidates::for_neighbours(VertexId v, std::vector<VertexId>& seen, Visit&&
         const VertexId after = face.vertices[place_after(place)], before = face.vertices[place_before(place)];
         if (label_count(v) == 2) return visit(after);
         for (VertexId w : {after, before}) {
-            if (label_count(w) == 2) {
-                if (w == after) visit(w);
-                continue;
-            }
             if (std::find(seen.begin(), seen.end(), w) != seen.end()) continue;
             seen.push_back(w);
             visit(w);
