@@ -30,7 +30,7 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::size_t kBlockBytes = 1 << 20;  // uncompressed; a multiple of the size of every number
 constexpr std::uint32_t kMostBlocks = 4;      // compressed at a time
 constexpr std::size_t kProbeBytes = 1 << 15;
-constexpr int kStored = 0, kFast = 1;  // levels
+constexpr int kStored = 0, kFast = 1;  // levels of libdeflate
 
 template <class T>
 constexpr const char* vtk_type() {
