@@ -109,12 +109,11 @@ void LatticeLevel::refine_layer(std::int64_t layer) {
 
 bool LatticeLevel::is_wanted(const LatticeRow& row, const LatticeRun& run, int rings) const {
     const LatticePoint corner = blocks_.corner_of_block(sites_[row.sites[run.site]].centroid);
-    const Vec3 low = blocks_.from_units(run.low).wide(), high = blocks_.from_units(run.high).wide();
+    const LatticePoint low = corner + blocks_.from_units(run.low), high = corner + blocks_.from_units(run.high);
     for (int axis = 0; axis < 3; ++axis) {
-        const double at = static_cast<std::int32_t>(corner.at[axis]) * LatticePoint::kStep,
-                     margin = rings * blocks_.size_along(axis);
-        if (at + high[axis] < options_.wanted.low[axis] - margin) return false;
-        if (at + low[axis] > options_.wanted.high[axis] + margin) return false;
+        const double margin = rings * blocks_.size_along(axis);
+        if (high.at[axis] * LatticePoint::kStep < options_.wanted.low[axis] - margin) return false;
+        if (low.at[axis] * LatticePoint::kStep > options_.wanted.high[axis] + margin) return false;
     }
     return true;
 }

@@ -165,9 +165,8 @@ void LatticeRow::make_samples(const LatticeSites& of, const LatticeBlocks& block
         run.low.fill(~0);
         const auto note = [&](const LatticePoint& p) {
             for (int axis = 0; axis < 3; ++axis) {
-                const std::uint16_t at = blocks.in_units(p, corner, axis);
-                run.low[axis] = std::min<std::uint16_t>(run.low[axis], at - 1);
-                run.high[axis] = std::max<std::uint16_t>(run.high[axis], at + 1);
+                run.low[axis] = std::min(run.low[axis], blocks.units_below(p, corner, axis));
+                run.high[axis] = std::max(run.high[axis], blocks.units_above(p, corner, axis));
             }
         };
         int lane = 4;

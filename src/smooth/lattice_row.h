@@ -53,9 +53,15 @@ struct LatticeBlocks {
     Float3 from_units(const std::array<std::uint16_t, 3>& p) const {
         return from_units(Float3{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
     }
+    /// Rounded to the nearest unit, down, and up.
     std::uint16_t in_units(const LatticePoint& p, const LatticePoint& corner, int axis) const {
-        const std::uint32_t half = (1u << unit_bits_[axis]) >> 1;
-        return static_cast<std::uint16_t>((p.at[axis] - corner.at[axis] + half) >> unit_bits_[axis]);
+        return rounded(p, corner, axis, (1u << unit_bits_[axis]) >> 1);
+    }
+    std::uint16_t units_below(const LatticePoint& p, const LatticePoint& corner, int axis) const {
+        return rounded(p, corner, axis, 0);
+    }
+    std::uint16_t units_above(const LatticePoint& p, const LatticePoint& corner, int axis) const {
+        return rounded(p, corner, axis, (1u << unit_bits_[axis]) - 1);
     }
 
     /// Square of a length measured in blocks.
@@ -65,6 +71,10 @@ struct LatticeBlocks {
     }
 
 private:
+    std::uint16_t rounded(const LatticePoint& p, const LatticePoint& corner, int axis, std::uint32_t up) const {
+        return static_cast<std::uint16_t>((p.at[axis] - corner.at[axis] + up) >> unit_bits_[axis]);
+    }
+
     Vec3 cells_per_length_;
     std::array<int, 3> unit_bits_{};
 };
