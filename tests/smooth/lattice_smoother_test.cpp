@@ -134,6 +134,16 @@ void expect_inside(const std::vector<Vec3>& before, const std::vector<Vec3>& aft
     }
 }
 
+/// Fits near a side have samples on one side only; they must not be lost.
+TEST(LatticeFilter, makes_plane_what_is_plane_up_to_the_sides_of_the_box) {
+    const Vec3 normal = Vec3{0.3, 0.5, 0.8} / length(Vec3{0.3, 0.5, 0.8});
+    const Distance plane = [&](Vec3 p) { return dot(p - Vec3{15.3, 15.7, 16.1}, normal); };
+    const Mesh mesh = smoothed(sampled({32, 32, 32}, {1, 1, 1}, plane));
+    const Deviation error = error_of(mesh, plane, -1, 32);
+    EXPECT_LT(error.rms, 0.04);
+    EXPECT_LT(error.degrees, 0.5);
+}
+
 TEST(LatticeFilter, keeps_vertices_in_their_simplices_and_the_model_sound) {
     const LatticeFrame frame{{-7.3, 100.1, 0.7}, {0.7, 1.3, 5.1}};
     test::ArrayVolume volumes[] = {test::noise_volume({7, 7, 7}, 2, 1), test::noise_volume({7, 7, 7}, 5, 2),
