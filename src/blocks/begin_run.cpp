@@ -174,7 +174,7 @@ void begin_run(const OpenSections& open, const ReconstructOptions& options, cons
             make_folder(blocks);
     }
     tasks.end_phase();
-    if (read_manifest(blocks.folder)->is_surveyed) return;
+    if (read_manifest_together(blocks.folder, tasks).is_surveyed) return;
     if (!input) input.emplace(open, options);
     const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
     if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
@@ -184,6 +184,12 @@ void begin_run(const OpenSections& open, const ReconstructOptions& options, cons
         note_survey(found, *input, options, blocks);
     }
     tasks.end_phase();
+}
+
+Manifest read_manifest_together(const fs::path& folder, BlockTasks& tasks) {
+    const Manifest manifest = *read_manifest(folder);
+    tasks.end_phase();
+    return manifest;
 }
 
 }  // namespace regionmesh

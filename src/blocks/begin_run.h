@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "blocks/labels_in_place.h"
+#include "blocks/manifest.h"
 #include "regionmesh/blocks.h"
 
 namespace regionmesh {
@@ -21,5 +22,8 @@ inline constexpr const char* kSurveyPart = "survey-";
 /// where any box of the input can be read. Throws like reconstruct_blocks().
 void begin_run(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks,
                BlockTasks& tasks, const OnBlocks& on_progress);
+
+/// The manifest of the folder. No process goes on, to write it anew, before all have read it. All of them call it.
+Manifest read_manifest_together(const std::filesystem::path& folder, BlockTasks& tasks);
 
 }  // namespace regionmesh

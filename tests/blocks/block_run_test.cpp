@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 
 #include "regionmesh/blocks.h"
@@ -23,6 +25,7 @@ namespace regionmesh {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
 /// An empty folder that goes with the test.
 class TestFolder {
@@ -245,7 +248,11 @@ public:
             const std::uint32_t task = shared_.next_++;
             return task < count ? std::optional(task) : std::nullopt;
         }
-        void end_phase() override { shared_.meet(); }
+        /// All but the first go on late: what it writes meanwhile must not mislead them.
+        void end_phase() override {
+            shared_.meet();
+            if (!is_first_) std::this_thread::sleep_for(20ms);
+        }
 
     private:
         SharedTasks& shared_;
@@ -253,8 +260,8 @@ public:
     };
 
 private:
-    /// Waits for all processes; the last one to come begins the list anew. std::barrier of libstdc++ 12 can miss that
-    /// it is woken.
+    /// Waits for all processes; the last one to come begins the list anew. Throws where they do not come. std::barrier
+    /// of libstdc++ 12 can miss that it is woken.
     void meet() {
         std::unique_lock lock(mutex_);
         const std::uint32_t phase = phase_;
@@ -264,7 +271,8 @@ private:
             ++phase_;
             all_are_here_.notify_all();
         } else {
-            all_are_here_.wait(lock, [&] { return phase_ != phase; });
+            if (!all_are_here_.wait_for(lock, 60s, [&] { return phase_ != phase; }))
+                throw std::runtime_error("a process ended a phase alone");
         }
     }
 
@@ -275,6 +283,27 @@ private:
     std::atomic<std::uint32_t> next_ = 0;
 };
 
+/// What the processes made, and whether each of them made some.
+struct SharedRun {
+    std::uint32_t made = 0, busy = 0;
+};
+
+SharedRun run_shared(const fs::path& folder, const test::ArrayVolume& volume, const ReconstructOptions& options,
+                     std::uint32_t count) {
+    SharedTasks shared(count);
+    std::vector<std::thread> processes;
+    std::atomic<std::uint32_t> made = 0, busy = 0;
+    for (std::uint32_t n = 0; n < count; ++n)
+        processes.emplace_back([&, n] {
+            SharedTasks::Process tasks(shared, n == 0);
+            const BlockReport report = run_blocks(folder, volume, options, tasks);
+            made += report.made;
+            busy += report.made > 0;
+        });
+    for (std::thread& process : processes) process.join();
+    return {made, busy};
+}
+
 TEST(BlockRun, gives_the_same_bytes_for_any_number_of_processes) {
     const TestFolder alone;
     const test::ArrayVolume volume = foam();
@@ -282,21 +311,22 @@ TEST(BlockRun, gives_the_same_bytes_for_any_number_of_processes) {
     run_blocks(alone.path, volume, options);
     for (const std::uint32_t count : {2u, 3u}) {
         const TestFolder folder;
-        SharedTasks shared(count);
-        std::vector<std::thread> processes;
-        std::atomic<std::uint32_t> made = 0, busy = 0;
-        for (std::uint32_t n = 0; n < count; ++n)
-            processes.emplace_back([&, n] {
-                SharedTasks::Process tasks(shared, n == 0);
-                const BlockReport report = run_blocks(folder.path, volume, options, tasks);
-                made += report.made;
-                busy += report.made > 0;
-            });
-        for (std::thread& process : processes) process.join();
-        EXPECT_GT(made.load(), 2u * 27);
-        EXPECT_EQ(busy.load(), count);
+        const SharedRun run = run_shared(folder.path, volume, options, count);
+        EXPECT_GT(run.made, 2u * 27);
+        EXPECT_EQ(run.busy, count);
         EXPECT_EQ(files_in(folder.path), files_in(alone.path));
     }
+}
+
+TEST(BlockRun, several_processes_end_what_one_has_left_to_complete) {
+    const TestFolder folder;
+    const test::ArrayVolume volume = foam();
+    const ReconstructOptions options = options_for(0.8);
+    run_blocks(folder.path, volume, options);
+    const auto complete = files_in(folder.path);
+    replace_in(folder.path / "manifest.json", "\"complete\": true", "\"complete\": false");
+    EXPECT_EQ(run_shared(folder.path, volume, options, 2).made, 0u);
+    EXPECT_EQ(files_in(folder.path), complete);
 }
 
 }  // namespace
