@@ -22,7 +22,10 @@ public:
     void build(const Mesh& mesh, std::uint32_t threads = 1);
 
     /// Moves face f to `box`. The boxes above it grow and never shrink.
-    void set(FaceId f, const Box& box) { boxes_.set(index(f), box); }
+    void set(FaceId f, const Box& box) { set(f, boxes_.outward(box)); }
+    void set(FaceId f, const GridBox& box) { boxes_.set(index(f), box); }
+    /// The boxes of two triangles side by side.
+    std::array<GridBox, 2> boxes_of(const Lanes3<Double2>& a, const Lanes3<Double2>& b, const Lanes3<Double2>& c) const;
     /// Removes face f.
     void remove(FaceId f) { boxes_.remove(index(f)); }
 

@@ -1,13 +1,12 @@
 #include "mesh/grid_tree.h"
 
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
-
-#include "base/lanes.h"
 
 namespace regionmesh {
 namespace {
@@ -59,20 +58,36 @@ void GridTree::build_upper(std::uint32_t threads) {
     }
 }
 
-GridTree::GridBox GridTree::outward(const Box& box) const {
+std::array<GridTree::GridBox, 2> GridTree::outward(const Lanes3<Double2>& low, const Lanes3<Double2>& high) const {
     // Coordinates outside the grid are clamped to its border, on both sides of a comparison; no box reaches as far as
     // the empty one.
-    static_assert(sizeof(Box) == 3 * sizeof(Double2));  // low x y, low z and high x, high y z
     const Double2 scale = both(cells_per_length_), least_cell = both(kLowest + 1.0), most_cell = both(kHighest - 1.0);
-    const auto cells_at = [&](int pair, Double2 origin, Double2 rounding) {
-        const auto ends = load<Double2>(reinterpret_cast<const char*>(&box) + pair * sizeof(Double2));
-        return least(greatest((ends - origin) * scale - both(32760) + rounding, least_cell), most_cell);
+    const auto cells_at = [&](Double2 ends, double origin, double rounding) {
+        return least(greatest((ends - both(origin)) * scale - both(32760) + both(rounding), least_cell), most_cell);
     };
-    const Double2 low = cells_at(0, Double2{origin_.x, origin_.y}, both(-1)),
-                  ends = cells_at(1, Double2{origin_.z, origin_.x}, Double2{-1, 1}),
-                  high = cells_at(2, Double2{origin_.y, origin_.z}, both(1));
-    const auto cell = [](double x) { return static_cast<std::int16_t>(x); };
-    return {{cell(low[0]), cell(low[1]), cell(ends[0])}, {cell(ends[1]), cell(high[0]), cell(high[1])}};
+    const std::array<Double2, 6> cells{cells_at(low.x, origin_.x, -1), cells_at(low.y, origin_.y, -1),
+                                       cells_at(low.z, origin_.z, -1), cells_at(high.x, origin_.x, 1),
+                                       cells_at(high.y, origin_.y, 1), cells_at(high.z, origin_.z, 1)};
+    std::array<GridBox, 2> boxes;
+#if defined(__SSE2__)
+    const auto two = [&](int n) {
+        return _mm_unpacklo_epi32(_mm_cvttpd_epi32(cells[n]), _mm_cvttpd_epi32(cells[n + 1]));
+    };
+    const __m128i first = two(0), second = two(2), third = two(4);
+    const auto store = [](GridBox& box, __m128i four, __m128i last) {
+        const __m128i eight = _mm_packs_epi32(four, last);
+        std::memcpy(&box, &eight, sizeof(box));
+    };
+    store(boxes[0], _mm_unpacklo_epi64(first, second), third);
+    store(boxes[1], _mm_unpackhi_epi64(first, second), _mm_unpackhi_epi64(third, third));
+#else
+    for (int lane = 0; lane < 2; ++lane)
+        for (int axis = 0; axis < 3; ++axis) {
+            boxes[lane].low[axis] = static_cast<std::int16_t>(cells[axis][lane]);
+            boxes[lane].high[axis] = static_cast<std::int16_t>(cells[3 + axis][lane]);
+        }
+#endif
+    return boxes;
 }
 
 unsigned GridTree::Boxes::meeting(const Boxes& others) const {
@@ -245,12 +260,11 @@ void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     }
 }
 
-void GridTree::set(std::uint32_t place, const Box& box) {
-    const GridBox grid = outward(box);
-    levels_[0][place / kFan].put(place % kFan, grid);
+void GridTree::set(std::uint32_t place, const GridBox& box) {
+    levels_[0][place / kFan].put(place % kFan, box);
     for (std::size_t level = 1; level < levels_.size(); ++level) {
         place /= kFan;
-        if (!extend(levels_[level][place / kFan], place % kFan, grid)) return;
+        if (!extend(levels_[level][place / kFan], place % kFan, box)) return;
     }
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "base/lanes.h"
 #include "base/parallel_for.h"
 #include "regionmesh/vec3.h"
 
@@ -47,11 +49,12 @@ public:
     template <class BoxOf>
     void build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of);
 
-    /// A box of the grid that contains `box`.
-    GridBox outward(const Box& box) const;
+    /// Boxes of the grid that contain two boxes side by side.
+    std::array<GridBox, 2> outward(const Lanes3<Double2>& low, const Lanes3<Double2>& high) const;
+    GridBox outward(const Box& box) const { return outward(both(box.low), both(box.high))[0]; }
 
     /// Changes the box at a place. The boxes above it grow and never shrink.
-    void set(std::uint32_t place, const Box& box);
+    void set(std::uint32_t place, const GridBox& box);
     /// Empties the place.
     void remove(std::uint32_t place);
 

@@ -25,10 +25,9 @@ struct Places {
 /// The collapse under test. Reused from one to the next, so that nothing is allocated in the long run.
 struct Collapse {
     const Mesh& mesh;
-    const FaceTree& tree;
+    FaceTree* tree = nullptr;  // of the faces; none: they may cross
     ShapeBounds bounds;
-    Box limits = kUnbounded;  // a merged vertex that moves stays strictly inside, unless on a side of the box
-    bool intersect_check = true;
+    Box limits = kUnbounded;           // a merged vertex that moves stays strictly inside, unless on a side of the box
     const Lattice* samples = nullptr;  // whose samples stay in their regions; none: any may change
     double max_error = HUGE_VAL;       // of ErrorBound
     CollapseLog* log = nullptr;        // gets what is made
@@ -39,8 +38,18 @@ struct Collapse {
     ErrorBound error = {};
 };
 
+/// The faces of the star have their apex at `position` now.
+inline void move_star(FaceTree& tree, const EdgeStar& star, Vec3 position) {
+    for (int n = 0; n < star.face_count(); n += 2) {
+        const StarPair& pair = star.pairs[n / 2];
+        const auto boxes = tree.boxes_of(both(position), pair.a, pair.b);
+        tree.set(star.faces[n].face, boxes[0]);
+        if (n + 1 < star.face_count()) tree.set(star.faces[n + 1].face, boxes[1]);
+    }
+}
+
 /// Makes the collapse that was accepted: `stays` moves to the position of the merged vertex.
-inline void collapse_edge(Mesh& mesh, FaceTree& tree, Collapse& collapse) {
+inline void collapse_edge(Mesh& mesh, Collapse& collapse) {
     const EdgeStar& star = collapse.star;
     const Vec3 position = collapse.position;
     if (collapse.log)
@@ -55,15 +64,11 @@ inline void collapse_edge(Mesh& mesh, FaceTree& tree, Collapse& collapse) {
     collapse.error.apply(mesh, star.stays);
     for (FaceId f : star.dead) {
         mesh.remove_face(f);
-        tree.remove(f);
+        if (collapse.tree) collapse.tree->remove(f);
     }
     mesh.move_star(star.goes, star.stays);
     mesh[star.stays].position = position;
-    for (int n = 0; n < star.face_count(); ++n) {
-        Box box;
-        for (Vec3 p : {position, star.at_a(n), star.at_b(n)}) box.add(p);
-        tree.set(star.faces[n].face, box);
-    }
+    if (collapse.tree) move_star(*collapse.tree, star, position);
 }
 
 }  // namespace regionmesh

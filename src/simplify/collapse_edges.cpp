@@ -51,16 +51,15 @@ public:
           is_refreshing_(bounds.refresh),
           threads_(bounds.threads),
           histogram_(bounds.histogram),
-          tree_(mesh, bounds.threads),
+          tree_(tree_of(mesh, options, bounds)),
           outside_(mesh, bounds.limits),
           placement_((count_labels(mesh, bounds.threads), make_placement(mesh, options))),
           candidates_(mesh, *placement_, options),
           halves_(mesh.vertex_count() / 2),
           collapse_{.mesh = mesh,
-                    .tree = tree_,
+                    .tree = tree_ ? &*tree_ : nullptr,
                     .bounds = {.min_quality = options.min_quality},
                     .limits = bounds.limits,
-                    .intersect_check = options.intersect_check,
                     .samples = options.samples ? &*options.samples : nullptr,
                     .max_error = options.max_error,
                     .log = bounds.log} {}
@@ -81,8 +80,8 @@ public:
                 step();
                 pack();
             }
-            result_.bytes =
-                std::max(result_.bytes, tree_.bytes() + candidates_.bytes() + placement_->bytes() + halves_.bytes());
+            result_.bytes = std::max(result_.bytes, (tree_ ? tree_->bytes() : 0) + candidates_.bytes() +
+                                                        placement_->bytes() + halves_.bytes());
             if (is_at_target()) break;
             if (accepted() == before || !is_refreshing_) {
                 const bool is_error = candidates_.has_edges_over_error() || count(Verdict::kError) > over_error;
@@ -95,6 +94,12 @@ public:
     }
 
 private:
+    static std::optional<FaceTree> tree_of(const Mesh& mesh, const SimplifyOptions& options,
+                                           const CollapseBounds& bounds) {
+        if (!options.intersect_check) return {};
+        return FaceTree(mesh, bounds.threads);
+    }
+
     bool is_at_target() const { return mesh_.face_count() <= options_.target_faces; }
     std::uint64_t count(Verdict verdict) const { return result_.verdicts[static_cast<int>(verdict)]; }
     std::uint64_t accepted() const { return count(Verdict::kAccepted); }
@@ -104,7 +109,7 @@ private:
         const double scale2 = options_.scale * options_.scale;
         double most = std::min(options_.max_cost, placement_->prepass_cost() * scale2 * scale2);
         if (histogram_) most = std::min(most, histogram_->costs.front());
-        Prepass prepass(mesh_, tree_, *placement_, collapse_, options_, most);
+        Prepass prepass(mesh_, *placement_, collapse_, options_, most);
         for (int n = 0; n < kMostSweeps && mesh_.face_count() * kLeastSweepLeft > options_.target_faces; ++n) {
             const std::uint32_t before = mesh_.face_count();
             if (2 * prepass.sweep(result_.verdicts) < kLeastSweepGain * before) break;
@@ -117,7 +122,7 @@ private:
     void pack() {
         if (mesh_.face_count() >= mesh_.face_end() * kCompactBelow) return;
         mesh_.compact_faces();
-        tree_.build(mesh_, threads_);
+        if (tree_) tree_->build(mesh_, threads_);
     }
 
     void step() {
@@ -192,7 +197,7 @@ private:
         const EdgeStar& star = collapse_.star;
         const std::uint32_t before = mesh_.face_count();
         placement_->collapse(mesh_, star, collapse_.position);
-        collapse_edge(mesh_, tree_, collapse_);
+        collapse_edge(mesh_, collapse_);
         candidates_.update(star.goes, star.stays);
         if (histogram_) histogram_->add(cost, before - mesh_.face_count());
     }
@@ -202,7 +207,7 @@ private:
     bool is_refreshing_;
     std::uint32_t threads_;
     CostHistogram* histogram_;
-    FaceTree tree_;
+    std::optional<FaceTree> tree_;
     FixedOutside outside_;
     std::unique_ptr<Placement> placement_;
     Candidates candidates_;

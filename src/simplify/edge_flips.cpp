@@ -61,7 +61,7 @@ EdgeFlips::EdgeFlips(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const Impr
       drift_(drift),
       options_(options),
       bound3_(options.min_quality * options.min_quality * options.min_quality),
-      collapse_{.mesh = mesh, .tree = tree, .bounds = {.min_quality = 0}} {}
+      collapse_{.mesh = mesh, .tree = &tree, .bounds = {.min_quality = 0}} {}
 
 std::optional<Flip> EdgeFlips::try_flip(FaceId f, int place) {
     std::optional<Flip> flip = find_flip(mesh_, f, place);

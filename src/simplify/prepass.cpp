@@ -19,10 +19,8 @@ static_assert(kMostSweeps < kSettled);
 
 }  // namespace
 
-Prepass::Prepass(Mesh& mesh, FaceTree& tree, Placement& placement, Collapse& collapse, const SimplifyOptions& options,
-                 double max_cost)
+Prepass::Prepass(Mesh& mesh, Placement& placement, Collapse& collapse, const SimplifyOptions& options, double max_cost)
     : mesh_(mesh),
-      tree_(tree),
       placement_(placement),
       collapse_(collapse),
       options_(options),
@@ -130,7 +128,7 @@ Verdict Prepass::test(VertexId target) {
 void Prepass::apply(VertexId target) {
     const EdgeStar& star = collapse_.star;
     placement_.collapse(mesh_, star, star.at_stays);
-    collapse_edge(mesh_, tree_, collapse_);
+    collapse_edge(mesh_, collapse_);
     seen_[index(target)] = sweep_;
     for (VertexId v : star.link) seen_[index(v)] = sweep_;
 }

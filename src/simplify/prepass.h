@@ -17,8 +17,7 @@ namespace regionmesh {
 class Prepass {
 public:
     /// `max_cost` is the threshold, squared length times area. Tests have their bounds in `collapse`.
-    Prepass(Mesh& mesh, FaceTree& tree, Placement& placement, Collapse& collapse, const SimplifyOptions& options,
-            double max_cost);
+    Prepass(Mesh& mesh, Placement& placement, Collapse& collapse, const SimplifyOptions& options, double max_cost);
 
     /// Returns the number of collapses, and adds the verdicts of all that were tried.
     std::uint32_t sweep(VerdictCounts& verdicts);
@@ -41,7 +40,6 @@ private:
     void apply(VertexId target);
 
     Mesh& mesh_;
-    FaceTree& tree_;
     Placement& placement_;
     Collapse& collapse_;
     const SimplifyOptions& options_;

@@ -13,10 +13,9 @@ namespace regionmesh {
 /// The bound on quality is FanShape's.
 ShortEdges::ShortEdges(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const ImproveOptions& options)
     : mesh_(mesh),
-      tree_(tree),
       drift_(drift),
       collapse_{.mesh = mesh,
-                .tree = tree,
+                .tree = &tree,
                 .bounds = {.min_quality = 0},
                 .samples = options.samples ? &*options.samples : nullptr} {}
 
@@ -63,7 +62,7 @@ bool ShortEdges::try_place(Vec3 p) {
     if (!drift_.may_move(drift, step, true) || verdict_at(collapse_, {p}) != Verdict::kAccepted) return false;
     changed_ = star.link;
     changed_.push_back(star.stays);
-    collapse_edge(mesh_, tree_, collapse_);
+    collapse_edge(mesh_, collapse_);
     drift_.set(star.stays, drift, step);
     return true;
 }

@@ -26,7 +26,6 @@ private:
     double step_to(Vec3 p) const;
 
     Mesh& mesh_;
-    FaceTree& tree_;
     SurfaceDrift& drift_;
     Collapse collapse_;
     std::vector<VertexId> changed_;

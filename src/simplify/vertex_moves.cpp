@@ -50,7 +50,7 @@ VertexMoves::VertexMoves(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const 
       drift_(drift),
       bound3_(options.min_quality * options.min_quality * options.min_quality),
       collapse_{.mesh = mesh,
-                .tree = tree,
+                .tree = &tree,
                 .bounds = {.min_quality = 0},
                 .samples = options.samples ? &*options.samples : nullptr} {}
 
@@ -73,11 +73,7 @@ bool VertexMoves::try_move(VertexId v) {
         const Candidate& best = candidates_[n];
         if (verdict_at(collapse_, {best.at}) != Verdict::kAccepted) continue;
         mesh_[v].position = best.at;
-        for (int face = 0; face < star.face_count(); ++face) {
-            Box box;
-            for (Vec3 p : {best.at, star.at_a(face), star.at_b(face)}) box.add(p);
-            tree_.set(star.faces[face].face, box);
-        }
+        move_star(tree_, star, best.at);
         drift_.set(v, drift_now_, best.step);
         return true;
     }

@@ -25,8 +25,8 @@ Mesh sheet_and_octahedron(Vec3 middle, double size) {
 
 /// Edge 0-1 of the sheet, merged at `position`.
 bool is_blocked(const Mesh& mesh, Vec3 position) {
-    const FaceTree tree(mesh);
-    Collapse collapse{.mesh = mesh, .tree = tree, .bounds = {.min_quality = 0}};
+    FaceTree tree(mesh);
+    Collapse collapse{.mesh = mesh, .tree = &tree, .bounds = {.min_quality = 0}};
     gather(mesh, VertexId{0}, VertexId{1}, collapse.star);
     EXPECT_EQ(shape_verdict(collapse, position), Verdict::kAccepted);
     return verdict_at(collapse, {position}) == Verdict::kIntersect;

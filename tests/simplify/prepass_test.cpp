@@ -22,10 +22,9 @@ Swept sweep(Mesh& mesh, int sweeps, double max_cost = 1e-3, const SimplifyOption
     FaceTree tree(mesh);
     const std::unique_ptr<Placement> placement = make_placement(mesh, options);
     Collapse collapse{.mesh = mesh,
-                      .tree = tree,
-                      .bounds = {.min_quality = options.min_quality},
-                      .intersect_check = options.intersect_check};
-    Prepass prepass(mesh, tree, *placement, collapse, options, max_cost);
+                      .tree = options.intersect_check ? &tree : nullptr,
+                      .bounds = {.min_quality = options.min_quality}};
+    Prepass prepass(mesh, *placement, collapse, options, max_cost);
     Swept done;
     for (int n = 0; n < sweeps; ++n) done.removed += prepass.sweep(done.verdicts);
     return done;

@@ -14,8 +14,7 @@ using test::ShapeFace;
 
 Verdict topology_of(Mesh& mesh, std::uint32_t goes, std::uint32_t stays) {
     count_labels(mesh);
-    const FaceTree tree(mesh);
-    Collapse collapse{.mesh = mesh, .tree = tree, .bounds = {}};
+    Collapse collapse{.mesh = mesh, .bounds = {}};
     gather(mesh, VertexId{goes}, VertexId{stays}, collapse.star);
     return topology_verdict(collapse);
 }
@@ -29,8 +28,7 @@ Verdict topology_of(Mesh&& mesh, std::uint32_t goes, std::uint32_t stays) { retu
 
 /// Collapses edge 0-1.
 ShapeResult shape_of(const Mesh& mesh, Vec3 position, const ShapeBounds& bounds = {}) {
-    const FaceTree tree(mesh);
-    Collapse collapse{.mesh = mesh, .tree = tree, .bounds = bounds, .intersect_check = false};
+    Collapse collapse{.mesh = mesh, .bounds = bounds};
     gather(mesh, VertexId{0}, VertexId{1}, collapse.star);
     const Verdict verdict = verdict_at(collapse, {position});
     return {verdict, collapse.worst_quality3};

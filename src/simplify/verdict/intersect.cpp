@@ -18,8 +18,8 @@ bool is_within_limits(const Collapse& collapse) {
 Verdict test_intersect(Collapse& collapse) {
     // A vertex that stays where it is adds nothing beyond the limits, which are convex.
     if (!collapse.star.keeps_stays && !is_within_limits(collapse)) return Verdict::kIntersect;
-    if (collapse.intersect_check)
-        return collapse.intersect.verdict(collapse.mesh, collapse.tree, collapse.star, collapse.position,
+    if (collapse.tree)
+        return collapse.intersect.verdict(collapse.mesh, *collapse.tree, collapse.star, collapse.position,
                                           collapse.bounds);
     return pinches_around(collapse.mesh, collapse.star, collapse.position, collapse.bounds) ? Verdict::kPinch
                                                                                             : Verdict::kAccepted;
