@@ -17,6 +17,31 @@ constexpr double kRidge = 1e-3;
 /// Steps of more edge lengths than this lie far outside the simplex; bounded, sums of weights stay exact enough.
 constexpr double kFarthest = 1;
 
+/// A lattice unit in fixed point, as in FixedWeights.
+constexpr int kUnitBits = 20;
+constexpr float kUnit = 1 << kUnitBits;
+
+constexpr Lane4 axes_of(unsigned step) {
+    const auto mask = [&](int axis) { return (step >> axis & 1) != 0 ? -1 : 0; };
+    return Lane4{mask(0), mask(1), mask(2), 0};
+}
+
+/// By kind and by node of a simplex but the first: the axes along which it lies beyond the first.
+constexpr std::array<std::array<Lane4, 3>, kKindCount> kAxes = [] {
+    std::array<std::array<Lane4, 3>, kKindCount> axes{};
+    for (int kind = 0; kind < kKindCount; ++kind)
+        for (int n = 1; n < kKinds[kind].node_count; ++n) axes[kind][n - 1] = axes_of(kKinds[kind].steps[n]);
+    return axes;
+}();
+
+/// The point of a simplex with the given first node and weights of the others, all in fixed point.
+Lane4 point_at(Lane4 base, int kind, Lane4 weights) {
+    const auto& axes = kAxes[kind];
+    return base + (__builtin_shufflevector(weights, weights, 0, 0, 0, 0) & axes[0]) +
+           (__builtin_shufflevector(weights, weights, 1, 1, 1, 1) & axes[1]) +
+           (__builtin_shufflevector(weights, weights, 2, 2, 2, 2) & axes[2]);
+}
+
 }  // namespace
 
 void NearestPoint::add(const SiteEstimate& estimate, const SimplexEdges& edges) {
@@ -78,14 +103,26 @@ Barycentric weights_of(const std::array<double, 3>& step, int count) {
     return weights;
 }
 
-void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, Vec3 position) {
-    std::array<std::uint32_t, 3> base;
-    for (int axis = 0; axis < 3; ++axis) base[axis] = static_cast<std::uint32_t>(simplex.base[axis]);
-    nodes_.push_back({base, simplex.kind, 0, {}, terms_.end(), {position, position}});
-    const int count = to_interfaces.count;
-    for (int i = 0; i < count; ++i) terms_.push_back(to_interfaces.b[i]);
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) terms_.push_back(to_interfaces.a[i][j]);
+void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, const FixedWeights& weights) {
+    const std::uint32_t node = at_[0].end(), lane = node % 4;
+    if (lane == 0) fours_.push_back({});
+    Four& four = fours_[node / 4];
+    for (int axis = 0; axis < 3; ++axis) four.base[lane][axis] = static_cast<std::uint32_t>(simplex.base[axis]);
+    four.kind[lane] = simplex.kind;
+    equations_.push_back(to_interfaces);
+    const auto weight = [&](int n) { return static_cast<std::int32_t>(weights[n]); };
+    const Lane4 at =
+        point_at(load<Lane4>(&four.base[lane]) << kUnitBits, simplex.kind, Lane4{weight(0), weight(1), weight(2), 0});
+    for (SlidingArray<Lane4>& side : at_) side.push_back(at);
+}
+
+/// Chunks begin with a new four.
+void LatticeLines::end_chunk() {
+    while (at_[0].end() % 4 != 0) {
+        equations_.push_back({});
+        for (SlidingArray<Lane4>& side : at_) side.push_back(Lane4{});
+    }
+    first_node_.push_back(at_[0].end());
 }
 
 /// The sides of faces of a chunk, from its nodes and those of the chunk before.
@@ -142,83 +179,101 @@ void LatticeLines::link(std::uint32_t chunk, const PackedChunks& chunks, PackedC
     sides.resize(kept);
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.order < b.order; });
     for (const Side& side : sides) {
-        Node& node = nodes_[side.from];
-        if (node.count < node.next.size()) node.next[node.count++] = side.to;
+        Four& four = fours_[side.from / 4];
+        auto& next = four.next[side.from % 4];
+        std::uint8_t& count = four.count[side.from % 4];
+        if (count < next.size()) next[count++] = side.to;
     }
-    for (std::uint32_t n = own.first; n < own.end; ++n) end_links(nodes_[n]);
+    for (std::uint32_t node = own.first; node < own.end; ++node) end_links(node);
+    equations_.drop_before(own.end);
 }
 
-/// The pull of the neighbours has the same matrix in all sweeps.
-void LatticeLines::end_links(Node& node) {
-    const int count = node.edge_count();
-    NearestPoint nearest{count};
-    std::uint32_t term = node.first_term + count;
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) nearest.a[i][j] = terms_[term++];
-    if (node.count > 0) nearest.add({0, 0, 0}, kPull, edges_of(node.kind, frame_.spacing / frame_.finest()));
+/// The least squares of a node, solved for any sum of its neighbours.
+void LatticeLines::end_links(std::uint32_t node) {
+    Four& four = fours_[node / 4];
+    const std::uint32_t lane = node % 4;
+    const NearestPoint& to_interfaces = equations_[node];
+    const int kind = four.kind[lane], edge_count = to_interfaces.count, neighbours = four.count[lane];
+    if (edge_count == 0) return;  // there is no node
+    const Vec3 spacing = frame_.spacing / frame_.finest();
+    const SimplexEdges edges = edges_of(kind, spacing);
+    NearestPoint nearest = to_interfaces;
+    const Vec3 middle = kCentroids[kind], base{-middle.x * spacing.x, -middle.y * spacing.y, -middle.z * spacing.z};
+    if (neighbours > 0) nearest.add(base, kPull, edges);
+    const std::array<double, 3> step = nearest.solve();
     const auto inverse = nearest.inverse();
-    term = node.first_term + count;
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) terms_[term++] = inverse[i][j];
+    for (int i = 0; i < edge_count; ++i) {
+        four.step[i][lane] = static_cast<float>(step[i]);
+        Vec3 pull;
+        for (int j = 0; j < edge_count; ++j) pull += inverse[i][j] * kPull * edges.edges[j];
+        for (int axis = 0; neighbours > 0 && axis < 3; ++axis)
+            four.pull[i][axis][lane] = static_cast<float>(pull[axis] * spacing[axis] / neighbours / kUnit);
+    }
+    const double margin = margins_.of(kind), inset = 1.0 / (edge_count + 1) - margin;
+    four.margin[lane] = static_cast<float>(margin);
+    four.inset[lane] = static_cast<float>(inset);
+    four.inset_third[lane] = edge_count == 3 ? four.inset[lane] : 0;
+    four.room[lane] = static_cast<float>(1 - (edge_count + 1) * margin);
 }
 
-/// What nodes of a kind share.
-struct LatticeLines::SweepTables {
-    double finest;
-    std::array<SimplexEdges, kKindCount> edges;
-    std::array<std::array<Vec3, 3>, kKindCount> steps;  // in lattice units
-
-    explicit SweepTables(const LatticeFrame& frame) : finest(frame.finest()) {
-        for (int kind = kFirstTriangle; kind < kKindCount; ++kind) {
-            edges[kind] = edges_of(kind, frame.spacing / finest);
-            steps[kind] = edges_of(kind, {1, 1, 1}).edges;
-        }
+/// `before` begins with the node `first`, `after` with the first of these.
+void LatticeLines::Four::sweep(const Lane4* before, std::uint32_t first, Lane4* after) const {
+    std::array<Lane4, 4> base_at;
+    std::array<Float4, 4> sums;  // of the neighbours, from the base
+    for (int lane = 0; lane < 4; ++lane) {
+        base_at[lane] = load<Lane4>(&base[lane]) << kUnitBits;
+        Lane4 sum{};
+        for (std::uint32_t k = 0; k < count[lane]; ++k) sum += before[next[lane][k] - first] - base_at[lane];
+        sums[lane] = __builtin_convertvector(sum, Float4);
     }
-};
-
-template <int kEdges>
-void LatticeLines::sweep_node(Node& node, std::uint32_t from, const SweepTables& tables) {
-    std::array<double, kEdges> b;
-    std::array<std::array<double, kEdges>, kEdges> a;
-    std::uint32_t term = node.first_term;
-    for (double& number : b) number = terms_[term++];
-    for (auto& row : a)
-        for (double& number : row) number = terms_[term++];
-    const LatticeSimplex simplex = node.simplex();
-    if (node.count > 0) {
-        Vec3 sum;
-        for (std::uint32_t k = 0; k < node.count; ++k) sum += nodes_[node.next[k]].at[from];
-        const Vec3 target = (sum / node.count - centroid_in(simplex, frame_)) / tables.finest;
-        for (int i = 0; i < kEdges; ++i) b[i] += kPull * dot(tables.edges[node.kind].edges[i], target);
+    const auto axes = transposed(sums[0], sums[1], sums[2], sums[3]);
+    const Float4 farthest = all_four(kFarthest), none{};
+    std::array<Float4, 3> weights;
+    Float4 first_weight = inset;
+    for (int i = 0; i < 3; ++i) {
+        const Float4 pulled = step[i] + pull[i][0] * axes[0] + pull[i][1] * axes[1] + pull[i][2] * axes[2];
+        weights[i] = greatest(least(pulled, farthest), -farthest);
+        first_weight -= weights[i];
     }
-    std::array<double, 3> step{};
-    for (int i = 0; i < kEdges; ++i)
-        for (int j = 0; j < kEdges; ++j) step[i] += a[i][j] * b[j];
-    const FixedWeights weights =
-        rounded(clamp_inside(weights_of(step, kEdges), kEdges + 1, margins_.of(node.kind)), kEdges + 1);
-    node.at[1 - from] = position_in(simplex, weights, frame_);
+    // As in clamp_inside().
+    Float4 sum = greatest(first_weight, none);
+    for (int i = 0; i < 3; ++i) {
+        weights[i] = greatest(weights[i] + (i < 2 ? inset : inset_third), none);
+        sum += weights[i];
+    }
+    const Float4 share = room / sum;
+    std::array<Lane4, 3> fixed;
+    for (int i = 0; i < 3; ++i) fixed[i] = __builtin_convertvector((margin + share * weights[i]) * kUnit + 0.5f, Lane4);
+    const auto by_node = transposed(fixed[0], fixed[1], fixed[2], Lane4{});
+    for (int lane = 0; lane < 4; ++lane) after[lane] = point_at(base_at[lane], kind[lane], by_node[lane]);
 }
 
 void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads) {
-    constexpr std::uint32_t kTask = 256;  // nodes
-    const std::uint32_t first = first_node_[chunk], end = first_node_[chunk + 1], from = number % 2;
-    const SweepTables tables(frame_);
-    parallel_for((end - first + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
-        const std::uint32_t task_end = std::min(end, first + (task + 1) * kTask);
-        for (std::uint32_t n = first + task * kTask; n < task_end; ++n) {
-            Node& node = nodes_[n];
-            if (node.edge_count() == 2)
-                sweep_node<2>(node, from, tables);
-            else
-                sweep_node<3>(node, from, tables);
-        }
+    constexpr std::uint32_t kTask = 256;  // fours
+    const std::uint32_t first = at_[0].first(), begin = first_node_[chunk] / 4, end = first_node_[chunk + 1] / 4;
+    if (begin == end) return;
+    const Lane4* before = &at_[number % 2][first];
+    Lane4* after = &at_[1 - number % 2][first];
+    parallel_for((end - begin + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
+        const std::uint32_t task_end = std::min(end, begin + (task + 1) * kTask);
+        for (std::uint32_t n = begin + task * kTask; n < task_end; ++n)
+            fours_[n].sweep(before, first, after + (4 * n - first));
     });
+}
+
+Vec3 LatticeLines::position(std::uint32_t node) const {
+    const auto& base = fours_[node / 4].base[node % 4];
+    const Lane4 offset = at_[0][node] - (load<Lane4>(&base) << kUnitBits);
+    Vec3 position;
+    for (int axis = 0; axis < 3; ++axis)
+        position[axis] = frame_.origin[axis] + (base[axis] + offset[axis] / double{kUnit}) * frame_.spacing[axis];
+    return position;
 }
 
 void LatticeLines::drop_before(std::uint32_t chunk) {
     const std::uint32_t first = first_node_[chunk];
-    terms_.drop_before(first < nodes_.end() ? nodes_[first].first_term : terms_.end());
-    nodes_.drop_before(first);
+    fours_.drop_before(first / 4);
+    for (SlidingArray<Lane4>& side : at_) side.drop_before(first);
     first_node_.drop_before(chunk);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/lanes.h"
 #include "base/sliding_array.h"
 #include "base/sliding_pages.h"
 #include "smooth/lattice_fits.h"
@@ -46,34 +47,37 @@ public:
     /// Is a vertex of this simplex one of these?
     static bool has(const LatticeSimplex& simplex) { return simplex.kind >= kFirstTriangle; }
     /// Adds a vertex of the chunk that comes next, in its order, and ends the chunk.
-    void add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, Vec3 position);
-    void end_chunk() { first_node_.push_back(nodes_.end()); }
+    void add(const LatticeSimplex& simplex, const NearestPoint& to_interfaces, const FixedWeights& weights);
+    void end_chunk();
     /// Finds the neighbours of the vertices of a chunk. Chunks are linked in their order. Requires that the next chunk
     /// was added, if there is one. `parts` is for the use of this function.
     void link(std::uint32_t chunk, const PackedChunks& chunks, PackedChunks::Parts& parts);
     /// Requires that the sweep before, or link(), has done the next chunk, if there is one.
     void sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_t threads);
     std::uint32_t first_of(std::uint32_t chunk) const { return first_node_[chunk]; }
-    /// After the last sweep; `node` counts the vertices that were added.
-    Vec3 position(std::uint32_t node) const { return nodes_[node].at[0]; }
+    /// After the last sweep; `node` is first_of() its chunk and the number of vertices added to the chunk before it.
+    Vec3 position(std::uint32_t node) const;
 
     void drop_before(std::uint32_t chunk);
     std::size_t bytes() const {
-        return nodes_.bytes() + terms_.bytes() + (sides_.capacity() + next_sides_.capacity()) * sizeof(Side);
+        return fours_.bytes() + at_[0].bytes() + at_[1].bytes() + equations_.bytes() +
+               (sides_.capacity() + next_sides_.capacity()) * sizeof(Side);
     }
 
 private:
-    struct Node {
-        std::array<std::uint32_t, 3> base;    // of its simplex
-        std::uint8_t kind, count = 0;         // of its simplex; of its neighbours
-        std::array<std::uint32_t, 4> next{};  // numbers of nodes
-        std::uint32_t first_term;
-        std::array<Vec3, 2> at;
+    /// Four nodes: numbers are in their order, or one per lane. Weights are those of the nodes of a simplex but the
+    /// first; without a pull they are `inset` + `margin` + `step`.
+    struct Four {
+        std::array<std::array<std::uint32_t, 4>, 4> next{};  // numbers of nodes
+        std::array<std::array<std::uint32_t, 4>, 4> base{};  // of the simplex; the last number is not used
+        std::array<std::uint8_t, 4> kind{}, count{};         // of the simplex; of the neighbours
+        std::array<Float4, 3> step{};
+        std::array<std::array<Float4, 3>, 3> pull{};  // of each weight, by axis, of the sum of the neighbours
+        Float4 margin{};
+        Float4 inset = all_four(1), inset_third = all_four(1);  // of equal weights beyond the margin
+        Float4 room = all_four(1);                              // of the sum of the weights, beyond the margins
 
-        LatticeSimplex simplex() const {
-            return {{static_cast<double>(base[0]), static_cast<double>(base[1]), static_cast<double>(base[2])}, kind};
-        }
-        int edge_count() const { return kKinds[kind].node_count - 1; }
+        void sweep(const Lane4* before, std::uint32_t first, Lane4* after) const;
     };
 
     /// A half of an edge of a face, from a vertex of a line to another.
@@ -84,19 +88,16 @@ private:
     };
 
     static constexpr std::uint32_t kNoNode = ~0u;
-    struct SweepTables;
 
     void find_sides(std::uint32_t chunk, const PackedChunks::Parts& parts);
-    void end_links(Node& node);
-    template <int kEdges>
-    void sweep_node(Node& node, std::uint32_t from, const SweepTables& tables);
+    void end_links(std::uint32_t node);
 
     LatticeFrame frame_;
     LatticeMargins margins_;
-    SlidingPages<Node> nodes_;
-    // Of each node n terms of the right side of its equations and n * n of the matrix, by row; n is edge_count(). From
-    // link() on the inverse, with the pull in it.
-    SlidingPages<double> terms_;
+    SlidingPages<Four> fours_;
+    // By node, in 2^-20 of a lattice unit, modulo 2^32: neighbours are never far. The last number is not used.
+    std::array<SlidingArray<Lane4>, 2> at_;
+    SlidingPages<NearestPoint> equations_;    // of the nodes whose neighbours are still to be found
     std::vector<std::uint32_t> carried_;      // nodes of the vertices that the next chunk to be linked carries
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
     std::vector<Side> sides_, next_sides_;    // of the chunk that is linked next, and of the one after it

@@ -202,7 +202,7 @@ void LatticeSmoother::place_on_line(const LatticeSimplex& simplex, std::uint32_t
             nearest.add(estimates_[s], edges);
     const Barycentric weights = weights_of(nearest.solve(), edges.count);
     const Barycentric inside = clamp_inside(weights, edges.count + 1, margins_.of(simplex.kind));
-    lines_.add(simplex, nearest, position_in(simplex, inside, order_.frame));
+    lines_.add(simplex, nearest, rounded(inside, edges.count + 1));
 }
 
 /// The chunk that went in, with its vertices at their final positions.
