@@ -21,21 +21,21 @@ constexpr double kFarthest = 1;
 constexpr int kUnitBits = 20;
 constexpr float kUnit = 1 << kUnitBits;
 
-constexpr Lane4 axes_of(unsigned step) {
-    const auto mask = [&](int axis) { return (step >> axis & 1) != 0 ? -1 : 0; };
-    return Lane4{mask(0), mask(1), mask(2), 0};
+constexpr Unsigned4 axes_of(unsigned step) {
+    const auto mask = [&](int axis) { return (step >> axis & 1) != 0 ? ~0u : 0; };
+    return Unsigned4{mask(0), mask(1), mask(2), 0};
 }
 
 /// By kind and by node of a simplex but the first: the axes along which it lies beyond the first.
-constexpr std::array<std::array<Lane4, 3>, kKindCount> kAxes = [] {
-    std::array<std::array<Lane4, 3>, kKindCount> axes{};
+constexpr std::array<std::array<Unsigned4, 3>, kKindCount> kAxes = [] {
+    std::array<std::array<Unsigned4, 3>, kKindCount> axes{};
     for (int kind = 0; kind < kKindCount; ++kind)
         for (int n = 1; n < kKinds[kind].node_count; ++n) axes[kind][n - 1] = axes_of(kKinds[kind].steps[n]);
     return axes;
 }();
 
 /// The point of a simplex with the given first node and weights of the others, all in fixed point.
-Lane4 point_at(Lane4 base, int kind, Lane4 weights) {
+Unsigned4 point_at(Unsigned4 base, int kind, Unsigned4 weights) {
     const auto& axes = kAxes[kind];
     return base + (__builtin_shufflevector(weights, weights, 0, 0, 0, 0) & axes[0]) +
            (__builtin_shufflevector(weights, weights, 1, 1, 1, 1) & axes[1]) +
@@ -110,17 +110,16 @@ void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_int
     for (int axis = 0; axis < 3; ++axis) four.base[lane][axis] = static_cast<std::uint32_t>(simplex.base[axis]);
     four.kind[lane] = simplex.kind;
     equations_.push_back(to_interfaces);
-    const auto weight = [&](int n) { return static_cast<std::int32_t>(weights[n]); };
-    const Lane4 at =
-        point_at(load<Lane4>(&four.base[lane]) << kUnitBits, simplex.kind, Lane4{weight(0), weight(1), weight(2), 0});
-    for (SlidingArray<Lane4>& side : at_) side.push_back(at);
+    const Unsigned4 at = point_at(load<Unsigned4>(&four.base[lane]) << kUnitBits, simplex.kind,
+                                  Unsigned4{weights[0], weights[1], weights[2], 0});
+    for (SlidingArray<Unsigned4>& side : at_) side.push_back(at);
 }
 
 /// Chunks begin with a new four.
 void LatticeLines::end_chunk() {
     while (at_[0].end() % 4 != 0) {
         equations_.push_back({});
-        for (SlidingArray<Lane4>& side : at_) side.push_back(Lane4{});
+        for (SlidingArray<Unsigned4>& side : at_) side.push_back(Unsigned4{});
     }
     first_node_.push_back(at_[0].end());
 }
@@ -198,6 +197,7 @@ void LatticeLines::end_links(std::uint32_t node) {
     const Vec3 spacing = frame_.spacing / frame_.finest();
     const SimplexEdges edges = edges_of(kind, spacing);
     NearestPoint nearest = to_interfaces;
+    // The neighbours are summed from the base, which lies here from the centroid.
     const Vec3 middle = kCentroids[kind], base{-middle.x * spacing.x, -middle.y * spacing.y, -middle.z * spacing.z};
     if (neighbours > 0) nearest.add(base, kPull, edges);
     const std::array<double, 3> step = nearest.solve();
@@ -217,14 +217,14 @@ void LatticeLines::end_links(std::uint32_t node) {
 }
 
 /// `before` begins with the node `first`, `after` with the first of these.
-void LatticeLines::Four::sweep(const Lane4* before, std::uint32_t first, Lane4* after) const {
-    std::array<Lane4, 4> base_at;
+void LatticeLines::Four::sweep(const Unsigned4* before, std::uint32_t first, Unsigned4* after) const {
+    std::array<Unsigned4, 4> base_at;
     std::array<Float4, 4> sums;  // of the neighbours, from the base
     for (int lane = 0; lane < 4; ++lane) {
-        base_at[lane] = load<Lane4>(&base[lane]) << kUnitBits;
-        Lane4 sum{};
+        base_at[lane] = load<Unsigned4>(&base[lane]) << kUnitBits;
+        Unsigned4 sum{};
         for (std::uint32_t k = 0; k < count[lane]; ++k) sum += before[next[lane][k] - first] - base_at[lane];
-        sums[lane] = __builtin_convertvector(sum, Float4);
+        sums[lane] = __builtin_convertvector(reinterpret_cast<Lane4>(sum), Float4);
     }
     const auto axes = transposed(sums[0], sums[1], sums[2], sums[3]);
     const Float4 farthest = all_four(kFarthest), none{};
@@ -242,9 +242,11 @@ void LatticeLines::Four::sweep(const Lane4* before, std::uint32_t first, Lane4* 
         sum += weights[i];
     }
     const Float4 share = room / sum;
-    std::array<Lane4, 3> fixed;
-    for (int i = 0; i < 3; ++i) fixed[i] = __builtin_convertvector((margin + share * weights[i]) * kUnit + 0.5f, Lane4);
-    const auto by_node = transposed(fixed[0], fixed[1], fixed[2], Lane4{});
+    std::array<Unsigned4, 3> fixed;
+    for (int i = 0; i < 3; ++i)
+        fixed[i] =
+            reinterpret_cast<Unsigned4>(__builtin_convertvector((margin + share * weights[i]) * kUnit + 0.5f, Lane4));
+    const auto by_node = transposed(fixed[0], fixed[1], fixed[2], Unsigned4{});
     for (int lane = 0; lane < 4; ++lane) after[lane] = point_at(base_at[lane], kind[lane], by_node[lane]);
 }
 
@@ -252,8 +254,8 @@ void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_
     constexpr std::uint32_t kTask = 256;  // fours
     const std::uint32_t first = at_[0].first(), begin = first_node_[chunk] / 4, end = first_node_[chunk + 1] / 4;
     if (begin == end) return;
-    const Lane4* before = &at_[number % 2][first];
-    Lane4* after = &at_[1 - number % 2][first];
+    const Unsigned4* before = &at_[number % 2][first];
+    Unsigned4* after = &at_[1 - number % 2][first];
     parallel_for((end - begin + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
         const std::uint32_t task_end = std::min(end, begin + (task + 1) * kTask);
         for (std::uint32_t n = begin + task * kTask; n < task_end; ++n)
@@ -263,7 +265,7 @@ void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_
 
 Vec3 LatticeLines::position(std::uint32_t node) const {
     const auto& base = fours_[node / 4].base[node % 4];
-    const Lane4 offset = at_[0][node] - (load<Lane4>(&base) << kUnitBits);
+    const Unsigned4 offset = at_[0][node] - (load<Unsigned4>(&base) << kUnitBits);
     Vec3 position;
     for (int axis = 0; axis < 3; ++axis)
         position[axis] = frame_.origin[axis] + (base[axis] + offset[axis] / double{kUnit}) * frame_.spacing[axis];
@@ -273,7 +275,7 @@ Vec3 LatticeLines::position(std::uint32_t node) const {
 void LatticeLines::drop_before(std::uint32_t chunk) {
     const std::uint32_t first = first_node_[chunk];
     fours_.drop_before(first / 4);
-    for (SlidingArray<Lane4>& side : at_) side.drop_before(first);
+    for (SlidingArray<Unsigned4>& side : at_) side.drop_before(first);
     first_node_.drop_before(chunk);
 }
 

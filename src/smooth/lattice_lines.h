@@ -77,7 +77,7 @@ private:
         Float4 inset = all_four(1), inset_third = all_four(1);  // of equal weights beyond the margin
         Float4 room = all_four(1);                              // of the sum of the weights, beyond the margins
 
-        void sweep(const Lane4* before, std::uint32_t first, Lane4* after) const;
+        void sweep(const Unsigned4* before, std::uint32_t first, Unsigned4* after) const;
     };
 
     /// A half of an edge of a face, from a vertex of a line to another.
@@ -96,7 +96,7 @@ private:
     LatticeMargins margins_;
     SlidingPages<Four> fours_;
     // By node, in 2^-20 of a lattice unit, modulo 2^32: neighbours are never far. The last number is not used.
-    std::array<SlidingArray<Lane4>, 2> at_;
+    std::array<SlidingArray<Unsigned4>, 2> at_;
     SlidingPages<NearestPoint> equations_;    // of the nodes whose neighbours are still to be found
     std::vector<std::uint32_t> carried_;      // nodes of the vertices that the next chunk to be linked carries
     SlidingArray<std::uint32_t> first_node_;  // by chunk, and one more
