@@ -53,7 +53,7 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
         const std::uint64_t initial_faces = now.chunk.faces.size();
         const auto gather = [&] {
             is_more = gatherer.next(next);
-            give_back_freed_memory();
+            give_back_freed_memory();  // smoothing leaves it in pieces, which tiles would make resident again
         };
         const bool is_ahead = may_gather_ahead && simplify.has_room_ahead();
         if (is_ahead)
