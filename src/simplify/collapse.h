@@ -38,8 +38,8 @@ struct Collapse {
     ErrorBound error = {};
 };
 
-/// The faces of the star have their apex at `position` now.
-inline void move_star(FaceTree& tree, const EdgeStar& star, Vec3 position) {
+/// Sets the boxes of the star's faces, whose apex is at `position` now.
+inline void set_boxes(FaceTree& tree, const EdgeStar& star, Vec3 position) {
     for (int n = 0; n < star.face_count(); n += 2) {
         const StarPair& pair = star.pairs[n / 2];
         const auto boxes = tree.boxes_of(both(position), pair.a, pair.b);
@@ -68,7 +68,7 @@ inline void collapse_edge(Mesh& mesh, Collapse& collapse) {
     }
     mesh.move_star(star.goes, star.stays);
     mesh[star.stays].position = position;
-    if (collapse.tree) move_star(*collapse.tree, star, position);
+    if (collapse.tree) set_boxes(*collapse.tree, star, position);
 }
 
 }  // namespace regionmesh

@@ -73,7 +73,7 @@ bool VertexMoves::try_move(VertexId v) {
         const Candidate& best = candidates_[n];
         if (verdict_at(collapse_, {best.at}) != Verdict::kAccepted) continue;
         mesh_[v].position = best.at;
-        move_star(tree_, star, best.at);
+        set_boxes(tree_, star, best.at);
         drift_.set(v, drift_now_, best.step);
         return true;
     }

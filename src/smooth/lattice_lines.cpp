@@ -17,10 +17,6 @@ constexpr double kRidge = 1e-3;
 /// Steps of more edge lengths than this lie far outside the simplex; bounded, sums of weights stay exact enough.
 constexpr double kFarthest = 1;
 
-/// A lattice unit in fixed point, as in FixedWeights.
-constexpr int kUnitBits = 20;
-constexpr float kUnit = 1 << kUnitBits;
-
 constexpr Unsigned4 axes_of(unsigned step) {
     const auto mask = [&](int axis) { return (step >> axis & 1) != 0 ? ~0u : 0; };
     return Unsigned4{mask(0), mask(1), mask(2), 0};
@@ -110,7 +106,7 @@ void LatticeLines::add(const LatticeSimplex& simplex, const NearestPoint& to_int
     for (int axis = 0; axis < 3; ++axis) four.base[lane][axis] = static_cast<std::uint32_t>(simplex.base[axis]);
     four.kind[lane] = simplex.kind;
     equations_.push_back(to_interfaces);
-    const Unsigned4 at = point_at(load<Unsigned4>(&four.base[lane]) << kUnitBits, simplex.kind,
+    const Unsigned4 at = point_at(load<Unsigned4>(&four.base[lane]) << kWeightBits, simplex.kind,
                                   Unsigned4{weights[0], weights[1], weights[2], 0});
     for (SlidingArray<Unsigned4>& side : at_) side.push_back(at);
 }
@@ -204,10 +200,11 @@ void LatticeLines::end_links(std::uint32_t node) {
     const auto inverse = nearest.inverse();
     for (int i = 0; i < edge_count; ++i) {
         four.step[i][lane] = static_cast<float>(step[i]);
+        if (neighbours == 0) continue;
         Vec3 pull;
         for (int j = 0; j < edge_count; ++j) pull += inverse[i][j] * kPull * edges.edges[j];
-        for (int axis = 0; neighbours > 0 && axis < 3; ++axis)
-            four.pull[i][axis][lane] = static_cast<float>(pull[axis] * spacing[axis] / neighbours / kUnit);
+        for (int axis = 0; axis < 3; ++axis)
+            four.pull[i][axis][lane] = static_cast<float>(pull[axis] * spacing[axis] / neighbours / kWeightUnit);
     }
     const double margin = margins_.of(kind), inset = 1.0 / (edge_count + 1) - margin;
     four.margin[lane] = static_cast<float>(margin);
@@ -221,13 +218,13 @@ void LatticeLines::Four::sweep(const Unsigned4* before, std::uint32_t first, Uns
     std::array<Unsigned4, 4> base_at;
     std::array<Float4, 4> sums;  // of the neighbours, from the base
     for (int lane = 0; lane < 4; ++lane) {
-        base_at[lane] = load<Unsigned4>(&base[lane]) << kUnitBits;
+        base_at[lane] = load<Unsigned4>(&base[lane]) << kWeightBits;
         Unsigned4 sum{};
         for (std::uint32_t k = 0; k < count[lane]; ++k) sum += before[next[lane][k] - first] - base_at[lane];
         sums[lane] = __builtin_convertvector(reinterpret_cast<Lane4>(sum), Float4);
     }
     const auto axes = transposed(sums[0], sums[1], sums[2], sums[3]);
-    const Float4 farthest = all_four(kFarthest), none{};
+    const Float4 farthest = all_four(kFarthest), unit = all_four(kWeightUnit), none{};
     std::array<Float4, 3> weights;
     Float4 first_weight = inset;
     for (int i = 0; i < 3; ++i) {
@@ -245,7 +242,7 @@ void LatticeLines::Four::sweep(const Unsigned4* before, std::uint32_t first, Uns
     std::array<Unsigned4, 3> fixed;
     for (int i = 0; i < 3; ++i)
         fixed[i] =
-            reinterpret_cast<Unsigned4>(__builtin_convertvector((margin + share * weights[i]) * kUnit + 0.5f, Lane4));
+            reinterpret_cast<Unsigned4>(__builtin_convertvector((margin + share * weights[i]) * unit + 0.5f, Lane4));
     const auto by_node = transposed(fixed[0], fixed[1], fixed[2], Unsigned4{});
     for (int lane = 0; lane < 4; ++lane) after[lane] = point_at(base_at[lane], kind[lane], by_node[lane]);
 }
@@ -265,10 +262,9 @@ void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_
 
 Vec3 LatticeLines::position(std::uint32_t node) const {
     const auto& base = fours_[node / 4].base[node % 4];
-    const Unsigned4 offset = at_[0][node] - (load<Unsigned4>(&base) << kUnitBits);
+    const Unsigned4 offset = at_[0][node] - (load<Unsigned4>(&base) << kWeightBits);
     Vec3 position;
-    for (int axis = 0; axis < 3; ++axis)
-        position[axis] = frame_.origin[axis] + (base[axis] + offset[axis] / double{kUnit}) * frame_.spacing[axis];
+    for (int axis = 0; axis < 3; ++axis) position[axis] = frame_.at(axis, base[axis] + offset[axis] / kWeightUnit);
     return position;
 }
 

@@ -13,8 +13,6 @@ namespace {
 /// Positions are rounded: far from the origin of the lattice by more than a unit in the last place.
 constexpr double kFarFromTwelfth = 0.01;
 
-constexpr double kWeightUnit = 1 << 20;
-
 /// In twelfths; no volume is that large.
 constexpr double kFarthest = 1e15;
 
@@ -86,8 +84,7 @@ Vec3 position_in(const LatticeSimplex& simplex, const FixedWeights& weights, con
             if (kind.steps[n] >> axis & 1) offset[axis] += weight;
     }
     Vec3 position;
-    for (int axis = 0; axis < 3; ++axis)
-        position[axis] = frame.origin[axis] + (simplex.base[axis] + offset[axis]) * frame.spacing[axis];
+    for (int axis = 0; axis < 3; ++axis) position[axis] = frame.at(axis, simplex.base[axis] + offset[axis]);
     return position;
 }
 

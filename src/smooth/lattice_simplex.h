@@ -15,6 +15,8 @@ struct LatticeFrame {
     Vec3 spacing{1, 1, 1};
 
     double finest() const { return std::min({spacing.x, spacing.y, spacing.z}); }
+    /// The coordinate of a place in lattice units.
+    double at(int axis, double units) const { return origin[axis] + units * spacing[axis]; }
 };
 
 /// By kind, in lattice units.
@@ -39,7 +41,7 @@ LatticeSimplex simplex_of(Vec3 position, const LatticeFrame& frame);
 
 /// The position of an unsmoothed vertex, bit for bit as the mesher makes it.
 inline double centroid_along(int axis, const LatticeSimplex& simplex, const LatticeFrame& frame) {
-    return frame.origin[axis] + (simplex.base[axis] + kCentroids[simplex.kind][axis]) * frame.spacing[axis];
+    return frame.at(axis, simplex.base[axis] + kCentroids[simplex.kind][axis]);
 }
 inline Vec3 centroid_in(const LatticeSimplex& simplex, const LatticeFrame& frame) {
     return {centroid_along(0, simplex, frame), centroid_along(1, simplex, frame), centroid_along(2, simplex, frame)};
@@ -61,6 +63,8 @@ struct LatticeMargins {
 Barycentric clamp_inside(const Barycentric& weights, int node_count, double margin);
 
 /// Weights of the nodes but the first as multiples of 2^-20.
+inline constexpr int kWeightBits = 20;
+inline constexpr double kWeightUnit = 1 << kWeightBits;
 using FixedWeights = std::array<std::uint32_t, 3>;
 FixedWeights rounded(const Barycentric& weights, int node_count);
 
@@ -68,9 +72,6 @@ FixedWeights rounded(const Barycentric& weights, int node_count);
 /// unit spacing the point lies exactly in the simplex; along axes in which the simplex does not extend it has the exact
 /// coordinate of the node.
 Vec3 position_in(const LatticeSimplex& simplex, const FixedWeights& weights, const LatticeFrame& frame);
-inline Vec3 position_in(const LatticeSimplex& simplex, const Barycentric& weights, const LatticeFrame& frame) {
-    return position_in(simplex, rounded(weights, simplex.node_count()), frame);
-}
 
 /// Edge vectors from the first node to the others, in the unit of the spacing.
 struct SimplexEdges {

@@ -40,8 +40,10 @@ void shake(Mesh& mesh, const LatticeFrame& frame, CellKind cells, std::mt19937_6
     const LatticeMargins margins{kMargin, cells == CellKind::kCompact ? CompactCells::kInnerMargin : 0};
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
         const LatticeSimplex simplex = simplex_of(mesh.position(VertexId{v}), frame);
-        mesh[VertexId{v}].position =
-            position_in(simplex, random_weights(random, simplex.node_count(), margins.of(simplex.kind)), frame);
+        mesh[VertexId{v}].position = position_in(
+            simplex,
+            rounded(random_weights(random, simplex.node_count(), margins.of(simplex.kind)), simplex.node_count()),
+            frame);
     }
 }
 
@@ -115,7 +117,10 @@ TEST(LatticeSimplex, positions_lie_exactly_in_the_simplex_at_unit_spacing) {
     for (int kind = 1; kind < kKindCount; ++kind)
         for (int round = 0; round < 200; ++round) {
             const LatticeSimplex simplex{{1000, 3, 77}, static_cast<std::uint8_t>(kind)};
-            const Vec3 d = position_in(simplex, random_weights(random, simplex.node_count()), frame) - simplex.base;
+            const Vec3 d =
+                position_in(simplex, rounded(random_weights(random, simplex.node_count()), simplex.node_count()),
+                            frame) -
+                simplex.base;
             // Axes ordered by the step in which the chain first has them: offsets fall, and are equal within a step.
             const SimplexKind& chain = kKinds[kind];
             for (int a = 0; a < 3; ++a)
@@ -155,7 +160,7 @@ Vec3 random_place(const std::array<Step, 4>& corners, unsigned set, std::mt19937
     while (!(set >> first & 1)) ++first;
     for (int n = 1; n < count; ++n) chain[n] -= corners[first];
     simplex.kind = static_cast<std::uint8_t>(kind_of(chain[1], chain[2], chain[3]));
-    return position_in(simplex, random_weights(random, count), {});
+    return position_in(simplex, rounded(random_weights(random, count), count), {});
 }
 
 /// Random positions in every case of every tetrahedron: no two of its faces meet outside what they share.
