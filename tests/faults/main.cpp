@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "faults/scenarios.h"
+#include "support/paths.h"
 
 namespace regionmesh::faults {
 namespace {
@@ -59,16 +60,16 @@ Ran run(const Scenario& scenario, const fs::path& folder, const Fault& fault) {
         if (::chdir((folder / "out").c_str()) != 0) ::_exit(99);
         ::dup2(::open((folder / "stdout").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
         ::dup2(::open((folder / "stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
-        ::setenv("LD_PRELOAD", kShim, 1);
+        ::setenv("LD_PRELOAD", test::shim().c_str(), 1);
         ::setenv("REGIONMESH_FAULT", fault.mode.c_str(), 1);
         ::setenv("REGIONMESH_FAULT_AT", std::to_string(fault.at).c_str(), 1);
         ::setenv("REGIONMESH_FAULT_COUNT", (folder / "counts").c_str(), 1);
-        std::vector<std::string> words{kProgram};
+        std::vector<std::string> words{test::program()};
         words.insert(words.end(), scenario.arguments.begin(), scenario.arguments.end());
         std::vector<char*> pointers;
         for (std::string& word : words) pointers.push_back(word.data());
         pointers.push_back(nullptr);
-        ::execv(kProgram, pointers.data());
+        ::execv(words[0].c_str(), pointers.data());
         ::_exit(98);
     }
     int status = 0;

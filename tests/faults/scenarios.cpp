@@ -7,9 +7,6 @@
 
 namespace regionmesh::faults {
 
-const char* const kProgram = REGIONMESH_PROGRAM;
-const char* const kShim = REGIONMESH_SHIM;
-
 namespace {
 
 constexpr int kSide = 12;

@@ -7,10 +7,6 @@
 
 namespace regionmesh::faults {
 
-/// The program, and the library that lets its calls fail.
-extern const char* const kProgram;
-extern const char* const kShim;
-
 /// The program runs in a folder for its outputs; its inputs lie in ../in.
 struct Scenario {
     std::string name;

@@ -18,6 +18,7 @@ std::string program() { return REGIONMESH_PROGRAM; }
 std::string hdf5_program() { return REGIONMESH_HDF5_PROGRAM; }
 std::string dicom_program() { return REGIONMESH_DICOM_PROGRAM; }
 std::string mpi_program() { return REGIONMESH_MPI_PROGRAM; }
+std::string shim() { return REGIONMESH_SHIM; }
 std::string delaunay_program() { return REGIONMESH_DELAUNAY_PROGRAM; }
 
 }  // namespace regionmesh::test

@@ -13,5 +13,7 @@ std::string delaunay_program();
 std::string hdf5_program();
 std::string dicom_program();
 std::string mpi_program();
+/// The library that lets the calls of a program fail (tests/faults/shim.cpp). Empty under sanitizers.
+std::string shim();
 
 }  // namespace regionmesh::test
