@@ -21,9 +21,10 @@ struct KeyedIndex;
 using Corner = std::uint32_t;
 inline constexpr Corner kNoCorner = 0xFFFFFFFFu;
 
-/// The places of the next and the previous corner of a face, in its orientation.
-constexpr int place_after(int place) { return place == 2 ? 0 : place + 1; }
-constexpr int place_before(int place) { return place == 0 ? 2 : place - 1; }
+/// The places of the next and the previous corner of a face, in its orientation. Without a branch, which would be
+/// mispredicted: two bits for each place.
+constexpr int place_after(int place) { return 0b00'10'01 >> 2 * place & 3; }
+constexpr int place_before(int place) { return 0b01'00'10 >> 2 * place & 3; }
 
 /// 32 bytes, half a cache line: a walk around a star touches one cache line per face.
 struct Face {

@@ -19,9 +19,10 @@ inline bool is_within(const Box& inner, const Box& outer) {
     return true;
 }
 
+/// Without branches, which would be mispredicted.
 inline bool is_within(Vec3 p, const Box& box) {
-    return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y && p.z >= box.low.z &&
-           p.z <= box.high.z;
+    return (p.x >= box.low.x) & (p.x <= box.high.x) & (p.y >= box.low.y) & (p.y <= box.high.y) & (p.z >= box.low.z) &
+           (p.z <= box.high.z);
 }
 
 /// From a point to the nearest one of the box; infinite for an empty box.

@@ -24,14 +24,25 @@ LabelSet vertex_labels(const Mesh& mesh, VertexId v) {
 }
 
 LabelSet edge_labels(const Mesh& mesh, VertexId u, VertexId v) {
+    // The faces of the edge are written without branches, which would be mispredicted; more than kMost at a time do not
+    // occur in surfaces without violations.
+    constexpr int kMost = LabelSet::kCapacity;
+    std::array<FaceId, kMost + 1> faces;
     LabelSet set;
-    int uses = 0;
+    int count = 0, uses = 0;
+    const auto add = [&] {
+        for (int n = 0; n < count; ++n)
+            for (Label label : mesh[faces[n]].labels) set.add(label);
+        uses += 2 * count;
+        count = 0;
+    };
     mesh.for_star(u, [&](FaceId f, int place) {
-        const Face& face = mesh[f];
-        if (face.vertices[place_after(place)] != v && face.vertices[place_before(place)] != v) return;
-        for (Label label : face.labels) set.add(label);
-        uses += 2;
+        const auto& corners = mesh[f].vertices;
+        faces[count] = f;
+        count += (corners[place_after(place)] == v) | (corners[place_before(place)] == v);
+        if (count == kMost) add();
     });
+    add();
     // Around an interior edge every label has two faces.
     if (uses < 2 * set.size()) add_sides(set, mesh[u].sides & mesh[v].sides);
     return set;

@@ -173,10 +173,10 @@ bool ErrorBound::project(const Mesh& mesh, const EdgeStar& star, Vec3 position) 
 bool ErrorBound::bring_rim() {
     const FanFace *first = nullptr, *last = nullptr;
     for (const FanFace& face : fan_) {
-        bool begins = true, ends = true;
+        unsigned begins = 1, ends = 1;  // without branches, which would be mispredicted
         for (const FanFace& other : fan_) {
-            begins = begins && other.at_b != face.at_a;
-            ends = ends && other.at_a != face.at_b;
+            begins &= other.at_b != face.at_a;
+            ends &= other.at_a != face.at_b;
         }
         if ((begins && first) || (ends && last)) return false;
         if (begins) first = &face;
@@ -239,9 +239,9 @@ bool ErrorBound::covers_once(const FanFace* first) const {
     const FanFace& start = first ? *first : fan_.front();
     int passed = 0;
     for (const FanFace& face : fan_) {
-        const bool before = face.at_a != start.at_a && cross2(start.a, face.a) < 0;
-        const bool after = face.at_b == start.at_a || cross2(start.a, face.b) >= 0;
-        passed += before && after;
+        const bool before = (face.at_a != start.at_a) & (cross2(start.a, face.a) < 0);
+        const bool after = (face.at_b == start.at_a) | (cross2(start.a, face.b) >= 0);
+        passed += before & after;
     }
     return passed == (first ? 0 : 1);
 }
@@ -316,17 +316,22 @@ bool ErrorBound::put_on_old() {
 
 /// Crossings of the new edges from the merged vertex with the old ones.
 void ErrorBound::cross_edges() {
-    for (const FanFace& face : fan_) {
-        const Point& way = face.a;
-        const double whole = way.x * way.x + way.y * way.y;
+    // The pairs whose lines may cross are written without branches, which would be mispredicted.
+    crossings_.resize(fan_.size() * old_edges_.size() + 1);
+    std::size_t count = 0;
+    for (const FanFace& face : fan_)
         for (const Edge& edge : old_edges_) {
-            const double from = cross2(way, edge.from), to = cross2(way, edge.to);
-            if (!(from * to < 0)) continue;
-            const Point old = between(edge.from, edge.to, from / (from - to));
-            const double at = (way.x * old.x + way.y * old.y) / whole;
-            if (!(at > 0 && at < 1)) continue;
-            demand(old.bound + std::abs(old.z - at * way.z), 1 - at, at * way.bound, {face.at_a, face.at_a});
+            const double from = cross2(face.a, edge.from), to = cross2(face.a, edge.to);
+            crossings_[count] = {&face, &edge, from / (from - to)};
+            count += from * to < 0;
         }
+    for (std::size_t n = 0; n < count; ++n) {
+        const auto& [face, edge, place] = crossings_[n];
+        const Point& way = face->a;
+        const Point old = between(edge->from, edge->to, place);
+        const double at = (way.x * old.x + way.y * old.y) / (way.x * way.x + way.y * way.y);
+        if (!((at > 0) & (at < 1))) continue;
+        demand(old.bound + std::abs(old.z - at * way.z), 1 - at, at * way.bound, {face->at_a, face->at_a});
     }
 }
 

@@ -56,6 +56,12 @@ private:
     struct Edge {
         Point from, to;
     };
+    /// Of the line through a new edge with an old edge.
+    struct Crossing {
+        const FanFace* face;
+        const Edge* edge;
+        double place;  // in the old edge
+    };
 
     bool stays_flat(const Mesh& mesh, const EdgeStar& star) const;
     double of_interface(const Mesh& mesh, const EdgeStar& star, Vec3 position);
@@ -81,6 +87,7 @@ private:
     std::vector<DeadFace> dead_;
     std::vector<OldFace> old_faces_;
     std::vector<Edge> old_edges_;    // inside
+    std::vector<Crossing> crossings_;
     std::vector<Point*> rim_;        // ends of the edge on the old rim, from the first of the fan to the last
     VertexId split_at_ = kNoVertex;  // between it and the end next to it, a point of the rim goes to the merged vertex
     const Point* split_next_ = nullptr;

@@ -1,5 +1,7 @@
 #include "simplify/verdict/verdicts.h"
 
+#include <utility>
+
 namespace regionmesh {
 namespace {
 
@@ -31,14 +33,18 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order(), "a row for each verdict, in the order of their names");
 
+/// Unrolled: the tests are called directly.
 template <Step kStep>
 Verdict first_refusal(Collapse& collapse) {
-    for (const Row& row : kRows) {
-        if (row.step != kStep) continue;
-        const Verdict verdict = row.test(collapse);
-        if (verdict != Verdict::kAccepted) return verdict;
-    }
-    return Verdict::kAccepted;
+    Verdict verdict = Verdict::kAccepted;
+    const auto passes = [&]<std::size_t kRow>() {
+        if constexpr (kRows[kRow].step == kStep) verdict = kRows[kRow].test(collapse);
+        return verdict == Verdict::kAccepted;
+    };
+    [&]<std::size_t... kRow>(std::index_sequence<kRow...>) {
+        (void)(passes.template operator()<kRow>() && ...);
+    }(std::make_index_sequence<kRows.size()>());
+    return verdict;
 }
 
 }  // namespace
