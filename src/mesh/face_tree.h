@@ -29,11 +29,11 @@ public:
     /// Removes face f.
     void remove(FaceId f) { boxes_.remove(index(f)); }
 
-    /// Calls visit(FaceId, GridBox) for every face in the tree whose rounded box, the GridBox, meets `box`. A visit
-    /// that returns false ends the search.
+    /// Calls visit(span of the numbers of faces) until all faces in the tree whose rounded box meets `box` have been
+    /// visited, with at most GridTree::kMostAtOnce at once. A visit that returns false ends the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const {
-        boxes_.search(box, [&](std::uint32_t f, const GridBox& found) { return visit(FaceId{f}, found); });
+        boxes_.search(box, visit);
     }
 
     std::size_t bytes() const { return boxes_.bytes(); }

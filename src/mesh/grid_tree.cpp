@@ -11,20 +11,6 @@
 namespace regionmesh {
 namespace {
 
-/// For each number below 256: which bits are set, in the upper halves of eight numbers, and how many.
-struct BitTable {
-    std::uint64_t bits[256][8];
-    std::uint8_t count[256];
-};
-constexpr BitTable make_bit_table() {
-    BitTable table{};
-    for (std::uint32_t mask = 0; mask < 256; ++mask)
-        for (std::uint64_t bit = 0; bit < 8; ++bit)
-            if (mask >> bit & 1) table.bits[mask][table.count[mask]++] = bit << 32;
-    return table;
-}
-constexpr BitTable kBits = make_bit_table();
-
 constexpr std::int16_t kLowest = -32768, kHighest = 32767;
 constexpr GridTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}};
 
@@ -166,8 +152,9 @@ public:
     /// Adds one pair for each bit of the mask.
     void add(std::uint32_t m, std::uint32_t first_n, unsigned mask) {
         const Pair first(m, first_n);
-        for (std::uint32_t k = 0; k < kFan; ++k) pairs_[size_ + k] = Pair(first.both_ + kBits.bits[mask][k]);
-        size_ += kBits.count[mask];
+        for (std::uint32_t k = 0; k < kFan; ++k)
+            pairs_[size_ + k] = Pair(first.both_ + (std::uint64_t{kSetBits.bits[mask][k]} << 32));
+        size_ += kSetBits.count[mask];
     }
     std::size_t size() const { return size_; }
     const Pair* begin() const { return pairs_.get(); }

@@ -15,6 +15,20 @@
 
 namespace regionmesh {
 
+/// For each number below 256: which bits are set, and how many.
+struct SetBits {
+    std::uint8_t bits[256][8];
+    std::uint8_t count[256];
+};
+constexpr SetBits make_set_bits() {
+    SetBits table{};
+    for (unsigned mask = 0; mask < 256; ++mask)
+        for (std::uint8_t bit = 0; bit < 8; ++bit)
+            if (mask >> bit & 1) table.bits[mask][table.count[mask]++] = bit;
+    return table;
+}
+inline constexpr SetBits kSetBits = make_set_bits();
+
 /// A tree of degree 8 over the places 0 .. count - 1 of a list of boxes; fast if their order is spatial. Boxes are
 /// rounded outward to 1/65535 of the whole extent, 2 bytes per coordinate: 14 bytes per place in total.
 class GridTree {
@@ -58,10 +72,14 @@ public:
     /// Empties the place.
     void remove(std::uint32_t place);
 
-    /// Calls visit(place, GridBox) for every place whose rounded box, the GridBox, meets `box`. A visit that returns
-    /// false ends the search.
+    /// Calls visit(span of places) until all places whose rounded box meets `box` have been visited, in order, with
+    /// at most kMostAtOnce at once. A visit that returns false ends the search.
     template <class Visit>
-    void search(const Box& box, Visit&& visit) const;
+    void search(const Box& box, Visit&& visit) const {
+        const std::uint32_t first = 0;
+        search_below(root().level, {&first, 1}, Boxes::all(outward(box)), visit);
+    }
+    static constexpr std::uint32_t kMostAtOnce = 256;
 
     /// Two places, m < n, in one number, so that several can be written at once.
     class Pair {
@@ -106,6 +124,10 @@ private:
     Entry root() const { return {static_cast<std::uint32_t>(levels_.size()) - 1, 0}; }
     void start(std::uint32_t count, const Box& extent);
     void build_upper(std::uint32_t threads);
+    /// Searches these groups of a level and all below them; false where a visit has ended the search.
+    template <class Visit>
+    bool search_below(std::uint32_t level, std::span<const std::uint32_t> groups, const Boxes& wanted,
+                      Visit& visit) const;
     static bool extend(Boxes& boxes, std::uint32_t lane, const GridBox& box);
     /// A part is a group of this level: 8^3 places.
     std::uint32_t part_level() const { return std::min<std::uint32_t>(2, root().level); }
@@ -135,24 +157,23 @@ void GridTree::build(std::uint32_t count, const Box& extent, std::uint32_t threa
     build_upper(threads);
 }
 
+/// Level by level, and without branches that depend on single boxes: most would be mispredicted.
 template <class Visit>
-void GridTree::search(const Box& box, Visit&& visit) const {
-    const Boxes wanted = Boxes::all(outward(box));
-    Entry stack[128];
-    int top = 0;
-    stack[top++] = root();
-    while (top > 0) {
-        const Entry entry = stack[--top];
-        const Boxes& boxes = levels_[entry.level][entry.group];
-        for (unsigned mask = boxes.meeting(wanted); mask; mask &= mask - 1) {
-            const std::uint32_t lane = static_cast<std::uint32_t>(__builtin_ctz(mask)),
-                                child = entry.group * kFan + lane;
-            if (entry.level > 0)
-                stack[top++] = {entry.level - 1, child};
-            else if (!visit(child, boxes[lane]))
-                return;
+bool GridTree::search_below(std::uint32_t level, std::span<const std::uint32_t> groups, const Boxes& wanted,
+                            Visit& visit) const {
+    constexpr std::size_t kGroups = kMostAtOnce / kFan;
+    std::array<std::uint32_t, kMostAtOnce> met;
+    for (; !groups.empty(); groups = groups.subspan(std::min(kGroups, groups.size()))) {
+        std::size_t count = 0;
+        for (const std::uint32_t group : groups.first(std::min(kGroups, groups.size()))) {
+            const unsigned mask = levels_[level][group].meeting(wanted);
+            for (std::uint32_t k = 0; k < kFan; ++k) met[count + k] = group * kFan + kSetBits.bits[mask][k];
+            count += kSetBits.count[mask];
         }
+        const std::span<const std::uint32_t> found(met.data(), count);
+        if (!(level > 0 ? search_below(level - 1, found, wanted, visit) : visit(found))) return false;
     }
+    return true;
 }
 
 }  // namespace regionmesh

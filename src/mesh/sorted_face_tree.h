@@ -1,8 +1,10 @@
 // A bounding volume hierarchy over faces that do not change. Sorts them itself if necessary.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "mesh/grid_tree.h"
@@ -25,7 +27,9 @@ public:
     /// the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const {
-        boxes_.search(box, [&](std::uint32_t place, const GridTree::GridBox&) { return visit(face(place)); });
+        boxes_.search(box, [&](std::span<const std::uint32_t> places) {
+            return std::all_of(places.begin(), places.end(), [&](std::uint32_t place) { return visit(face(place)); });
+        });
     }
 
     std::size_t bytes() const { return boxes_.bytes() + faces_.capacity() * sizeof(FaceId); }

@@ -27,8 +27,8 @@ bool do_meet(const Box& a, const Box& b) {
 
 Faces found_in(const FaceTree& tree, const Box& box) {
     Faces faces;
-    tree.search(box, [&](FaceId f, const FaceTree::GridBox&) {
-        EXPECT_TRUE(faces.insert(index(f)).second) << "visited twice";
+    tree.search(box, [&](std::span<const std::uint32_t> some) {
+        for (const std::uint32_t f : some) EXPECT_TRUE(faces.insert(f).second) << "visited twice";
         return true;
     });
     return faces;
@@ -113,7 +113,11 @@ TEST(FaceTree, finds_faces_that_left_the_box_it_was_built_for) {
 TEST(FaceTree, search_ends_when_told) {
     const Mesh mesh = sorted_noise();
     int visited = 0;
-    FaceTree(mesh).search({{0, 0, 0}, {9, 9, 9}}, [&](FaceId, const FaceTree::GridBox&) { return ++visited < 3; });
+    const auto visit = [&](std::span<const std::uint32_t> some) {
+        EXPECT_LE(some.size(), GridTree::kMostAtOnce);
+        return ++visited < 3;
+    };
+    FaceTree(mesh).search({{0, 0, 0}, {9, 9, 9}}, visit);
     EXPECT_EQ(visited, 3);
 }
 

@@ -1,6 +1,7 @@
 #include "simplify/verdict/intersect_test.h"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 #include "base/box.h"
@@ -78,9 +79,11 @@ Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const Edg
     Verdict verdict = Verdict::kAccepted;
     for (int first = 0; first < star.face_count() && verdict == Verdict::kAccepted; first += StarPlanes::kMost) {
         prepare(mesh, star, first);
-        if (!is_simple && meets_itself(mesh, star)) return Verdict::kIntersect;
-        tree.search(box_, [&](FaceId f, const FaceTree::GridBox&) {
-            verdict = look_at(mesh, star, bounds, f);
+        if (!is_simple && meets_itself(star)) return Verdict::kIntersect;
+        tree.search(box_, [&](std::span<const std::uint32_t> faces) {
+            find_near(mesh, star, faces);
+            for (std::size_t n = 0; n < near_count_ && verdict == Verdict::kAccepted; ++n)
+                verdict = look_at(mesh, star, bounds, corners_of(near_[n]));
             return verdict == Verdict::kAccepted;
         });
     }
@@ -105,10 +108,10 @@ bool IntersectTest::is_simple_disk(const EdgeStar& star) const {
 
 /// Does one of the current new faces meet one that comes after it, outside the merged vertex or the edge that they
 /// share? Planes through the merged vertex separate most pairs.
-bool IntersectTest::meets_itself(const Mesh& mesh, const EdgeStar& star) {
+bool IntersectTest::meets_itself(const EdgeStar& star) {
     for (int j = first_ + 1; j < star.face_count(); ++j) {
         const StarFace& g = star.faces[j];
-        const Sides sides = place_of(mesh, g.a, 0).sides & place_of(mesh, g.b, 1).sides;
+        const Sides sides = place_of(g.a).sides & place_of(g.b).sides;
         const std::uint32_t clear = sides.a | sides.b | sides.above | sides.below;
         const std::uint32_t before = j - first_ < StarPlanes::kMost ? (1u << (j - first_)) - 1 : ~0u;
         for (std::uint32_t rest = planes_.all() & before & ~clear; rest != 0; rest &= rest - 1)
@@ -131,25 +134,23 @@ void IntersectTest::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
     first_ = first;
     const int count = std::min(star.face_count() - first, StarPlanes::kMost);
     planes_.prepare(star, position_, first, count);
-    if (++search_ == 0) {
-        std::fill(table_.begin(), table_.end(), Place());
-        search_ = 1;
-    }
-    used_ = 0;
-    Place& goes = place_of(mesh, star.goes, 0);
-    Place& stays = place_of(mesh, star.stays, 0);
+    start_search(2 + star.link.size());
+    for (const VertexId v : {star.goes, star.stays}) number_of(v);
+    for (const VertexId v : star.link) number_of(v);
+    find_sides(mesh);
+    Place &goes = place_of(star.goes), &stays = place_of(star.stays);
     goes.is_of_star = 1;
     stays.is_of_star = !star.keeps_stays;
     std::uint32_t at_goes = 0;
     for (int n = 0; n < count; ++n) {
         const StarFace& face = star.faces[first + n];
         at_goes |= (face.apex == star.goes ? 1u : 0u) << n;
-        place_of(mesh, face.a, 0).as_a |= 1u << n;
-        place_of(mesh, face.b, 0).as_b |= 1u << n;
+        place_of(face.a).as_a |= 1u << n;
+        place_of(face.b).as_b |= 1u << n;
     }
     apex_ = planes_.far_sides_of(star.at_goes).of(at_goes) | planes_.far_sides_of(star.at_stays).of(~at_goes);
     for (VertexId v : star.link) {
-        Place& place = place_of(mesh, v, 0);
+        Place& place = place_of(v);
         const std::uint32_t own = place.as_a | place.as_b;
         place.is_shared = own != 0;
         place.sides.link |= own;
@@ -163,30 +164,95 @@ void IntersectTest::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
     stays.sides.a = stays.sides.b = stays.sides.above = stays.sides.below = planes_.all();
 }
 
-IntersectTest::Place& IntersectTest::find_place(const Mesh& mesh, VertexId v, int corner) {
-    std::uint32_t at = hash(v);
-    for (; table_[at].key >> 32 == search_; at = (at + 1) % kPlaces)
-        if (table_[at].key == key_of(v)) return table_[at];
-    const bool has_room = used_ < kPlaces / 4 * 3;
-    used_ += has_room;
-    Place& place = has_room ? table_[at] : spare_[corner];
-    const Vec3 p = mesh.position(v);
-    place = {key_of(v), planes_.sides_of(p), 0, 0, 0, 0, is_within(p, box_)};
-    return place;
+/// Empties the table.
+void IntersectTest::start_search(std::size_t count) {
+    place_count_ = has_sides_ = 0;
+    if (++search_ == 0) {
+        std::fill(table_.begin(), table_.end(), Entry());
+        search_ = 1;
+    }
+    make_room(count);
+}
+
+/// For so many places in all.
+void IntersectTest::make_room(std::size_t count) {
+    if (places_.size() <= count) places_.resize(2 * count + 1);
+    if (2 * count <= table_.size()) return;
+    table_.assign(std::bit_ceil(4 * count), {});
+    hash_shift_ = 32 - static_cast<std::uint32_t>(std::countr_zero(table_.size()));
+    for (std::uint32_t n = 0; n < place_count_; ++n) {
+        const VertexId v = places_[n].vertex;
+        entry_of(v) = {key_of(v), n};
+    }
+}
+
+/// That of the vertex, or where it belongs.
+IntersectTest::Entry& IntersectTest::entry_of(VertexId v) {
+    const std::size_t mask = table_.size() - 1;
+    std::size_t at = index(v) * 0x9E3779B1u >> hash_shift_;
+    while (table_[at].key != key_of(v) && table_[at].key >> 32 == search_) at = (at + 1) & mask;
+    return table_[at];
+}
+
+/// Finds the place of a vertex, or adds one. Requires room for it. Without a branch on whether it is new, which would
+/// be mispredicted.
+std::uint32_t IntersectTest::number_of(VertexId v) {
+    Entry& entry = entry_of(v);
+    const bool is_new = entry.key != key_of(v);
+    entry = {key_of(v), is_new ? place_count_ : entry.place};
+    places_[place_count_].vertex = v;
+    place_count_ += is_new;
+    return entry.place;
+}
+
+/// Fills in the places that were added.
+void IntersectTest::find_sides(const Mesh& mesh) {
+    for (; has_sides_ < place_count_; ++has_sides_) {
+        Place& place = places_[has_sides_];
+        const Vec3 p = mesh.position(place.vertex);
+        place = {place.vertex, planes_.sides_of(p), 0, 0, 0, 0, is_within(p, box_)};
+    }
+}
+
+/// Sets `near_`: which of the faces have to be looked at. All of them first, step by step and without branches that
+/// depend on one face.
+void IntersectTest::find_near(const Mesh& mesh, const EdgeStar& star, std::span<const std::uint32_t> faces) {
+    make_room(place_count_ + 3 * faces.size());
+    corners_.resize(3 * faces.size());
+    near_.resize(faces.size() + 1);
+    for (std::size_t n = 0; n < faces.size(); ++n)
+        for (int c = 0; c < 3; ++c) corners_[3 * n + c] = number_of(mesh[FaceId{faces[n]}].vertices[c]);
+    find_sides(mesh);
+    near_count_ = 0;
+    for (std::uint32_t n = 0; n < faces.size(); ++n) {
+        near_[near_count_] = n;
+        near_count_ += may_meet(star, corners_of(n));
+    }
+}
+
+/// Could the face come too close to a new face, meet one, or lie in the space swept?
+bool IntersectTest::may_meet(const EdgeStar& star, const Corners& old) const {
+    const Place &p = *old[0], &q = *old[1], &r = *old[2];
+    const bool is_outside = (p.is_of_star | q.is_of_star | r.is_of_star) == 0;
+    const std::uint32_t shared = p.is_shared + q.is_shared + r.is_shared;
+    const std::uint32_t beside =
+        (faces_at(p, q) & ~r.sides.link) | (faces_at(q, r) & ~p.sides.link) | (faces_at(r, p) & ~q.sides.link);
+    const bool is_at_stays =
+        star.keeps_stays & ((p.vertex == star.stays) | (q.vertex == star.stays) | (r.vertex == star.stays));
+    const bool may_pinch = (shared >= 2) & ((beside != 0) | is_at_stays);
+    const bool is_doubtful = (planes_.all() & ~(p.sides & q.sides & r.sides).any()) != 0;
+    return is_outside & (may_pinch | is_doubtful | may_be_swept(old, shared));
 }
 
 /// Does the face meet a new face, come too close to one, or lie in the space swept?
-Verdict IntersectTest::look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, FaceId f) {
-    const auto& v = mesh[f].vertices;
-    const Place &p = place_of(mesh, v[0], 0), &q = place_of(mesh, v[1], 1), &r = place_of(mesh, v[2], 2);
-    if ((p.is_of_star | q.is_of_star | r.is_of_star) != 0) return Verdict::kAccepted;
+Verdict IntersectTest::look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds,
+                               const Corners& old) const {
+    const Place &p = *old[0], &q = *old[1], &r = *old[2];
     const std::uint32_t shared = p.is_shared + q.is_shared + r.is_shared;
-    const Corners old{&p, &q, &r};
     if (shared >= 2 && pinches(mesh, star, bounds, old)) return Verdict::kPinch;
     const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
     if (doubtful != 0 && meets(mesh, star, old, doubtful)) return Verdict::kIntersect;
-    const bool may_be_swept = (p.is_in_reach & q.is_in_reach & r.is_in_reach) != 0 && shared == 0;
-    return may_be_swept && is_swept(mesh, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
+    return may_be_swept(old, shared) && is_swept(mesh, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
 }
 
 /// At an edge that is one of the link, or leads from there to `stays`. A corner beyond the plane that is square to the
@@ -198,13 +264,12 @@ bool IntersectTest::pinches(const Mesh& mesh, const EdgeStar& star, const ShapeB
         for (std::uint32_t rest = faces_at(from, to) & ~third.sides.link; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
             const bool runs_back = (from.as_b >> face & 1) != 0;
-            if (pinches_beyond(star, first_ + face, position_, mesh.position(third.vertex()), runs_back, bounds))
+            if (pinches_beyond(star, first_ + face, position_, mesh.position(third.vertex), runs_back, bounds))
                 return true;
         }
-        if (!star.keeps_stays || (from.vertex() != star.stays && to.vertex() != star.stays)) continue;
-        const Place& end = from.vertex() == star.stays ? to : from;
-        const KeptFace kept{to.vertex() == star.stays, mesh.position(third.vertex()),
-                            is_on_line(mesh, star, end.vertex())};
+        if (!star.keeps_stays || (from.vertex != star.stays && to.vertex != star.stays)) continue;
+        const Place& end = from.vertex == star.stays ? to : from;
+        const KeptFace kept{to.vertex == star.stays, mesh.position(third.vertex), is_on_line(mesh, star, end.vertex)};
         for (std::uint32_t rest = end.as_a | end.as_b; rest != 0; rest &= rest - 1) {
             const int face = __builtin_ctz(rest);
             if (pinches_beside(star, first_ + face, (end.as_a >> face & 1) != 0, kept, bounds)) return true;
@@ -215,9 +280,8 @@ bool IntersectTest::pinches(const Mesh& mesh, const EdgeStar& star, const ShapeB
 
 /// Does the face meet one of these new faces? Its own planes separate most pairs.
 bool IntersectTest::meets(const Mesh& mesh, const EdgeStar& star, const Corners& old, std::uint32_t faces) const {
-    const PlacedFace own{
-        {old[0]->vertex(), old[1]->vertex(), old[2]->vertex()},
-        {mesh.position(old[0]->vertex()), mesh.position(old[1]->vertex()), mesh.position(old[2]->vertex())}};
+    const PlacedFace own{{old[0]->vertex, old[1]->vertex, old[2]->vertex},
+                         {mesh.position(old[0]->vertex), mesh.position(old[1]->vertex), mesh.position(old[2]->vertex)}};
     std::optional<FacePlanes> planes;
     for (std::uint32_t rest = faces; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);
@@ -243,7 +307,7 @@ bool IntersectTest::is_swept(const Mesh& mesh, const EdgeStar& star, const Corne
         best = place;
         doubtful = own;
     }
-    const Vec3 q = mesh.position(best->vertex());
+    const Vec3 q = mesh.position(best->vertex);
     for (std::uint32_t rest = doubtful; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);
         if (is_in_tetrahedron(position_, star.at_apex(n), star.at_a(n), star.at_b(n), q)) return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "mesh/face_tree.h"
@@ -23,34 +24,44 @@ public:
                     const ShapeBounds& bounds);
 
 private:
-    /// A vertex near the star, looked up once.
+    /// A vertex near the star.
     struct Place {
-        std::uint64_t key = 0;  // search and vertex
+        VertexId vertex;
         Sides sides;
         std::uint32_t as_a, as_b;   // new faces that have it, in the one place or the other
         std::uint32_t is_shared;    // 1 for a vertex of the new star
         std::uint32_t is_of_star;   // 1 where all faces that have it are of the star
         std::uint32_t is_in_reach;  // 1 in the box of all that is swept
-
-        VertexId vertex() const { return VertexId{static_cast<std::uint32_t>(key)}; }
+    };
+    /// Of a vertex in the table.
+    struct Entry {
+        std::uint64_t key = 0;  // search and vertex
+        std::uint32_t place = 0;
     };
     /// A face outside the star.
     using Corners = std::array<const Place*, 3>;
 
-    static constexpr std::uint32_t kPlaces = 256;  // a power of two; used to three quarters
-
     bool is_simple_disk(const EdgeStar& star) const;
-    bool meets_itself(const Mesh& mesh, const EdgeStar& star);
+    bool meets_itself(const EdgeStar& star);
     bool meet_in_star(const EdgeStar& star, int i, int j) const;
     void prepare(const Mesh& mesh, const EdgeStar& star, int first);
-    static std::uint32_t hash(VertexId v) { return index(v) * 0x9E3779B1u >> 24; }
+    void start_search(std::size_t count);
+    void make_room(std::size_t count);
     std::uint64_t key_of(VertexId v) const { return std::uint64_t{search_} << 32 | index(v); }
-    Place& place_of(const Mesh& mesh, VertexId v, int corner) {
-        Place& place = table_[hash(v)];
-        return place.key == key_of(v) ? place : find_place(mesh, v, corner);
+    Entry& entry_of(VertexId v);
+    std::uint32_t number_of(VertexId v);
+    Place& place_of(VertexId v) { return places_[entry_of(v).place]; }
+    void find_sides(const Mesh& mesh);
+    Corners corners_of(std::size_t face) const {
+        return {&places_[corners_[3 * face]], &places_[corners_[3 * face + 1]], &places_[corners_[3 * face + 2]]};
     }
-    Place& find_place(const Mesh& mesh, VertexId v, int corner);
-    Verdict look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, FaceId f);
+    void find_near(const Mesh& mesh, const EdgeStar& star, std::span<const std::uint32_t> faces);
+    bool may_meet(const EdgeStar& star, const Corners& old) const;
+    Verdict look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const;
+    /// Not joined to the star, which sweeps near all corners.
+    static bool may_be_swept(const Corners& old, std::uint32_t shared) {
+        return ((old[0]->is_in_reach & old[1]->is_in_reach & old[2]->is_in_reach) != 0) & (shared == 0);
+    }
     static std::uint32_t faces_at(const Place& from, const Place& to) {
         return (from.as_a & to.as_b) | (from.as_b & to.as_a);
     }
@@ -61,11 +72,15 @@ private:
     Vec3 position_;
     Box box_;  // of all that the star sweeps
     StarPlanes planes_;
-    int first_ = 0;                                           // of the new faces under test
-    Sides apex_;                                              // of their apexes: the opposite of their certain sides
-    std::vector<Place> table_ = std::vector<Place>(kPlaces);  // by vertex, hashed
-    std::uint32_t search_ = 0, used_ = 0;
-    std::array<Place, 3> spare_;  // for the corners of a face when the table is full
+    int first_ = 0;                                  // of the new faces under test
+    Sides apex_;                                     // of their apexes: the opposite of their certain sides
+    std::vector<Place> places_;                      // room for more
+    std::uint32_t place_count_ = 0, has_sides_ = 0;  // places in use; those before `has_sides_` are filled in
+    std::vector<Entry> table_;                       // by vertex, hashed; a power of two, at most half of it in use
+    std::uint32_t search_ = 0, hash_shift_ = 32;
+    std::vector<std::uint32_t> corners_;  // of the faces found: numbers of places, three for each face
+    std::vector<std::uint32_t> near_;     // those that have to be looked at; room for more
+    std::size_t near_count_ = 0;
 };
 
 }  // namespace regionmesh
