@@ -14,14 +14,14 @@ public:
     static constexpr int kCapacity = 16;
 
     void add(Label label) {
-        for (int i = 0; i < size_; ++i)
-            if (labels_[i] == label) return;
-        if (size_ < kCapacity) labels_[size_++] = label;
+        labels_[size_] = label;
+        size_ += !contains(label) & (size_ < kCapacity);
     }
+    /// Without branches that depend on labels: they would be mispredicted.
     bool contains(Label label) const {
-        for (int i = 0; i < size_; ++i)
-            if (labels_[i] == label) return true;
-        return false;
+        bool has = false;
+        for (int i = 0; i < size_; ++i) has |= labels_[i] == label;
+        return has;
     }
     int size() const { return size_; }
     const Label* begin() const { return labels_.data(); }
@@ -29,7 +29,7 @@ public:
 
 private:
     int size_ = 0;
-    std::array<Label, kCapacity> labels_;
+    std::array<Label, kCapacity + 1> labels_;  // room for one that is not added
 };
 
 }  // namespace regionmesh

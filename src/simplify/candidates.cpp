@@ -79,8 +79,9 @@ void Candidates::for_neighbours(VertexId v, std::vector<VertexId>& seen, Visit&&
 /// The end that would go, or none.
 VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
     const bool a_may = label_count(a) == count, b_may = label_count(b) == count;
-    if (a_may && b_may) return ((index(a) ^ index(b)) & 1) != 0 ? std::min(a, b) : std::max(a, b);
-    return a_may ? a : b_may ? b : kNoVertex;
+    const bool a_first = (a < b) == (((index(a) ^ index(b)) & 1) != 0);  // where both may
+    const VertexId one = a_may & (a_first | !b_may) ? a : b;
+    return a_may | b_may ? one : kNoVertex;
 }
 
 bool Candidates::may_go(VertexId v, VertexId w) const {

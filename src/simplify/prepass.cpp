@@ -42,9 +42,9 @@ std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
 }
 
 bool Prepass::may_go(VertexId v) const {
+    if (seen_[index(v)] == kSettled || seen_[index(v)] == sweep_) return false;
     const Vertex& vertex = mesh_[v];
-    if (!vertex.is_alive || vertex.is_fixed || vertex.label_count > 3) return false;
-    return seen_[index(v)] != kSettled && seen_[index(v)] != sweep_;
+    return vertex.is_alive && !vertex.is_fixed && vertex.label_count <= 3;
 }
 
 std::uint32_t Prepass::remove_slivers(VerdictCounts& verdicts) {

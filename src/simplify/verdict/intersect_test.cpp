@@ -190,7 +190,7 @@ void IntersectTest::make_room(std::size_t count) {
 IntersectTest::Entry& IntersectTest::entry_of(VertexId v) {
     const std::size_t mask = table_.size() - 1;
     std::size_t at = index(v) * 0x9E3779B1u >> hash_shift_;
-    while (table_[at].key != key_of(v) && table_[at].key >> 32 == search_) at = (at + 1) & mask;
+    while ((table_[at].key != key_of(v)) & (table_[at].key >> 32 == search_)) at = (at + 1) & mask;
     return table_[at];
 }
 

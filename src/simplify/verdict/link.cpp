@@ -38,7 +38,7 @@ bool is_met_by_half(const Mesh& mesh, const EdgeStar& star) {
     mesh.for_star(star.stays, [&](FaceId f, int place) {
         const auto& v = mesh[f].vertices;
         const VertexId x = v[place_after(place)], y = v[place_before(place)];
-        if (x == star.goes || y == star.goes || ((bit_of(x) | bit_of(y)) & near_goes) == 0) return;
+        if ((x == star.goes) | (y == star.goes) | (((bit_of(x) | bit_of(y)) & near_goes) == 0)) return;
         const bool has_x = contains(star.link, x), has_y = contains(star.link, y);
         if ((has_x && !contains(star.apexes, x)) || (has_y && !contains(star.apexes, y))) met = false;
         if (!has_x || !has_y) return;

@@ -75,10 +75,10 @@ double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, con
             bits_of(keep_direction(pair.old_normal, pair.old_length2, normal, normal2, bounds.min_turn_cosine));
         for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
             const StarFace& face = around.faces[first + lane];
-            if (face.a == target || face.b == target) continue;  // vanishes
-            if ((kept >> lane & 1) == 0) return 0;
-            after.worst3 = std::min<double>(after.worst3, own3[lane]);
-            after.below += own3[lane] < bound3;
+            const bool stays = (face.a != target) & (face.b != target);  // the others vanish
+            if (stays & ((kept >> lane & 1) == 0)) return 0;
+            after.worst3 = std::min<double>(after.worst3, stays ? own3[lane] : 1);
+            after.below += stays & (own3[lane] < bound3);
         }
     }
     return after.below > 0 && !was_worse(around, after, bound3) ? 0 : after.worst3;
