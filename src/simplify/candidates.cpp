@@ -107,18 +107,22 @@ float Candidates::key(VertexId goes, VertexId stays, EdgeCost edge, Scratch& scr
 Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, Scratch& scratch) const {
     Best best{kNoVertex, std::numeric_limits<float>::infinity()};
     if (mesh_[v].is_fixed) return best;
-    scratch.owned.clear();
+    std::size_t count = 0;
     for_neighbours(v, scratch.seen, [&](VertexId w) {
         if (mesh_[w].is_fixed) return;
         const VertexId goes = owner(v, w, edge_label_count(v, w));
-        scratch.notes.forbidden += goes == kNoVertex && v < w;
-        if (goes == v) scratch.owned.push_back(w);
+        scratch.notes.forbidden += (goes == kNoVertex) & (v < w);
+        // Whether v owns the edge is as good as random: no branch.
+        if (scratch.owned.size() == count) scratch.owned.resize(2 * count + 16);
+        scratch.owned[count] = w;
+        count += goes == v;
     });
-    placement_.rank(mesh_, v, scratch.owned, scratch.costs);
-    for (std::size_t n = 0; n < scratch.owned.size(); ++n) {
-        const VertexId w = scratch.owned[n];
-        const Best candidate{w, key(v, w, scratch.costs[n], scratch)};
-        if (candidate.is_before(best) && (w == fresh || after.is_before(candidate))) best = candidate;
+    const std::span<const VertexId> owned(scratch.owned.data(), count);
+    placement_.rank(mesh_, v, owned, scratch.costs);
+    for (std::size_t n = 0; n < count; ++n) {
+        const Best candidate{owned[n], key(v, owned[n], scratch.costs[n], scratch)};
+        const bool is_next = (owned[n] == fresh) | after.is_before(candidate);
+        if (candidate.is_before(best) & is_next) best = candidate;
     }
     if (std::isinf(best.key)) best.stays = kNoVertex;
     return best;

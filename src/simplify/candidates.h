@@ -40,7 +40,7 @@ private:
     struct Best {
         VertexId stays = kNoVertex;
         float key = 0;
-        bool is_before(Best other) const { return key < other.key || (key == other.key && stays < other.stays); }
+        bool is_before(Best other) const { return (key < other.key) | ((key == other.key) & (stays < other.stays)); }
     };
 
     /// What is seen of the edges while the cheapest are sought.
@@ -50,7 +50,7 @@ private:
     };
     /// What one thread needs to find the cheapest edges.
     struct Scratch {
-        std::vector<VertexId> seen, owned;  // neighbours of a vertex, those whose edges it owns
+        std::vector<VertexId> seen, owned;  // neighbours of a vertex; those whose edges it owns, and room for more
         std::vector<EdgeCost> costs;        // of these edges
         Notes notes;
     };

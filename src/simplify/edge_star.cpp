@@ -44,7 +44,9 @@ bool is_one_interface(const Mesh& mesh, const EdgeStar& star) {
 }
 
 void add_to_link(EdgeStar& star, VertexId v) {
-    if (std::find(star.link.begin(), star.link.end(), v) == star.link.end()) star.link.push_back(v);
+    bool has = false;  // one branch in all
+    for (VertexId other : star.link) has |= other == v;
+    if (!has) star.link.push_back(v);
 }
 
 /// Round an edge within one interface every vertex of the link comes first in exactly one face, but the last of an open

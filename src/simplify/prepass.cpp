@@ -85,20 +85,21 @@ bool Prepass::try_to_remove(VertexId v, VerdictCounts& verdicts) {
 void Prepass::find_targets(VertexId v) {
     targets_.clear();
     if (!gather_ends(v)) return;
-    placement_.rank_halves(mesh_, v, ends_, costs_);
+    const std::span<const VertexId> ends(ends_.data(), end_count_);
+    placement_.rank_halves(mesh_, v, ends, costs_);
     const auto is_cheap = [&](const HalfCost& cost) { return cost.is_within(max_cost_, options_.max_error); };
     if (std::none_of(costs_.begin(), costs_.end(), is_cheap)) return;
     gather_vertex(mesh_, v, around_);
-    for (std::size_t n = 0; n < ends_.size(); ++n) {
+    for (std::size_t n = 0; n < ends.size(); ++n) {
         if (!is_cheap(costs_[n])) continue;
-        const double quality3 = fan_quality3(around_, ends_[n], mesh_.position(ends_[n]), collapse_.bounds);
-        if (quality3 > 0) targets_.push_back({ends_[n], quality3});
+        const double quality3 = fan_quality3(around_, ends[n], mesh_.position(ends[n]), collapse_.bounds);
+        if (quality3 > 0) targets_.push_back({ends[n], quality3});
     }
 }
 
 /// False where the vertex has more faces than the prepass looks at.
 bool Prepass::gather_ends(VertexId v) {
-    ends_.clear();
+    end_count_ = 0;
     line_ends_.clear();
     int faces = 0;
     mesh_.for_star(v, [&](FaceId f, int place) {
@@ -116,8 +117,11 @@ bool Prepass::gather_ends(VertexId v) {
     return faces <= kMostPrepassFaces;
 }
 
+/// Without a branch, which would be mispredicted.
 void Prepass::add_end(VertexId end) {
-    if (!mesh_[end].is_fixed && seen_[index(end)] != sweep_) ends_.push_back(end);
+    const bool may_stay = !mesh_[end].is_fixed & (seen_[index(end)] != sweep_);
+    ends_[end_count_] = end;
+    end_count_ += may_stay & (end_count_ < kMostPrepassFaces);
 }
 
 Verdict Prepass::test(VertexId target) {

@@ -1,10 +1,12 @@
 // Sweeps of nearly free half-edge collapses before edges are ranked.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "simplify/placement.h"
+#include "simplify/tuning.h"
 
 namespace regionmesh {
 
@@ -46,7 +48,8 @@ private:
     double max_cost_;
     EdgeStar around_;                  // all faces of the current vertex
     std::vector<VertexId> line_ends_;  // of edges between lines, at the current vertex
-    std::vector<VertexId> ends_;       // neighbours in its stratum that may take it
+    std::array<VertexId, kMostPrepassFaces + 1> ends_;  // neighbours in its stratum that may take it; room for one more
+    std::size_t end_count_ = 0;
     std::vector<HalfCost> costs_;      // of these
     std::vector<Target> targets_;
     std::vector<std::uint8_t> seen_;  // by vertex: the sweep in which its star changed, or kSettled

@@ -7,7 +7,9 @@ namespace regionmesh {
 namespace {
 
 bool contains(const std::vector<VertexId>& set, VertexId v) {
-    return std::find(set.begin(), set.end(), v) != set.end();
+    bool has = false;  // without branches, which would be mispredicted
+    for (VertexId other : set) has |= other == v;
+    return has;
 }
 
 std::uint64_t bit_of(VertexId v) { return std::uint64_t{1} << (index(v) & 63); }
