@@ -80,7 +80,8 @@ void Candidates::for_neighbours(VertexId v, std::vector<VertexId>& seen, Visit&&
 VertexId Candidates::owner(VertexId a, VertexId b, int count) const {
     const bool a_may = label_count(a) == count, b_may = label_count(b) == count;
     const bool a_first = (a < b) == (((index(a) ^ index(b)) & 1) != 0);  // where both may
-    const VertexId one = a_may & (a_first | !b_may) ? a : b;
+    const std::uint32_t is_a = a_may & (a_first | !b_may);
+    const VertexId one{index(b) ^ ((index(a) ^ index(b)) & -is_a)};  // no branch: it is as good as random
     return a_may | b_may ? one : kNoVertex;
 }
 

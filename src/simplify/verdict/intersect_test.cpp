@@ -186,11 +186,12 @@ void IntersectTest::make_room(std::size_t count) {
     }
 }
 
-/// That of the vertex, or where it belongs.
+/// That of the vertex, or where it belongs. Another vertex of this search differs in the lower half of the key only: one
+/// comparison tells, since whether a vertex is new is as good as random.
 IntersectTest::Entry& IntersectTest::entry_of(VertexId v) {
     const std::size_t mask = table_.size() - 1;
     std::size_t at = index(v) * 0x9E3779B1u >> hash_shift_;
-    while ((table_[at].key != key_of(v)) & (table_[at].key >> 32 == search_)) at = (at + 1) & mask;
+    while ((table_[at].key ^ key_of(v)) - 1 < ~std::uint32_t{0}) at = (at + 1) & mask;
     return table_[at];
 }
 
@@ -230,18 +231,20 @@ void IntersectTest::find_near(const Mesh& mesh, const EdgeStar& star, std::span<
     }
 }
 
-/// Could the face come too close to a new face, meet one, or lie in the space swept?
+/// Could the face come too close to a new face, meet one, or lie in the space swept? In bits: comparisons would become
+/// branches.
 bool IntersectTest::may_meet(const EdgeStar& star, const Corners& old) const {
     const Place &p = *old[0], &q = *old[1], &r = *old[2];
-    const bool is_outside = (p.is_of_star | q.is_of_star | r.is_of_star) == 0;
+    const std::uint32_t of_star = p.is_of_star | q.is_of_star | r.is_of_star;
+    const std::uint32_t in_reach = p.is_in_reach & q.is_in_reach & r.is_in_reach;
     const std::uint32_t shared = p.is_shared + q.is_shared + r.is_shared;
     const std::uint32_t beside =
         (faces_at(p, q) & ~r.sides.link) | (faces_at(q, r) & ~p.sides.link) | (faces_at(r, p) & ~q.sides.link);
-    const bool is_at_stays =
+    const std::uint32_t at_stays =
         star.keeps_stays & ((p.vertex == star.stays) | (q.vertex == star.stays) | (r.vertex == star.stays));
-    const bool may_pinch = (shared >= 2) & ((beside != 0) | is_at_stays);
-    const bool is_doubtful = (planes_.all() & ~(p.sides & q.sides & r.sides).any()) != 0;
-    return is_outside & (may_pinch | is_doubtful | may_be_swept(old, shared));
+    const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
+    const std::uint32_t pinch = (beside | at_stays) & -(shared >> 1), swept = in_reach & (shared == 0);
+    return ((doubtful | pinch | swept) & (of_star - 1)) != 0;
 }
 
 /// Does the face meet a new face, come too close to one, or lie in the space swept?
