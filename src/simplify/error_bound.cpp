@@ -322,13 +322,13 @@ void ErrorBound::cross_edges() {
     for (const FanFace& face : fan_)
         for (const Edge& edge : old_edges_) {
             const double from = cross2(face.a, edge.from), to = cross2(face.a, edge.to);
-            crossings_[count] = {&face, &edge, from / (from - to)};
+            crossings_[count] = {&face, &edge, from, to};
             count += from * to < 0;
         }
     for (std::size_t n = 0; n < count; ++n) {
-        const auto& [face, edge, place] = crossings_[n];
+        const auto& [face, edge, from, to] = crossings_[n];
         const Point& way = face->a;
-        const Point old = between(edge->from, edge->to, place);
+        const Point old = between(edge->from, edge->to, from / (from - to));
         const double at = (way.x * old.x + way.y * old.y) / (way.x * way.x + way.y * way.y);
         if (!((at > 0) & (at < 1))) continue;
         demand(old.bound + std::abs(old.z - at * way.z), 1 - at, at * way.bound, {face->at_a, face->at_a});

@@ -56,11 +56,11 @@ private:
     struct Edge {
         Point from, to;
     };
-    /// Of the line through a new edge with an old edge.
+    /// Of the line through a new edge with an old edge, whose ends lie on different sides of it.
     struct Crossing {
         const FanFace* face;
         const Edge* edge;
-        double place;  // in the old edge
+        double from, to;  // twice the areas that its ends span with the new edge
     };
 
     bool stays_flat(const Mesh& mesh, const EdgeStar& star) const;

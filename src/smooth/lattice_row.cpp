@@ -150,7 +150,7 @@ void LatticeRow::make_runs(const std::vector<KeyedSite>& keyed) {
         keys.push_back(run_key(static_cast<std::uint32_t>(keyed[n].key >> kInterfaceBit), place));
         runs.push_back({n});
     }
-    keys.insert(keys.end(), NearRuns::kAlong, ~std::uint64_t{0});
+    keys.push_back(~std::uint64_t{0});
     runs.push_back({static_cast<std::uint32_t>(keyed.size())});
 }
 
@@ -236,24 +236,8 @@ NearRuns::NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& l
             rows_.push_back(near);
         }
     }
-    near_.resize((rows_.size() + 1) * kAlong);
+    near_.resize(rows_.size() * (2 * kRings + 1));
 }
-
-namespace {
-
-/// Of numbers in order, the last of which is no less than `least`: one from which on there is the first that is no less
-/// than it, or next to it.
-const std::uint64_t* first_from(std::uint64_t least, std::span<const std::uint64_t> numbers) {
-    const std::uint64_t* first = numbers.data();
-    for (std::size_t size = numbers.size(); size > 1;) {
-        const std::size_t half = size / 2;
-        first = first[half - 1] < least ? first + half : first;
-        size -= half;
-    }
-    return first;
-}
-
-}  // namespace
 
 std::span<const NearRun> NearRuns::of(std::uint64_t key) {
     NearRun* end = near_.data();
@@ -263,16 +247,17 @@ std::span<const NearRun> NearRuns::of(std::uint64_t key) {
     for (Near& near : rows_) {
         const std::vector<std::uint64_t>& keys = near.row->keys;
         const std::uint64_t* at = near.next;
-        if (is_other) at = first_from(first, {at, keys.data() + keys.size()});
-        while (*at < first) ++at;
+        if (is_other)
+            at = std::lower_bound(at, keys.data() + keys.size(), first);
+        else
+            while (*at < first) ++at;
         near.next = at;
-        // Without branches that depend on keys: they would be mispredicted. What is not near is written over.
-        for (int n = 0; n < kAlong; ++n, ++at) {
+        for (; *at <= last; ++at) {
             end->row = near.row;
             end->run = static_cast<std::uint32_t>(at - keys.data());
             end->offset = near.offset;
             end->offset[place_axis_] = static_cast<std::int8_t>(static_cast<std::int64_t>(*at - key));
-            end += *at <= last;
+            ++end;
         }
     }
     interface_ = interface;

@@ -136,7 +136,7 @@ constexpr std::uint64_t run_key(std::uint32_t interface, std::int64_t place) {
 
 struct LatticeRow {
     std::vector<std::uint32_t> sites;     // in order of number, then by run
-    std::vector<std::uint64_t> keys;      // of the runs, in order; and NearRuns::kAlong above all at the end
+    std::vector<std::uint64_t> keys;      // of the runs, in order; and one above all at the end
     std::vector<LatticeRun> runs;         // and one more at the end
     std::vector<LatticeSamples> samples;  // none where each of them is a site (LatticeBlocks::parts_sites)
     std::vector<LatticeFit> fits;
@@ -172,7 +172,6 @@ struct NearRun {
 class NearRuns {
 public:
     static constexpr int kRings = 2;  // blocks on each side that are looked at; as run_key() allows
-    static constexpr int kAlong = 2 * kRings + 1;  // blocks along a row that are looked at
 
     /// `layers` has a pointer to the rows of each layer within kRings, or null; `number` is that of the row in its
     /// layer.

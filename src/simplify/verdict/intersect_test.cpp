@@ -1,7 +1,6 @@
 #include "simplify/verdict/intersect_test.h"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 
 #include "base/box.h"
@@ -134,9 +133,11 @@ void IntersectTest::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
     first_ = first;
     const int count = std::min(star.face_count() - first, StarPlanes::kMost);
     planes_.prepare(star, position_, first, count);
-    start_search(2 + star.link.size());
-    for (const VertexId v : {star.goes, star.stays}) number_of(v);
-    for (const VertexId v : star.link) number_of(v);
+    vertices_ = {star.goes, star.stays};
+    vertices_.insert(vertices_.end(), star.link.begin(), star.link.end());
+    numbers_.clear();
+    places_.clear();
+    number_vertices();
     find_sides(mesh);
     Place &goes = place_of(star.goes), &stays = place_of(star.stays);
     goes.is_of_star = 1;
@@ -164,65 +165,27 @@ void IntersectTest::prepare(const Mesh& mesh, const EdgeStar& star, int first) {
     stays.sides.a = stays.sides.b = stays.sides.above = stays.sides.below = planes_.all();
 }
 
-/// Empties the table.
-void IntersectTest::start_search(std::size_t count) {
-    place_count_ = has_sides_ = 0;
-    if (++search_ == 0) {
-        std::fill(table_.begin(), table_.end(), Entry());
-        search_ = 1;
-    }
-    make_room(count);
+void IntersectTest::number_vertices() {
+    corners_.resize(vertices_.size());
+    numbers_.add(vertices_, corners_.data());
 }
 
-/// For so many places in all.
-void IntersectTest::make_room(std::size_t count) {
-    if (places_.size() <= count) places_.resize(2 * count + 1);
-    if (2 * count <= table_.size()) return;
-    table_.assign(std::bit_ceil(4 * count), {});
-    hash_shift_ = 32 - static_cast<std::uint32_t>(std::countr_zero(table_.size()));
-    for (std::uint32_t n = 0; n < place_count_; ++n) {
-        const VertexId v = places_[n].vertex;
-        entry_of(v) = {key_of(v), n};
-    }
-}
-
-/// That of the vertex, or where it belongs. Another vertex of this search differs in the lower half of the key only: one
-/// comparison tells, since whether a vertex is new is as good as random.
-IntersectTest::Entry& IntersectTest::entry_of(VertexId v) {
-    const std::size_t mask = table_.size() - 1;
-    std::size_t at = index(v) * 0x9E3779B1u >> hash_shift_;
-    while ((table_[at].key ^ key_of(v)) - 1 < ~std::uint32_t{0}) at = (at + 1) & mask;
-    return table_[at];
-}
-
-/// Finds the place of a vertex, or adds one. Requires room for it. Without a branch on whether it is new, which would
-/// be mispredicted.
-std::uint32_t IntersectTest::number_of(VertexId v) {
-    Entry& entry = entry_of(v);
-    const bool is_new = entry.key != key_of(v);
-    entry = {key_of(v), is_new ? place_count_ : entry.place};
-    places_[place_count_].vertex = v;
-    place_count_ += is_new;
-    return entry.place;
-}
-
-/// Fills in the places that were added.
+/// Fills in the places of vertices with new numbers.
 void IntersectTest::find_sides(const Mesh& mesh) {
-    for (; has_sides_ < place_count_; ++has_sides_) {
-        Place& place = places_[has_sides_];
-        const Vec3 p = mesh.position(place.vertex);
-        place = {place.vertex, planes_.sides_of(p), 0, 0, 0, 0, is_within(p, box_)};
+    for (auto n = static_cast<std::uint32_t>(places_.size()); n < numbers_.size(); ++n) {
+        const Vec3 p = mesh.position(numbers_[n]);
+        places_.push_back({numbers_[n], planes_.sides_of(p), 0, 0, 0, 0, is_within(p, box_)});
     }
 }
 
 /// Sets `near_`: which of the faces have to be looked at. All of them first, step by step and without branches that
 /// depend on one face.
 void IntersectTest::find_near(const Mesh& mesh, const EdgeStar& star, std::span<const std::uint32_t> faces) {
-    make_room(place_count_ + 3 * faces.size());
-    corners_.resize(3 * faces.size());
+    vertices_.resize(3 * faces.size());
     near_.resize(faces.size() + 1);
     for (std::size_t n = 0; n < faces.size(); ++n)
-        for (int c = 0; c < 3; ++c) corners_[3 * n + c] = number_of(mesh[FaceId{faces[n]}].vertices[c]);
+        for (int c = 0; c < 3; ++c) vertices_[3 * n + c] = mesh[FaceId{faces[n]}].vertices[c];
+    number_vertices();
     find_sides(mesh);
     near_count_ = 0;
     for (std::uint32_t n = 0; n < faces.size(); ++n) {

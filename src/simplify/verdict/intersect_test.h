@@ -9,6 +9,7 @@
 #include "regionmesh/verdict.h"
 #include "simplify/verdict/pinch.h"
 #include "simplify/verdict/star_planes.h"
+#include "simplify/verdict/vertex_numbers.h"
 
 namespace regionmesh {
 
@@ -33,11 +34,6 @@ private:
         std::uint32_t is_of_star;   // 1 where all faces that have it are of the star
         std::uint32_t is_in_reach;  // 1 in the box of all that is swept
     };
-    /// Of a vertex in the table.
-    struct Entry {
-        std::uint64_t key = 0;  // search and vertex
-        std::uint32_t place = 0;
-    };
     /// A face outside the star.
     using Corners = std::array<const Place*, 3>;
 
@@ -45,12 +41,8 @@ private:
     bool meets_itself(const EdgeStar& star);
     bool meet_in_star(const EdgeStar& star, int i, int j) const;
     void prepare(const Mesh& mesh, const EdgeStar& star, int first);
-    void start_search(std::size_t count);
-    void make_room(std::size_t count);
-    std::uint64_t key_of(VertexId v) const { return std::uint64_t{search_} << 32 | index(v); }
-    Entry& entry_of(VertexId v);
-    std::uint32_t number_of(VertexId v);
-    Place& place_of(VertexId v) { return places_[entry_of(v).place]; }
+    Place& place_of(VertexId v) { return places_[numbers_.of(v)]; }
+    void number_vertices();
     void find_sides(const Mesh& mesh);
     Corners corners_of(std::size_t face) const {
         return {&places_[corners_[3 * face]], &places_[corners_[3 * face + 1]], &places_[corners_[3 * face + 2]]};
@@ -72,13 +64,12 @@ private:
     Vec3 position_;
     Box box_;  // of all that the star sweeps
     StarPlanes planes_;
-    int first_ = 0;                                  // of the new faces under test
-    Sides apex_;                                     // of their apexes: the opposite of their certain sides
-    std::vector<Place> places_;                      // room for more
-    std::uint32_t place_count_ = 0, has_sides_ = 0;  // places in use; those before `has_sides_` are filled in
-    std::vector<Entry> table_;                       // by vertex, hashed; a power of two, at most half of it in use
-    std::uint32_t search_ = 0, hash_shift_ = 32;
-    std::vector<std::uint32_t> corners_;  // of the faces found: numbers of places, three for each face
+    int first_ = 0;                       // of the new faces under test
+    Sides apex_;                          // of their apexes: the opposite of their certain sides
+    VertexNumbers numbers_;               // of the vertices looked up
+    std::vector<Place> places_;           // by number
+    std::vector<VertexId> vertices_;      // three for each face found,
+    std::vector<std::uint32_t> corners_;  // and their numbers
     std::vector<std::uint32_t> near_;     // those that have to be looked at; room for more
     std::size_t near_count_ = 0;
 };

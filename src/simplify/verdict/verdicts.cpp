@@ -41,9 +41,8 @@ Verdict first_refusal(Collapse& collapse) {
         if constexpr (kRows[kRow].step == kStep) verdict = kRows[kRow].test(collapse);
         return verdict == Verdict::kAccepted;
     };
-    [&]<std::size_t... kRow>(std::index_sequence<kRow...>) {
-        (void)(passes.template operator()<kRow>() && ...);
-    }(std::make_index_sequence<kRows.size()>());
+    [&]<std::size_t... kRow>(std::index_sequence<kRow...>) { (void)(passes.template operator()<kRow>() && ...); }
+    (std::make_index_sequence<kRows.size()>());
     return verdict;
 }
 
