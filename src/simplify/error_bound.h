@@ -86,7 +86,7 @@ private:
     std::vector<FanFace> fan_;
     std::vector<DeadFace> dead_;
     std::vector<OldFace> old_faces_;
-    std::vector<Edge> old_edges_;    // inside
+    std::vector<Edge> old_edges_;  // inside
     std::vector<Crossing> crossings_;
     std::vector<Point*> rim_;        // ends of the edge on the old rim, from the first of the fan to the last
     VertexId split_at_ = kNoVertex;  // between it and the end next to it, a point of the rim goes to the merged vertex

@@ -46,11 +46,11 @@ private:
     Collapse& collapse_;
     const SimplifyOptions& options_;
     double max_cost_;
-    EdgeStar around_;                  // all faces of the current vertex
-    std::vector<VertexId> line_ends_;  // of edges between lines, at the current vertex
+    EdgeStar around_;                                   // all faces of the current vertex
+    std::vector<VertexId> line_ends_;                   // of edges between lines, at the current vertex
     std::array<VertexId, kMostPrepassFaces + 1> ends_;  // neighbours in its stratum that may take it; room for one more
     std::size_t end_count_ = 0;
-    std::vector<HalfCost> costs_;      // of these
+    std::vector<HalfCost> costs_;  // of these
     std::vector<Target> targets_;
     std::vector<std::uint8_t> seen_;  // by vertex: the sweep in which its star changed, or kSettled
     std::uint8_t sweep_ = 0;

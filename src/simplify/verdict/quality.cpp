@@ -55,7 +55,7 @@ Verdict test_quality(Collapse& collapse) {
         const Double2 own3 = quality3(pair, pair.a - merged, pair.b - merged, pair.new_length2);
         for (int lane = 0; lane < 2; ++lane) {
             if (own3[lane] < worst3) worst3 = own3[lane];
-            below += own3[lane] < bound3 && 2 * static_cast<int>(n) + lane < star.face_count();
+            below += (own3[lane] < bound3) & (2 * static_cast<int>(n) + lane < star.face_count());
         }
     }
     collapse.worst_quality3 = worst3;

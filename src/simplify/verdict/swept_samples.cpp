@@ -25,7 +25,7 @@ struct Slab {
     }
     bool holds(Vec3 p) const {
         const double height = dot(normal, p - from);
-        return height >= low && height <= high;
+        return (height >= low) & (height <= high);
     }
     /// Is the point farther than rounding from both ends?
     bool holds_deep(Vec3 p) const {
@@ -57,8 +57,8 @@ public:
         }
     }
     bool has_samples_in_box() const {
-        return ranges_[0].first <= ranges_[0].last && ranges_[1].first <= ranges_[1].last &&
-               ranges_[2].first <= ranges_[2].last;
+        return (ranges_[0].first <= ranges_[0].last) & (ranges_[1].first <= ranges_[1].last) &
+               (ranges_[2].first <= ranges_[2].last);
     }
 
     /// Calls visit(sample) for each sample that is perhaps inside, until it returns false. Looks at lines along the
@@ -67,25 +67,28 @@ public:
     template <class Visit>
     bool for_samples(Visit&& visit) const {
         const Slab slab(face_[0], face_[1], face_[2], p_);
-        int axis = 0;
-        for (int other = 1; other < 3; ++other)
-            if (std::abs(slab.normal[other]) > std::abs(slab.normal[axis])) axis = other;
-        if (slab.normal[axis] == 0) return false;
+        // Axes are as good as random: they index arrays, without branches.
+        const std::array normal{slab.normal.x, slab.normal.y, slab.normal.z};
+        const std::array from{slab.from.x, slab.from.y, slab.from.z};
+        int axis = std::abs(normal[1]) > std::abs(normal[0]);
+        axis = std::abs(normal[2]) > std::abs(normal[axis]) ? 2 : axis;
+        if (normal[axis] == 0) return false;
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const double per_step = 1 / slab.normal[axis];
-        const double ends[2] = {slab.from[axis] + slab.low * per_step, slab.from[axis] + slab.high * per_step};
+        const double per_step = 1 / normal[axis];
+        const double ends[2] = {from[axis] + slab.low * per_step, from[axis] + slab.high * per_step};
         const double low = std::min(ends[0], ends[1]), high = std::max(ends[0], ends[1]);
-        const double along_u = slab.normal[u] * per_step, along_v = slab.normal[v] * per_step;
+        const double along_u = normal[u] * per_step, along_v = normal[v] * per_step;
         for (std::int64_t j = ranges_[v].first; j <= ranges_[v].last; ++j)
             for (std::int64_t i = ranges_[u].first; i <= ranges_[u].last; ++i) {
-                const double rise = along_u * (static_cast<double>(i) - slab.from[u]) +
-                                    along_v * (static_cast<double>(j) - slab.from[v]);
+                const double rise =
+                    along_u * (static_cast<double>(i) - from[u]) + along_v * (static_cast<double>(j) - from[v]);
                 const double end = std::min(high - rise, static_cast<double>(ranges_[axis].last));
                 double n =
                     static_cast<double>(round_up(std::max(low - rise, static_cast<double>(ranges_[axis].first))));
                 for (; n <= end; ++n) {
-                    Vec3 sample;
-                    sample[axis] = n, sample[u] = static_cast<double>(i), sample[v] = static_cast<double>(j);
+                    std::array<double, 3> at;
+                    at[axis] = n, at[u] = static_cast<double>(i), at[v] = static_cast<double>(j);
+                    const Vec3 sample{at[0], at[1], at[2]};
                     if (is_between_sides(sample) && !visit(sample)) return true;
                 }
             }
