@@ -9,6 +9,7 @@
 #include "simplify/edge_star.h"
 #include "simplify/error_bound.h"
 #include "simplify/verdict/intersect_test.h"
+#include "simplify/verdict/rising_faces.h"
 #include "simplify/verdict/shape_bounds.h"
 
 namespace regionmesh {
@@ -25,7 +26,8 @@ struct Places {
 /// The collapse under test. Reused from one to the next, so that nothing is allocated in the long run.
 struct Collapse {
     const Mesh& mesh;
-    FaceTree* tree = nullptr;  // of the faces; none: they may cross
+    FaceTree* tree = nullptr;       // of the faces; none: they may cross
+    RisingFaces* rising = nullptr;  // of the same faces, where they bound regions
     ShapeBounds bounds;
     Box limits = kUnbounded;           // a merged vertex that moves stays strictly inside, unless on a side of the box
     const Lattice* samples = nullptr;  // whose samples stay in their regions; none: any may change
@@ -69,6 +71,7 @@ inline void collapse_edge(Mesh& mesh, Collapse& collapse) {
     mesh.move_star(star.goes, star.stays);
     mesh[star.stays].position = position;
     if (collapse.tree) set_boxes(*collapse.tree, star, position);
+    if (collapse.rising && !star.is_flat) collapse.rising->set(star, position);
 }
 
 }  // namespace regionmesh

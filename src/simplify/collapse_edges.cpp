@@ -52,12 +52,14 @@ public:
           threads_(bounds.threads),
           histogram_(bounds.histogram),
           tree_(tree_of(mesh, options, bounds)),
+          rising_(rising_of(mesh, options)),
           outside_(mesh, bounds.limits),
           placement_((count_labels(mesh, bounds.threads), make_placement(mesh, options))),
           candidates_(mesh, *placement_, options),
           halves_(mesh.vertex_count() / 2),
           collapse_{.mesh = mesh,
                     .tree = tree_ ? &*tree_ : nullptr,
+                    .rising = rising_ ? &*rising_ : nullptr,
                     .bounds = {.min_quality = options.min_quality},
                     .limits = bounds.limits,
                     .samples = options.samples ? &*options.samples : nullptr,
@@ -80,8 +82,8 @@ public:
                 step();
                 pack();
             }
-            result_.bytes = std::max(result_.bytes, (tree_ ? tree_->bytes() : 0) + candidates_.bytes() +
-                                                        placement_->bytes() + halves_.bytes());
+            result_.bytes = std::max(result_.bytes, (tree_ ? tree_->bytes() : 0) + (rising_ ? rising_->bytes() : 0) +
+                                                        candidates_.bytes() + placement_->bytes() + halves_.bytes());
             if (is_at_target()) break;
             if (accepted() == before || !is_refreshing_) {
                 const bool is_error = candidates_.has_edges_over_error() || count(Verdict::kError) > over_error;
@@ -98,6 +100,11 @@ private:
                                            const CollapseBounds& bounds) {
         if (!options.intersect_check) return {};
         return FaceTree(mesh, bounds.threads);
+    }
+
+    static std::optional<RisingFaces> rising_of(const Mesh& mesh, const SimplifyOptions& options) {
+        if (!options.intersect_check || !options.bounds_regions) return {};
+        return RisingFaces(mesh);
     }
 
     bool is_at_target() const { return mesh_.face_count() <= options_.target_faces; }
@@ -123,6 +130,7 @@ private:
         if (mesh_.face_count() >= mesh_.face_end() * kCompactBelow) return;
         mesh_.compact_faces();
         if (tree_) tree_->build(mesh_, threads_);
+        if (rising_) rising_->build(mesh_);
     }
 
     void step() {
@@ -208,6 +216,7 @@ private:
     std::uint32_t threads_;
     CostHistogram* histogram_;
     std::optional<FaceTree> tree_;
+    std::optional<RisingFaces> rising_;
     FixedOutside outside_;
     std::unique_ptr<Placement> placement_;
     Candidates candidates_;

@@ -16,6 +16,10 @@ namespace regionmesh {
 /// tests 1 and 2).
 inline constexpr double kMinTurnCosine = 0.2, kMinDihedralCosine = 0.99619469809174555;
 
+/// Sine of the angle at which faces count as rising: above that of 2.5 degrees, so that two of them that share an edge
+/// make more than 5 degrees with each other (IntersectTest).
+inline constexpr float kLeastRise = 0.05f;
+
 // --- Placement -------------------------------------------------------------------------------------------------------
 
 /// Share of the sum of weights that draws toward the middle of the edge. Makes flat stars have one answer, in floats

@@ -19,8 +19,8 @@ Verdict test_intersect(Collapse& collapse) {
     // A vertex that stays where it is adds nothing beyond the limits, which are convex.
     if (!collapse.star.keeps_stays && !is_within_limits(collapse)) return Verdict::kIntersect;
     if (collapse.tree)
-        return collapse.intersect.verdict(collapse.mesh, *collapse.tree, collapse.star, collapse.position,
-                                          collapse.bounds);
+        return collapse.intersect.verdict(collapse.mesh, *collapse.tree, collapse.rising, collapse.star,
+                                          collapse.position, collapse.bounds);
     return pinches_around(collapse.mesh, collapse.star, collapse.position, collapse.bounds) ? Verdict::kPinch
                                                                                             : Verdict::kAccepted;
 }

@@ -68,25 +68,55 @@ private:
 
 }  // namespace
 
-Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const EdgeStar& star, Vec3 position,
-                               const ShapeBounds& bounds) {
+Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const RisingFaces* rising, const EdgeStar& star,
+                               Vec3 position, const ShapeBounds& bounds) {
     if (star.is_flat) return Verdict::kAccepted;
     position_ = position;
-    const bool is_simple = is_simple_disk(star);
     box_ = star.link_box;
     for (Vec3 p : {position, star.at_goes, star.at_stays}) box_.add(p);
+    const Directions directions = rising && star.is_interface ? rising->common(star, position) : 0;
+    const bool is_simple = directions != 0 || is_simple_disk(star);
     Verdict verdict = Verdict::kAccepted;
     for (int first = 0; first < star.face_count() && verdict == Verdict::kAccepted; first += StarPlanes::kMost) {
-        prepare(mesh, star, first);
+        bool is_prepared = !is_simple;
+        if (is_prepared) prepare(mesh, star, first);
         if (!is_simple && meets_itself(star)) return Verdict::kIntersect;
+        directions_ = directions;
         tree.search(box_, [&](std::span<const std::uint32_t> faces) {
+            if (directions != 0) faces = without_rising(mesh, *rising, star, faces);
+            if (faces.empty()) return true;
+            if (!is_prepared) prepare(mesh, star, first);
+            is_prepared = true;
             find_near(mesh, star, faces);
             for (std::size_t n = 0; n < near_count_ && verdict == Verdict::kAccepted; ++n)
                 verdict = look_at(mesh, star, bounds, corners_of(near_[n]));
             return verdict == Verdict::kAccepted;
         });
     }
-    return verdict;
+    // Which test refuses is told with all faces: the verdict is the same as without `rising`.
+    if (verdict == Verdict::kAccepted || directions == 0) return verdict;
+    return this->verdict(mesh, tree, nullptr, star, position, bounds);
+}
+
+/// Leaves out faces of the star's interface as long as there is a direction along which all of them rise. Without
+/// branches that depend on one face.
+std::span<const std::uint32_t> IntersectTest::without_rising(const Mesh& mesh, const RisingFaces& rising,
+                                                             const EdgeStar& star,
+                                                             std::span<const std::uint32_t> faces) {
+    const std::array<Label, 2> labels = mesh[star.faces[0].face].labels;
+    others_.resize(faces.size() + 1);
+    Directions directions = directions_;
+    std::size_t count = 0;
+    for (const std::uint32_t f : faces) {
+        const std::array<Label, 2>& own = mesh[FaceId{f}].labels;
+        const bool is_same = ((own[0] ^ labels[0]) | (own[1] ^ labels[1])) == 0;
+        const Directions both = directions & rising[FaceId{f}] & -Directions{is_same};
+        directions = both != 0 ? both : directions;
+        others_[count] = f;
+        count += both == 0;
+    }
+    directions_ = directions;
+    return std::span(others_).first(count);
 }
 
 /// The new star is a disk of one interface whose faces, seen along their mean normal, all look up and go round the

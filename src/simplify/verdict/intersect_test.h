@@ -8,6 +8,7 @@
 #include "mesh/face_tree.h"
 #include "regionmesh/verdict.h"
 #include "simplify/verdict/pinch.h"
+#include "simplify/verdict/rising_faces.h"
 #include "simplify/verdict/star_planes.h"
 #include "simplify/verdict/vertex_numbers.h"
 
@@ -21,8 +22,16 @@ public:
     ///              over it.
     ///   intersect  a new face would meet another, new or old, other than in shared vertices and edges, or the star
     ///              would sweep over a separate part of the surface.
-    Verdict verdict(const Mesh& mesh, const FaceTree& tree, const EdgeStar& star, Vec3 position,
-                    const ShapeBounds& bounds);
+    /// `rising` is null unless the faces bound regions: behind each lies its first label, before it the second.
+    ///
+    /// Then faces of the star's interface that rise along a direction along which all of the star rises, before and
+    /// after, need no look. A line that way passes from the same region A to the same region B wherever it crosses the
+    /// star or such a face, and to cross two of them it has to pass back through another face. The new star fills the
+    /// polygon of the old one, seen that way, once. If the others neither meet the new star nor lie in the space that
+    /// is swept, no line crosses one of them between the old star and the new: nor does it cross a face that rises.
+    /// Faces that rise make more than 5 degrees at an edge (kLeastRise).
+    Verdict verdict(const Mesh& mesh, const FaceTree& tree, const RisingFaces* rising, const EdgeStar& star,
+                    Vec3 position, const ShapeBounds& bounds);
 
 private:
     /// A vertex near the star.
@@ -47,6 +56,8 @@ private:
     Corners corners_of(std::size_t face) const {
         return {&places_[corners_[3 * face]], &places_[corners_[3 * face + 1]], &places_[corners_[3 * face + 2]]};
     }
+    std::span<const std::uint32_t> without_rising(const Mesh& mesh, const RisingFaces& rising, const EdgeStar& star,
+                                                  std::span<const std::uint32_t> faces);
     void find_near(const Mesh& mesh, const EdgeStar& star, std::span<const std::uint32_t> faces);
     bool may_meet(const EdgeStar& star, const Corners& old) const;
     Verdict look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const;
@@ -62,7 +73,9 @@ private:
     bool is_swept(const Mesh& mesh, const EdgeStar& star, const Corners& old) const;
 
     Vec3 position_;
-    Box box_;  // of all that the star sweeps
+    Box box_;                            // of all that the star sweeps
+    Directions directions_ = 0;          // along which the star rises, and all faces that were left out
+    std::vector<std::uint32_t> others_;  // faces that were not; room for more
     StarPlanes planes_;
     int first_ = 0;                       // of the new faces under test
     Sides apex_;                          // of their apexes: the opposite of their certain sides
