@@ -11,6 +11,7 @@
 #include "simplify/half_candidates.h"
 #include "simplify/prepass.h"
 #include "simplify/tuning.h"
+#include "simplify/verdict/quality.h"
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {
@@ -54,7 +55,7 @@ public:
           tree_(tree_of(mesh, options, bounds)),
           rising_(rising_of(mesh, options)),
           outside_(mesh, bounds.limits),
-          placement_((count_labels(mesh, bounds.threads), make_placement(mesh, options))),
+          placement_((count_labels(mesh, bounds.threads), make_placement(mesh, options, bounds.threads))),
           candidates_(mesh, *placement_, options),
           halves_(mesh.vertex_count() / 2),
           collapse_{.mesh = mesh,
@@ -157,7 +158,7 @@ private:
         if (verdict == Verdict::kAccepted) {
             apply(histogram_ ? cost_of_best() : 0);
         } else {
-            if (depends_on_place(verdict)) add_half(star.goes, star.stays);
+            if (depends_on_place(verdict)) add_half();
             candidates_.refuse();
         }
     }
@@ -167,8 +168,12 @@ private:
                verdict == Verdict::kSamples;
     }
 
-    void add_half(VertexId goes, VertexId stays) {
-        if (const auto rank = rank_of_half(goes, stays)) halves_.add({*rank, goes, stays});
+    /// Keeps the half collapse as a second choice, unless the shape of its faces would be refused as they are now: it
+    /// would be in the end, too, and hardly any is not.
+    void add_half() {
+        const EdgeStar& star = collapse_.star;
+        if (fan_quality3(star, star.stays, star.at_stays, collapse_.bounds) == 0) return;
+        if (const auto rank = rank_of_half(star.goes, star.stays)) halves_.add({*rank, star.goes, star.stays});
     }
 
     /// None above the largest cost or error.

@@ -20,8 +20,8 @@ Vec3 average_of_link(const Mesh& mesh, const EdgeStar& star) {
     return average;
 }
 
-std::unique_ptr<Placement> make_placement(const Mesh& mesh, const SimplifyOptions& options) {
-    return kMakers[static_cast<std::size_t>(options.placement)](mesh, options);
+std::unique_ptr<Placement> make_placement(const Mesh& mesh, const SimplifyOptions& options, std::uint32_t threads) {
+    return kMakers[static_cast<std::size_t>(options.placement)](mesh, options, threads);
 }
 
 }  // namespace regionmesh

@@ -58,11 +58,13 @@ public:
 /// quality test 2). Coordinates on sides of the box stay.
 Vec3 average_of_link(const Mesh& mesh, const EdgeStar& star);
 
-/// Requires the label counts of the vertices (count_labels).
-std::unique_ptr<Placement> make_placement(const Mesh& mesh, const SimplifyOptions& options);
+/// Requires the label counts of the vertices (count_labels). On at most `threads` threads (0: one per core).
+std::unique_ptr<Placement> make_placement(const Mesh& mesh, const SimplifyOptions& options, std::uint32_t threads = 1);
 
 /// The rows of the table in placement.cpp; each is one file.
-std::unique_ptr<Placement> make_quadric_placement(const Mesh& mesh, const SimplifyOptions& options);
-std::unique_ptr<Placement> make_lindstrom_turk_placement(const Mesh& mesh, const SimplifyOptions& options);
+std::unique_ptr<Placement> make_quadric_placement(const Mesh& mesh, const SimplifyOptions& options,
+                                                  std::uint32_t threads);
+std::unique_ptr<Placement> make_lindstrom_turk_placement(const Mesh& mesh, const SimplifyOptions& options,
+                                                         std::uint32_t threads);
 
 }  // namespace regionmesh

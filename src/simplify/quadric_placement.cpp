@@ -10,7 +10,7 @@ namespace {
 /// link is the second place (P quality test 2).
 class QuadricPlacement final : public Placement {
 public:
-    explicit QuadricPlacement(const Mesh& mesh) : quadrics_(mesh) {}
+    QuadricPlacement(const Mesh& mesh, std::uint32_t threads) : quadrics_(mesh, threads) {}
 
     void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) override {
         find_edge_costs(mesh, quadrics_, v, to, costs);
@@ -54,8 +54,8 @@ Places QuadricPlacement::place(const Mesh& mesh, const EdgeStar& star) {
 
 }  // namespace
 
-std::unique_ptr<Placement> make_quadric_placement(const Mesh& mesh, const SimplifyOptions&) {
-    return std::make_unique<QuadricPlacement>(mesh);
+std::unique_ptr<Placement> make_quadric_placement(const Mesh& mesh, const SimplifyOptions&, std::uint32_t threads) {
+    return std::make_unique<QuadricPlacement>(mesh, threads);
 }
 
 }  // namespace regionmesh

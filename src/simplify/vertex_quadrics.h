@@ -11,8 +11,8 @@ namespace regionmesh {
 /// planes square to each face (Garland and Heckbert 1997). Each is relative to its vertex.
 class VertexQuadrics {
 public:
-    /// Requires the label counts of the vertices (count_labels).
-    explicit VertexQuadrics(const Mesh& mesh);
+    /// Requires the label counts of the vertices (count_labels). On at most `threads` threads (0: one per core).
+    explicit VertexQuadrics(const Mesh& mesh, std::uint32_t threads = 1);
 
     const PackedQuadric& operator[](VertexId v) const { return quadrics_[index(v)]; }
     EdgeEnds ends(const Mesh& mesh, VertexId goes, VertexId stays) const {
@@ -27,8 +27,14 @@ public:
     std::size_t bytes() const { return quadrics_.bytes(); }
 
 private:
+    /// Vertices by id, from `first` on.
+    struct Part {
+        std::uint32_t first, count;
+        bool has(VertexId v) const { return index(v) - first < count; }
+    };
+    void gather(const Mesh& mesh, Part part);
     void add_plane(VertexId v, Vec3 normal, double weight);
-    void add_lines(const Mesh& mesh, const Face& face, Vec3 normal);
+    void add_lines(const Mesh& mesh, const Face& face, Vec3 normal, Part part);
 
     FlatArray<PackedQuadric> quadrics_;
 };

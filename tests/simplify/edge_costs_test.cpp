@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "mesh/strata.h"
 #include "support/runs.h"
 
@@ -52,6 +54,17 @@ TEST(EdgeCosts, hold_for_very_small_and_large_models) {
         count_labels(mesh);
         expect_as_placed(mesh, 1e-5);
     }
+}
+
+TEST(VertexQuadrics, are_the_same_on_several_threads) {
+    Mesh mesh = test::run(test::noise_volume({7, 6, 5}, 4, 8)).mesh;
+    count_labels(mesh);
+    const VertexQuadrics alone(mesh, 1), together(mesh, 3);
+    test::for_vertices(mesh, [&](VertexId v) {
+        const PackedQuadric &a = alone[v], &b = together[v];
+        ASSERT_GT(a.xx + a.yy + a.zz, 0);
+        ASSERT_EQ(std::tuple(a.xx, a.xy, a.xz, a.yy, a.yz, a.zz), std::tuple(b.xx, b.xy, b.xz, b.yy, b.yz, b.zz));
+    });
 }
 
 }  // namespace

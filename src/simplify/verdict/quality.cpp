@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/triangle.h"
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {
@@ -30,15 +29,28 @@ struct LowQuality {
     int below;
 };
 
-/// Where faces came in below the bound, a collapse may leave some: no more, and none worse than the worst.
-bool was_worse(const EdgeStar& star, const LowQuality& after, double bound3) {
+/// The faces of `goes` come first in a star.
+int faces_of_goes(const EdgeStar& star) {
+    int count = 0;
+    while (count < star.face_count() && star.faces[count].apex == star.goes) ++count;
+    return count;
+}
+
+/// Where faces came in below the bound, a collapse may leave some: no more, and none worse than the worst. Looks at the
+/// first `count` faces.
+bool was_worse(const EdgeStar& star, int count, const LowQuality& after, double bound3) {
     LowQuality before{1, 0};
-    const auto look_at = [&](Vec3 a, Vec3 b, Vec3 c) {
-        const double own3 = quality_terms(a, b, c).cube();
-        before.worst3 = std::min(before.worst3, own3);
-        before.below += own3 < bound3;
-    };
-    for (int face = 0; face < star.face_count(); ++face) look_at(star.at_apex(face), star.at_a(face), star.at_b(face));
+    for (int first = 0; first < count; first += 2) {
+        const StarPair& pair = star.pairs[first / 2];
+        const int second = std::min(first + 1, count - 1);
+        const Lanes3<Double2> apex = side_by_side(star.at_apex(first), star.at_apex(second));
+        const Double2 own3 = quality3(pair, pair.a - apex, pair.b - apex, pair.old_length2);
+        for (int lane = 0; lane < 2 && first + lane < count; ++lane) {
+            const double face3 = std::max<double>(0, own3[lane]);  // 0 where corners coincide
+            before.worst3 = std::min(before.worst3, face3);
+            before.below += face3 < bound3;
+        }
+    }
     return after.below <= before.below && after.worst3 >= before.worst3;
 }
 
@@ -59,21 +71,23 @@ Verdict test_quality(Collapse& collapse) {
         }
     }
     collapse.worst_quality3 = worst3;
-    return below > 0 && !was_worse(star, {worst3, below}, bound3) ? Verdict::kQuality : Verdict::kAccepted;
+    return below > 0 && !was_worse(star, star.face_count(), {worst3, below}, bound3) ? Verdict::kQuality
+                                                                                     : Verdict::kAccepted;
 }
 
 double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, const ShapeBounds& bounds) {
     const Lanes3<Double2> merged = both(at_target);
     const double bound3 = cube_of_bound(bounds);
+    const int count = faces_of_goes(around);
     LowQuality after{1, 0};
-    for (int first = 0; first < around.face_count(); first += 2) {
+    for (int first = 0; first < count; first += 2) {
         const StarPair& pair = around.pairs[first / 2];
         const Lanes3<Double2> to_a = pair.a - merged, to_b = pair.b - merged, normal = cross(to_a, to_b);
         const Double2 normal2 = dot(normal, normal);
         const Double2 own3 = quality3(pair, to_a, to_b, normal2);
         const unsigned kept =
             bits_of(keep_direction(pair.old_normal, pair.old_length2, normal, normal2, bounds.min_turn_cosine));
-        for (int lane = 0; lane < 2 && first + lane < around.face_count(); ++lane) {
+        for (int lane = 0; lane < 2 && first + lane < count; ++lane) {
             const StarFace& face = around.faces[first + lane];
             const bool stays = (face.a != target) & (face.b != target);  // the others vanish
             if (stays & ((kept >> lane & 1) == 0)) return 0;
@@ -81,7 +95,7 @@ double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, con
             after.below += stays & (own3[lane] < bound3);
         }
     }
-    return after.below > 0 && !was_worse(around, after, bound3) ? 0 : after.worst3;
+    return after.below > 0 && !was_worse(around, count, after, bound3) ? 0 : after.worst3;
 }
 
 }  // namespace regionmesh
