@@ -28,8 +28,8 @@ struct SimplifyOptions {
     double perturbation = 1e-7;  // largest share of scale^4 added to a cost, hashed from the edge (P 4.5)
     double scale = 1;            // length of a typical edge: the sample spacing, or typical_edge(mesh)
     bool intersect_check = true;
-    bool bounds_regions = false;  // the faces are known to: each has its first label behind it, the second before it,
-                                  // everywhere; collapses are then tested faster, with the same result
+    bool bounds_regions = false;  // asserts that each face has its first label behind it and its second in front of
+                                  // it, everywhere; collapses are then tested faster, with the same result
     PlacementKind placement = PlacementKind::kQuadric;
     std::optional<Lattice> samples = {};     // no sample of it changes its region; its direction is not looked at
     std::uint32_t threads = 0;               // at work at a time; 0: one per core. The result is the same

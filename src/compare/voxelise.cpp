@@ -261,7 +261,7 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
     Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background});
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
     std::vector<InputLabel> input(samples);
-    std::vector<ComparedSection> sections(threads == 0 ? kMostSections : std::min(2 * threads, kMostSections));
+    std::vector<ComparedSection> sections(threads == 0 ? kMostSections : 2 * std::min(threads, kMostSections / 2));
     std::vector<std::span<Label>> found;
     SampleAgreement result;
     const auto read = [&](ComparedSection& section) {

@@ -20,7 +20,7 @@ int orientation(Point2 a, Point2 b, Point2 c) {
     const double left = to_a.x * to_b.y, right = to_a.y * to_b.x, area = left - right;
     const double bound = 3.3306690738754716e-16 * (std::abs(left) + std::abs(right));  // Shewchuk (1997), orient2d A
     if (area > bound || -area > bound) return sign(area);
-    // Differences of equal numbers are exact: common on the lattice.
+    // Both products have a factor that is exactly 0: common on the lattice.
     if ((to_a.x == 0 || to_b.y == 0) && (to_a.y == 0 || to_b.x == 0)) return 0;
     return exact_orientation({a.x, a.y, 0}, {b.x, b.y, 0}, {c.x, c.y, 0}, {c.x, c.y, 1});
 }

@@ -168,8 +168,8 @@ private:
                verdict == Verdict::kSamples;
     }
 
-    /// Keeps the half collapse as a second choice, unless its faces would be refused for their shape right away: when
-    /// its turn came they nearly always would be, too.
+    /// Adds the half collapse as a second choice, unless `fold` or `quality` would refuse it on the mesh as it is now:
+    /// nearly all such edges are refused when their turn comes, too.
     void add_half() {
         const EdgeStar& star = collapse_.star;
         if (fan_quality3(star, star.stays, star.at_stays, collapse_.bounds) == 0) return;

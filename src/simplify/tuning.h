@@ -16,8 +16,8 @@ namespace regionmesh {
 /// tests 1 and 2).
 inline constexpr double kMinTurnCosine = 0.2, kMinDihedralCosine = 0.99619469809174555;
 
-/// Sine of the angle at which faces count as rising: above that of 2.5 degrees, so that two of them that share an edge
-/// make more than 5 degrees with each other (IntersectTest).
+/// A face rises along a direction if its unit normal has at least this component along it. More than the sine of 2.5
+/// degrees, so that two rising faces make more than 5 degrees at a common edge (IntersectTest).
 inline constexpr float kLeastRise = 0.05f;
 
 // --- Placement -------------------------------------------------------------------------------------------------------

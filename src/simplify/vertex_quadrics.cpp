@@ -6,7 +6,7 @@
 
 namespace regionmesh {
 
-/// Each part goes over all faces, in their order: the sums do not depend on the number of parts.
+/// Each part visits all faces in the order of their ids: the sums do not depend on the number of parts.
 VertexQuadrics::VertexQuadrics(const Mesh& mesh, std::uint32_t threads) {
     constexpr std::uint32_t kParts = 4;
     quadrics_.resize(mesh.vertex_end());

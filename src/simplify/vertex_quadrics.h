@@ -27,7 +27,7 @@ public:
     std::size_t bytes() const { return quadrics_.bytes(); }
 
 private:
-    /// Vertices by id, from `first` on.
+    /// `count` vertex ids from `first` on.
     struct Part {
         std::uint32_t first, count;
         bool has(VertexId v) const { return index(v) - first < count; }

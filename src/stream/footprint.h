@@ -43,7 +43,7 @@ inline constexpr std::uint64_t kTilesBytesPerFace =
     per_face(sizeof(std::uint32_t), sizeof(std::uint32_t)) + per_face(sizeof(ChunkFace), sizeof(ChunkVertex)) / 2;
 static_assert(kTilesBytesPerFace == 24);
 /// A tile in flight is a small mesh that is decimated, with the directions along which its faces rise.
-inline constexpr std::uint64_t kTileBytesPerFace = kWorkBytesPerFace + 4;
+inline constexpr std::uint64_t kTileBytesPerFace = kWorkBytesPerFace + sizeof(std::uint32_t);
 
 /// The window of smoothing: faces, their trees, and per vertex three positions, about six neighbours and the start of
 /// their list, the separate part it belongs to, backtrack, request and sides.

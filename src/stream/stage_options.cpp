@@ -50,7 +50,7 @@ SimplifyOptions simplify_options(const ReconstructOptions& options, const Source
     own.perturbation = options.perturbation;
     own.scale = shape.scale;
     own.intersect_check = options.intersect_check;
-    // Where the hull is open, a line may leave a domain that is not convex, and come back in another region.
+    // If the hull is open, a line may leave a domain that is not convex and come back in another region.
     own.bounds_regions = options.cap || shape.has_samples;
     if (options.keep_samples && shape.has_samples) own.samples = shape.lattice;
     own.placement = options.placement;

@@ -81,9 +81,9 @@ Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const Ris
         bool is_prepared = !is_simple;
         if (is_prepared) prepare(mesh, star, first);
         if (!is_simple && meets_itself(star)) return Verdict::kIntersect;
-        directions_ = directions;
+        Directions common = directions;
         tree.search(box_, [&](std::span<const std::uint32_t> faces) {
-            if (directions != 0) faces = without_rising(mesh, *rising, star, faces);
+            if (directions != 0) faces = without_rising(mesh, *rising, star, faces, common);
             if (faces.empty()) return true;
             if (!is_prepared) prepare(mesh, star, first);
             is_prepared = true;
@@ -93,19 +93,19 @@ Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const Ris
             return verdict == Verdict::kAccepted;
         });
     }
-    // Which test refuses is told with all faces: the verdict is the same as without `rising`.
+    // A refusal is reported as all faces give it: the verdict is the same as without `rising`.
     if (verdict == Verdict::kAccepted || directions == 0) return verdict;
     return this->verdict(mesh, tree, nullptr, star, position, bounds);
 }
 
-/// Leaves out faces of the star's interface as long as there is a direction along which all of them rise. Without
-/// branches that depend on one face.
+/// Leaves out each face of the star's interface that rises along one of the `common` directions, and keeps only such
+/// directions in `common`. Without branches that depend on one face.
 std::span<const std::uint32_t> IntersectTest::without_rising(const Mesh& mesh, const RisingFaces& rising,
-                                                             const EdgeStar& star,
-                                                             std::span<const std::uint32_t> faces) {
+                                                             const EdgeStar& star, std::span<const std::uint32_t> faces,
+                                                             Directions& common) {
     const std::array<Label, 2> labels = mesh[star.faces[0].face].labels;
     others_.resize(faces.size() + 1);
-    Directions directions = directions_;
+    Directions directions = common;
     std::size_t count = 0;
     for (const std::uint32_t f : faces) {
         const std::array<Label, 2>& own = mesh[FaceId{f}].labels;
@@ -115,7 +115,7 @@ std::span<const std::uint32_t> IntersectTest::without_rising(const Mesh& mesh, c
         others_[count] = f;
         count += both == 0;
     }
-    directions_ = directions;
+    common = directions;
     return std::span(others_).first(count);
 }
 

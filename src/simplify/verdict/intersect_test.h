@@ -22,14 +22,16 @@ public:
     ///              over it.
     ///   intersect  a new face would meet another, new or old, other than in shared vertices and edges, or the star
     ///              would sweep over a separate part of the surface.
-    /// `rising` is null unless the faces bound regions: behind each lies its first label, before it the second.
+    /// `rising` is null unless the faces bound regions: the first label of each face lies behind it, the second in
+    /// front of it.
     ///
-    /// Then faces of the star's interface that rise along a direction along which all of the star rises, before and
-    /// after, need no look. A line that way passes from the same region A to the same region B wherever it crosses the
-    /// star or such a face, and to cross two of them it has to pass back through another face. The new star fills the
-    /// polygon of the old one, seen that way, once. If the others neither meet the new star nor lie in the space that
-    /// is swept, no line crosses one of them between the old star and the new: nor does it cross a face that rises.
-    /// Faces that rise make more than 5 degrees at an edge (kLeastRise).
+    /// With `rising`, faces of the star's interface are skipped if they and the whole star, before and after the
+    /// collapse, rise along a common direction. A line in that direction passes from region A to region B wherever it
+    /// crosses the star or a skipped face. Between two such crossings it passes back, through a face that is not
+    /// skipped. Projected along the direction, the old and the new star cover the same polygon once. If no other face
+    /// meets the new star or lies in the swept space, a line crosses no other face between the old and the new star,
+    /// and so no skipped face. A skipped face makes more than 5 degrees with a face of the star at an edge
+    /// (kLeastRise).
     Verdict verdict(const Mesh& mesh, const FaceTree& tree, const RisingFaces* rising, const EdgeStar& star,
                     Vec3 position, const ShapeBounds& bounds);
 
@@ -57,7 +59,7 @@ private:
         return {&places_[corners_[3 * face]], &places_[corners_[3 * face + 1]], &places_[corners_[3 * face + 2]]};
     }
     std::span<const std::uint32_t> without_rising(const Mesh& mesh, const RisingFaces& rising, const EdgeStar& star,
-                                                  std::span<const std::uint32_t> faces);
+                                                  std::span<const std::uint32_t> faces, Directions& common);
     void find_near(const Mesh& mesh, const EdgeStar& star, std::span<const std::uint32_t> faces);
     bool may_meet(const EdgeStar& star, const Corners& old) const;
     Verdict look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const;
@@ -74,8 +76,7 @@ private:
 
     Vec3 position_;
     Box box_;                            // of all that the star sweeps
-    Directions directions_ = 0;          // along which the star rises, and all faces that were left out
-    std::vector<std::uint32_t> others_;  // faces that were not; room for more
+    std::vector<std::uint32_t> others_;  // faces that are not skipped; room for more
     StarPlanes planes_;
     int first_ = 0;                       // of the new faces under test
     Sides apex_;                          // of their apexes: the opposite of their certain sides

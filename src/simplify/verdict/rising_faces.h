@@ -1,4 +1,4 @@
-// Along which directions faces rise: most faces near a star are of the same sheet and need no closer look.
+// The directions along which faces rise: lets the intersection test skip most faces near a star.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,14 @@ class RisingFaces {
 public:
     explicit RisingFaces(const Mesh& mesh) { build(mesh); }
 
-    /// Anew, from the living faces.
+    /// Computes all directions anew, of the living faces.
     void build(const Mesh& mesh);
-    /// Takes in the faces of a star at their new place. Requires its normals.
+    /// Updates the faces of a star, which are at their new place. Requires its new normals (set_normals).
     void set(const EdgeStar& star, Vec3 position);
 
     Directions operator[](FaceId f) const { return directions_[index(f)]; }
-    /// Along which the whole star of an interface rises, before the collapse and after. Requires its normals.
+    /// The directions along which all faces of a star rise, before and after the collapse. Requires its new normals
+    /// (set_normals).
     Directions common(const EdgeStar& star, Vec3 position) const;
 
     std::size_t bytes() const { return directions_.capacity() * sizeof(Directions); }
