@@ -21,7 +21,11 @@ MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {
 
 CensusOptions census_options(const Settings& settings) {
     const ReconstructOptions& options = settings.reconstruct;
-    return {.cap = options.cap, .background = options.background, .sweep = options.sweep, .cells = cell_kind(options)};
+    return {.cap = options.cap,
+            .background = options.background,
+            .sweep = options.sweep,
+            .cells = cell_kind(options),
+            .threads = options.threads};
 }
 
 Settings settings_for(const Settings& settings, const MeshFile& file) {

@@ -35,6 +35,7 @@ struct CensusOptions {
     std::vector<InputLabel> background{0};  // as in ReconstructOptions
     std::optional<Sweep> sweep = {};        // of tetrahedra
     CellKind cells = CellKind::kCompact;    // of sections; kAuto counts as kCompact
+    std::uint32_t threads = 1;              // 0: one per core. On two a section is read while the one before is counted
 };
 
 /// Reads all sections. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader

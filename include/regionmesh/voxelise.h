@@ -38,8 +38,9 @@ struct VoxeliseOptions {
 /// and vertices within 1e-9 spacings of a side of the box are moved onto it.
 class Voxeliser {
 public:
-    /// Holds a reference to the mesh. Memory: 8 bytes a face, and the crossings of the sections filled at a time.
-    Voxeliser(const Mesh& mesh, const VoxeliseOptions& options);
+    /// Holds a reference to the mesh. Memory: 8 bytes a face, 8 bytes a vertex, and the crossings of the sections
+    /// filled at a time. Faces are sorted on at most `threads` threads (0: one per core).
+    Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads = 1);
 
     /// Fills the labels of the next section, size[axes[0]] * size[axes[1]] samples with axes[0] fastest; kNoRegion
     /// outside all regions, or the first background label where there is one. False when all sections were handed out.
@@ -71,7 +72,14 @@ private:
         std::uint32_t end;  // of the sections that it may reach
     };
 
+    /// Sections: from the first one at or above, to before the first one above.
+    struct Sections {
+        std::uint32_t first, end;
+    };
+
     Vec3 place(VertexId v) const;
+    void find_sections(std::uint32_t threads);
+    Sections sections_of(FaceId f) const;
     void sort_faces();
     void activate(std::uint32_t first, std::uint32_t begin, std::uint32_t end);
     void label_section(std::uint32_t section, std::span<Label> labels, Scratch& scratch) const;
@@ -86,6 +94,7 @@ private:
     VoxeliseOptions options_;
     std::shared_ptr<const SampleLines> lines_;
     std::array<std::uint32_t, 3> size_;  // along the axes of the sweep
+    std::vector<Sections> sections_of_;  // by vertex
     std::vector<FaceId> order_;          // faces by the first section that they reach
     std::vector<std::uint32_t> start_;   // of the faces of each section in order_
     std::vector<ActiveFace> active_;     // faces that reach the sections in hand

@@ -1,5 +1,6 @@
 #include "regionmesh/census.h"
 
+#include "base/parallel_invoke.h"
 #include "cells/label_census.h"
 #include "volume/section_window.h"
 
@@ -23,12 +24,19 @@ Census count_labels(SectionReader& reader, const CensusOptions& options) {
         census.samples.resize(census.labels.size(), 0);
         for (Label label : section) ++census.samples[label];
     };
-    while (window.advance()) {
-        if (window.sections_read() == 2) add_samples(window.low());
-        add_samples(window.high());
+    const auto count = [&] {
         const std::uint64_t before = counter.face_count();
         counter.add(window.low(), window.high(), window.is_last());
         census.strip_faces.push_back(counter.face_count() - before);
+    };
+    bool is_more = window.advance();
+    if (is_more) {
+        add_samples(window.low());
+        add_samples(window.high());
+    }
+    while (is_more) {
+        parallel_invoke(options.threads, count, [&] { add_samples(window.read_ahead()); });
+        is_more = window.advance();
     }
     census.face_count = counter.face_count();
     census.oracle = counter.oracle();

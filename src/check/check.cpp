@@ -45,7 +45,7 @@ CheckReport check(const Mesh& mesh, const CheckOptions& options) {
     }
     check_nesting(mesh, options, tree ? &*tree : nullptr, findings);
     check_against_labels(options, report, findings);
-    report.lines = measure_lines(mesh);
+    report.lines = measure_lines(mesh, options.threads);
     findings.move_to(report);
     for (Violation& violation : report.violations) place_violation(mesh, violation);
     return report;

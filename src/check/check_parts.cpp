@@ -14,7 +14,7 @@ void PartsCheck::add(const Mesh& mesh, const MeshPart& part) {
     report_.quadruple_points_inside += own.quadruple_points_inside;
     check_places(mesh, options_, findings, &part);
     if (options_.crossing) check_crossing(mesh, options_, SortedFaceTree(mesh, options_.threads), findings, &part);
-    lines_.append(sum_lines(mesh, &part));
+    lines_.append(sum_lines(mesh, &part, options_.threads));
     CheckReport found;
     findings.move_to(found);
     for (Violation& violation : found.violations) {

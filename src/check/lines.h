@@ -21,8 +21,8 @@ struct LineTotals {
 };
 
 /// Of the vertices of a part, or of all.
-LineTotals sum_lines(const Mesh& mesh, const MeshPart* part);
+LineTotals sum_lines(const Mesh& mesh, const MeshPart* part, std::uint32_t threads);
 
-LineReport measure_lines(const Mesh& mesh);
+LineReport measure_lines(const Mesh& mesh, std::uint32_t threads);
 
 }  // namespace regionmesh

@@ -36,12 +36,13 @@ SampleLines lines_of(const VoxeliseOptions& options) {
 
 }  // namespace
 
-Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options)
+Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads)
     : mesh_(mesh), options_(options), lines_(std::make_shared<SampleLines>(lines_of(options))) {
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
     is_turned_ = !options.lattice.is_axis_aligned();
     const auto& d = options.lattice.direction;
     is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
+    find_sections(threads);
     sort_faces();
 }
 
@@ -77,21 +78,36 @@ std::uint32_t Voxeliser::end_at_or_below(int axis, double high) const {
     return static_cast<std::uint32_t>(std::clamp(at, 0.0, static_cast<double>(size_[axis])));
 }
 
+void Voxeliser::find_sections(std::uint32_t threads) {
+    constexpr std::uint32_t kVertices = 4096;  // of a task
+    const std::uint32_t end = mesh_.vertex_end();
+    sections_of_.resize(end);
+    parallel_for((end + kVertices - 1) / kVertices, threads, [&](std::uint32_t task) {
+        for (std::uint32_t v = task * kVertices; v < std::min(end, (task + 1) * kVertices); ++v) {
+            if (!mesh_.is_alive(VertexId{v})) continue;
+            const double z = place(VertexId{v}).z;
+            sections_of_[v] = {first_at_or_above(2, z), end_at_or_below(2, z)};
+        }
+    });
+}
+
+/// Those that the face may reach.
+Voxeliser::Sections Voxeliser::sections_of(FaceId f) const {
+    const auto& [a, b, c] = mesh_[f].vertices;
+    const Sections &at_a = sections_of_[index(a)], &at_b = sections_of_[index(b)], &at_c = sections_of_[index(c)];
+    return {std::min({at_a.first, at_b.first, at_c.first}), std::max({at_a.end, at_b.end, at_c.end})};
+}
+
 /// Counts faces by the first section that they may reach, then puts them in that order.
 void Voxeliser::sort_faces() {
-    const auto first_section = [&](FaceId f) {
-        double low = HUGE_VAL;
-        for (const VertexId v : mesh_[f].vertices) low = std::min(low, place(v).z);
-        return first_at_or_above(2, low);
-    };
     start_.assign(size_[2] + 2, 0);
     for (std::uint32_t f = 0; f < mesh_.face_end(); ++f)
-        if (mesh_.is_alive(FaceId{f})) ++start_[first_section(FaceId{f}) + 1];
+        if (mesh_.is_alive(FaceId{f})) ++start_[sections_of(FaceId{f}).first + 1];
     for (std::size_t n = 1; n < start_.size(); ++n) start_[n] += start_[n - 1];
     order_.resize(start_.back());
     std::vector<std::uint32_t> place_of(start_.begin(), start_.end());
     for (std::uint32_t f = 0; f < mesh_.face_end(); ++f)
-        if (mesh_.is_alive(FaceId{f})) order_[place_of[first_section(FaceId{f})]++] = FaceId{f};
+        if (mesh_.is_alive(FaceId{f})) order_[place_of[sections_of(FaceId{f}).first]++] = FaceId{f};
 }
 
 /// Adds the faces that begin at sections from `begin` to before `end`, and keeps those that may reach `first` or
@@ -99,9 +115,7 @@ void Voxeliser::sort_faces() {
 void Voxeliser::activate(std::uint32_t first, std::uint32_t begin, std::uint32_t end) {
     std::erase_if(active_, [&](const ActiveFace& active) { return active.end <= first; });
     for (std::uint32_t n = start_[begin]; n < start_[end]; ++n) {
-        double high = -HUGE_VAL;
-        for (const VertexId v : mesh_[order_[n]].vertices) high = std::max(high, place(v).z);
-        const std::uint32_t face_end = end_at_or_below(2, high);
+        const std::uint32_t face_end = sections_of(order_[n]).end;
         if (face_end > first) active_.push_back({order_[n], face_end});
     }
 }
@@ -258,7 +272,7 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
                                 SectionReader& reader, std::uint32_t threads) {
     constexpr std::uint32_t kMostSections = 4;  // in hand: each takes eight bytes a sample
     const VolumeInfo& info = reader.info();
-    Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background});
+    Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background}, threads);
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
     std::vector<InputLabel> input(samples);
     std::vector<ComparedSection> sections(threads == 0 ? kMostSections : 2 * std::min(threads, kMostSections / 2));

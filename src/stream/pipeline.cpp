@@ -169,9 +169,10 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
     if (options.threads != 1) ahead.emplace(reader);
-    SectionFaces source(ahead ? *ahead : reader,
-                        {.cap = options.cap, .background = options.background, .cells = cell_kind(options)},
-                        is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality, section_scale(reader.info(), options));
+    const CensusOptions census{
+        .cap = options.cap, .background = options.background, .cells = cell_kind(options), .threads = options.threads};
+    SectionFaces source(ahead ? *ahead : reader, census, is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality,
+                        section_scale(reader.info(), options));
     return reconstruct(source, options, on_progress, on_model);
 }
 

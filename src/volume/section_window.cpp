@@ -23,17 +23,31 @@ SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader
     high_.resize(samples);
 }
 
-bool SectionWindow::read() {
-    if (!reader_.next(input_)) return false;
+bool SectionWindow::move_up() {
+    if (!is_ahead_ && !reader_.next(input_)) return false;
     low_.swap(high_);
-    labels_.dense(input_, high_);
+    if (is_ahead_)
+        high_.swap(ahead_);
+    else
+        labels_.dense(input_, high_);
+    is_ahead_ = false;
     ++sections_read_;
     return true;
 }
 
 bool SectionWindow::advance() {
-    if (sections_read_ == 0 && !read()) return false;
-    return read();
+    if (sections_read_ == 0 && !move_up()) return false;
+    return move_up();
+}
+
+std::span<const Label> SectionWindow::read_ahead() {
+    if (!is_ahead_) {
+        if (is_last() || !reader_.next(input_)) return {};
+        ahead_.resize(input_.size());
+        labels_.dense(input_, ahead_);
+        is_ahead_ = true;
+    }
+    return ahead_;
 }
 
 }  // namespace regionmesh

@@ -17,19 +17,24 @@ public:
 
     /// Moves to the next strip; returns false at the end.
     bool advance();
+    /// Reads the section above high(), for the next advance(); empty at the end. Does not touch the strip, which
+    /// another thread may be reading.
+    std::span<const Label> read_ahead();
 
     std::span<const Label> low() const { return low_; }
     std::span<const Label> high() const { return high_; }
+    /// Up to high().
     std::uint32_t sections_read() const { return sections_read_; }
     bool is_last() const { return sections_read_ == reader_.section_count(); }
 
 private:
-    bool read();
+    bool move_up();
 
     SectionReader& reader_;
     LabelTable& labels_;
     std::vector<InputLabel> input_;
-    std::vector<Label> low_, high_;
+    std::vector<Label> low_, high_, ahead_;
+    bool is_ahead_ = false;  // ahead_ has a section
     std::uint32_t sections_read_ = 0;
 };
 

@@ -81,6 +81,20 @@ TEST(LabelCensus, counts_the_faces_that_are_made) {
         }
 }
 
+TEST(LabelCensus, counts_the_same_on_two_threads) {
+    for (test::ArrayVolume& volume : volumes()) {
+        const Census one = count_labels(volume, {});
+        volume.rewind();
+        const Census two = count_labels(volume, {.threads = 2});
+        EXPECT_EQ(one.samples, two.samples);
+        EXPECT_EQ(one.strip_faces, two.strip_faces);
+        EXPECT_EQ(one.face_count, two.face_count);
+        EXPECT_EQ(one.oracle.euler, two.oracle.euler);
+        EXPECT_EQ(one.oracle.region_pairs, two.oracle.region_pairs);
+        EXPECT_EQ(one.oracle.quadruple_points_inside, two.oracle.quadruple_points_inside);
+    }
+}
+
 TEST(LabelCensus, counts_the_samples_of_each_label) {
     test::TextVolume volume({{"112", "122"}, {"111", "113"}});
     const Census census = count_labels(volume, {.background = {}});

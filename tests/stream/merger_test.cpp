@@ -93,5 +93,25 @@ TEST(SectionWindow, hands_out_consecutive_sections_with_dense_labels) {
     EXPECT_EQ(labels.input(2), 9);
 }
 
+TEST(SectionWindow, reads_ahead_and_leaves_the_strip_as_it_is) {
+    const auto copy = [](std::span<const Label> section) { return std::vector(section.begin(), section.end()); };
+    test::TextVolume volume({{"77", "77"}, {"75", "77"}, {"99", "55"}});
+    LabelTable labels;
+    SectionWindow window(volume, labels);
+    ASSERT_TRUE(window.advance());
+    const std::vector<Label> low = copy(window.low()), high = copy(window.high());
+    EXPECT_EQ(copy(window.read_ahead()), (std::vector<Label>{2, 2, 1, 1}));
+    EXPECT_EQ(copy(window.read_ahead()), (std::vector<Label>{2, 2, 1, 1})) << "one section, however often asked";
+    EXPECT_EQ(copy(window.low()), low);
+    EXPECT_EQ(copy(window.high()), high);
+    EXPECT_FALSE(window.is_last());
+    ASSERT_TRUE(window.advance());
+    EXPECT_EQ(copy(window.low()), high);
+    EXPECT_EQ(copy(window.high()), (std::vector<Label>{2, 2, 1, 1}));
+    EXPECT_TRUE(window.is_last());
+    EXPECT_TRUE(window.read_ahead().empty());
+    EXPECT_FALSE(window.advance());
+}
+
 }  // namespace
 }  // namespace regionmesh
