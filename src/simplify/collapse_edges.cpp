@@ -123,7 +123,10 @@ private:
             if (2 * prepass.sweep(result_.verdicts) < kLeastSweepGain * before) break;
             pack();
         }
-        for (int n = 0; n < kMostSliverSweeps && prepass.remove_slivers(result_.verdicts) > 0; ++n) pack();
+        prepass.find_slivers(threads_);
+        for (int n = 0; n < kMostSliverSweeps && prepass.remove_slivers(result_.verdicts) > 0; ++n) {
+        }
+        pack();
     }
 
     /// When many faces are gone, the others are brought together, and their tree is built anew.

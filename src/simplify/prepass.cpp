@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "base/triangle.h"
 #include "mesh/strata.h"
 #include "simplify/tuning.h"
@@ -47,19 +48,40 @@ bool Prepass::may_go(VertexId v) const {
     return vertex.is_alive && !vertex.is_fixed && vertex.label_count <= 3;
 }
 
+void Prepass::find_slivers(std::uint32_t threads) {
+    constexpr std::uint32_t kFaces = 4096;  // of a task
+    slivers_.clear();
+    const auto find = [&](std::uint32_t first, std::uint32_t end) {
+        std::vector<FaceId> slivers;
+        for (std::uint32_t f = first; f < end; ++f)
+            if (mesh_.is_alive(FaceId{f}) && is_sliver(FaceId{f})) slivers.push_back(FaceId{f});
+        return slivers;
+    };
+    for_chunks(mesh_.face_end(), kFaces, threads, find, [&](const std::vector<FaceId>& slivers) {
+        slivers_.insert(slivers_.end(), slivers.begin(), slivers.end());
+    });
+}
+
+bool Prepass::is_sliver(FaceId f) const {
+    const double bound = collapse_.bounds.min_quality;
+    const auto p = mesh_.corners(f);
+    return quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
+}
+
 std::uint32_t Prepass::remove_slivers(VerdictCounts& verdicts) {
     ++sweep_;
     const double max_cost = std::exchange(max_cost_, std::min(options_.max_cost, kSliverShare * max_cost_));
-    const double bound = collapse_.bounds.min_quality, bound3 = bound * bound * bound;
     std::uint32_t removed = 0;
-    for (std::uint32_t f = 0; f < mesh_.face_end() && mesh_.face_count() > options_.target_faces; ++f) {
-        if (!mesh_.is_alive(FaceId{f})) continue;
-        const auto p = mesh_.corners(FaceId{f});
-        if (quality_terms(p[0], p[1], p[2]).cube() >= bound3) continue;
-        for (VertexId v : mesh_[FaceId{f}].vertices) {
-            if (!may_go(v) || !try_to_remove(v, verdicts)) continue;
-            ++removed;
-            break;
+    for (const FaceId f : slivers_) {
+        if (mesh_.face_count() <= options_.target_faces) break;
+        if (!mesh_.is_alive(f) || !is_sliver(f)) continue;
+        for (VertexId v : mesh_[f].vertices) {
+            if (!may_go(v)) continue;
+            if (try_to_remove(v, verdicts)) {
+                ++removed;
+                break;
+            }
+            seen_[index(v)] = kSettled;
         }
     }
     max_cost_ = max_cost;

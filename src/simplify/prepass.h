@@ -23,8 +23,10 @@ public:
 
     /// Returns the number of collapses, and adds the verdicts of all that were tried.
     std::uint32_t sweep(VerdictCounts& verdicts);
-    /// Removes vertices of faces below the quality bound, up to a larger cost, as long as there are more faces than the
-    /// target. Returns the number of collapses.
+    /// Finds the faces below the quality bound.
+    void find_slivers(std::uint32_t threads);
+    /// Removes vertices of the faces that find_slivers() found and that are still below the bound, up to a larger cost,
+    /// as long as there are more faces than the target. Returns the number of collapses. Ids must be as they were.
     std::uint32_t remove_slivers(VerdictCounts& verdicts);
 
 private:
@@ -33,6 +35,7 @@ private:
         double worst_quality3;
     };
 
+    bool is_sliver(FaceId f) const;
     bool may_go(VertexId v) const;
     bool try_to_remove(VertexId v, VerdictCounts& verdicts);
     void find_targets(VertexId v);
@@ -52,6 +55,7 @@ private:
     std::size_t end_count_ = 0;
     std::vector<HalfCost> costs_;  // of these
     std::vector<Target> targets_;
+    std::vector<FaceId> slivers_;
     std::vector<std::uint8_t> seen_;  // by vertex: the sweep in which its star changed, or kSettled
     std::uint8_t sweep_ = 0;
 };

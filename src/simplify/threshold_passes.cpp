@@ -163,14 +163,17 @@ PassResult simplify_below(Chunk& chunk, const TilePlan& plan, const PassOptions&
     return result;
 }
 
+bool is_worth_pass(std::uint64_t faces, const PassOptions& options) {
+    return faces >= std::uint64_t{kFewestTiles} * options.tile_faces &&
+           static_cast<double>(faces) > static_cast<double>(options.target_faces) * kWorthPass;
+}
+
 PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOptions& options) {
     PassResult result;
     const auto target = static_cast<double>(options.target_faces);
     std::optional<ThresholdSearch> search;
-    if (chunk.faces.size() < std::uint64_t{kFewestTiles} * options.tile_faces) return result;
-    for (int pass = 0; pass < kMostPasses; ++pass) {
+    for (int pass = 0; pass < kMostPasses && is_worth_pass(chunk.faces.size(), options); ++pass) {
         const std::size_t held = chunk.faces.size();
-        if (static_cast<double>(held) <= target * kWorthPass) break;
         const TileGrid grid = grid_of(plan, options, held, pass);
         TiledFaces faces(chunk, {}, grid, options.tiles.threads);
         TileOptions tiles = options.tiles;

@@ -24,10 +24,13 @@ struct PassResult {
 /// `options.tiles`, whose shares are those of the chunk as it comes. Walls lie elsewhere in each.
 PassResult simplify_below(Chunk& chunk, const TilePlan& plan, const PassOptions& options);
 
+/// False where the target is near already, or the mesh is small: ranked collapses over the whole mesh are faster then.
+bool is_worth_pass(std::uint64_t faces, const PassOptions& options);
+
 /// Simplifies the chunk of a whole mesh in passes; the walls of the tiles lie elsewhere in each pass, and elsewhere
 /// than those of the first stage. The threshold of a pass is searched for on a sample of its tiles. Ends a little above
-/// the target, which ranked collapses over the whole mesh then reach; makes no pass where the target is near already,
-/// or the mesh is small. Active vertices stay as they are. Depends on the chunk and the sizes in the plan only.
+/// the target, which ranked collapses over the whole mesh then reach. Makes no pass that is not worth it. Active
+/// vertices stay as they are. Depends on the chunk and the sizes in the plan only.
 PassResult simplify_in_passes(Chunk& chunk, const TilePlan& plan, const PassOptions& options);
 
 }  // namespace regionmesh

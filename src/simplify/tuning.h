@@ -68,7 +68,7 @@ inline constexpr double kLeastSweepLeft = 0.65, kLeastSweepGain = 0.02;
 inline constexpr int kMostSweeps = 16;
 
 /// Faces below the quality bound, as smoothing leaves them, go first: up to this multiple of the cost of the prepass.
-inline constexpr double kSliverShare = 30;
+inline constexpr double kSliverShare = 10;
 inline constexpr int kMostSliverSweeps = 3;
 
 /// Vertices with more faces are left to ranking. Of the neighbours that a vertex may go to, the best ones are tried.
@@ -98,8 +98,10 @@ inline constexpr double kTileThreshold = 3e-2;
 /// (106 thousand faces), and the AAL atlas 1.08 instead of 1.86 times the seconds of a tenth.
 inline constexpr double kTileMargin = 1.25, kFreeMargin = 1.02, kFreeFrom = 0.45;
 
-/// Collapses below this cost count as free.
-inline constexpr double kFreeCost = 1e-6;
+/// Collapses below this cost count as free. Where nothing else may be collapsed, and less than kLeastFreeGain of the
+/// first kFreeTrialFaces faces or more went, the first stage ends: of a smoothed head 2 % went, in a fifth of the time.
+inline constexpr double kFreeCost = 1e-6, kLeastFreeGain = 0.05;
+inline constexpr std::uint64_t kFreeTrialFaces = 1u << 16;
 
 /// Faces are assigned to tiles in parts, on all threads: each has at least kPartFaces faces, and there are at most
 /// kMostParts, since each part counts its faces tile by tile.
@@ -133,7 +135,7 @@ inline constexpr std::uint32_t kFewestTiles = 6, kPartsInFlight = 6, kFacesInFli
 
 /// A pass aims at kPassMargin times the target, and is made while the mesh has more than kWorthPass times the target.
 /// The pass that removes less than kLeastPassGain of the faces is the last.
-inline constexpr double kPassMargin = 1.03, kWorthPass = 1.1, kLeastPassGain = 0.02;
+inline constexpr double kPassMargin = 1.03, kWorthPass = 1.15, kLeastPassGain = 0.02;
 inline constexpr int kMostPasses = 3;
 
 /// Search: 1 tile in kSampledTiles. The share left is noted at thresholds from kFirstThreshold, which is where the

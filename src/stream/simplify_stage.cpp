@@ -98,10 +98,11 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
                                    .in_flight = budget_.in_flight,
                                    .simplify = simplify_options(options_, shape_),
                                    .on_share = on_share};
+    const PassOptions passes{.target_faces = goal, .safe = {.high = safe_high}, .tiles = tile_options};
+    if (!is_worth_pass(mesh_.face_count(), passes)) return;
     log_.note_bytes(mesh_.face_count(), take_chunk_bytes(mesh_.vertex_end(), mesh_.face_end()));
     Chunk whole = merger_.take_apart();
     give_back_freed_memory();
-    const PassOptions passes{.target_faces = goal, .safe = {.high = safe_high}, .tiles = tile_options};
     log_.add(simplify_in_passes(whole, plan_.tiles, passes).verdicts);
     merger_.add(whole);
     give_back_freed_memory();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simplify/tuning.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {
@@ -21,14 +22,22 @@ TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const 
 
 void TileStage::run(GatheredStrips& gathered) {
     if (!is_on_) return;
+    if (has_few_free()) return log_.note_strips_through(WorkStage::kTiles, gathered.end);
     tile_options_.on_share = [&](double share) {
         log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gathered.end - strips_done_));
     };
     tile_options_.faces_in_flight = static_cast<std::uint64_t>(
         std::ceil(plan_.budget.share_in_flight * static_cast<double>(gathered.chunk.faces.size())));
     const StageTimer timer = log_.time("decimate tiles");
+    given_ += gathered.chunk.faces.size();
     log_.add(simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, tile_options_));
+    left_ += gathered.chunk.faces.size();
     strips_done_ = gathered.end;
+}
+
+bool TileStage::has_few_free() const {
+    return tile_options_.keep_share >= 1 && given_ >= kFreeTrialFaces &&
+           static_cast<double>(left_) > (1 - kLeastFreeGain) * static_cast<double>(given_);
 }
 
 }  // namespace regionmesh

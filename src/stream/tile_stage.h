@@ -12,14 +12,18 @@ public:
 
     /// Whether run() does anything.
     bool is_on() const { return is_on_; }
-    /// Decimates the chunk, up to a fixed cost, and never below what the target leaves.
+    /// Decimates the chunk, up to a fixed cost, and never below what the target leaves. Where the target allows only
+    /// collapses at zero cost, and chunks so far had few, does nothing: the trim makes those few in less time.
     void run(GatheredStrips& gathered);
 
 private:
+    bool has_few_free() const;
+
     const Plan& plan_;
     TileOptions tile_options_;
     RunLog& log_;
     std::uint32_t strips_done_ = 0;
+    std::uint64_t given_ = 0, left_ = 0;  // faces of the chunks so far
     bool is_on_;
 };
 

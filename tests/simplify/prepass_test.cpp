@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/triangle.h"
 #include "mesh/strata.h"
 #include "support/digest.h"
 #include "support/runs.h"
@@ -17,7 +18,9 @@ struct Swept {
     std::uint32_t removed = 0;
 };
 
-Swept sweep(Mesh& mesh, int sweeps, double max_cost = 1e-3, const SimplifyOptions& options = {}) {
+/// Calls work(prepass) with all that a prepass needs.
+template <class Work>
+void with_prepass(Mesh& mesh, double max_cost, const SimplifyOptions& options, Work&& work) {
     count_labels(mesh);
     FaceTree tree(mesh);
     const std::unique_ptr<Placement> placement = make_placement(mesh, options);
@@ -25,8 +28,14 @@ Swept sweep(Mesh& mesh, int sweeps, double max_cost = 1e-3, const SimplifyOption
                       .tree = options.intersect_check ? &tree : nullptr,
                       .bounds = {.min_quality = options.min_quality}};
     Prepass prepass(mesh, *placement, collapse, options, max_cost);
+    work(prepass);
+}
+
+Swept sweep(Mesh& mesh, int sweeps, double max_cost = 1e-3, const SimplifyOptions& options = {}) {
     Swept done;
-    for (int n = 0; n < sweeps; ++n) done.removed += prepass.sweep(done.verdicts);
+    with_prepass(mesh, max_cost, options, [&](Prepass& prepass) {
+        for (int n = 0; n < sweeps; ++n) done.removed += prepass.sweep(done.verdicts);
+    });
     return done;
 }
 
@@ -114,6 +123,36 @@ TEST(Prepass, a_sweep_touches_no_star_twice) {
     Mesh mesh = run(test::solid_volume({12, 12, 12})).mesh;
     const std::uint32_t before = mesh.vertex_count();
     EXPECT_LT(sweep(mesh, 1, 1e-3).removed, before / 3);
+}
+
+std::uint32_t faces_below(const Mesh& mesh, double quality) {
+    std::uint32_t count = 0;
+    test::for_faces(mesh, [&](FaceId f) {
+        const auto [a, b, c] = mesh.corners(f);
+        count += face_quality(a, b, c) < quality;
+    });
+    return count;
+}
+
+TEST(Prepass, removes_slivers_and_tries_no_vertex_twice_in_vain) {
+    ReconstructOptions smoothed = test::plain();
+    smoothed.smooth = {.filter = SmoothFilter::kLattice, .passes = 20};
+    Mesh mesh = run(test::noise_volume({14, 14, 14}, 3, 6), smoothed).mesh;
+    constexpr double kBound = 0.1;
+    const std::uint32_t before = faces_below(mesh, kBound);
+    with_prepass(mesh, 1e-2, {.min_quality = kBound}, [&](Prepass& prepass) {
+        prepass.find_slivers(2);
+        VerdictCounts verdicts{};
+        std::uint32_t removed = 0;
+        while (const std::uint32_t now = prepass.remove_slivers(verdicts)) removed += now;
+        EXPECT_GT(removed, 0u);
+        EXPECT_LT(faces_below(mesh, kBound), before);
+        const VerdictCounts tried = verdicts;
+        EXPECT_EQ(prepass.remove_slivers(verdicts), 0u);
+        EXPECT_EQ(verdicts, tried);
+        EXPECT_GT(faces_below(mesh, kBound), 0u) << "nothing was left to try";
+    });
+    test::expect_sound(check(mesh));
 }
 
 }  // namespace

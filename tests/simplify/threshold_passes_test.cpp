@@ -86,9 +86,12 @@ TEST(ThresholdPasses, leaves_small_models_and_those_near_the_goal_to_the_heap) {
     Chunk batch = whole(volume);
     const std::size_t faces = batch.faces.size();
     EXPECT_EQ(simplify_in_passes(batch, plan_of(volume), to(faces * 97 / 100)).passes, 0u);
+    EXPECT_FALSE(is_worth_pass(faces, to(faces * 97 / 100)));
+    EXPECT_TRUE(is_worth_pass(faces, to(faces / 10)));
     PassOptions large = to(faces / 10);
     large.tile_faces = static_cast<std::uint32_t>(faces);
     EXPECT_EQ(simplify_in_passes(batch, plan_of(volume), large).passes, 0u);
+    EXPECT_FALSE(is_worth_pass(faces, large));
     EXPECT_EQ(batch.faces.size(), faces);
 }
 
