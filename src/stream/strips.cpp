@@ -1,5 +1,8 @@
 #include "stream/strips.h"
 
+#include <utility>
+
+#include "base/parallel_invoke.h"
 #include "cells/compact_cells.h"
 
 namespace regionmesh {
@@ -25,7 +28,7 @@ std::uint32_t window_strips(const SmoothOptions& options, const ChunkOrder& orde
 }
 
 Strips::Strips(FaceSource& source, const SmoothOptions& options, const ChunkOrder& order, RunLog& log)
-    : source_(source), log_(log) {
+    : source_(source), log_(log), threads_(options.threads) {
     if (options.passes > 0) smoother_ = make_chunk_smoother(options, order);
 }
 
@@ -51,16 +54,27 @@ bool Strips::mesh_next(Chunk& strip) {
     return true;
 }
 
-/// Feeds the smoother until a strip comes out.
+/// Feeds the smoother until a strip comes out. The faces of the next strip are made while one is added.
 bool Strips::smooth_next(Chunk& strip) {
     for (;;) {
         {
             const StageTimer timer = log_.time("smooth");
             if (smoother_->next(strip)) return true;
         }
-        if (!mesh_next(strip)) return false;
-        const StageTimer timer = log_.time("smooth");
-        if (!smoother_->add(strip, source_.is_last(), source_.low_of(source_.strips_read()))) return false;
+        if (std::exchange(is_ahead_, false))
+            std::swap(strip, ahead_);
+        else if (!mesh_next(strip))
+            return false;
+        const bool is_last = source_.is_last();
+        const double next_low = source_.low_of(source_.strips_read());
+        bool is_added = false;
+        parallel_invoke(
+            threads_, [&] { is_ahead_ = !is_last && mesh_next(ahead_); },
+            [&] {
+                const StageTimer timer = log_.time("smooth");
+                is_added = smoother_->add(strip, is_last, next_low);
+            });
+        if (!is_added) return false;
     }
 }
 

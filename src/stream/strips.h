@@ -43,8 +43,11 @@ private:
 
     FaceSource& source_;
     RunLog& log_;
+    std::uint32_t threads_;
     std::unique_ptr<ChunkSmoother> smoother_;
     std::uint32_t count_ = 0;
+    Chunk ahead_;  // the strip after the one that the smoother was given last
+    bool is_ahead_ = false;
 };
 
 }  // namespace regionmesh
