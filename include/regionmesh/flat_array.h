@@ -64,6 +64,11 @@ public:
         for (std::uint32_t i = size_; i < size; ++i) data_[i] = value;
         size_ = size;
     }
+    /// New elements have no value yet.
+    void resize_for_overwrite(std::uint32_t size) {
+        reserve(size);
+        size_ = size;
+    }
     /// Releases the unused end if it is larger than half of the used part: pages that were touched stay resident
     /// otherwise.
     void trim() {

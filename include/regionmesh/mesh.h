@@ -113,8 +113,8 @@ public:
 
     /// Renumbers vertices and faces along a Morton curve, without free places, so that neighbours in space are
     /// neighbours in memory. The result does not depend on the order before. Returns the new id of each old vertex
-    /// (kNoVertex for free places). Needs memory for a second copy.
-    std::vector<VertexId> sort_spatially();
+    /// (kNoVertex for free places). Needs memory for a second copy. On at most `threads` threads (0: one per core).
+    std::vector<VertexId> sort_spatially(std::uint32_t threads = 1);
     /// Renumbers vertices and faces without free places, keeping their order: afterwards ids are the numbers of points
     /// and faces in written files and exported arrays.
     void compact();
@@ -139,8 +139,8 @@ public:
 private:
     void unlink(VertexId v, Corner corner);
     void link(FaceId f);
-    std::vector<KeyedIndex> vertices_along_curve() const;
-    std::vector<KeyedIndex> faces_along_curve() const;
+    std::vector<KeyedIndex> vertices_along_curve(std::uint32_t threads) const;
+    std::vector<KeyedIndex> faces_along_curve(std::uint32_t threads) const;
 
     FlatArray<Vertex> vertices_;
     FlatArray<Face> faces_;

@@ -14,6 +14,15 @@ namespace regionmesh {
 /// calls do not share mutable data. Rethrows the exception of a call, or Stopped (regionmesh/stop.h).
 void parallel_for(std::uint32_t count, std::uint32_t threads, const std::function<void(std::uint32_t)>& work);
 
+/// The same for calls that take little time: `chunk` of them, one after the other, are the work of a thread at a time.
+template <class Work>
+void for_each_index(std::uint32_t size, std::uint32_t chunk, std::uint32_t threads, Work&& work) {
+    parallel_for(size / chunk + (size % chunk != 0), threads, [&](std::uint32_t n) {
+        const std::uint32_t first = n * chunk, end = first + std::min(chunk, size - first);
+        for (std::uint32_t i = first; i < end; ++i) work(i);
+    });
+}
+
 /// Calls find(first, end) for the chunks of [0, size) on several threads, and append(result) for each result in order
 /// of the chunks. So the outcome does not depend on the threads, not even in the rounding of a sum. Holds the results
 /// of a few hundred chunks at a time.

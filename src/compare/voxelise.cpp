@@ -80,14 +80,11 @@ std::uint32_t Voxeliser::end_at_or_below(int axis, double high) const {
 
 void Voxeliser::find_sections(std::uint32_t threads) {
     constexpr std::uint32_t kVertices = 4096;  // of a task
-    const std::uint32_t end = mesh_.vertex_end();
-    sections_of_.resize(end);
-    parallel_for((end + kVertices - 1) / kVertices, threads, [&](std::uint32_t task) {
-        for (std::uint32_t v = task * kVertices; v < std::min(end, (task + 1) * kVertices); ++v) {
-            if (!mesh_.is_alive(VertexId{v})) continue;
-            const double z = place(VertexId{v}).z;
-            sections_of_[v] = {first_at_or_above(2, z), end_at_or_below(2, z)};
-        }
+    sections_of_.resize(mesh_.vertex_end());
+    for_each_index(mesh_.vertex_end(), kVertices, threads, [&](std::uint32_t v) {
+        if (!mesh_.is_alive(VertexId{v})) return;
+        const double z = place(VertexId{v}).z;
+        sections_of_[v] = {first_at_or_above(2, z), end_at_or_below(2, z)};
     });
 }
 

@@ -33,13 +33,11 @@ void GridTree::start(std::uint32_t count, const Box& extent) {
 void GridTree::build_upper(std::uint32_t threads) {
     for (std::size_t level = 1; level < levels_.size(); ++level) {
         const Level &below = levels_[level - 1], &own = levels_[level];
-        parallel_for(own.size / kBuildGroups + 1, threads, [&](std::uint32_t task) {
-            for (std::uint32_t g = task * kBuildGroups; g < std::min(own.size, (task + 1) * kBuildGroups); ++g) {
-                Boxes boxes = Boxes::none();
-                for (std::uint32_t child = g * kFan; child < std::min(below.size, (g + 1) * kFan); ++child)
-                    boxes.put(child % kFan, below[child].hull());
-                own[g] = boxes;
-            }
+        for_each_index(own.size, kBuildGroups, threads, [&](std::uint32_t g) {
+            Boxes boxes = Boxes::none();
+            for (std::uint32_t child = g * kFan; child < std::min(below.size, (g + 1) * kFan); ++child)
+                boxes.put(child % kFan, below[child].hull());
+            own[g] = boxes;
         });
     }
 }

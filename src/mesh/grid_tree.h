@@ -143,16 +143,13 @@ private:
 template <class BoxOf>
 void GridTree::build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of) {
     start(count, extent);
-    const std::uint32_t groups = levels_[0].size;
-    parallel_for(groups / kBuildGroups + 1, threads, [&](std::uint32_t task) {
-        for (std::uint32_t g = task * kBuildGroups; g < std::min(groups, (task + 1) * kBuildGroups); ++g) {
-            Boxes boxes = Boxes::none();
-            for (std::uint32_t place = g * kFan; place < std::min(count, (g + 1) * kFan); ++place) {
-                const Box box = box_of(place);
-                if (!box.is_empty()) boxes.put(place % kFan, outward(box));
-            }
-            levels_[0][g] = boxes;
+    for_each_index(levels_[0].size, kBuildGroups, threads, [&](std::uint32_t g) {
+        Boxes boxes = Boxes::none();
+        for (std::uint32_t place = g * kFan; place < std::min(count, (g + 1) * kFan); ++place) {
+            const Box box = box_of(place);
+            if (!box.is_empty()) boxes.put(place % kFan, outward(box));
         }
+        levels_[0][g] = boxes;
     });
     build_upper(threads);
 }

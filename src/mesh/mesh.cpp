@@ -1,8 +1,10 @@
 #include "regionmesh/mesh.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "base/radix_sort.h"
 #include "mesh/morton_curve.h"
 #include "regionmesh/limits.h"
@@ -10,10 +12,12 @@
 namespace regionmesh {
 namespace {
 
+constexpr std::uint32_t kChunk = 1u << 14;  // vertices or faces of a task
+
 /// Sorts runs of items with equal keys by rank(index), so that the result does not depend on the order of input. Most
 /// runs have two or three items.
 template <class Rank>
-void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
+void sort_runs(std::span<KeyedIndex> items, Rank&& rank) {
     constexpr std::ptrdiff_t kFew = 16;
     const auto is_before = [&](const KeyedIndex& a, const KeyedIndex& b) {
         const auto of_a = rank(a.index), of_b = rank(b.index);
@@ -29,6 +33,21 @@ void sort_runs(std::vector<KeyedIndex>& items, Rank&& rank) {
                 for (auto at = next; at != first && is_before(*at, *(at - 1)); --at) std::swap(*at, *(at - 1));
         first = end;
     }
+}
+
+/// By key, and by rank(index) where keys are equal.
+template <class Rank>
+void sort_by_key(std::vector<KeyedIndex>& items, std::uint32_t threads, Rank&& rank) {
+    radix_sort(items, threads);
+    std::vector<std::size_t> starts{0};  // of parts that hold whole runs
+    while (starts.back() < items.size()) {
+        std::size_t at = std::min(starts.back() + kChunk, items.size());
+        while (at < items.size() && items[at].key == items[at - 1].key) ++at;
+        starts.push_back(at);
+    }
+    parallel_for(static_cast<std::uint32_t>(starts.size() - 1), threads, [&](std::uint32_t n) {
+        sort_runs(std::span(items).subspan(starts[n], starts[n + 1] - starts[n]), rank);
+    });
 }
 
 }  // namespace
@@ -141,7 +160,7 @@ void Mesh::flip_faces() {
         if (vertex.is_alive) turn(vertex.star);
 }
 
-std::vector<KeyedIndex> Mesh::vertices_along_curve() const {
+std::vector<KeyedIndex> Mesh::vertices_along_curve(std::uint32_t threads) const {
     Box box;
     for (const Vertex& vertex : vertices_)
         if (vertex.is_alive) box.add(vertex.position);
@@ -149,9 +168,10 @@ std::vector<KeyedIndex> Mesh::vertices_along_curve() const {
     std::vector<KeyedIndex> order;
     order.reserve(vertex_count_);
     for (std::uint32_t v = 0; v < vertices_.size(); ++v)
-        if (vertices_[v].is_alive) order.push_back({curve(vertices_[v].position), v});
-    radix_sort(order);
-    sort_runs(order, [&](std::uint32_t v) {
+        if (vertices_[v].is_alive) order.push_back({0, v});
+    for_each_index(vertex_count_, kChunk, threads,
+                   [&](std::uint32_t n) { order[n].key = curve(vertices_[order[n].index].position); });
+    sort_by_key(order, threads, [&](std::uint32_t v) {
         const Vec3 p = vertices_[v].position;
         return std::array{p.x, p.y, p.z};
     });
@@ -159,16 +179,15 @@ std::vector<KeyedIndex> Mesh::vertices_along_curve() const {
 }
 
 /// Sorts by the first of the vertices, which are already numbered along the curve, then by the others.
-std::vector<KeyedIndex> Mesh::faces_along_curve() const {
+std::vector<KeyedIndex> Mesh::faces_along_curve(std::uint32_t threads) const {
     std::vector<KeyedIndex> order;
     order.reserve(face_count_);
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
         if (is_alive(FaceId{f}))
             order.push_back({index(*std::min_element(faces_[f].vertices.begin(), faces_[f].vertices.end())), f});
-    radix_sort(order);
     // All faces of a run have the same lowest vertex.
     const auto both = [](std::uint32_t first, std::uint32_t second) { return std::uint64_t{first} << 32 | second; };
-    sort_runs(order, [&](std::uint32_t f) {
+    sort_by_key(order, threads, [&](std::uint32_t f) {
         const auto& [a, b, c] = faces_[f].vertices;
         const auto [low, high] = std::minmax({index(a), index(b), index(c)});
         const std::uint32_t middle = index(a) ^ index(b) ^ index(c) ^ low ^ high;
@@ -177,26 +196,30 @@ std::vector<KeyedIndex> Mesh::faces_along_curve() const {
     return order;
 }
 
-std::vector<VertexId> Mesh::sort_spatially() {
+std::vector<VertexId> Mesh::sort_spatially(std::uint32_t threads) {
     std::vector<VertexId> renumbered(vertices_.size(), kNoVertex);
     {
+        const std::vector<KeyedIndex> order = vertices_along_curve(threads);
         FlatArray<Vertex> sorted;
         sorted.reserve(vertices_.size());
-        for (const KeyedIndex& item : vertices_along_curve()) {
-            renumbered[item.index] = VertexId{sorted.size()};
-            sorted.push_back(vertices_[item.index]);
-        }
-        for (Vertex& vertex : sorted) vertex.star = kNoCorner;
+        sorted.resize_for_overwrite(vertex_count_);
+        for_each_index(vertex_count_, kChunk, threads, [&](std::uint32_t n) {
+            renumbered[order[n].index] = VertexId{n};
+            sorted[n] = vertices_[order[n].index];
+            sorted[n].star = kNoCorner;
+        });
         vertices_ = std::move(sorted);
         free_vertex_ = kNoCorner;
     }
-    for (Face& face : faces_) {
-        if (face.vertices[0] == kNoVertex) continue;
-        for (VertexId& v : face.vertices) v = renumbered[index(v)];
-    }
+    for_each_index(faces_.size(), kChunk, threads, [&](std::uint32_t f) {
+        if (!is_alive(FaceId{f})) return;
+        for (VertexId& v : faces_[f].vertices) v = renumbered[index(v)];
+    });
+    const std::vector<KeyedIndex> order = faces_along_curve(threads);
     FlatArray<Face> sorted;
     sorted.reserve(faces_.size());
-    for (const KeyedIndex& item : faces_along_curve()) sorted.push_back(faces_[item.index]);
+    sorted.resize_for_overwrite(face_count_);
+    for_each_index(face_count_, kChunk, threads, [&](std::uint32_t n) { sorted[n] = faces_[order[n].index]; });
     faces_ = std::move(sorted);
     free_face_ = kNoCorner;
     for (std::uint32_t f = 0; f < faces_.size(); ++f) link(FaceId{f});

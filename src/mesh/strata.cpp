@@ -50,18 +50,15 @@ LabelSet edge_labels(const Mesh& mesh, VertexId u, VertexId v) {
 
 void count_labels(Mesh& mesh, std::uint32_t threads) {
     constexpr std::uint32_t kVertices = 4096;  // of a task
-    const std::uint32_t end = mesh.vertex_end();
-    parallel_for((end + kVertices - 1) / kVertices, threads, [&](std::uint32_t task) {
-        for (std::uint32_t v = task * kVertices; v < std::min(end, (task + 1) * kVertices); ++v) {
-            Vertex& vertex = mesh[VertexId{v}];
-            if (!vertex.is_alive || vertex.star == kNoCorner) continue;
-            const auto& first = mesh[FaceId{vertex.star >> 2}].labels;
-            bool is_interface = vertex.sides == 0 && first[0] != first[1];  // true for most vertices
-            for (Corner c = vertex.star; c != kNoCorner && is_interface; c = mesh[FaceId{c >> 2}].next[c & 3])
-                is_interface = mesh[FaceId{c >> 2}].has_labels(first);
-            const int count = is_interface ? 2 : vertex_labels(mesh, VertexId{v}).size();
-            vertex.label_count = static_cast<std::uint8_t>(count & 31);
-        }
+    for_each_index(mesh.vertex_end(), kVertices, threads, [&](std::uint32_t v) {
+        Vertex& vertex = mesh[VertexId{v}];
+        if (!vertex.is_alive || vertex.star == kNoCorner) return;
+        const auto& first = mesh[FaceId{vertex.star >> 2}].labels;
+        bool is_interface = vertex.sides == 0 && first[0] != first[1];  // true for most vertices
+        for (Corner c = vertex.star; c != kNoCorner && is_interface; c = mesh[FaceId{c >> 2}].next[c & 3])
+            is_interface = mesh[FaceId{c >> 2}].has_labels(first);
+        const int count = is_interface ? 2 : vertex_labels(mesh, VertexId{v}).size();
+        vertex.label_count = static_cast<std::uint8_t>(count & 31);
     });
 }
 

@@ -66,7 +66,7 @@ SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
     SimplifyResult result;
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].set_error_bound(0);
     if (mesh.face_count() > options.target_faces) simplify_by_tiles(mesh, options, result);
-    mesh.sort_spatially();
+    mesh.sort_spatially(options.threads);
     const std::size_t mesh_bytes = mesh.bytes();
     const CollapseResult done = collapse_edges(mesh, options, {.threads = options.threads});
     add(result.verdicts, done.verdicts);

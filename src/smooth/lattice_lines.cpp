@@ -253,11 +253,8 @@ void LatticeLines::sweep(std::uint32_t number, std::uint32_t chunk, std::uint32_
     if (begin == end) return;
     const Unsigned4* before = &at_[number % 2][first];
     Unsigned4* after = &at_[1 - number % 2][first];
-    parallel_for((end - begin + kTask - 1) / kTask, threads, [&](std::uint32_t task) {
-        const std::uint32_t task_end = std::min(end, begin + (task + 1) * kTask);
-        for (std::uint32_t n = begin + task * kTask; n < task_end; ++n)
-            fours_[n].sweep(before, first, after + (4 * n - first));
-    });
+    for_each_index(end - begin, kTask, threads,
+                   [&](std::uint32_t n) { fours_[begin + n].sweep(before, first, after + (4 * (begin + n) - first)); });
 }
 
 Vec3 LatticeLines::position(std::uint32_t node) const {

@@ -177,13 +177,11 @@ void LatticeSmoother::place(std::uint32_t chunk) {
     }
     weights_.grow(next.weight);
     const auto count = static_cast<std::uint32_t>(vertices.size());
-    parallel_for((count + kTask - 1) / kTask, options_.threads, [&](std::uint32_t task) {
-        for (std::uint32_t v = task * kTask; v < std::min(count, (task + 1) * kTask); ++v) {
-            const LatticeSimplex& simplex = vertices[v].simplex;
-            if (LatticeLines::has(simplex) || LatticeSites::count_of(simplex) == 0) continue;
-            const double weight = weight_on_edge(simplex.kind, places[v].site);
-            weights_[places[v].weight] = rounded({1 - weight, weight, 0, 0}, 2)[0];
-        }
+    for_each_index(count, kTask, options_.threads, [&](std::uint32_t v) {
+        const LatticeSimplex& simplex = vertices[v].simplex;
+        if (LatticeLines::has(simplex) || LatticeSites::count_of(simplex) == 0) return;
+        const double weight = weight_on_edge(simplex.kind, places[v].site);
+        weights_[places[v].weight] = rounded({1 - weight, weight, 0, 0}, 2)[0];
     });
     for (std::uint32_t v = 0; v < count; ++v)
         if (LatticeLines::has(vertices[v].simplex)) place_on_line(vertices[v].simplex, places[v].site);

@@ -43,7 +43,7 @@ void SimplifyStage::keep_within_budget(double safe_high) {
     raise_threshold(goal, safe_high);
     stopped_ = StopReason::kTarget;
     if (mesh_.face_count() > room) {
-        merger_.renumber(mesh_.sort_spatially());
+        merger_.renumber(mesh_.sort_spatially(options_.threads));
         give_back_freed_memory();
         trim(goal, safe_high, false);
         give_back_freed_memory();
@@ -74,7 +74,7 @@ void SimplifyStage::bring_to_target() {
     const std::uint64_t goal = plan_.target.of(log_.report().initial_faces);
     raise_threshold(goal, HUGE_VAL);
     log_.advance(WorkStage::kPasses, 1);
-    mesh_.sort_spatially();
+    mesh_.sort_spatially(options_.threads);
     trim(goal, HUGE_VAL, true);
     log_.report().stopped = to_string(stopped_);
     log_.report().error_bound = largest_error_bound(mesh_);

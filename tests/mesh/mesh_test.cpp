@@ -147,6 +147,18 @@ TEST(Mesh, sort_spatially_does_not_depend_on_the_order_before) {
     EXPECT_EQ(test::digest(mesh), once);
 }
 
+TEST(Mesh, sort_spatially_gives_the_same_mesh_on_several_threads) {
+    const auto model = [] { return test::run(test::noise_volume({30, 30, 30}, 3, 1)).mesh; };
+    Mesh once = model();
+    ASSERT_GT(once.vertex_count(), 2u << 14) << "several tasks";
+    const std::vector<VertexId> renumbered = once.sort_spatially(1);
+    for (const std::uint32_t threads : {2u, 3u}) {
+        Mesh mesh = model();
+        EXPECT_EQ(mesh.sort_spatially(threads), renumbered);
+        EXPECT_EQ(test::digest(mesh), test::digest(once));
+    }
+}
+
 TEST(Mesh, compact_faces_keeps_order_and_surface) {
     Mesh mesh = grains();
     for (std::uint32_t f = 0; f < mesh.face_end(); f += 2) mesh.remove_face(FaceId{f});
