@@ -20,15 +20,15 @@ void parallel_for(std::uint32_t count, std::uint32_t threads, const std::functio
     }
     TaskOrder begun, ended;
     begun.happened();
+    const ComesFirstAtEnd joined(ended);
     arena_of(threads).execute([&] {
         oneapi::tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t n) {
             begun.comes_first();
+            const HappenedAtEnd end(ended);
             throw_if(stop);
             work(n);
-            ended.happened();
         });
     });
-    ended.comes_first();
 }
 
 }  // namespace regionmesh

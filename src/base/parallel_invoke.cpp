@@ -21,20 +21,20 @@ void parallel_invoke(std::uint32_t threads, const std::function<void()>& other, 
     const std::atomic<bool>* stop = stop_of_this_thread();
     TaskOrder begun, ended;
     begun.happened();
+    const ComesFirstAtEnd joined(ended);
     arena_of(threads).execute([&] {
         tbb::task_group group;
         group.run([&] {
             begun.comes_first();
+            const HappenedAtEnd end(ended);
             std::optional<StopScope> scope;
             if (stop != nullptr) scope.emplace(*stop);
             other();
-            ended.happened();
         });
         // In the loops of own(), this thread does not start other().
         tbb::this_task_arena::isolate(own);
         group.wait();
     });
-    ended.comes_first();
 }
 
 }  // namespace regionmesh

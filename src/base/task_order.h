@@ -23,4 +23,28 @@ private:
 #endif
 };
 
+/// Declares happened() where its scope ends, by an exception, too.
+class HappenedAtEnd {
+public:
+    explicit HappenedAtEnd(TaskOrder& order) : order_(order) {}
+    HappenedAtEnd(const HappenedAtEnd&) = delete;
+    HappenedAtEnd& operator=(const HappenedAtEnd&) = delete;
+    ~HappenedAtEnd() { order_.happened(); }
+
+private:
+    TaskOrder& order_;
+};
+
+/// The same for comes_first().
+class ComesFirstAtEnd {
+public:
+    explicit ComesFirstAtEnd(TaskOrder& order) : order_(order) {}
+    ComesFirstAtEnd(const ComesFirstAtEnd&) = delete;
+    ComesFirstAtEnd& operator=(const ComesFirstAtEnd&) = delete;
+    ~ComesFirstAtEnd() { order_.comes_first(); }
+
+private:
+    TaskOrder& order_;
+};
+
 }  // namespace regionmesh
