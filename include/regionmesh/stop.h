@@ -13,7 +13,8 @@ struct Stopped {};
 /// the stopped function was to change is left in an unknown state. Scopes nest; the inner one counts.
 class StopScope {
 public:
-    explicit StopScope(const std::atomic<bool>& stop);
+    explicit StopScope(const std::atomic<bool>& stop) : StopScope(&stop) {}
+    explicit StopScope(const std::atomic<bool>* stop);  // null: nothing stops them
     ~StopScope();
     StopScope(const StopScope&) = delete;
     StopScope& operator=(const StopScope&) = delete;

@@ -26,6 +26,7 @@ void parallel_for(std::uint32_t count, std::uint32_t threads, const std::functio
             begun.comes_first();
             const HappenedAtEnd end(ended);
             throw_if(stop);
+            const StopScope scope(stop);
             work(n);
         });
     });

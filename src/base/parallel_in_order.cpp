@@ -26,7 +26,7 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
     // Items begin and finish in order, so those in flight are consecutive and n modulo in_flight is a place of their
     // own.
     std::uint32_t next = 0;
-    TaskOrder begun, finished;
+    TaskOrder begun, finished, ended;
     std::vector<TaskOrder> places(in_flight);  // of an item: its work, then its end, then the next item there
     begun.happened();
     const auto begin = tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order,
@@ -40,20 +40,21 @@ void parallel_in_order(std::uint32_t count, std::uint32_t in_flight, std::uint32
     const auto work = tbb::make_filter<std::uint32_t, std::uint32_t>(tbb::filter_mode::parallel, [&](std::uint32_t n) {
         begun.comes_first();
         places[n % in_flight].comes_first();
+        const HappenedAtEnd end(ended), worked(places[n % in_flight]);
         throw_if(stop);
+        const StopScope scope(stop);
         calls.work(n, n % in_flight);
-        places[n % in_flight].happened();
         return n;
     });
     const auto finish = tbb::make_filter<std::uint32_t, void>(tbb::filter_mode::serial_in_order, [&](std::uint32_t n) {
         places[n % in_flight].comes_first();
         finished.comes_first();
+        const HappenedAtEnd end(ended), last(finished), worked(places[n % in_flight]);
+        const StopScope scope(stop);
         calls.finish(n, n % in_flight);
-        finished.happened();
-        places[n % in_flight].happened();
     });
+    const ComesFirstAtEnd joined(ended);
     arena_of(threads).execute([&] { tbb::parallel_pipeline(in_flight, begin & work & finish); });
-    finished.comes_first();
 }
 
 }  // namespace regionmesh

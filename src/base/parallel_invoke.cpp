@@ -3,8 +3,6 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
-#include <optional>
-
 #include "base/stop.h"
 #include "base/task_arenas.h"
 #include "base/task_order.h"
@@ -24,15 +22,16 @@ void parallel_invoke(std::uint32_t threads, const std::function<void()>& other, 
     const ComesFirstAtEnd joined(ended);
     arena_of(threads).execute([&] {
         tbb::task_group group;
-        group.run([&] {
+        // Both may be on another thread: this one waits outside where the arena is full.
+        const auto call = [&](const std::function<void()>& function) {
             begun.comes_first();
             const HappenedAtEnd end(ended);
-            std::optional<StopScope> scope;
-            if (stop != nullptr) scope.emplace(*stop);
-            other();
-        });
-        // In the loops of own(), this thread does not start other().
-        tbb::this_task_arena::isolate(own);
+            const StopScope scope(stop);
+            function();
+        };
+        group.run([&] { call(other); });
+        // In the loops of own(), its thread does not start other().
+        tbb::this_task_arena::isolate([&] { call(own); });
         group.wait();
     });
 }
