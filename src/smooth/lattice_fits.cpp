@@ -18,6 +18,10 @@ constexpr float kTolerance = 0.3f;
 constexpr float kTrialTolerance = 0.6f;
 constexpr std::uint32_t kTrialStride = 4;
 
+/// Blocks that begin beyond this share of a radius are not looked at: what lies there has less than a twelfth of the
+/// weight of the centre.
+constexpr float kNearShare = 0.85f;
+
 /// Weight of a quadric in the corners of its own block, which may lie beyond kBlend.
 constexpr float kOwnWeight = 1e-6f;
 
@@ -131,14 +135,15 @@ void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, std::span<
     const LatticePoint corner = blocks_.corner_of_block(first);
     const Float3 low = blocks_.from_units(row.runs[run].low), high = blocks_.from_units(row.runs[run].high);
     const Gaps gaps(blocks_, first, corner + low, corner + high);
+    constexpr float kRadius = kNearShare * kBlend;
     const auto beyond = [](float at, float low_, float high_) { return std::max({low_ - at, at - high_, 0.0f}); };
     for (const NearRun& other : near) {
-        if (!gaps.is_within(kBlend, other)) continue;
+        if (!gaps.is_within(kRadius, other)) continue;
         const bool is_own = other.row == &row && other.run == run;
         for (std::uint32_t f = (*other).fit; f < other.next().fit; ++f) {
             const Float3 d = other.row->fits[f].quadric.centre - corner;
             const Float3 gap{beyond(d.x, low.x, high.x), beyond(d.y, low.y, high.y), beyond(d.z, low.z, high.z)};
-            if (is_own || blocks_.distance2(gap) < kBlend * kBlend) found.push_back({other.row, other.run, f});
+            if (is_own || blocks_.distance2(gap) < kRadius * kRadius) found.push_back({other.row, other.run, f});
         }
     }
 }
@@ -189,7 +194,7 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
         fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, kind};
     };
     for (const NearRun& other : near) {
-        if (!gaps.is_within(kReach, other)) continue;
+        if (!gaps.is_within(kNearShare * kReach, other)) continue;
         const LatticeRow& row = *other.row;
         if (blocks_.parts_sites()) {
             const std::uint32_t end = other.next().site;

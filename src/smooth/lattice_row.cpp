@@ -221,6 +221,20 @@ std::size_t LatticeRow::bytes() const {
            samples.capacity() * sizeof(LatticeSamples) + fits.capacity() * sizeof(LatticeFit);
 }
 
+namespace {
+
+/// std::lower_bound without a branch for each comparison. The last key is not before `key`.
+const std::uint64_t* not_before(std::uint64_t key, const std::uint64_t* at, const std::uint64_t* end) {
+    for (std::size_t size = end - at; size > 1;) {
+        const std::size_t half = size / 2;
+        at += at[half - 1] < key ? half : 0;
+        size -= half;
+    }
+    return at;
+}
+
+}  // namespace
+
 NearRuns::NearRuns(const std::array<std::vector<LatticeRow>*, 2 * kRings + 1>& layers, std::int32_t number,
                    const LatticeBlocks& blocks)
     : place_axis_(blocks.place_axis) {
@@ -248,7 +262,7 @@ std::span<const NearRun> NearRuns::of(std::uint64_t key) {
         const std::vector<std::uint64_t>& keys = near.row->keys;
         const std::uint64_t* at = near.next;
         if (is_other)
-            at = std::lower_bound(at, keys.data() + keys.size(), first);
+            at = not_before(first, at, keys.data() + keys.size());
         else
             while (*at < first) ++at;
         near.next = at;
