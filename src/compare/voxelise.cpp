@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "base/parallel_invoke.h"
 #include "mesh/sample_lines.h"
 
 namespace regionmesh {
@@ -238,12 +239,6 @@ void count_runs(SampleAgreement& counts, const std::vector<Label>& background, s
     counts.samples += given.size();
 }
 
-/// Room for one section at a time, as given and as found in the model.
-struct ComparedSection {
-    std::vector<Label> given, found;
-    SampleAgreement agreement;  // of all sections that were here
-};
-
 void add(SampleAgreement& sum, const SampleAgreement& part) {
     sum.samples += part.samples;
     sum.wrong += part.wrong;
@@ -267,33 +262,38 @@ void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<
 
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
                                 SectionReader& reader, std::uint32_t threads) {
-    constexpr std::uint32_t kMostSections = 4;  // in hand: each takes eight bytes a sample
+    constexpr std::uint32_t kMostSections = 4;  // of a wave; one is read while the one before is compared
     const VolumeInfo& info = reader.info();
     Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background}, threads);
+    const std::uint32_t most = threads == 0 ? kMostSections : 2 * std::min(threads, kMostSections / 2);
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
+    const auto room = [&] { return std::vector<std::vector<Label>>(most, std::vector<Label>(samples)); };
+    std::vector<std::vector<Label>> given = room(), ahead = room(), in_model = room();
     std::vector<InputLabel> input(samples);
-    std::vector<ComparedSection> sections(threads == 0 ? kMostSections : 2 * std::min(threads, kMostSections / 2));
-    std::vector<std::span<Label>> found;
-    SampleAgreement result;
-    const auto read = [&](ComparedSection& section) {
-        if (!reader.next(input)) return false;
-        section.given.resize(samples);
-        labels.dense(input, section.given);
-        section.found.resize(samples);
-        return true;
+    std::uint32_t read = 0;  // sections ahead
+    bool is_more = true;
+    const auto read_ahead = [&] {
+        for (read = 0; read < most; ++read) {
+            is_more = is_more && reader.next(input);
+            if (!is_more) return;
+            labels.dense(input, ahead[read]);
+        }
     };
-    do {
-        found.clear();
-        while (found.size() < sections.size() && read(sections[found.size()]))
-            found.push_back(sections[found.size()].found);
-        found.resize(voxeliser.next(found, threads));
-        parallel_for(static_cast<std::uint32_t>(found.size()), threads, [&](std::uint32_t n) {
-            auto& [given, in_model, agreement] = sections[n];
-            agreement.regions.resize(labels.size());
-            count_runs(agreement, background, given, in_model);
-        });
-    } while (found.size() == sections.size());
-    for (const ComparedSection& section : sections) add(result, section.agreement);
+    std::vector<SampleAgreement> agreements(most);  // of all sections that had this place in a wave
+    read_ahead();
+    while (read > 0) {
+        std::swap(given, ahead);
+        const auto compare = [&, count = read, regions = labels.size()] {  // reading may add labels
+            const std::vector<std::span<Label>> found(in_model.begin(), in_model.begin() + count);
+            parallel_for(voxeliser.next(found, threads), threads, [&](std::uint32_t n) {
+                agreements[n].regions.resize(regions);
+                count_runs(agreements[n], background, given[n], found[n]);
+            });
+        };
+        parallel_invoke(threads, compare, read_ahead);
+    }
+    SampleAgreement result;
+    for (const SampleAgreement& agreement : agreements) add(result, agreement);
     result.contradictions = voxeliser.contradictions();
     return result;
 }
