@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "check/findings.h"
-#include "check/lines.h"
 
 namespace regionmesh {
 namespace {
@@ -33,19 +32,20 @@ void list_regions(const CheckOptions& options, const std::vector<RegionReport>& 
 CheckReport check(const Mesh& mesh, const CheckOptions& options) {
     CheckReport report;
     Findings findings(options.listed);
-    std::vector<RegionReport> regions;
-    check_faces(mesh, options, regions, report, findings);
-    check_stars(mesh, options, regions, report, findings);
-    list_regions(options, regions, report);
+    StarTotals totals;
+    check_faces(mesh, options, totals.regions, report, findings);
+    check_stars(mesh, options, totals, findings);
+    list_regions(options, totals.regions, report);
+    report.quadruple_points_inside = totals.quadruple_points_inside;
+    report.lines = totals.lines.report();
     check_places(mesh, options, findings);
     std::optional<SortedFaceTree> tree;
     if (options.crossing) {
         tree.emplace(mesh, options.threads);
-        check_crossing(mesh, options, *tree, findings);
+        check_crossing(mesh, options, *tree, std::move(totals.crossings), findings);
     }
     check_nesting(mesh, options, tree ? &*tree : nullptr, findings);
     check_against_labels(options, report, findings);
-    report.lines = measure_lines(mesh, options.threads);
     findings.move_to(report);
     for (Violation& violation : report.violations) place_violation(mesh, violation);
     return report;

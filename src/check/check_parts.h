@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "check/findings.h"
-#include "check/lines.h"
 #include "check/part_components.h"
 #include "check/part_nesting.h"
 #include "check/quality_sum.h"
@@ -47,8 +46,7 @@ private:
     Vec3 origin_;
     Findings all_;
     FaceTotals faces_;
-    LineTotals lines_;
-    std::vector<RegionReport> stars_;
+    StarTotals stars_;
     PartComponents components_;
     PartNesting nesting_;
     CheckReport report_;

@@ -7,14 +7,24 @@
 #include <utility>
 #include <vector>
 
+#include "check/lines.h"
 #include "mesh/label_set.h"
 #include "mesh/mesh_part.h"
 #include "mesh/sorted_face_tree.h"
+#include "mesh/star_crossing.h"
 #include "regionmesh/check.h"
 
 namespace regionmesh {
 
 struct PartStars;
+
+/// Sums over all stars.
+struct StarTotals {
+    std::vector<RegionReport> regions;  // by dense label
+    std::uint64_t quadruple_points_inside = 0;
+    LineTotals lines;
+    std::vector<FacePair> crossings;  // of faces that share a vertex
+};
 
 /// Each part of the work collects its own; they are appended in an order that does not depend on the threads.
 class Findings {
@@ -77,11 +87,12 @@ inline std::string region_name(const CheckOptions& options, Label label) {
 /// dense label.
 void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings);
-void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
-                 Findings& findings, const PartStars* part = nullptr);
+void check_stars(const Mesh& mesh, const CheckOptions& options, StarTotals& totals, Findings& findings,
+                 const PartStars* part = nullptr);
 void check_places(const Mesh& mesh, const CheckOptions& options, Findings& findings, const MeshPart* part = nullptr);
-void check_crossing(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree& tree, Findings& findings,
-                    const MeshPart* part = nullptr);
+/// `in_stars` are the crossings of faces that share a vertex.
+void check_crossing(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree& tree,
+                    std::vector<FacePair> in_stars, Findings& findings, const MeshPart* part = nullptr);
 /// `tree` may be null; the function then builds one if it needs it.
 void check_nesting(const Mesh& mesh, const CheckOptions& options, const SortedFaceTree* tree, Findings& findings);
 /// Lists the regions that have faces, without the background.

@@ -30,7 +30,13 @@ StarFault GenericStar::fault(VertexId v) {
         // The two regions of an interface have the same faces.
         if (labels.size() == 2) return StarFault::kNone;
     }
-    return look_at_lines(v, labels);
+    edges_.gather(mesh_, v);
+    return look_at_lines(v, labels.size(), edges_);
+}
+
+StarFault GenericStar::fault_of_fans(VertexId v, int labels, const StarEdges& edges) {
+    if (labels > kMostLabels) return StarFault::kLabels;
+    return labels < 3 ? StarFault::kNone : look_at_lines(v, labels, edges);
 }
 
 bool GenericStar::has_one_fan(VertexId v, Label label) {
@@ -52,17 +58,16 @@ bool GenericStar::may_be_open(Label label, VertexId v, VertexId end) const {
     return (mesh_[v].sides & mesh_[end].sides) != 0 && (options_.boundary_is_open || options_.is_background(label));
 }
 
-StarFault GenericStar::look_at_lines(VertexId v, const LabelSet& labels) {
-    edges_.gather(mesh_, v);
+StarFault GenericStar::look_at_lines(VertexId v, int labels, const StarEdges& edges) {
     triples_.clear();
-    for (const LabelSet& at_edge : edges_.labels()) {
+    for (const LabelSet& at_edge : edges.labels()) {
         if (at_edge.size() > 3) return StarFault::kPages;
         if (at_edge.size() < 3) continue;
-        std::vector<Label>& triple = triples_.emplace_back(at_edge.begin(), at_edge.end());
-        std::sort(triple.begin(), triple.end());
+        std::array<Label, 3>& triple = triples_.emplace_back();
+        std::partial_sort_copy(at_edge.begin(), at_edge.end(), triple.begin(), triple.end());
     }
     const std::size_t lines = triples_.size();
-    if (labels.size() == 3) return lines == 2 ? StarFault::kNone : StarFault::kLines;
+    if (labels == 3) return lines == 2 ? StarFault::kNone : StarFault::kLines;
     std::sort(triples_.begin(), triples_.end());
     const bool repeats = std::adjacent_find(triples_.begin(), triples_.end()) != triples_.end();
     // On the box, three sides meet without a line that has faces; so does a label without faces there.

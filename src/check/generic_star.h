@@ -1,6 +1,7 @@
 // Is the star of a vertex generic?
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "mesh/fan.h"
@@ -27,17 +28,21 @@ public:
     GenericStar(const Mesh& mesh, const CheckOptions& options) : mesh_(mesh), options_(options) {}
 
     StarFault fault(VertexId v);
+    /// The same for a star in which the faces of each region are known to be one closed fan, and each face to have two
+    /// labels. `labels` of them meet, sides of the box included; `edges` are those at v, unused for fewer than three
+    /// labels.
+    StarFault fault_of_fans(VertexId v, int labels, const StarEdges& edges);
 
 private:
     bool has_one_fan(VertexId v, Label label);
     bool may_be_open(Label label, VertexId v, VertexId end) const;
-    StarFault look_at_lines(VertexId v, const LabelSet& labels);
+    StarFault look_at_lines(VertexId v, int labels, const StarEdges& edges);
 
     const Mesh& mesh_;
     const CheckOptions& options_;
     std::vector<FanPage> fan_;
     StarEdges edges_;
-    std::vector<std::vector<Label>> triples_;
+    std::vector<std::array<Label, 3>> triples_;
 };
 
 }  // namespace regionmesh

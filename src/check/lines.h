@@ -1,28 +1,22 @@
 // Measures of the lines.
 #pragma once
 
-#include "mesh/mesh_part.h"
+#include "mesh/star_edges.h"
 #include "regionmesh/check.h"
 
 namespace regionmesh {
 
-/// Sums over the vertices of lines.
-struct LineTotals {
-    std::uint64_t edges = 0, turns = 0;
-    double length = 0, turned = 0;  // radians
-
-    void append(const LineTotals& later) {
-        edges += later.edges;
-        turns += later.turns;
-        length += later.length;
-        turned += later.turned;
-    }
+/// Sums over the vertices of lines inside the box. An edge counts at the first of its ends.
+class LineTotals {
+public:
+    /// Requires the edges at v.
+    void add(const Mesh& mesh, VertexId v, const StarEdges& edges);
+    void append(const LineTotals& later);
     LineReport report() const;
+
+private:
+    std::uint64_t edges_ = 0, turns_ = 0;
+    double length_ = 0, turned_ = 0;  // radians
 };
-
-/// Of the vertices of a part, or of all.
-LineTotals sum_lines(const Mesh& mesh, const MeshPart* part, std::uint32_t threads);
-
-LineReport measure_lines(const Mesh& mesh, std::uint32_t threads);
 
 }  // namespace regionmesh

@@ -65,7 +65,7 @@ void QualitySum::add_angle(double sine, double cosine) {
     const Angle angle{sine, cosine, sine > 0 ? place_of(sine, cosine) : cosine < 0 ? -1.0 : 1.0};
     if (angle.place > smallest_.place) smallest_ = angle;
     if (angle.place < largest_.place) largest_ = angle;
-    int bin = kAngleBins.bin(angle.place);
+    int bin = cosine == 0 && sine > 0 ? 9 : kAngleBins.bin(angle.place);
     if (bin < 0) bin = std::clamp(int(degrees(angle) / 10), 0, 17);
     ++angle_histogram_[bin];
 }

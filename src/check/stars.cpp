@@ -1,5 +1,6 @@
 // Tests and measures of single stars: edges, fans, Euler characteristics, and the parts of each region's boundary.
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -16,11 +17,15 @@
 namespace regionmesh {
 namespace {
 
+constexpr SideSet kAnySide = (1 << kSideCount) - 1;
+
 /// Findings at some vertices.
 struct StarChunk {
     Findings findings;
     std::vector<RegionReport> regions;
     std::uint64_t quadruple_points_inside = 0;
+    LineTotals lines;
+    std::vector<FacePair> crossings;
 };
 
 /// The two sides of each face are its sheets; they are joined where a region's boundary continues across an edge.
@@ -32,7 +37,7 @@ public:
     StarChunk run(std::uint32_t first, std::uint32_t end, const MeshPart* part) {
         for (std::uint32_t v = first; v < end; ++v)
             if (mesh_.is_alive(VertexId{v}) && (!part || part->has(VertexId{v}))) look_at_vertex(VertexId{v});
-        return {std::move(findings_), regions_.take(), quadruple_points_inside_};
+        return {std::move(findings_), regions_.take(), quadruple_points_inside_, lines_, std::move(crossings_)};
     }
 
 private:
@@ -61,35 +66,46 @@ private:
         }
         pages_.clear();
         labels_ = LabelSet();
-        bool has_exterior = false, is_odd = false;
+        SideSet sides = mesh_[v].sides & kAnySide;  // that it lies on, or that its faces name
+        bool has_exterior = false, is_odd = false, repeats = false;
         mesh_.for_star(v, [&](FaceId f, int place) {
             const Face& face = mesh_[f];
-            if (repeats_a_vertex(face)) return;  // its neighbours are checked without it
+            if (repeats_a_vertex(face)) {  // its neighbours are checked without it
+                repeats = true;
+                return;
+            }
             pages_.push_back({f, face.vertices[place_after(place)], face.vertices[place_before(place)], face.labels});
             is_odd |= face.labels[0] == face.labels[1];
             for (Label label : face.labels) {
-                if (is_exterior(label))
+                if (is_exterior(label)) {
                     has_exterior = true;
-                else
+                    sides |= SideSet(1u << side_of(label));
+                } else {
                     labels_.add(label);
+                }
             }
         });
         if (pages_.empty()) return;
+        const int met = labels_.size() + (sides == 0 ? 0 : std::popcount(sides));
+        if (met > 2) edges_.gather(mesh_, v);
+        if (labels_.size() > 2) lines_.add(mesh_, v, edges_);
         if (mesh_[v].sides == 0 && !has_exterior && labels_.size() == 4) ++quadruple_points_inside_;
         const bool is_small = labels_.size() < LabelSet::kCapacity && pages_.size() <= kMostOrdered;
         if (!is_odd && is_small && look_at_closed_fans(v, has_exterior)) {
             // Faces on the same vertices are not in a closed fan, unless they have no label in common.
             if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
-            if (has_exterior || labels_.size() > 2) look_at_form(v);
+            if (has_exterior || labels_.size() > 2)
+                report_form(v, repeats ? generic_.fault(v) : generic_.fault_of_fans(v, met, edges_));
+            if (options_.crossing && (has_exterior || labels_.size() > 3 || !are_fans_simple(v))) look_for_crossings(v);
         } else {
             look_at_any_fans(v);
             look_for_duplicates(v);
-            if (labels_.size() > 4) look_at_form(v);
+            if (labels_.size() > 4) report_form(v, generic_.fault(v));
+            if (options_.crossing) look_for_crossings(v);
         }
     }
 
-    void look_at_form(VertexId v) {
-        const StarFault fault = generic_.fault(v);
+    void report_form(VertexId v, StarFault fault) {
         if (fault == StarFault::kNone) return;
         findings_.add(ViolationKind::kNonGenericVertex, {index(v)}, {}, [&] {
             return name(v) + (fault == StarFault::kLabels  ? ": more than four labels meet"
@@ -131,6 +147,27 @@ private:
         }
         const std::span<FanPage> fan = std::span(fans_).subspan(start);
         return fan.size() >= 3 && order_fan(fan) && is_closed(fan);
+    }
+
+    /// Of the closed fans of all labels; any two faces are in a fan together if there are two or three labels. Those of
+    /// the first of two labels are those of the other.
+    bool are_fans_simple(VertexId v) {
+        std::size_t start = 0;
+        for (int n = 0; n < (labels_.size() == 2 ? 1 : labels_.size()); ++n) {
+            rim_.clear();
+            for (std::size_t page = start; page < ends_[n]; ++page) rim_.push_back(mesh_.position(fans_[page].first));
+            rim_.push_back(rim_.front());
+            if (!crossing_.is_simple(mesh_.position(v), rim_, true)) return false;
+            start = ends_[n];
+        }
+        return true;
+    }
+
+    void look_for_crossings(VertexId v) {
+        star_.clear();
+        for (const Page& page : pages_)
+            star_.push_back({page.face, page.a, page.b, mesh_.position(page.a), mesh_.position(page.b), page.labels});
+        crossing_.find(v, mesh_.position(v), star_, crossings_);
     }
 
     /// Joins the sheets of a closed fan across the edges from v to later vertices. Returns the number of these edges.
@@ -253,10 +290,16 @@ private:
     Findings findings_;
     RegionSums regions_;
     std::uint64_t quadruple_points_inside_ = 0;
+    LineTotals lines_;
+    std::vector<FacePair> crossings_;
     std::vector<Page> pages_;
     LabelSet labels_;            // the labels that are regions
+    StarEdges edges_;            // gathered where more than two labels meet
     std::vector<FanPage> fans_;  // grouped by region
     std::vector<std::size_t> ends_;
+    StarCrossing crossing_;
+    std::vector<Vec3> rim_;
+    std::vector<StarPage> star_;
     std::vector<Use> uses_;
     std::vector<std::uint32_t> up_;  // union-find over the sides of pages
     std::vector<std::pair<Label, std::uint32_t>> parts_;
@@ -279,8 +322,8 @@ std::vector<RegionReport> count_components(const Mesh& mesh, const UnionFind& sh
 
 }  // namespace
 
-void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
-                 Findings& findings, const PartStars* of) {
+void check_stars(const Mesh& mesh, const CheckOptions& options, StarTotals& totals, Findings& findings,
+                 const PartStars* of) {
     UnionFind sheets(2 * mesh.face_end());
     for_chunks(
         mesh.vertex_end(), kCheckChunk, options.threads,
@@ -289,14 +332,16 @@ void check_stars(const Mesh& mesh, const CheckOptions& options, std::vector<Regi
         },
         [&](StarChunk&& chunk) {
             findings.append(std::move(chunk.findings));
-            add_to(regions, chunk.regions);
-            report.quadruple_points_inside += chunk.quadruple_points_inside;
+            add_to(totals.regions, chunk.regions);
+            totals.quadruple_points_inside += chunk.quadruple_points_inside;
+            totals.lines.append(chunk.lines);
+            totals.crossings.insert(totals.crossings.end(), chunk.crossings.begin(), chunk.crossings.end());
         });
-    if (of) return of->components.add(mesh, of->part, sheets, regions);
+    if (of) return of->components.add(mesh, of->part, sheets, totals.regions);
     for_chunks(
         mesh.face_end(), kCheckChunk, options.threads,
         [&](std::uint32_t first, std::uint32_t end) { return count_components(mesh, sheets, first, end); },
-        [&](const std::vector<RegionReport>& chunk) { add_to(regions, chunk); });
+        [&](const std::vector<RegionReport>& chunk) { add_to(totals.regions, chunk); });
 }
 
 }  // namespace regionmesh

@@ -262,7 +262,7 @@ void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<
 
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
                                 SectionReader& reader, std::uint32_t threads) {
-    constexpr std::uint32_t kMostSections = 4;  // of a wave; one is read while the one before is compared
+    constexpr std::uint32_t kMostSections = 4;  // of a wave; it is read while the one before is compared
     const VolumeInfo& info = reader.info();
     Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background}, threads);
     const std::uint32_t most = threads == 0 ? kMostSections : 2 * std::min(threads, kMostSections / 2);

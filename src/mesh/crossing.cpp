@@ -78,11 +78,11 @@ bool cross(const Faces& faces, FaceId f, FaceId g) {
     return meet_outside_shared({faces.vertices(f), p}, {faces.vertices(g), q});
 }
 
-/// Adds the pairs of one part of the tree that share no vertex.
+/// Adds the pairs of some parts of the tree that share no vertex.
 template <class Faces>
-void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t part, Pairs& found) {
+void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t first, std::uint32_t end, Pairs& found) {
     Pairs strangers;
-    tree.boxes().visit_pairs(part, [&](std::span<const GridTree::Pair> pairs) {
+    tree.boxes().visit_pairs(first, end, [&](std::span<const GridTree::Pair> pairs) {
         strangers.resize(std::max(strangers.size(), pairs.size()));
         std::size_t count = 0;
         for (const GridTree::Pair pair : pairs) {
@@ -97,11 +97,13 @@ void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t p
     });
 }
 
-/// Two passes that only read the faces: pairs with a common vertex, star by star, then all others.
+auto append_to(Pairs& all) {
+    return [&](const Pairs& found) { all.insert(all.end(), found.begin(), found.end()); };
+}
+
+/// Adds the pairs that share a vertex, star by star.
 template <class Faces>
-Pairs find_all(const Faces& faces, const SortedFaceTree& tree, std::uint32_t threads) {
-    Pairs all;
-    const auto append = [&](const Pairs& found) { all.insert(all.end(), found.begin(), found.end()); };
+void find_in_stars(const Faces& faces, std::uint32_t threads, Pairs& all) {
     const auto in_stars = [&](std::uint32_t first, std::uint32_t end) {
         Pairs found;
         StarCrossing crossing;
@@ -114,13 +116,26 @@ Pairs find_all(const Faces& faces, const SortedFaceTree& tree, std::uint32_t thr
         }
         return found;
     };
+    for_chunks(faces.star_count(), kStars, threads, in_stars, append_to(all));
+}
+
+/// Adds all others.
+template <class Faces>
+void find_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t threads, Pairs& all) {
     const auto in_parts = [&](std::uint32_t first, std::uint32_t end) {
         Pairs found;
-        for (std::uint32_t part = first; part < end; ++part) cross_apart(faces, tree, part, found);
+        cross_apart(faces, tree, first, end, found);
         return found;
     };
-    for_chunks(faces.star_count(), kStars, threads, in_stars, append);
-    for_chunks(tree.boxes().part_count(), kParts, threads, in_parts, append);
+    for_chunks(tree.boxes().part_count(), kParts, threads, in_parts, append_to(all));
+}
+
+/// Two passes that only read the faces.
+template <class Faces>
+Pairs find_all(const Faces& faces, const SortedFaceTree& tree, std::uint32_t threads) {
+    Pairs all;
+    find_in_stars(faces, threads, all);
+    find_apart(faces, tree, threads, all);
     std::sort(all.begin(), all.end());
     return all;
 }
@@ -129,6 +144,13 @@ Pairs find_all(const Faces& faces, const SortedFaceTree& tree, std::uint32_t thr
 
 std::vector<FacePair> find_crossings(const Mesh& mesh, const SortedFaceTree& tree, std::uint32_t threads) {
     return find_all(MeshFaces(mesh), tree, threads);
+}
+
+std::vector<FacePair> find_crossings_apart(const Mesh& mesh, const SortedFaceTree& tree, std::uint32_t threads) {
+    Pairs found;
+    find_apart(MeshFaces(mesh), tree, threads, found);
+    std::sort(found.begin(), found.end());
+    return found;
 }
 
 std::vector<FacePair> find_crossings(std::span<const LabelledFace> faces, std::uint32_t threads) {

@@ -170,11 +170,14 @@ struct GridTree::PairSearch {
     PairList pairs;   // a box of a, and a box of b that meets it
 };
 
-void GridTree::visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const {
+void GridTree::visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
+                           const std::function<void(std::span<const Pair>)>& visit) const {
     PairSearch search;
-    for (std::uint32_t other : parts_near(part)) {
-        find_pairs(part, other, search);
-        visit({search.pairs.begin(), search.pairs.end()});
+    for (std::uint32_t part = first_part; part < end_part; ++part) {
+        for (std::uint32_t other : parts_near(part)) {
+            find_pairs(part, other, search);
+            visit({search.pairs.begin(), search.pairs.end()});
+        }
     }
 }
 

@@ -96,8 +96,9 @@ public:
     };
     /// The number of parts into which the pairs of places with meeting boxes are divided, by m.
     std::uint32_t part_count() const { return levels_[part_level()].size; }
-    /// Calls visit(span<const Pair>) until all pairs of the part have been visited, with at most 2^18 at once.
-    void visit_pairs(std::uint32_t part, const std::function<void(std::span<const Pair>)>& visit) const;
+    /// Calls visit(span<const Pair>) until all pairs of these parts have been visited, with at most 2^18 at once.
+    void visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
+                     const std::function<void(std::span<const Pair>)>& visit) const;
     /// Is the order of the places spatial enough to find pairs quickly? Estimated from a sample.
     bool is_spatial() const;
 

@@ -66,38 +66,43 @@ bool StarCrossing::is_fan_simple(Label label) {
         else if (pages_[n].labels[1] == label)
             fan_.push_back({pages_[n].b, pages_[n].a, 2 * n + 1});
     }
-    return fan_.size() < 2 || (order_fan(fan_) && gather_spokes() && goes_round_once());
+    if (fan_.size() < 2) return true;
+    if (!order_fan(fan_)) return false;
+    rim_.clear();
+    for (const FanPage& page : fan_)
+        rim_.push_back(page.name & 1 ? pages_[page.name >> 1].at_b : pages_[page.name >> 1].at_a);
+    const FanPage& last = fan_.back();
+    rim_.push_back(last.name & 1 ? pages_[last.name >> 1].at_a : pages_[last.name >> 1].at_b);
+    return is_simple(at_, rim_, is_closed(fan_));
+}
+
+bool StarCrossing::is_simple(Vec3 at, std::span<const Vec3> rim, bool is_closed) {
+    return gather_spokes(at, rim) && goes_round_once(is_closed);
 }
 
 /// Returns false for sizes at which nothing can be proved.
-bool StarCrossing::gather_spokes() {
+bool StarCrossing::gather_spokes(Vec3 at, std::span<const Vec3> rim) {
     bool usual = true;
     spokes_.clear();
-    const auto add = [&](Vec3 end) {
-        const Vec3 to = end - at_;
+    for (const Vec3 end : rim) {
+        const Vec3 to = end - at;
         spokes_.push_back({to, size(to)});
         usual = usual && is_usual(spokes_.back().size);
-    };
-    for (const FanPage& page : fan_) {
-        const StarPage& star_page = pages_[page.name >> 1];
-        add(page.name & 1 ? star_page.at_b : star_page.at_a);
     }
-    const FanPage& last = fan_.back();
-    add(last.name & 1 ? pages_[last.name >> 1].at_a : pages_[last.name >> 1].at_b);
     return usual;
 }
 
 /// Seen from above, do all pages face upward, and does none but the first (and the last, in a closed fan) touch the ray
 /// on which the first begins? Then they do not overlap.
-bool StarCrossing::goes_round_once() {
-    const std::size_t count = fan_.size();
+bool StarCrossing::goes_round_once(bool is_closed) {
+    const std::size_t count = spokes_.size() - 1;
     normals_.clear();
     for (std::size_t n = 0; n < count; ++n) normals_.push_back(cross(spokes_[n].to, spokes_[n + 1].to));
     Vec3 up;
     if (!find_up(up)) return false;
     const Vec3 left = cross(up, spokes_[0].to);
     const double doubt = kDoubt * size(up) * spokes_[0].size;
-    const std::size_t end = is_closed(fan_) ? count - 1 : count;
+    const std::size_t end = is_closed ? count - 1 : count;
     for (std::size_t n = 1; n < end; ++n) {
         // The page begins left of the ray or ends right of it, since it turns by less than 180 degrees.
         const Spoke &first = spokes_[n], &second = spokes_[n + 1];

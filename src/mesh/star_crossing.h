@@ -37,6 +37,10 @@ public:
     /// share no vertex before v, so that over all vertices each pair is found once. Leaves out faces without area.
     void find(VertexId v, Vec3 at, std::span<const StarPage> pages, std::vector<FacePair>& found);
 
+    /// Is it proved that no two faces of a fan round a vertex meet outside shared vertices and edges? `rim` has the
+    /// neighbours in order, one more than faces; that of a closed fan ends where it begins.
+    bool is_simple(Vec3 at, std::span<const Vec3> rim, bool is_closed);
+
 private:
     /// The vector from the vertex to a neighbour.
     struct Spoke {
@@ -55,8 +59,8 @@ private:
     bool is_interface() const;
     void gather_labels();
     bool is_fan_simple(Label label);
-    bool gather_spokes();
-    bool goes_round_once();
+    bool gather_spokes(Vec3 at, std::span<const Vec3> rim);
+    bool goes_round_once(bool is_closed);
     bool find_up(Vec3& up);
     bool all_look(Vec3 up) const;
     void test_pairs(VertexId v, std::vector<FacePair>& found);
@@ -71,7 +75,8 @@ private:
     bool is_odd_ = false;                // some page has one label on both sides
     std::vector<std::uint32_t> proved_;  // by page; bit n: its fan of label n of labels_ is free of crossings
     std::vector<FanPage> fan_;
-    std::vector<Spoke> spokes_;  // at the start of each page of the fan, and at the end of the last
+    std::vector<Vec3> rim_;      // the start of each page of the fan, and the end of the last
+    std::vector<Spoke> spokes_;  // to the rim
     std::vector<Vec3> normals_;
     std::vector<double> weights_;
     std::vector<Plane> planes_;

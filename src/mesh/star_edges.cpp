@@ -13,8 +13,9 @@ void StarEdges::gather(const Mesh& mesh, VertexId v) {
     mesh.for_star(v, [&](FaceId f, int place) {
         const Face& face = mesh[f];
         for (VertexId end : {face.vertices[place_after(place)], face.vertices[place_before(place)]}) {
-            const std::ptrdiff_t at = std::find(ends_.begin(), ends_.end(), end) - ends_.begin();
-            if (at == static_cast<std::ptrdiff_t>(ends_.size())) {
+            std::size_t at = ends_.size();
+            for (std::size_t n = 0; n < ends_.size(); ++n) at = ends_[n] == end ? n : at;  // no branch: mispredicted
+            if (at == ends_.size()) {
                 ends_.push_back(end);
                 labels_.emplace_back();
                 uses_.push_back(0);

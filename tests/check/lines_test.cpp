@@ -1,5 +1,3 @@
-#include "check/lines.h"
-
 #include <gtest/gtest.h>
 
 #include "regionmesh/check.h"
@@ -18,14 +16,14 @@ TEST(Lines, are_measured_along_a_book_with_a_bend) {
                                                                                            {{1, 2, 4}, 1, 2},
                                                                                            {{0, 1, 5}, 2, 0},
                                                                                            {{1, 2, 5}, 2, 0}});
-    const LineReport report = measure_lines(mesh, 1);
+    const LineReport report = check(mesh, {}).lines;
     EXPECT_EQ(report.edges, 2u);
     EXPECT_DOUBLE_EQ(report.length, 3);
     EXPECT_DOUBLE_EQ(report.mean_turning_angle, 90);
 }
 
 TEST(Lines, on_the_box_do_not_count) {
-    const LineReport report = measure_lines(test::run(test::TextVolume({{"112", "112"}, {"112", "112"}})).mesh, 2);
+    const LineReport report = check(test::run(test::TextVolume({{"112", "112"}, {"112", "112"}})).mesh, {}).lines;
     EXPECT_EQ(report.edges, 0u);
     EXPECT_EQ(report.mean_turning_angle, 0);
 }

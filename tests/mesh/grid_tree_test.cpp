@@ -24,7 +24,7 @@ GridTree tree_over(const std::vector<Box>& boxes, std::uint32_t threads = 1) {
 Pairs pairs_in(const GridTree& tree) {
     Pairs pairs;
     for (std::uint32_t part = 0; part < tree.part_count(); ++part) {
-        tree.visit_pairs(part, [&](std::span<const GridTree::Pair> some) {
+        tree.visit_pairs(part, part + 1, [&](std::span<const GridTree::Pair> some) {
             for (const GridTree::Pair pair : some) {
                 EXPECT_LT(pair.m(), pair.n());
                 EXPECT_EQ(pair.m() / 512, part) << "in the part of another place";
@@ -86,8 +86,8 @@ TEST(GridTree, is_the_same_on_several_threads) {
                 for (const GridTree::Pair pair : some) list.push_back(std::uint64_t{pair.m()} << 32 | pair.n());
             };
         };
-        one.visit_pairs(part, to(a));
-        many.visit_pairs(part, to(b));
+        one.visit_pairs(part, part + 1, to(a));
+        many.visit_pairs(part, part + 1, to(b));
         EXPECT_EQ(a, b);
     }
 }

@@ -7,6 +7,7 @@
 
 #include "base/exact_predicates.h"
 #include "mesh/crossing.h"
+#include "regionmesh/check.h"
 
 namespace regionmesh::test {
 
@@ -41,11 +42,12 @@ inline std::vector<LabelledFace> listed_faces(const Mesh& mesh) {
     return faces;
 }
 
-/// Both searches must say what brute force says; returns how many pairs cross.
+/// Both searches and the check must say what brute force says; returns how many pairs cross.
 inline std::size_t expect_all_crossings_found(const Mesh& mesh) {
     const std::vector<FacePair> expected = crossings_by_brute_force(mesh);
     EXPECT_EQ(crossings_in(mesh), expected);
     EXPECT_EQ(find_crossings(listed_faces(mesh), 1), expected);
+    EXPECT_EQ(check(mesh, {}).counts[static_cast<int>(ViolationKind::kCrossingFaces)], expected.size());
     return expected.size();
 }
 
