@@ -67,14 +67,13 @@ private:
         std::vector<std::pair<Label, int>> entered;  // times entered less times left, of regions where this is not 0
         std::uint64_t contradictions = 0;
     };
-    struct ActiveFace {
-        FaceId face;
-        std::uint32_t end;  // of the sections that it may reach
-    };
-
     /// Sections: from the first one at or above, to before the first one above.
     struct Sections {
         std::uint32_t first, end;
+    };
+    struct ActiveFace {
+        FaceId face;
+        Sections sections;
     };
 
     Vec3 place(VertexId v) const;
@@ -95,7 +94,7 @@ private:
     std::shared_ptr<const SampleLines> lines_;
     std::array<std::uint32_t, 3> size_;  // along the axes of the sweep
     std::vector<Sections> sections_of_;  // by vertex
-    std::vector<FaceId> order_;          // faces by the first section that they reach
+    std::vector<FaceId> order_;          // faces that reach sections, by the first of these
     std::vector<std::uint32_t> start_;   // of the faces of each section in order_
     std::vector<ActiveFace> active_;     // faces that reach the sections in hand
     std::vector<Scratch> scratch_;       // by section in hand

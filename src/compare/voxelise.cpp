@@ -96,25 +96,30 @@ Voxeliser::Sections Voxeliser::sections_of(FaceId f) const {
     return {std::min({at_a.first, at_b.first, at_c.first}), std::max({at_a.end, at_b.end, at_c.end})};
 }
 
-/// Counts faces by the first section that they may reach, then puts them in that order.
+/// Counts faces by the first section that they may reach, then puts them in that order. Many lie between two sections.
 void Voxeliser::sort_faces() {
-    start_.assign(size_[2] + 2, 0);
-    for (std::uint32_t f = 0; f < mesh_.face_end(); ++f)
-        if (mesh_.is_alive(FaceId{f})) ++start_[sections_of(FaceId{f}).first + 1];
+    const auto for_faces = [&](auto&& visit) {
+        for (std::uint32_t f = 0; f < mesh_.face_end(); ++f) {
+            if (!mesh_.is_alive(FaceId{f})) continue;
+            const Sections sections = sections_of(FaceId{f});
+            if (sections.first < sections.end) visit(FaceId{f}, sections.first);
+        }
+    };
+    start_.assign(size_[2] + 1, 0);
+    for_faces([&](FaceId, std::uint32_t first) { ++start_[first + 1]; });
     for (std::size_t n = 1; n < start_.size(); ++n) start_[n] += start_[n - 1];
     order_.resize(start_.back());
     std::vector<std::uint32_t> place_of(start_.begin(), start_.end());
-    for (std::uint32_t f = 0; f < mesh_.face_end(); ++f)
-        if (mesh_.is_alive(FaceId{f})) order_[place_of[sections_of(FaceId{f}).first]++] = FaceId{f};
+    for_faces([&](FaceId f, std::uint32_t first) { order_[place_of[first]++] = f; });
 }
 
 /// Adds the faces that begin at sections from `begin` to before `end`, and keeps those that may reach `first` or
 /// beyond.
 void Voxeliser::activate(std::uint32_t first, std::uint32_t begin, std::uint32_t end) {
-    std::erase_if(active_, [&](const ActiveFace& active) { return active.end <= first; });
+    std::erase_if(active_, [&](const ActiveFace& active) { return active.sections.end <= first; });
     for (std::uint32_t n = start_[begin]; n < start_[end]; ++n) {
-        const std::uint32_t face_end = sections_of(order_[n]).end;
-        if (face_end > first) active_.push_back({order_[n], face_end});
+        const Sections sections = sections_of(order_[n]);
+        if (sections.end > first) active_.push_back({order_[n], sections});
     }
 }
 
@@ -141,8 +146,8 @@ void Voxeliser::label_section(std::uint32_t section, std::span<Label> labels, Sc
     auto& crossings = scratch.crossings;
     crossings.clear();
     scratch.contradictions = 0;
-    for (const ActiveFace& active : active_)
-        if (active.end > section) cross(active.face, section, crossings);
+    for (const auto& [face, sections] : active_)
+        if (sections.first <= section && section < sections.end) cross(face, section, crossings);
     // No order among equal samples is needed: all of them are passed before the sample is labelled.
     std::ranges::sort(crossings, {}, &Crossing::sample);
     std::size_t begin = 0;
