@@ -103,6 +103,10 @@ inline constexpr double kTileMargin = 1.25, kFreeMargin = 1.02, kFreeFrom = 0.45
 inline constexpr double kFreeCost = 1e-6, kLeastFreeGain = 0.05;
 inline constexpr std::uint64_t kFreeTrialFaces = 1u << 16;
 
+/// Squares of the sides of the box are joined up to 2^kCapLevels = 8 samples a side, a third of a tile: the faces of
+/// larger ones would reach into several tiles, and lock their vertices.
+inline constexpr int kCapLevels = 3;
+
 /// Faces are assigned to tiles in parts, on all threads: each has at least kPartFaces faces, and there are at most
 /// kMostParts, since each part counts its faces tile by tile.
 inline constexpr std::uint32_t kPartFaces = 1u << 15, kMostParts = 64;

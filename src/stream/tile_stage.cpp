@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simplify/coarsen_caps.h"
 #include "simplify/tuning.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {
 
 TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log)
-    : plan_(plan), log_(log) {
+    : plan_(plan), log_(log), has_samples_(shape.has_samples) {
     const double share = plan.target.share();
     is_on_ = plan.is_decimating && share * kFreeMargin < 1;
     tile_options_ = {.threshold = kTileThreshold,
@@ -22,17 +23,33 @@ TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const 
 
 void TileStage::run(GatheredStrips& gathered) {
     if (!is_on_) return;
+    TileOptions options = tile_options_;
+    const StageTimer timer = log_.time("decimate tiles");
+    if (has_samples_ && !gathered.chunk.faces.empty()) coarsen_caps(gathered, options);
     if (has_few_free()) return log_.note_strips_through(WorkStage::kTiles, gathered.end);
-    tile_options_.on_share = [&](double share) {
+    options.on_share = [&](double share) {
         log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gathered.end - strips_done_));
     };
-    tile_options_.faces_in_flight = static_cast<std::uint64_t>(
+    options.faces_in_flight = static_cast<std::uint64_t>(
         std::ceil(plan_.budget.share_in_flight * static_cast<double>(gathered.chunk.faces.size())));
-    const StageTimer timer = log_.time("decimate tiles");
     given_ += gathered.chunk.faces.size();
-    log_.add(simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, tile_options_));
+    log_.add(simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, options));
     left_ += gathered.chunk.faces.size();
     strips_done_ = gathered.end;
+}
+
+/// What the target leaves is a share of the faces before.
+void TileStage::coarsen_caps(GatheredStrips& gathered, TileOptions& options) const {
+    const auto before = static_cast<double>(gathered.chunk.faces.size());
+    const double least_share = std::min(options.keep_share, options.free_share);
+    regionmesh::coarsen_caps(gathered.chunk, gathered.carried,
+                             {.lattice = plan_.tiles.lattice,
+                              .min_quality = options.simplify.min_quality,
+                              .least_faces = static_cast<std::uint64_t>(std::ceil(least_share * before)),
+                              .threads = options.threads});
+    const double left = static_cast<double>(gathered.chunk.faces.size()) / before;
+    options.keep_share = std::min(options.keep_share / left, 1.0);
+    options.free_share = std::min(options.free_share / left, 1.0);
 }
 
 bool TileStage::has_few_free() const {

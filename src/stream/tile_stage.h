@@ -12,11 +12,14 @@ public:
 
     /// Whether run() does anything.
     bool is_on() const { return is_on_; }
-    /// Decimates the chunk, up to a fixed cost, and never below what the target leaves. Where the target allows only
-    /// collapses at zero cost, and chunks so far had few, does nothing: the trim makes those few in less time.
+    /// Coarsens the caps of the chunk, and decimates it up to a fixed cost; never below what the target leaves. Where
+    /// the target allows only collapses at zero cost, and chunks so far had few, makes none: the trim makes those few
+    /// in less time.
     void run(GatheredStrips& gathered);
 
 private:
+    /// Sets the shares of what is left to those of the faces that are left.
+    void coarsen_caps(GatheredStrips& gathered, TileOptions& options) const;
     bool has_few_free() const;
 
     const Plan& plan_;
@@ -24,7 +27,7 @@ private:
     RunLog& log_;
     std::uint32_t strips_done_ = 0;
     std::uint64_t given_ = 0, left_ = 0;  // faces of the chunks so far
-    bool is_on_;
+    bool has_samples_, is_on_;
 };
 
 }  // namespace regionmesh
