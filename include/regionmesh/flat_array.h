@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "regionmesh/huge_pages.h"
+
 namespace regionmesh {
 
 /// Like std::vector for trivially copyable T, but grown by realloc: the C library moves large blocks by remapping
@@ -52,6 +54,7 @@ public:
         if (!grown) throw std::bad_alloc();
         data_ = grown;
         capacity_ = capacity;
+        prefer_huge_pages(data_, capacity * sizeof(T));
     }
     void push_back(const T& value) {
         const T copy = value;

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <sys/resource.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include <chrono>
 #include <cstdint>
@@ -36,20 +33,21 @@ inline ResidentBytes resident_bytes() {
 }
 inline std::uint64_t peak_resident_bytes() { return resident_bytes().peak; }
 
-/// Returns freed memory to the system, which the C library would keep. Call after large arrays were freed.
-inline void give_back_freed_memory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
+/// How much memory there is beyond what the work that follows needs.
+enum class MemoryRoom { kShort, kSome, kAmple };
 
-/// Makes the C library return the memory of large arrays as soon as they are freed: otherwise it raises the size from
-/// which it does so, and memory fragments. For programs: call once at the start.
-inline void keep_large_arrays_apart() {
-#ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 1 << 20);
-#endif
-}
+/// For the whole process; kAmple at first. With more room there are fewer page faults, each of which takes
+/// microseconds: freed memory is kept for the next arrays, and large arrays are put on huge pages, which may waste 2
+/// MiB each. No result depends on it.
+void note_memory_room(MemoryRoom room);
+
+/// Returns freed memory to the system, which the C library would keep; unless memory is short, only where the process
+/// has become larger since the last time. Call after large arrays were freed.
+void give_back_freed_memory();
+
+/// Makes the C library return the memory of large arrays as soon as they are freed, since memory fragments otherwise,
+/// and keep that of small ones for the next. For programs: call once at the start.
+void keep_large_arrays_apart();
 
 /// Adds its lifetime to a sum of seconds. For reports only: no result depends on it.
 class Timer {

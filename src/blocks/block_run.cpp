@@ -48,6 +48,7 @@ BlockRun::BlockRun(const OpenSections& open, const ReconstructOptions& options, 
       is_decimating_(is_decimating(options)) {}
 
 BlockReport BlockRun::run() {
+    note_memory_room(MemoryRoom::kShort);  // blocks are as large as memory has room for
     {
         const Timer timer(report_.seconds);
         begin_run(open_, options_, blocks_, tasks_, on_progress_);

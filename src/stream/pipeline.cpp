@@ -105,6 +105,8 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     const SmoothOptions smooth = smooth_options(options, shape.scale);
     const ChunkOrder order = strip_order(shape, extra);
     Plan plan = make_plan(shape, std::move(counted), window_strips(smooth, order), options);
+    const bool is_short = plan.budget.is_short();
+    note_memory_room(is_short ? MemoryRoom::kShort : smooth.passes > 0 ? MemoryRoom::kSome : MemoryRoom::kAmple);
 
     plan_progress(log, plan, options, source.can_compare());
     SimplifyStage simplify(result.mesh, plan, options, shape, log);
@@ -113,6 +115,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
         run.stuck_strip = build(strips, simplify, plan, options, log);
     }
     if (run.stuck_strip) return run;
+    if (!is_short) note_memory_room(MemoryRoom::kAmple);  // the window of smoothing is gone
     result.labels = source.labels();
     result.background = source.background();
     if (!plan.oracle) plan.oracle = source.oracle();
