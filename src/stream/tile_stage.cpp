@@ -10,7 +10,7 @@
 namespace regionmesh {
 
 TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log)
-    : plan_(plan), log_(log), has_samples_(shape.has_samples) {
+    : plan_(plan), log_(log), coarsens_caps_(shape.has_samples && shape.cells == CellKind::kCompact) {
     const double share = plan.target.share();
     is_on_ = plan.is_decimating && share * kFreeMargin < 1;
     tile_options_ = {.threshold = kTileThreshold,
@@ -25,7 +25,7 @@ void TileStage::run(GatheredStrips& gathered) {
     if (!is_on_) return;
     TileOptions options = tile_options_;
     const StageTimer timer = log_.time("decimate tiles");
-    if (has_samples_ && !gathered.chunk.faces.empty()) coarsen_caps(gathered, options);
+    if (coarsens_caps_ && !gathered.chunk.faces.empty()) coarsen_caps(gathered, options);
     if (has_few_free()) return log_.note_strips_through(WorkStage::kTiles, gathered.end);
     options.on_share = [&](double share) {
         log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gathered.end - strips_done_));
