@@ -19,4 +19,10 @@ void Chunk::append(const Chunk& next) {
     for (std::uint32_t local : next.active) active.push_back(here(local));
 }
 
+std::vector<ChunkVertex> active_vertices(const Chunk& chunk, std::span<const ChunkVertex> carried) {
+    std::vector<ChunkVertex> vertices;
+    for (const std::uint32_t local : chunk.active) vertices.push_back(vertex_of(chunk, carried, local));
+    return vertices;
+}
+
 }  // namespace regionmesh

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/reused_vector.h"
@@ -45,5 +46,22 @@ struct Chunk {
         clear_reused(carried_bounds);
     }
 };
+
+/// A vertex of a chunk by its number; `carried` are the vertices that the chunk carries.
+inline const ChunkVertex& vertex_of(const Chunk& chunk, std::span<const ChunkVertex> carried, std::uint32_t local) {
+    return local < chunk.carried ? carried[local] : chunk.vertices[local - chunk.carried];
+}
+
+/// The vertices that the next chunk carries.
+std::vector<ChunkVertex> active_vertices(const Chunk& chunk, std::span<const ChunkVertex> carried);
+
+/// Calls visit(local) for the vertices that stay as they are while the chunk is simplified: carried, active, pinned.
+template <class Visit>
+void for_fixed(const Chunk& chunk, Visit&& visit) {
+    for (std::uint32_t local = 0; local < chunk.carried; ++local) visit(local);
+    for (const std::uint32_t local : chunk.active) visit(local);
+    for (std::uint32_t n = 0; n < chunk.vertices.size(); ++n)
+        if (chunk.vertices[n].sides & kPinned) visit(chunk.carried + n);
+}
 
 }  // namespace regionmesh

@@ -21,25 +21,20 @@ struct Node {
     std::uint32_t u, v;
 };
 
-/// What the sides of the box share: the vertices of a chunk.
+/// The vertices of a chunk, as all sides see them.
 class ChunkVertices {
 public:
     ChunkVertices(const Chunk& chunk, std::span<const ChunkVertex> carried)
-        : chunk_(chunk), carried_(carried), is_kept_(chunk.carried + chunk.vertices.size(), false) {
-        std::fill(is_kept_.begin(), is_kept_.begin() + chunk.carried, true);
-        for (std::uint32_t local : chunk.active) is_kept_[local] = true;
-        for (std::uint32_t n = 0; n < chunk.vertices.size(); ++n)
-            if (chunk.vertices[n].sides & kPinned) is_kept_[chunk.carried + n] = true;
+        : chunk_(chunk), carried_(carried), is_fixed_(chunk.carried + chunk.vertices.size(), false) {
+        for_fixed(chunk, [&](std::uint32_t local) { is_fixed_[local] = true; });
     }
-    Vec3 position(std::uint32_t local) const {
-        return local < chunk_.carried ? carried_[local].position : chunk_.vertices[local - chunk_.carried].position;
-    }
-    bool is_kept(std::uint32_t local) const { return is_kept_[local]; }
+    Vec3 position(std::uint32_t local) const { return vertex_of(chunk_, carried_, local).position; }
+    bool is_fixed(std::uint32_t local) const { return is_fixed_[local]; }
 
 private:
     const Chunk& chunk_;
     std::span<const ChunkVertex> carried_;
-    std::vector<bool> is_kept_;
+    std::vector<bool> is_fixed_;
 };
 
 /// The faces of a chunk on one side of the box.
@@ -81,7 +76,7 @@ private:
 
     std::optional<Node> node_at(Vec3 p) const;
     bool add_face(std::uint32_t f);
-    void keep_squares_at_kept_vertices();
+    void keep_squares_at_fixed_vertices();
     void find_levels();
     Ring ring_of(int level, Node at) const;
     void join_square(int level, Node at);
@@ -154,7 +149,7 @@ void CapSide::find_squares(std::span<const std::uint32_t> faces) {
     joined_[0].assign(std::size_t{width_} * height_, 0);
     for (const std::uint32_t f : faces)
         if (!add_face(f)) return joined_.clear();
-    keep_squares_at_kept_vertices();
+    keep_squares_at_fixed_vertices();
     find_levels();
 }
 
@@ -180,11 +175,11 @@ bool CapSide::add_face(std::uint32_t f) {
 }
 
 /// At the edges of the grid all vertices stay.
-void CapSide::keep_squares_at_kept_vertices() {
+void CapSide::keep_squares_at_fixed_vertices() {
     for (std::uint32_t v = 1; v < height_; ++v)
         for (std::uint32_t u = 1; u < width_; ++u) {
             const std::uint32_t vertex = vertex_at({u, v});
-            if (vertex == kNone || !vertices_.is_kept(vertex)) continue;
+            if (vertex == kNone || !vertices_.is_fixed(vertex)) continue;
             for (std::uint32_t j = v - 1; j <= v; ++j)
                 for (std::uint32_t i = u - 1; i <= u; ++i) joined_[0][square_at(i, j)] = 0;
         }
@@ -208,8 +203,7 @@ void CapSide::find_levels() {
     }
 }
 
-/// The corners, the middle of each side beyond which squares are smaller, and the middle of the square if there are
-/// any.
+/// The corners, and the middle of each side beyond which squares are smaller.
 CapSide::Ring CapSide::ring_of(int level, Node at) const {
     const std::uint32_t whole = 1u << level, half = whole / 2, i = at.u >> level, j = at.v >> level;
     Ring ring{.nodes = {}, .size = 0, .centre = {at.u + half, at.v + half}};
@@ -231,12 +225,14 @@ void CapSide::join_square(int level, Node at) {
     if (ring.face_count() >= 2 * side * side) return;
     const ChunkFace old = chunk_.faces[square_faces_[2 * square_at(at.u, at.v)]];
     const bool is_left = turns_left(old);
+    const auto face = [&](std::uint32_t n) -> ChunkFace& {
+        const std::size_t square = square_at(at.u + n / 2 % side, at.v + n / 2 / side);
+        return chunk_.faces[square_faces_[2 * square + n % 2]];
+    };
     std::uint32_t made = 0;
     const auto make = [&](Node a, Node b, Node c) {
         if (!is_left) std::swap(b, c);
-        const std::size_t square = square_at(at.u + made / 2 % side, at.v + made / 2 / side);
-        chunk_.faces[square_faces_[2 * square + made % 2]] = {{vertex_at(a), vertex_at(b), vertex_at(c)}, old.labels};
-        ++made;
+        face(made++) = {{vertex_at(a), vertex_at(b), vertex_at(c)}, old.labels};
     };
     if (ring.has_centre()) {
         for (std::uint32_t n = 0; n < ring.size; ++n) make(ring.centre, ring.nodes[n], ring.nodes[(n + 1) % ring.size]);
@@ -244,10 +240,7 @@ void CapSide::join_square(int level, Node at) {
         make(ring.nodes[0], ring.nodes[1], ring.nodes[2]);
         make(ring.nodes[0], ring.nodes[2], ring.nodes[3]);
     }
-    for (; made < 2 * side * side; ++made) {
-        const std::size_t square = square_at(at.u + made / 2 % side, at.v + made / 2 / side);
-        chunk_.faces[square_faces_[2 * square + made % 2]].vertices[0] = kNone;
-    }
+    while (made < 2 * side * side) face(made++).vertices[0] = kNone;
 }
 
 /// Seen with u to the right and v up.

@@ -21,7 +21,8 @@ struct CapOptions {
 /// a part of a side differ by a factor of two at most (Von Herzen and Barr 1987). All new faces lie where the old ones
 /// did, and squares at the edges of the side, at other labels and at vertices that the chunk carries or leaves active
 /// keep their corners. So the surface stays the same set of points, every line stays as it is, and the mesh conforms.
-/// Returns the number of faces that the chunk has less. Does nothing to chunks without a lattice's samples on the box.
+/// Returns by how many faces the chunk has become smaller. Requires faces made from sections: of tetrahedra with a
+/// label each, two plain squares with a common side may have two labels.
 std::uint64_t coarsen_caps(Chunk& chunk, std::span<const ChunkVertex> carried, const CapOptions& options);
 
 }  // namespace regionmesh

@@ -14,10 +14,7 @@ TiledFaces::TiledFaces(const Chunk& chunk, std::span<const ChunkVertex> carried,
     : chunk_(chunk), carried_(carried), grid_(grid) {
     const auto face_count = static_cast<std::uint32_t>(chunk.faces.size());
     place_.assign(chunk.carried + chunk.vertices.size(), kNone);
-    std::fill(place_.begin(), place_.begin() + chunk.carried, kLocked);
-    for (std::uint32_t local : chunk.active) place_[local] = kLocked;
-    for (std::uint32_t n = 0; n < chunk.vertices.size(); ++n)
-        if (chunk.vertices[n].sides & kPinned) place_[chunk.carried + n] = kLocked;
+    for_fixed(chunk, [&](std::uint32_t local) { place_[local] = kLocked; });
     part_faces_ = std::max(kPartFaces, face_count / kMostParts + 1);
     std::vector<Part> parts(face_count / part_faces_ + 1);
     tile_of_face_.resize(face_count);

@@ -24,9 +24,7 @@ public:
 
     const TileGrid& grid() const { return grid_; }
     const Chunk& chunk() const { return chunk_; }
-    const ChunkVertex& vertex(std::uint32_t local) const {
-        return local < chunk_.carried ? carried_[local] : chunk_.vertices[local - chunk_.carried];
-    }
+    const ChunkVertex& vertex(std::uint32_t local) const { return vertex_of(chunk_, carried_, local); }
 
     std::span<const std::uint32_t> faces_of(std::uint32_t tile) const {
         return std::span(order_).subspan(start_[tile], start_[tile + 1] - start_[tile]);

@@ -48,7 +48,8 @@ struct MemoryNeed {
 
 /// Follows from sizes, counts and options, never from threads or from the memory that is free.
 struct Budget {
-    static constexpr std::uint64_t kRoomyBytes = std::uint64_t{32} << 20;
+    /// Memory beyond the plan that is room enough to keep freed memory: half of the plan, and so many bytes.
+    static constexpr std::uint64_t kLeastRoom = std::uint64_t{32} << 20;
 
     std::uint64_t memory = 0;        // bytes to stay within
     std::uint32_t chunk_strips = 1;  // as demanded, unless only shorter chunks fit
@@ -59,8 +60,8 @@ struct Budget {
     std::optional<std::uint64_t> asked_budget = {};  // as demanded
 
     bool holds() const { return asked_budget || least.sum() <= memory; }
-    /// True if there is little room beyond the plan, so that freed memory must be given back at once.
-    bool is_short() const { return least.sum() + std::max(least.sum() / 2, kRoomyBytes) > memory; }
+    /// True if there is less room than that: freed memory must be given back at once.
+    bool is_short() const { return least.sum() + std::max(least.sum() / 2, kLeastRoom) > memory; }
     /// Faces that the mesh may have when a chunk is merged, and while it is decimated then.
     std::uint64_t face_budget(std::size_t chunk) const;
     /// Faces that the mesh may have while a chunk is gathered that will bring `chunk_faces`.

@@ -11,9 +11,7 @@ namespace regionmesh {
 
 /// Adds the cones over all faces (mesh/region_volumes.h); `carried` are the vertices that the chunk carries.
 inline void add_volumes(const Chunk& chunk, std::span<const ChunkVertex> carried, std::vector<double>& volumes) {
-    const auto position = [&](std::uint32_t local) {
-        return local < chunk.carried ? carried[local].position : chunk.vertices[local - chunk.carried].position;
-    };
+    const auto position = [&](std::uint32_t local) { return vertex_of(chunk, carried, local).position; };
     for (const auto& [v, labels] : chunk.faces)
         add_cone(volumes, labels, position(v[0]), position(v[1]), position(v[2]));
 }

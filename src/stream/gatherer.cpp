@@ -27,9 +27,7 @@ bool Gatherer::next(GatheredStrips& made) {
     made.safe = {std::max(source.low_of(first), reach_), std::min(source.low_of(made.end), made.safe_high)};
     for (const ChunkVertex& vertex : chunk.vertices) reach_ = std::max(reach_, vertex.position[source.shape().axis()]);
     made.carried = std::move(active_);
-    active_.clear();
-    for (std::uint32_t local : chunk.active)
-        active_.push_back(local < chunk.carried ? made.carried[local] : chunk.vertices[local - chunk.carried]);
+    active_ = active_vertices(chunk, made.carried);
     return true;
 }
 

@@ -10,7 +10,7 @@
 namespace regionmesh {
 
 TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log)
-    : plan_(plan), log_(log), coarsens_caps_(shape.has_samples && shape.cells == CellKind::kCompact) {
+    : plan_(plan), log_(log), coarsens_caps_(shape.cells == CellKind::kCompact) {
     const double share = plan.target.share();
     is_on_ = plan.is_decimating && share * kFreeMargin < 1;
     tile_options_ = {.threshold = kTileThreshold,

@@ -27,7 +27,8 @@ private:
     RunLog& log_;
     std::uint32_t strips_done_ = 0;
     std::uint64_t given_ = 0, left_ = 0;  // faces of the chunks so far
-    bool coarsens_caps_, is_on_;
+    bool coarsens_caps_;                  // tetrahedra stay those of the paper, and of the same tetrahedra from a file
+    bool is_on_;
 };
 
 }  // namespace regionmesh

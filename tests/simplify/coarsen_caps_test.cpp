@@ -12,7 +12,6 @@
 #include "base/triangle.h"
 #include "cells/label_census.h"
 #include "cells/strip_mesher.h"
-#include "simplify/tuning.h"
 #include "stream/merger.h"
 #include "support/runs.h"
 #include "volume/section_window.h"
@@ -46,18 +45,15 @@ Coarsened coarsened(test::ArrayVolume volume, std::uint32_t chunk_strips, const 
         mesher.mesh(window.low(), window.high(), next);
         chunk.append(next);
         if (strip % chunk_strips != 0 && !window.is_last()) continue;
-        std::vector<ChunkVertex> active;
-        for (const std::uint32_t local : chunk.active)
-            active.push_back(local < chunk.carried ? carried[local] : chunk.vertices[local - chunk.carried]);
         if (options) {
             CapOptions own = *options;
             own.lattice = lattice;
             made.removed += coarsen_caps(chunk, carried, own);
         }
         merger.add(chunk);
+        carried = active_vertices(chunk, carried);
         chunk = {};
-        chunk.carried = static_cast<std::uint32_t>(active.size());
-        carried = std::move(active);
+        chunk.carried = static_cast<std::uint32_t>(carried.size());
     }
     made.oracle = census.oracle();
     return made;
@@ -69,7 +65,7 @@ void expect_sound(const Coarsened& made) {
     test::expect_sound(check(made.mesh, options));
 }
 
-/// By pair of labels: the area of its faces, and whether it is a part of the box.
+/// The area of the faces of each pair of labels.
 std::map<std::array<Label, 2>, double> areas(const Mesh& mesh) {
     std::map<std::array<Label, 2>, double> areas;
     test::for_faces(mesh, [&](FaceId f) {
