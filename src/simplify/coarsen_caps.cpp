@@ -282,6 +282,11 @@ void compact(Chunk& chunk) {
 
 }  // namespace
 
+std::uint64_t most_cap_faces(const Lattice& lattice) {
+    const auto cells = [&](int axis) { return std::uint64_t{lattice.size[axis]} - 1; };
+    return 4 * (cells(0) * cells(1) + cells(1) * cells(2) + cells(2) * cells(0));
+}
+
 std::uint64_t coarsen_caps(Chunk& chunk, std::span<const ChunkVertex> carried, const CapOptions& options) {
     std::array<std::vector<std::uint32_t>, kBoxSides> faces;
     for (std::uint32_t f = 0; f < chunk.faces.size(); ++f)

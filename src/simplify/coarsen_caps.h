@@ -16,6 +16,9 @@ struct CapOptions {
     std::uint32_t threads = 1;
 };
 
+/// Faces on the sides of the box of a volume whose squares are all plain; at most so many can go.
+std::uint64_t most_cap_faces(const Lattice& lattice);
+
 /// A square of a side of the box is plain if its corners, four neighbouring samples, have one label: two faces. Plain
 /// squares are joined into larger ones of 2, 4 and 8 squares a side: a restricted quadtree, in which squares that share
 /// a part of a side differ by a factor of two at most (Von Herzen and Barr 1987). All new faces lie where the old ones

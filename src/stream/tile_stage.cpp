@@ -9,8 +9,15 @@
 
 namespace regionmesh {
 
+bool TileStage::may_coarsen_caps(const SourceShape& shape, const Target& target) {
+    if (shape.cells != CellKind::kCompact) return false;
+    if (target.share() == 0) return true;
+    const auto total = static_cast<double>(target.total.value_or(0));
+    return total * (1 - target.share() * kFreeMargin) >= static_cast<double>(most_cap_faces(shape.lattice));
+}
+
 TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log)
-    : plan_(plan), log_(log), coarsens_caps_(shape.cells == CellKind::kCompact) {
+    : plan_(plan), log_(log), coarsens_caps_(may_coarsen_caps(shape, plan.target)) {
     const double share = plan.target.share();
     is_on_ = plan.is_decimating && share * kFreeMargin < 1;
     tile_options_ = {.threshold = kTileThreshold,

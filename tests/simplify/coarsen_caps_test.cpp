@@ -89,6 +89,7 @@ TEST(CoarsenCaps, leaves_few_faces_of_a_solid_box_and_its_edges_as_they_are) {
     const Coarsened before = coarsened(test::solid_volume({65, 65, 65}), 64, nullptr);
     const Coarsened after = coarsened(test::solid_volume({65, 65, 65}), 64, &options);
     EXPECT_EQ(before.mesh.face_count(), 6u * 64 * 64 * 2);
+    EXPECT_EQ(most_cap_faces({.size = {65, 65, 65}}), before.mesh.face_count());
     EXPECT_EQ(after.mesh.face_count() + after.removed, before.mesh.face_count());
     EXPECT_LT(after.mesh.face_count(), before.mesh.face_count() / 5);
     expect_sound(after);

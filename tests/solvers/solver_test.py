@@ -10,7 +10,7 @@ import sys
 from solver_run import Mesh, expect, report_volumes, require, run, tetgen_volumes
 from tension import Tension
 
-TOLERANCE = 1e-6  # of volumes
+TOLERANCE = 1e-9  # of volumes
 
 
 def check_volumes(solver, found, expected):
@@ -55,7 +55,7 @@ def main():
             "report.json", "--quiet")
     expected = report_volumes("report.json")
 
-    run("tetgen", "-pqAT1e-14", "model.smesh")  # facets nearly in a plane are not merged
+    run("tetgen", "-pqO2/3A", "model.smesh")  # its third way to optimise may place vertices beside the faces
     check_volumes("tetgen", tetgen_volumes("model", "model.smesh"), expected)
 
     run("gmsh", "-3", "model.geo", "-setnumber", "Mesh.SaveGroupsOfNodes", "1", "-o", "mesh.inp")

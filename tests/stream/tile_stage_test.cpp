@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simplify/coarsen_caps.h"
 #include "stream/section_faces.h"
 #include "support/runs.h"
 
@@ -41,6 +42,24 @@ TEST(TileStage, ends_where_a_near_target_allows_free_collapses_only_and_few_are_
 TEST(TileStage, goes_on_where_a_farther_target_allows_more) {
     const auto faces = faces_of_chunks(test::noise_volume({12, 12, 60}, 60, 7), 0.5);
     for (const auto& [before, after] : faces) EXPECT_LT(after, before);
+}
+
+TEST(TileStage, coarsens_caps_only_where_the_target_removes_as_many_faces_as_all_caps_can_have) {
+    SourceShape shape;
+    shape.lattice.size = {61, 61, 61};
+    shape.cells = CellKind::kCompact;
+    const std::uint64_t caps = most_cap_faces(shape.lattice);
+    const auto coarsens_to = [&](double share, std::optional<std::uint64_t> total) {
+        return TileStage::may_coarsen_caps(shape, {.faces = {}, .reduce = 1 - share, .total = total});
+    };
+    EXPECT_TRUE(coarsens_to(0.4, 2 * caps));
+    EXPECT_FALSE(coarsens_to(0.6, 2 * caps));
+    EXPECT_FALSE(coarsens_to(0.1, caps));
+    EXPECT_FALSE(coarsens_to(0.1, {})) << "the total is not known";
+    const Target only_error;
+    EXPECT_TRUE(TileStage::may_coarsen_caps(shape, only_error));
+    shape.cells = CellKind::kTetrahedra;
+    EXPECT_FALSE(TileStage::may_coarsen_caps(shape, only_error));
 }
 
 }  // namespace
