@@ -5,19 +5,28 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <utility>
 
 namespace regionmesh {
+namespace {
+
+thread_local bool is_apart = false;
+
+}  // namespace
+
+ArenasApart::ArenasApart() : before_(std::exchange(is_apart, true)) {}
+ArenasApart::~ArenasApart() { is_apart = before_; }
 
 oneapi::tbb::task_arena& arena_of(std::uint32_t threads) {
     struct Arenas {
         std::mutex mutex;
-        std::map<std::uint32_t, oneapi::tbb::task_arena> by_threads;
+        std::map<std::pair<bool, std::uint32_t>, oneapi::tbb::task_arena> by_kind;
     };
     static Arenas* const all = new Arenas;  // never destroyed: other threads may outlive main()
     const auto cores = static_cast<std::uint32_t>(oneapi::tbb::info::default_concurrency());
     const std::uint32_t count = threads == 0 ? cores : std::min(threads, cores);
     const std::lock_guard lock(all->mutex);
-    return all->by_threads.try_emplace(count, static_cast<int>(count)).first->second;
+    return all->by_kind.try_emplace({is_apart, count}, static_cast<int>(count)).first->second;
 }
 
 }  // namespace regionmesh

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/task_arenas.h"
+
 namespace regionmesh {
 
 bool ReadAhead::next(std::span<InputLabel> section) {
@@ -42,6 +44,7 @@ void ReadAhead::stop() {
 }
 
 void ReadAhead::read_all() {
+    const ArenasApart apart;  // the readers of all runs may hold the places in the others while they wait in next()
     bool is_end = false;
     while (!is_end) {
         std::exception_ptr failure;

@@ -1,10 +1,15 @@
 #include "stream/read_ahead.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <set>
+#include <thread>
 
+#include "base/parallel_for.h"
+#include "base/parallel_invoke.h"
 #include "regionmesh/error.h"
 #include "support/digest.h"
 #include "support/runs.h"
@@ -63,6 +68,49 @@ TEST(ReadAhead, hands_out_the_same_sections_in_the_same_order) {
     EXPECT_EQ(all_sections(ahead), expected);
     std::vector<InputLabel> section(12);
     EXPECT_FALSE(ahead.next(section)) << "the end stays the end";
+}
+
+/// Reads each section on several threads.
+class ParallelVolume : public test::ArrayVolume {
+public:
+    ParallelVolume(test::ArrayVolume volume, std::function<void()> before_each)
+        : ArrayVolume(std::move(volume)), before_each_(std::move(before_each)) {}
+    bool next(std::span<InputLabel> section) override {
+        before_each_();
+        std::atomic<std::uint32_t> done = 0;
+        parallel_for(50, 2, [&](std::uint32_t) { ++done; });
+        EXPECT_EQ(done, 50u);
+        return ArrayVolume::next(section);
+    }
+
+private:
+    std::function<void()> before_each_;
+};
+
+TEST(ReadAhead, goes_on_while_all_threads_of_others_wait_for_a_section) {
+    ::alarm(100);  // a failure is a wait without end
+    // More callers than the arena has room for.
+    constexpr std::uint32_t kCallers = 4;
+    const std::uint32_t fit = std::min(2u, std::max(1u, std::thread::hardware_concurrency()));
+    std::atomic<std::uint32_t> waiting = 0;
+    const auto until_others_wait = [&] {
+        for (std::uint32_t tries = 0; waiting < fit && tries < 1000; ++tries)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    const auto read = [&](std::uint32_t caller) {
+        ParallelVolume volume(test::noise_volume({4, 3, 7}, 50, caller), until_others_wait);
+        ReadAhead ahead(volume);
+        parallel_invoke(
+            2, [] {},
+            [&] {
+                ++waiting;
+                EXPECT_EQ(all_sections(ahead).size(), 7u);
+            });
+    };
+    std::vector<std::thread> callers;
+    for (std::uint32_t n = 0; n < kCallers; ++n) callers.emplace_back(read, n);
+    for (std::thread& caller : callers) caller.join();
+    ::alarm(0);
 }
 
 TEST(ReadAhead, reads_again_from_the_start_wherever_it_was) {
