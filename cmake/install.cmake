@@ -25,11 +25,15 @@ install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
 # A program linked with sanitizers would have to be built with them, too.
 if(REGIONMESH_FORMATS AND REGIONMESH_TESTS AND NOT REGIONMESH_SANITIZE)
     set(prefix ${PROJECT_BINARY_DIR}/installed)
+    set(without_lto)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        set(without_lto -fno-lto)  # else each example compiles the libraries again
+    endif()
     add_test(NAME install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
     add_test(NAME installed_package_builds_and_runs_the_example
         COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}/examples ${PROJECT_BINARY_DIR}/examples
             --build-generator ${CMAKE_GENERATOR}
-            --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
+            --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_EXE_LINKER_FLAGS=${without_lto}
             --test-command reconstruct ${PROJECT_SOURCE_DIR}/tests/data/npy/uint8.npy ${PROJECT_BINARY_DIR}/examples/model.vtp)
     set(examples ${PROJECT_BINARY_DIR}/examples)
     set_tests_properties(installed_package_builds_and_runs_the_example PROPERTIES FIXTURES_SETUP examples)

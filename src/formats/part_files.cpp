@@ -1,5 +1,6 @@
 #include "formats/part_files.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
@@ -7,7 +8,10 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cstddef>
 #include <map>
+#include <memory>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -29,11 +33,17 @@ struct Parts {
     std::map<const OutputFile*, fs::path> paths;
 };
 
-/// Never destroyed: the thread that waits for signals may outlive main().
+/// Never destroyed: the thread that waits for signals may outlive main(). Takes no memory, so that a program without
+/// any can remove its outputs.
 Parts& parts() {
-    static Parts* const all = new Parts;
+    alignas(Parts) static std::byte place[sizeof(Parts)];
+    static Parts* const all = new (place) Parts;
     return *all;
 }
+
+struct CloseFolder {
+    void operator()(DIR* folder) const { ::closedir(folder); }
+};
 
 /// Whether a process with the id that the name ends with is alive; true for a name that is none of ours.
 bool has_living_writer(std::string_view name) {
@@ -82,14 +92,16 @@ void remove_stale_parts(const fs::path& target, bool per_region) {
     const std::string region = "." + target.stem().string() + "-",
                       has = target.extension().string() + std::string(kMark);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    std::error_code ignored;
-    for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end; at.increment(ignored)) {
-        const std::string name = at->path().filename().string();
+    // fs::directory_iterator would end the process where memory is short.
+    const std::unique_ptr<DIR, CloseFolder> opened(::opendir(folder.c_str()));
+    while (const dirent* entry = opened ? ::readdir(opened.get()) : nullptr) {
+        const std::string name = entry->d_name;
         const bool is_ours =
             name.starts_with(whole) || (per_region && name.starts_with(region) && name.find(has) != std::string::npos);
+        if (!is_ours || has_living_writer(name)) continue;
+        const fs::path part = folder / name;
         std::error_code unknown;
-        if (is_ours && at->is_regular_file(unknown) && !has_living_writer(name) && !is_locked(at->path()))
-            fs::remove(at->path(), unknown);
+        if (fs::is_regular_file(part, unknown) && !is_locked(part)) fs::remove(part, unknown);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 
@@ -136,6 +137,11 @@ private:
 
 inline StageTimer::StageTimer(RunLog& log, const char* stage)
     : log_(log), stage_(stage), timer_(log.seconds_of(stage)) {}
-inline StageTimer::~StageTimer() { log_.note_resident(stage_); }
+inline StageTimer::~StageTimer() {
+    try {
+        log_.note_resident(stage_);
+    } catch (const std::bad_alloc&) {  // without memory for the note there is none
+    }
+}
 
 }  // namespace regionmesh
