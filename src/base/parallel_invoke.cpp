@@ -3,6 +3,9 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <atomic>
+#include <exception>
+
 #include "base/stop.h"
 #include "base/task_arenas.h"
 #include "base/task_order.h"
@@ -29,10 +32,22 @@ void parallel_invoke(std::uint32_t threads, const std::function<void()>& other, 
             const StopScope scope(stop);
             function();
         };
-        group.run([&] { call(other); });
+        std::atomic<bool> has_failed = false;
+        std::exception_ptr failure;
+        group.run([&] {
+            if (!has_failed) call(other);
+        });
         // In the loops of own(), its thread does not start other().
-        tbb::this_task_arena::isolate([&] { call(own); });
+        tbb::this_task_arena::isolate([&] {
+            try {
+                call(own);
+            } catch (...) {  // the destructor of the group would wait, and throw what other() throws as well
+                failure = std::current_exception();
+                has_failed = true;
+            }
+        });
         group.wait();
+        if (failure) std::rethrow_exception(failure);
     });
 }
 
