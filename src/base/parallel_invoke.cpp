@@ -41,7 +41,7 @@ void parallel_invoke(std::uint32_t threads, const std::function<void()>& other, 
         tbb::this_task_arena::isolate([&] {
             try {
                 call(own);
-            } catch (...) {  // the destructor of the group would wait, and throw what other() throws as well
+            } catch (...) {  // past the group, its destructor could throw what other() throws
                 failure = std::current_exception();
                 has_failed = true;
             }

@@ -8,13 +8,13 @@
 namespace regionmesh {
 
 /// The arena with that number of threads; 0: one per core. More than cores are no faster, and oneTBB prints a warning
-/// about them. One arena for each number, for the life of the process: an arena made and left for each call keeps
-/// memory, tens of megabytes after some thousand calls, where a worker leaves late.
+/// about them. One arena for each number, for the life of the process, and one apart (ArenasApart): an arena made and
+/// left for each call keeps memory, tens of megabytes after some thousand calls, where a worker leaves late.
 oneapi::tbb::task_arena& arena_of(std::uint32_t threads);
 
-/// While it lives, loops that this thread begins run in arenas apart from those of other threads. For a thread that
-/// work of other threads waits for: in their arenas it could wait for a place that such work holds, or be given such
-/// work itself, and then none of them would ever go on.
+/// While it lives, loops that this thread begins run in arenas apart. For a thread whose results are waited for by work
+/// in the shared arenas: there it could wait for a place that this work holds, or begin more of this work itself, and
+/// would never go on.
 class ArenasApart {
 public:
     ArenasApart();

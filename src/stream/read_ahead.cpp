@@ -44,7 +44,7 @@ void ReadAhead::stop() {
 }
 
 void ReadAhead::read_all() {
-    const ArenasApart apart;  // the readers of all runs may hold the places in the others while they wait in next()
+    const ArenasApart apart;  // callers that wait in next() may hold all places in the other arenas
     bool is_end = false;
     while (!is_end) {
         std::exception_ptr failure;

@@ -140,7 +140,7 @@ inline StageTimer::StageTimer(RunLog& log, const char* stage)
 inline StageTimer::~StageTimer() {
     try {
         log_.note_resident(stage_);
-    } catch (const std::bad_alloc&) {  // without memory for the note there is none
+    } catch (const std::bad_alloc&) {  // no memory to note it: the report lacks it
     }
 }
 

@@ -176,7 +176,7 @@ int run_all(std::uint64_t count, std::uint64_t seed, std::uint64_t from) {
     std::vector<Trial> trials;
     trials.reserve(scenarios.size());
     for (const Scenario& scenario : scenarios) trials.emplace_back(scenario, folder / scenario.name);
-    // The first allocation, which what ends a program without memory could need, too.
+    // The first allocation: what ends a program without memory must not need any itself.
     for (Trial& trial : trials) trial.try_fault({.mode = "memory", .at = 1});
     std::map<std::string, std::uint64_t> tried;
     for (std::uint64_t n = from; n < from + count; ++n) {

@@ -55,7 +55,7 @@ def main():
             "report.json", "--quiet")
     expected = report_volumes("report.json")
 
-    run("tetgen", "-pqO2/3A", "model.smesh")  # its third way to optimise may place vertices beside the faces
+    run("tetgen", "-pqO2/3A", "model.smesh")  # no vertices are added at the end: some would lie beside the faces
     check_volumes("tetgen", tetgen_volumes("model", "model.smesh"), expected)
 
     run("gmsh", "-3", "model.geo", "-setnumber", "Mesh.SaveGroupsOfNodes", "1", "-o", "mesh.inp")

@@ -88,7 +88,7 @@ private:
 };
 
 TEST(ReadAhead, goes_on_while_all_threads_of_others_wait_for_a_section) {
-    ::alarm(100);  // a failure is a wait without end
+    ::alarm(100);  // otherwise a failure would wait for ever
     // More callers than the arena has room for.
     constexpr std::uint32_t kCallers = 4;
     const std::uint32_t fit = std::min(2u, std::max(1u, std::thread::hardware_concurrency()));
