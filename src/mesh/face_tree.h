@@ -1,45 +1,97 @@
 // A bounding volume hierarchy over faces that move and grow.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
+#include "base/box.h"
 #include "mesh/grid_tree.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
 
-/// A tree of boxes over the faces in order of id, which should be a spatial order (Mesh::sort_spatially).
+/// A tree of boxes over the faces in order of id, which should be a spatial order (Mesh::sort_spatially). A box holds
+/// one face or, in 7 instead of 14 bytes a face, two whose ids follow each other; then the mesh tells which of them
+/// meets a box that is searched. The mesh outlives the tree.
 class FaceTree {
 public:
     using GridBox = GridTree::GridBox;
+    enum class Faces : std::uint8_t { kOneByOne, kInPairs };
 
-    explicit FaceTree(const Mesh& mesh, std::uint32_t threads = 1) { build(mesh, threads); }
+    /// On at most `threads` threads (0: one per core).
+    explicit FaceTree(const Mesh& mesh, std::uint32_t threads = 1, Faces faces = Faces::kOneByOne)
+        : mesh_(&mesh), is_paired_(faces == Faces::kInPairs) {
+        build(threads);
+    }
 
-    /// Rebuilds the tree from the living faces, on at most `threads` threads (0: one per core); releases the old boxes
-    /// first.
-    void build(const Mesh& mesh, std::uint32_t threads = 1);
+    /// Rebuilds the tree from the living faces; releases the old boxes first.
+    void build(std::uint32_t threads = 1);
 
-    /// Moves face f to `box`. The boxes above it grow and never shrink.
+    /// Moves face f to `box`. The mesh tells where the other face of a pair is. The boxes above it grow and never
+    /// shrink.
     void set(FaceId f, const Box& box) { set(f, boxes_.outward(box)); }
-    void set(FaceId f, const GridBox& box) { boxes_.set(index(f), box); }
+    void set(FaceId f, const GridBox& box) {
+        if (is_paired_)
+            set_pair(f, box);
+        else
+            boxes_.set(index(f), box);
+    }
     /// The boxes of two triangles side by side.
     std::array<GridBox, 2> boxes_of(const Lanes3<Double2>& a, const Lanes3<Double2>& b, const Lanes3<Double2>& c) const;
-    /// Removes face f.
-    void remove(FaceId f) { boxes_.remove(index(f)); }
+    /// Removes face f, which the mesh has lost.
+    void remove(FaceId f) {
+        if (is_paired_)
+            remove_of_pair(f);
+        else
+            boxes_.remove(index(f));
+    }
 
+    static constexpr std::uint32_t kMostAtOnce = 2 * GridTree::kMostAtOnce;
     /// Calls visit(span of the numbers of faces) until all faces in the tree whose rounded box meets `box` have been
-    /// visited, with at most GridTree::kMostAtOnce at once. A visit that returns false ends the search.
+    /// visited, with at most kMostAtOnce at once. A visit that returns false ends the search.
     template <class Visit>
     void search(const Box& box, Visit&& visit) const {
-        boxes_.search(box, visit);
+        if (is_paired_)
+            search_pairs(box, visit);
+        else
+            boxes_.search(box, visit);
     }
 
     std::size_t bytes() const { return boxes_.bytes(); }
 
 private:
+    /// Round the corners; empty if the mesh has no such face.
+    Box box_of(std::uint32_t f) const {
+        Box box;
+        if (f < mesh_->face_end() && mesh_->is_alive(FaceId{f}))
+            for (Vec3 p : mesh_->corners(FaceId{f})) box.add(p);
+        return box;
+    }
+    void set_pair(FaceId f, const GridBox& box);
+    void remove_of_pair(FaceId f);
+    template <class Visit>
+    void search_pairs(const Box& box, Visit& visit) const;
+
+    const Mesh* mesh_;
+    bool is_paired_;
     GridTree boxes_;
 };
+
+template <class Visit>
+void FaceTree::search_pairs(const Box& box, Visit& visit) const {
+    std::array<std::uint32_t, kMostAtOnce> faces;
+    boxes_.search(box, [&](std::span<const std::uint32_t> pairs) {
+        std::size_t count = 0;
+        for (const std::uint32_t pair : pairs) __builtin_prefetch(&(*mesh_)[FaceId{2 * pair}]);  // both on most lines
+        for (const std::uint32_t pair : pairs)
+            for (const std::uint32_t f : {2 * pair, 2 * pair + 1}) {
+                faces[count] = f;
+                count += overlap(box_of(f), box);
+            }
+        return visit(std::span<const std::uint32_t>(faces.data(), count));
+    });
+}
 
 }  // namespace regionmesh

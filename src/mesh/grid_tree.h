@@ -39,6 +39,13 @@ public:
     struct GridBox {
         std::int16_t low[3];
         std::int16_t high[3];
+
+        void join(const GridBox& other) {
+            for (int axis = 0; axis < 3; ++axis) {
+                low[axis] = std::min(low[axis], other.low[axis]);
+                high[axis] = std::max(high[axis], other.high[axis]);
+            }
+        }
     };
     /// Eight boxes, one per lane.
     struct alignas(16) Boxes {
@@ -125,6 +132,13 @@ private:
     Entry root() const { return {static_cast<std::uint32_t>(levels_.size()) - 1, 0}; }
     void start(std::uint32_t count, const Box& extent);
     void build_upper(std::uint32_t threads);
+    /// Groups of a large tree are in no cache: better all at once than one after the other.
+    void prefetch(std::uint32_t level, std::span<const std::uint32_t> groups) const {
+        for (const std::uint32_t group : groups) {
+            const auto* bytes = reinterpret_cast<const char*>(&levels_[level][group]);
+            for (std::size_t line = 0; line < sizeof(Boxes); line += 64) __builtin_prefetch(bytes + line);
+        }
+    }
     /// Searches these groups of a level and all below them; false where a visit has ended the search.
     template <class Visit>
     bool search_below(std::uint32_t level, std::span<const std::uint32_t> groups, const Boxes& wanted,
@@ -169,6 +183,7 @@ bool GridTree::search_below(std::uint32_t level, std::span<const std::uint32_t> 
             count += kSetBits.count[mask];
         }
         const std::span<const std::uint32_t> found(met.data(), count);
+        if (level > 0) prefetch(level - 1, found);
         if (!(level > 0 ? search_below(level - 1, found, wanted, visit) : visit(found))) return false;
     }
     return true;

@@ -100,7 +100,7 @@ private:
     static std::optional<FaceTree> tree_of(const Mesh& mesh, const SimplifyOptions& options,
                                            const CollapseBounds& bounds) {
         if (!options.intersect_check) return {};
-        return FaceTree(mesh, bounds.threads);
+        return FaceTree(mesh, bounds.threads, bounds.boxes);
     }
 
     static std::optional<RisingFaces> rising_of(const Mesh& mesh, const SimplifyOptions& options) {
@@ -133,7 +133,7 @@ private:
     void pack() {
         if (mesh_.face_count() >= mesh_.face_end() * kCompactBelow) return;
         mesh_.compact_faces();
-        if (tree_) tree_->build(mesh_, threads_);
+        if (tree_) tree_->build(threads_);
         if (rising_) rising_->build(mesh_);
     }
 

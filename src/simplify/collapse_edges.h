@@ -41,6 +41,7 @@ struct CollapseBounds {
     CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
     CollapseLog* log = nullptr;          // filled; those of the prepass have level 0
     std::uint32_t threads = 1;           // 0: one per core. Collapses are made on one, the tree and first ranks on all
+    FaceTree::Faces boxes = FaceTree::Faces::kOneByOne;  // in pairs: 7 bytes a face less, and longer tests
 };
 
 struct CollapseResult {

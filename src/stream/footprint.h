@@ -17,8 +17,10 @@ constexpr std::uint64_t per_face(std::uint64_t face_bytes, std::uint64_t vertex_
 /// The program and its libraries, and buffers of reading and writing.
 inline constexpr std::uint64_t kProcessBytes = std::uint64_t{20} << 20;
 
-/// A tree of boxes: six coordinates of 16 bits at the lowest level, and 1/7 of that for the levels above.
+/// A tree of boxes: six coordinates of 16 bits at the lowest level, and 1/7 of that for the levels above. One box for
+/// each face, or one for two.
 inline constexpr std::uint64_t kTreeBytesPerFace = 6 * sizeof(std::uint16_t) + 2;
+inline constexpr std::uint64_t kPairedTreeBytesPerFace = kTreeBytesPerFace / 2;
 
 inline constexpr std::uint64_t kMeshBytesPerFace = per_face(sizeof(Face), sizeof(Vertex));
 static_assert(kMeshBytesPerFace == 48);
@@ -26,12 +28,13 @@ static_assert(kMeshBytesPerFace == 48);
 /// Per vertex a quadric of ten floats, the partner of its cheapest edge, the cost up to which edges were refused, a
 /// heap entry and the position in the heap; and 16 bytes of a second choice for every second vertex.
 inline constexpr std::uint64_t kDecimationBytesPerFace =
-    per_face(kTreeBytesPerFace, 10 * sizeof(float) + 5 * sizeof(std::uint32_t)) + 4;
+    per_face(kPairedTreeBytesPerFace, 10 * sizeof(float) + 5 * sizeof(std::uint32_t)) + 4;
 inline constexpr std::uint64_t kBytesPerFace = kMeshBytesPerFace + kDecimationBytesPerFace;
-static_assert(kBytesPerFace == 96, "at most 96 bytes a face while simplifying");
+static_assert(kBytesPerFace == 89, "at most 89 bytes a face while simplifying");
 
-/// The mesh while it is sorted or decimated, with free places in between.
-inline constexpr std::uint64_t kWorkBytesPerFace = kBytesPerFace + 4;
+/// The mesh while it is sorted or decimated, as a whole or in tiles (93 bytes a face), with free places in between.
+inline constexpr std::uint64_t kWorkBytesPerFace = 100;
+static_assert(kWorkBytesPerFace >= kBytesPerFace);
 
 /// A chunk, with its list of active vertices and room at the ends of its arrays.
 inline constexpr std::uint64_t kChunkBytesPerFace = per_face(sizeof(ChunkFace), sizeof(ChunkVertex)) + 4;
@@ -42,8 +45,11 @@ static_assert(kChunkBytesPerFace == 40);
 inline constexpr std::uint64_t kTilesBytesPerFace =
     per_face(sizeof(std::uint32_t), sizeof(std::uint32_t)) + per_face(sizeof(ChunkFace), sizeof(ChunkVertex)) / 2;
 static_assert(kTilesBytesPerFace == 24);
-/// A tile in flight is a small mesh that is decimated, with the directions along which its faces rise.
-inline constexpr std::uint64_t kTileBytesPerFace = kWorkBytesPerFace + sizeof(std::uint32_t);
+/// A tile in flight is a small mesh that is decimated, with a box for each face, the directions along which it rises,
+/// and free places in between.
+inline constexpr std::uint64_t kTileBytesPerFace =
+    kBytesPerFace + kTreeBytesPerFace - kPairedTreeBytesPerFace + sizeof(std::uint32_t) + 4;
+static_assert(kTileBytesPerFace == 104);
 
 /// The window of smoothing: faces, their trees, and per vertex three positions, about six neighbours and the start of
 /// their list, the separate part it belongs to, backtrack, request and sides.

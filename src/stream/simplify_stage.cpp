@@ -114,8 +114,10 @@ void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     SimplifyOptions own = simplify_options(options_, shape_);
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
     own.bounds_regions = false;  // few collapses are left: not worth 4 bytes a face of the whole mesh
-    const CollapseBounds bounds{
-        .limits = box_of({.high = safe_high}, shape_.axis()), .refresh = is_last, .threads = options_.threads};
+    const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()),
+                                .refresh = is_last,
+                                .threads = options_.threads,
+                                .boxes = FaceTree::Faces::kInPairs};
     const std::uint64_t held = mesh_.face_count();
     own.on_progress = [&] {
         const auto gone = static_cast<double>(held - mesh_.face_count());

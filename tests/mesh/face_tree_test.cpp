@@ -68,16 +68,18 @@ Mesh sorted_noise() {
     return mesh;
 }
 
-TEST(FaceTree, finds_all_faces_that_meet_a_box) {
+class FaceTreeOf : public testing::TestWithParam<FaceTree::Faces> {};
+
+TEST_P(FaceTreeOf, finds_all_faces_that_meet_a_box) {
     const Mesh mesh = sorted_noise();
-    const FaceTree tree(mesh);
+    const FaceTree tree(mesh, 2, GetParam());
     Random random(1);
     for (int n = 0; n < 200; ++n) expect_all_found(mesh, tree, random.box(9, n % 10 ? 1.5 : 0));
 }
 
-TEST(FaceTree, finds_faces_that_only_touch) {
+TEST_P(FaceTreeOf, finds_faces_that_only_touch) {
     const Mesh mesh = sorted_noise();
-    const FaceTree tree(mesh);
+    const FaceTree tree(mesh, 1, GetParam());
     test::for_faces(mesh, [&](FaceId f) {
         const Box own = box_of(mesh, f);
         EXPECT_TRUE(found_in(tree, {own.high, own.high}).contains(index(f)));
@@ -85,9 +87,9 @@ TEST(FaceTree, finds_faces_that_only_touch) {
     });
 }
 
-TEST(FaceTree, follows_faces_that_move_and_go) {
+TEST_P(FaceTreeOf, follows_faces_that_move_and_go) {
     Mesh mesh = sorted_noise();
-    FaceTree tree(mesh);
+    FaceTree tree(mesh, 1, GetParam());
     Random random(2);
     for (int n = 0; n < 500; ++n) {
         const VertexId v{random.below(mesh.vertex_end())};
@@ -99,34 +101,36 @@ TEST(FaceTree, follows_faces_that_move_and_go) {
         tree.remove(gone);
     }
     for (int n = 0; n < 200; ++n) expect_all_found(mesh, tree, random.box(9, 2));
+    tree.build();
+    for (int n = 0; n < 200; ++n) expect_all_found(mesh, tree, random.box(9, 2));
 }
 
-TEST(FaceTree, finds_faces_that_left_the_box_it_was_built_for) {
+TEST_P(FaceTreeOf, finds_faces_that_left_the_box_it_was_built_for) {
     Mesh mesh = test::run(test::solid_volume({3, 3, 3})).mesh;
-    FaceTree tree(mesh);
+    FaceTree tree(mesh, 1, GetParam());
     const FaceId f{5};
     for (VertexId v : mesh[f].vertices) mesh[v].position += Vec3{100, -100, 1e9};
     tree.set(f, box_of(mesh, f));
     EXPECT_TRUE(found_in(tree, box_of(mesh, f)).contains(5));
 }
 
-TEST(FaceTree, search_ends_when_told) {
+TEST_P(FaceTreeOf, search_ends_when_told) {
     const Mesh mesh = sorted_noise();
     int visited = 0;
     const auto visit = [&](std::span<const std::uint32_t> some) {
-        EXPECT_LE(some.size(), GridTree::kMostAtOnce);
+        EXPECT_LE(some.size(), FaceTree::kMostAtOnce);
         return ++visited < 3;
     };
-    FaceTree(mesh).search({{0, 0, 0}, {9, 9, 9}}, visit);
+    FaceTree(mesh, 1, GetParam()).search({{0, 0, 0}, {9, 9, 9}}, visit);
     EXPECT_EQ(visited, 3);
 }
 
-TEST(FaceTree, of_an_empty_model_finds_nothing) {
+TEST_P(FaceTreeOf, an_empty_model_finds_nothing) {
     const Mesh mesh;
-    EXPECT_TRUE(found_in(FaceTree(mesh), {{0, 0, 0}, {1, 1, 1}}).empty());
+    EXPECT_TRUE(found_in(FaceTree(mesh, 1, GetParam()), {{0, 0, 0}, {1, 1, 1}}).empty());
 }
 
-TEST(FaceTree, finds_nothing_but_faces_in_a_box_round_the_whole_model) {
+TEST_P(FaceTreeOf, finds_nothing_but_faces_in_a_box_round_the_whole_model) {
     for (std::uint32_t faces : {1, 7, 8, 9, 64, 65}) {
         Mesh mesh;
         for (std::uint32_t n = 0; n < faces; ++n) {
@@ -135,12 +139,23 @@ TEST(FaceTree, finds_nothing_but_faces_in_a_box_round_the_whole_model) {
                            c = mesh.add_vertex({x, 0, 1});
             mesh.add_face(a, b, c, 0, 1);
         }
-        FaceTree tree(mesh);
+        FaceTree tree(mesh, 1, GetParam());
         EXPECT_EQ(found_in(tree, {{-1, -1, -1}, {100, 2, 2}}).size(), faces);
+        mesh.remove_face(FaceId{0});
         tree.remove(FaceId{0});
         EXPECT_EQ(found_in(tree, {{-1, -1, -1}, {100, 2, 2}}).size(), faces - 1);
     }
 }
+
+TEST(FaceTree, takes_half_the_bytes_in_pairs) {
+    const Mesh mesh = sorted_noise();
+    EXPECT_LE(FaceTree(mesh, 1, FaceTree::Faces::kInPairs).bytes(), FaceTree(mesh).bytes() * 51 / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(faces, FaceTreeOf, testing::Values(FaceTree::Faces::kOneByOne, FaceTree::Faces::kInPairs),
+                         [](const auto& faces) {
+                             return faces.param == FaceTree::Faces::kInPairs ? "in_pairs" : "one_by_one";
+                         });
 
 }  // namespace
 }  // namespace regionmesh

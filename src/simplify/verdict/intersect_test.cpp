@@ -202,7 +202,9 @@ void IntersectTest::number_vertices() {
 
 /// Fills in the places of vertices with new numbers.
 void IntersectTest::find_sides(const Mesh& mesh) {
-    for (auto n = static_cast<std::uint32_t>(places_.size()); n < numbers_.size(); ++n) {
+    const auto first = static_cast<std::uint32_t>(places_.size());
+    for (std::uint32_t n = first; n < numbers_.size(); ++n) __builtin_prefetch(&mesh[numbers_[n]]);
+    for (std::uint32_t n = first; n < numbers_.size(); ++n) {
         const Vec3 p = mesh.position(numbers_[n]);
         places_.push_back({numbers_[n], planes_.sides_of(p), 0, 0, 0, 0, is_within(p, box_)});
     }
