@@ -75,29 +75,35 @@ struct Block {
     }
 };
 
+// A file and the blocks of its arrays, which are written one after the other: one array takes the memory of the last.
+struct ArrayFile {
+    OutputFile& file;
+    std::vector<Block> blocks = {};
+};
+
 // One DataArray: collects numbers into blocks, compresses some blocks at a time on several threads and writes them in
 // their order. The header with the compressed sizes precedes the blocks but is known only after them, so its place is
 // filled in last.
 template <class T>
 class ArrayWriter {
 public:
-    ArrayWriter(OutputFile& file, std::string_view name, int components, std::uint64_t count,
-                const char* attribute = "")
-        : file_(file) {
-        file.write(fmt::format("<DataArray type=\"{}\"{} Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n",
-                               vtk_type<T>(), attribute, name, components));
+    ArrayWriter(ArrayFile& file, std::string_view name, int components, std::uint64_t count, const char* attribute = "")
+        : file_(file.file), blocks_(file.blocks) {
+        file_.write(fmt::format("<DataArray type=\"{}\"{} Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n",
+                                vtk_type<T>(), attribute, name, components));
         const std::uint64_t bytes = count * sizeof(T);
         header_ = {(bytes + kBlockBytes - 1) / kBlockBytes, kBlockBytes, bytes % kBlockBytes};
         block_count_ = header_[0];
-        header_offset_ = file.size();
-        file.write(std::string(base64_length((header_.size() + block_count_) * sizeof(std::uint64_t)), 'A'));
-        const std::uint32_t at_a_time =
-            file.options().threads == 0 ? kMostBlocks : std::min(file.options().threads, kMostBlocks);
-        blocks_.resize(std::clamp<std::uint64_t>(block_count_, 1, at_a_time));
+        header_offset_ = file_.size();
+        file_.write(std::string(base64_length((header_.size() + block_count_) * sizeof(std::uint64_t)), 'A'));
+        const std::uint32_t threads = file_.options().threads;
+        const std::uint32_t at_a_time = threads == 0 ? kMostBlocks : std::min(threads, kMostBlocks);
+        most_full_ = std::clamp<std::uint64_t>(block_count_, 1, at_a_time);
+        if (blocks_.size() < most_full_) blocks_.resize(most_full_);
     }
 
     void put(T value) {
-        if (blocks_[full_].used == kBlockBytes && ++full_ == blocks_.size()) write_blocks();
+        if (blocks_[full_].used == kBlockBytes && ++full_ == most_full_) write_blocks();
         Block& block = blocks_[full_];
         std::memcpy(&block.plain[block.used], &value, sizeof(T));
         block.used += sizeof(T);
@@ -133,8 +139,8 @@ private:
     std::vector<std::uint64_t> header_;  // number of blocks, their size, size of the last if smaller, compressed sizes
     std::uint64_t block_count_ = 0;
     std::uint64_t header_offset_ = 0;
-    std::vector<Block> blocks_;
-    std::size_t full_ = 0;  // blocks
+    std::vector<Block>& blocks_;  // empty between arrays
+    std::size_t full_ = 0, most_full_ = 0;
     std::string text_;
 };
 
@@ -221,85 +227,86 @@ struct PointNumbers {
     std::span<const std::uint64_t> ids = {};  // by vertex id: the number in the whole model. May be empty
 };
 
-void write_points(const FileView& view, const PointNumbers& numbers, OutputFile& file) {
+void write_points(const FileView& view, const PointNumbers& numbers, ArrayFile& to) {
     const std::uint64_t count = view.mesh().vertex_count();
-    file.write(numbers.ids.empty() ? "<PointData>\n" : "<PointData GlobalIds=\"GlobalIds\">\n");
+    to.file.write(numbers.ids.empty() ? "<PointData>\n" : "<PointData GlobalIds=\"GlobalIds\">\n");
     if (!numbers.ids.empty()) {
         // Without IdType VTK does not take the array for global ids.
-        ArrayWriter<std::int64_t> ids(file, "GlobalIds", 1, count, " IdType=\"1\"");
+        ArrayWriter<std::int64_t> ids(to, "GlobalIds", 1, count, " IdType=\"1\"");
         view.for_vertices([&](VertexId v) { ids.put(static_cast<std::int64_t>(numbers.ids[index(v)])); });
         ids.close();
     }
-    ArrayWriter<std::int8_t> types(file, "NodeType", 1, count);
+    ArrayWriter<std::int8_t> types(to, "NodeType", 1, count);
     view.for_vertices([&](VertexId v) { types.put(static_cast<std::int8_t>(view.node_type(v))); });
     types.close();
     for (const PointArray& array : numbers.arrays) {
-        ArrayWriter<double> values(file, array.name, 1, count);
+        ArrayWriter<double> values(to, array.name, 1, count);
         view.for_vertices([&](VertexId v) { values.put(array.values[index(v)]); });
         values.close();
     }
-    file.write("</PointData>\n<Points>\n");
-    ArrayWriter<double> points(file, "Points", 3, 3 * count);
+    to.file.write("</PointData>\n<Points>\n");
+    ArrayWriter<double> points(to, "Points", 3, 3 * count);
     view.for_vertices([&](VertexId v) {
         const Vec3 position = view.mesh().position(v);
         for (int axis = 0; axis < 3; ++axis) points.put(position[axis]);
     });
     points.close();
-    file.write("</Points>\n");
+    to.file.write("</Points>\n");
 }
 
-void write_labels(const FileView& view, OutputFile& file) {
-    file.write("<CellData Scalars=\"Region\">\n");
+void write_labels(const FileView& view, ArrayFile& to) {
+    to.file.write("<CellData Scalars=\"Region\">\n");
     for (const int side : {0, 1}) {
-        ArrayWriter<std::int64_t> region(file, side == 0 ? "Region" : "Neighbour", 1, view.mesh().face_count());
+        ArrayWriter<std::int64_t> region(to, side == 0 ? "Region" : "Neighbour", 1, view.mesh().face_count());
         view.for_faces([&](FaceId f) { region.put(view.face(f).labels[side]); });
         region.close();
     }
-    ArrayWriter<std::int64_t> labels(file, "BoundaryLabels", 2, std::uint64_t{2} * view.mesh().face_count());
+    ArrayWriter<std::int64_t> labels(to, "BoundaryLabels", 2, std::uint64_t{2} * view.mesh().face_count());
     view.for_faces([&](FaceId f) {
         for (const InputLabel label : view.face(f).labels) labels.put(label);
     });
     labels.close();
     const FaceColours colours(view);
-    ArrayWriter<std::uint8_t> rgb(file, "RGB", 3, std::uint64_t{3} * view.mesh().face_count());
+    ArrayWriter<std::uint8_t> rgb(to, "RGB", 3, std::uint64_t{3} * view.mesh().face_count());
     view.for_faces([&](FaceId f) {
         for (const std::uint8_t part : colours(f)) rgb.put(part);
     });
     rgb.close();
-    file.write("</CellData>\n");
+    to.file.write("</CellData>\n");
 }
 
 // Requires an `Index` that can represent the largest vertex number and three times the number of faces.
 template <class Index>
-void write_faces(const FileView& view, DataSet kind, OutputFile& file) {
+void write_faces(const FileView& view, DataSet kind, ArrayFile& to) {
     const std::uint64_t count = view.mesh().face_count();
     const bool is_grid = kind == DataSet::kUnstructuredGrid;
-    file.write(is_grid ? "<Cells>\n" : "<Polys>\n");
-    ArrayWriter<Index> connectivity(file, "connectivity", 1, 3 * count);
+    to.file.write(is_grid ? "<Cells>\n" : "<Polys>\n");
+    ArrayWriter<Index> connectivity(to, "connectivity", 1, 3 * count);
     view.for_faces([&](FaceId f) {
         for (const std::uint32_t v : view.face(f).vertices) connectivity.put(static_cast<Index>(v));
     });
     connectivity.close();
-    ArrayWriter<Index> offsets(file, "offsets", 1, count);
+    ArrayWriter<Index> offsets(to, "offsets", 1, count);
     for (std::uint64_t i = 1; i <= count; ++i) offsets.put(static_cast<Index>(3 * i));
     offsets.close();
     if (is_grid) {
-        ArrayWriter<std::uint8_t> types(file, "types", 1, count);
+        ArrayWriter<std::uint8_t> types(to, "types", 1, count);
         for (std::uint64_t i = 0; i < count; ++i) types.put(kVtkTriangle);
         types.close();
     }
-    file.write(is_grid ? "</Cells>\n" : "</Polys>\n");
+    to.file.write(is_grid ? "</Cells>\n" : "</Polys>\n");
 }
 
 void write_vtk_xml(const FileView& view, DataSet kind, const PointNumbers& numbers, OutputFile& file) {
     write_head(view, kind, file);
-    write_points(view, numbers, file);
-    write_labels(view, file);
+    ArrayFile arrays{file};
+    write_points(view, numbers, arrays);
+    write_labels(view, arrays);
     constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
     if (std::uint64_t{3} * view.mesh().face_count() <= kMost && view.mesh().vertex_count() <= kMost)
-        write_faces<std::int32_t>(view, kind, file);
+        write_faces<std::int32_t>(view, kind, arrays);
     else
-        write_faces<std::int64_t>(view, kind, file);
+        write_faces<std::int64_t>(view, kind, arrays);
     file.write(kind == DataSet::kUnstructuredGrid ? "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n"
                                                   : "</Piece>\n</PolyData>\n</VTKFile>\n");
 }
