@@ -40,7 +40,7 @@ public:
     }
     /// The boxes of two triangles side by side.
     std::array<GridBox, 2> boxes_of(const Lanes3<Double2>& a, const Lanes3<Double2>& b, const Lanes3<Double2>& c) const;
-    /// Removes face f, which the mesh has lost.
+    /// Removes face f. Of a pair, only one that the mesh has lost.
     void remove(FaceId f) {
         if (is_paired_)
             remove_of_pair(f);

@@ -139,8 +139,9 @@ private:
     std::vector<std::uint64_t> header_;  // number of blocks, their size, size of the last if smaller, compressed sizes
     std::uint64_t block_count_ = 0;
     std::uint64_t header_offset_ = 0;
-    std::vector<Block>& blocks_;  // empty between arrays
-    std::size_t full_ = 0, most_full_ = 0;
+    std::vector<Block>& blocks_;  // have no numbers between arrays
+    std::size_t full_ = 0;        // blocks
+    std::size_t most_full_ = 0;   // are compressed at a time
     std::string text_;
 };
 
