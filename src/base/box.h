@@ -1,9 +1,18 @@
-// How boxes lie to each other.
+// Boxes of triangles, and how boxes lie to each other.
 #pragma once
+
+#include <array>
 
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
+
+/// The bounding box of a triangle.
+inline Box box_of(const std::array<Vec3, 3>& corners) {
+    Box box;
+    for (Vec3 p : corners) box.add(p);
+    return box;
+}
 
 /// Whether they have a point in common, on their sides at least. Without branches, which would be mispredicted.
 inline bool overlap(const Box& a, const Box& b) {

@@ -18,12 +18,6 @@ std::array<Vec3, 3> corners_of(const Piece& piece, const PieceFace& face) {
     return {piece.vertices[v[0]].position, piece.vertices[v[1]].position, piece.vertices[v[2]].position};
 }
 
-Box box_of(const std::array<Vec3, 3>& corners) {
-    Box box;
-    for (const Vec3& corner : corners) box.add(corner);
-    return box;
-}
-
 }  // namespace
 
 std::uint32_t block_of(const BlockGrid& grid, const std::array<Vec3, 3>& corners) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "base/exact_predicates.h"
 #include "base/parallel_for.h"
 #include "base/radix_sort.h"
@@ -155,15 +156,11 @@ std::vector<FacePair> find_crossings_apart(const Mesh& mesh, const SortedFaceTre
 
 std::vector<FacePair> find_crossings(std::span<const LabelledFace> faces, std::uint32_t threads) {
     const ListedFaces listed(faces, threads);
-    const auto box_of = [&](FaceId f) {
-        Box box;
-        for (Vec3 p : listed.corners(f)) box.add(p);
-        return box;
-    };
     Box extent;
     for (const LabelledFace& face : faces)
         for (Vec3 p : face.placed.at) extent.add(p);
-    const SortedFaceTree tree(static_cast<std::uint32_t>(faces.size()), extent, box_of, threads);
+    const SortedFaceTree tree(
+        static_cast<std::uint32_t>(faces.size()), extent, [&](FaceId f) { return box_of(listed.corners(f)); }, threads);
     return find_all(listed, tree, threads);
 }
 

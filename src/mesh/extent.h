@@ -1,13 +1,17 @@
-// The bounding box of a mesh.
+// The bounding boxes of a mesh and of its faces.
 #pragma once
 
 #include <cstdint>
 
+#include "base/box.h"
 #include "base/parallel_for.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
+
+/// The bounding box of a face; empty if the face was removed.
+inline Box box_of(const Mesh& mesh, FaceId f) { return mesh.is_alive(f) ? box_of(mesh.corners(f)) : Box(); }
 
 /// The bounding box of all vertices.
 inline Box extent_of(const Mesh& mesh, std::uint32_t threads) {

@@ -7,23 +7,23 @@ namespace regionmesh {
 void FaceTree::build(std::uint32_t threads) {
     const std::uint32_t faces = mesh_->face_end();
     const Box extent = extent_of(*mesh_, threads);
-    if (!is_paired_) return boxes_.build(faces, extent, threads, [&](std::uint32_t f) { return box_of(f); });
+    if (!is_paired_) return boxes_.build(faces, extent, threads, [&](std::uint32_t f) { return box_at(f); });
     boxes_.build(faces / 2 + faces % 2, extent, threads, [&](std::uint32_t pair) {
-        Box box = box_of(2 * pair);
-        box.join(box_of(2 * pair + 1));
+        Box box = box_at(2 * pair);
+        box.join(box_at(2 * pair + 1));
         return box;
     });
 }
 
 void FaceTree::set_pair(FaceId f, const GridBox& box) {
-    const Box other = box_of(index(f) ^ 1);
+    const Box other = box_at(index(f) ^ 1);
     GridBox both = box;
     if (!other.is_empty()) both.join(boxes_.outward(other));
     boxes_.set(index(f) / 2, both);
 }
 
 void FaceTree::remove_of_pair(FaceId f) {
-    const Box other = box_of(index(f) ^ 1);
+    const Box other = box_at(index(f) ^ 1);
     if (other.is_empty())
         boxes_.remove(index(f) / 2);
     else

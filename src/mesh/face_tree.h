@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/box.h"
+#include "mesh/extent.h"
 #include "mesh/grid_tree.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/vec3.h"
@@ -13,8 +14,8 @@
 namespace regionmesh {
 
 /// A tree of boxes over the faces in order of id, which should be a spatial order (Mesh::sort_spatially). A box holds
-/// one face or, in 7 instead of 14 bytes a face, two whose ids follow each other; then the mesh tells which of them
-/// meets a box that is searched. The mesh outlives the tree.
+/// one face (14 bytes a face) or two with consecutive ids (7 bytes a face); in pairs, a search compares the box of each
+/// of the two faces, which it reads from the mesh. The mesh must outlive the tree.
 class FaceTree {
 public:
     using GridBox = GridTree::GridBox;
@@ -29,8 +30,8 @@ public:
     /// Rebuilds the tree from the living faces; releases the old boxes first.
     void build(std::uint32_t threads = 1);
 
-    /// Moves face f to `box`. The mesh tells where the other face of a pair is. The boxes above it grow and never
-    /// shrink.
+    /// Moves face f to `box`. In pairs, reads the position of the other face from the mesh. The boxes above it grow and
+    /// never shrink.
     void set(FaceId f, const Box& box) { set(f, boxes_.outward(box)); }
     void set(FaceId f, const GridBox& box) {
         if (is_paired_)
@@ -40,7 +41,7 @@ public:
     }
     /// The boxes of two triangles side by side.
     std::array<GridBox, 2> boxes_of(const Lanes3<Double2>& a, const Lanes3<Double2>& b, const Lanes3<Double2>& c) const;
-    /// Removes face f. Of a pair, only one that the mesh has lost.
+    /// Removes face f. In pairs, requires that the mesh has removed it, too.
     void remove(FaceId f) {
         if (is_paired_)
             remove_of_pair(f);
@@ -62,13 +63,8 @@ public:
     std::size_t bytes() const { return boxes_.bytes(); }
 
 private:
-    /// Round the corners; empty if the mesh has no such face.
-    Box box_of(std::uint32_t f) const {
-        Box box;
-        if (f < mesh_->face_end() && mesh_->is_alive(FaceId{f}))
-            for (Vec3 p : mesh_->corners(FaceId{f})) box.add(p);
-        return box;
-    }
+    /// Empty if the mesh has no such face, as beside the last face of an odd number.
+    Box box_at(std::uint32_t f) const { return f < mesh_->face_end() ? box_of(*mesh_, FaceId{f}) : Box(); }
     void set_pair(FaceId f, const GridBox& box);
     void remove_of_pair(FaceId f);
     template <class Visit>
@@ -84,11 +80,11 @@ void FaceTree::search_pairs(const Box& box, Visit& visit) const {
     std::array<std::uint32_t, kMostAtOnce> faces;
     boxes_.search(box, [&](std::span<const std::uint32_t> pairs) {
         std::size_t count = 0;
-        for (const std::uint32_t pair : pairs) __builtin_prefetch(&(*mesh_)[FaceId{2 * pair}]);  // both on most lines
+        for (const std::uint32_t pair : pairs) __builtin_prefetch(&(*mesh_)[FaceId{2 * pair}]);
         for (const std::uint32_t pair : pairs)
             for (const std::uint32_t f : {2 * pair, 2 * pair + 1}) {
                 faces[count] = f;
-                count += overlap(box_of(f), box);
+                count += overlap(box_at(f), box);
             }
         return visit(std::span<const std::uint32_t>(faces.data(), count));
     });

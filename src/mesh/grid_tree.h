@@ -132,7 +132,7 @@ private:
     Entry root() const { return {static_cast<std::uint32_t>(levels_.size()) - 1, 0}; }
     void start(std::uint32_t count, const Box& extent);
     void build_upper(std::uint32_t threads);
-    /// Groups of a large tree are in no cache: better all at once than one after the other.
+    /// Groups of a large tree are not in the cache; prefetching lets their misses overlap.
     void prefetch(std::uint32_t level, std::span<const std::uint32_t> groups) const {
         for (const std::uint32_t group : groups) {
             const auto* bytes = reinterpret_cast<const char*>(&levels_[level][group]);

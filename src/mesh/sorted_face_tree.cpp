@@ -7,13 +7,6 @@
 namespace regionmesh {
 namespace {
 
-Box box_round(const Mesh& mesh, FaceId f) {
-    Box box;
-    if (mesh.is_alive(f))
-        for (Vec3 p : mesh.corners(f)) box.add(p);
-    return box;
-}
-
 std::vector<FaceId> along_curve(std::uint32_t face_end, const std::function<Box(FaceId)>& box_of, const Box& extent,
                                 std::uint32_t threads) {
     const MortonCurve curve(extent);
@@ -33,7 +26,7 @@ std::vector<FaceId> along_curve(std::uint32_t face_end, const std::function<Box(
 
 SortedFaceTree::SortedFaceTree(const Mesh& mesh, std::uint32_t threads)
     : SortedFaceTree(
-          mesh.face_end(), extent_of(mesh, threads), [&](FaceId f) { return box_round(mesh, f); }, threads) {}
+          mesh.face_end(), extent_of(mesh, threads), [&](FaceId f) { return box_of(mesh, f); }, threads) {}
 
 SortedFaceTree::SortedFaceTree(std::uint32_t face_end, const Box& extent, const std::function<Box(FaceId)>& box_of,
                                std::uint32_t threads) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/box.h"
 #include "simplify/fan_shape.h"
 #include "simplify/verdict/samples.h"
 #include "simplify/verdict/verdicts.h"
@@ -44,12 +45,6 @@ double height(const Mesh& mesh, const Flip& flip) {
     const Vec3 across = cross(mesh.position(flip.v) - u, mesh.position(flip.d) - c);
     const double size = length(across);
     return size > 0 ? std::abs(dot(across, c - u)) / size : HUGE_VAL;
-}
-
-Box box_of(const std::array<Vec3, 3>& corners) {
-    Box box;
-    for (Vec3 p : corners) box.add(p);
-    return box;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/box.h"
 #include "base/exact_predicates.h"
 #include "base/parallel_for.h"
 
@@ -9,12 +10,6 @@ namespace regionmesh {
 namespace {
 
 using smoothing::kCrossingTask, smoothing::kResolveStep;
-
-bool do_overlap(const Box& a, const Box& b) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (a.low[axis] > b.high[axis] || a.high[axis] < b.low[axis]) return false;
-    return true;
-}
 
 }  // namespace
 
@@ -73,7 +68,7 @@ PlacedFace IntersectionResolver::placed(std::uint32_t f) const {
 template <class Visit>
 void IntersectionResolver::for_near(const Box& box, Visit&& visit) const {
     for (const ChunkTree& held : trees_) {
-        if (!do_overlap(box, held.bounds)) continue;
+        if (!overlap(box, held.bounds)) continue;
         held.tree.search(box, [&](FaceId f) {
             visit(held.first_face + index(f));
             return true;
@@ -138,9 +133,7 @@ bool IntersectionResolver::request_crossings(const std::vector<std::uint32_t>& f
             const std::uint32_t f = faces[n];
             const PlacedFace own = placed(f);
             if (is_degenerate({own.at[0], own.at[1], own.at[2]})) continue;
-            Box box;
-            for (Vec3 p : own.at) box.add(p);
-            for_near(box, [&](std::uint32_t g) {
+            for_near(box_of(own.at), [&](std::uint32_t g) {
                 if (g == f || (g > f && g >= whole.first && g < whole.end)) return;
                 const PlacedFace other = placed(g);
                 if (!boxes_overlap(own.at, other.at)) return;

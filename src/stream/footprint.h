@@ -17,8 +17,8 @@ constexpr std::uint64_t per_face(std::uint64_t face_bytes, std::uint64_t vertex_
 /// The program and its libraries, and buffers of reading and writing.
 inline constexpr std::uint64_t kProcessBytes = std::uint64_t{20} << 20;
 
-/// A tree of boxes: six coordinates of 16 bits at the lowest level, and 1/7 of that for the levels above. One box for
-/// each face, or one for two.
+/// A tree of boxes: six coordinates of 16 bits at the lowest level, and 1/7 of that for the levels above. A box holds
+/// one face, or two while the whole mesh is decimated.
 inline constexpr std::uint64_t kTreeBytesPerFace = 6 * sizeof(std::uint16_t) + 2;
 inline constexpr std::uint64_t kPairedTreeBytesPerFace = kTreeBytesPerFace / 2;
 
@@ -30,11 +30,11 @@ static_assert(kMeshBytesPerFace == 48);
 inline constexpr std::uint64_t kDecimationBytesPerFace =
     per_face(kPairedTreeBytesPerFace, 10 * sizeof(float) + 5 * sizeof(std::uint32_t)) + 4;
 inline constexpr std::uint64_t kBytesPerFace = kMeshBytesPerFace + kDecimationBytesPerFace;
-static_assert(kBytesPerFace == 89, "at most 89 bytes a face while simplifying");
+static_assert(kBytesPerFace == 89, "docs/memory.md has this number");
 
 /// The mesh while it is sorted or decimated, as a whole or in tiles (93 bytes a face), with free places in between.
 inline constexpr std::uint64_t kWorkBytesPerFace = 100;
-static_assert(kWorkBytesPerFace >= kBytesPerFace);
+static_assert(kWorkBytesPerFace >= 93 && kWorkBytesPerFace >= kBytesPerFace);
 
 /// A chunk, with its list of active vertices and room at the ends of its arrays.
 inline constexpr std::uint64_t kChunkBytesPerFace = per_face(sizeof(ChunkFace), sizeof(ChunkVertex)) + 4;

@@ -6,18 +6,13 @@
 #include <set>
 
 #include "base/hash.h"
+#include "mesh/extent.h"
 #include "support/runs.h"
 
 namespace regionmesh {
 namespace {
 
 using Faces = std::set<std::uint32_t>;
-
-Box box_of(const Mesh& mesh, FaceId f) {
-    Box box;
-    for (Vec3 p : mesh.corners(f)) box.add(p);
-    return box;
-}
 
 bool do_meet(const Box& a, const Box& b) {
     for (int axis = 0; axis < 3; ++axis)

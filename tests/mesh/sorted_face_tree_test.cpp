@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "mesh/extent.h"
 #include "mesh/face_meeting.h"
 #include "support/random.h"
 #include "support/runs.h"
@@ -28,12 +29,6 @@ Mesh shuffled(const Mesh& mesh, std::uint64_t seed) {
     }
     for (std::uint32_t f = 0; f < result.face_end(); f += 10) result.remove_face(FaceId{f});
     return result;
-}
-
-Box box_of(const Mesh& mesh, FaceId f) {
-    Box box;
-    for (Vec3 p : mesh.corners(f)) box.add(p);
-    return box;
 }
 
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;

@@ -75,7 +75,8 @@ struct Block {
     }
 };
 
-// A file and the blocks of its arrays, which are written one after the other: one array takes the memory of the last.
+// A file and the blocks in which its arrays are compressed. Arrays are written one after the other and share the
+// blocks.
 struct ArrayFile {
     OutputFile& file;
     std::vector<Block> blocks = {};
@@ -139,9 +140,9 @@ private:
     std::vector<std::uint64_t> header_;  // number of blocks, their size, size of the last if smaller, compressed sizes
     std::uint64_t block_count_ = 0;
     std::uint64_t header_offset_ = 0;
-    std::vector<Block>& blocks_;  // have no numbers between arrays
-    std::size_t full_ = 0;        // blocks
-    std::size_t most_full_ = 0;   // are compressed at a time
+    std::vector<Block>& blocks_;  // of the file; `used` is 0 in all of them between two arrays
+    std::size_t full_ = 0;        // blocks to compress
+    std::size_t most_full_ = 0;   // blocks compressed at a time
     std::string text_;
 };
 
