@@ -8,7 +8,8 @@
 namespace regionmesh {
 
 /// Ranked collapses, a vertex, with quadrics; the tree of boxes over the faces comes on top (FaceTree::bytes).
-inline constexpr std::size_t kCollapseBytesPerVertex = Candidates::kBytesPerVertex + VertexQuadrics::kBytesPerVertex;
+inline constexpr std::size_t kCollapseBytesPerVertex =
+    Candidates::bytes_per_vertex(EdgeOrder::kByCost) + VertexQuadrics::kBytesPerVertex;
 static_assert(kCollapseBytesPerVertex == 60, "docs/memory.md has this number");
 
 /// A chunk that is cut into tiles, a face with half a vertex: the chunk, the chunk made of it, and the tables of tiles.

@@ -14,17 +14,17 @@ constexpr float kNoFloor = -std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-Candidates::Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options)
+Candidates::Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options, EdgeOrder order)
     : mesh_(mesh),
       placement_(placement),
       options_(options),
-      heap_(mesh.vertex_end()),
+      queue_(mesh.vertex_end(), order),
       key_unit_(std::ldexp(1.0, -4 * std::ilogb(options.scale))) {
     partner_.resize(mesh.vertex_end(), kNoVertex);
     floor_.resize(mesh.vertex_end(), kNoFloor);
 }
 
-std::size_t Candidates::bytes() const { return partner_.bytes() + floor_.bytes() + heap_.bytes(); }
+std::size_t Candidates::bytes() const { return partner_.bytes() + floor_.bytes() + queue_.bytes(); }
 
 std::uint64_t Candidates::refresh(std::uint32_t threads) {
     constexpr std::uint32_t kVertices = 1024;  // of a task
@@ -132,20 +132,20 @@ Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, Scratc
 void Candidates::rank(VertexId v, Best best) {
     partner_[index(v)] = best.stays;
     if (best.stays == kNoVertex)
-        heap_.remove(v);
+        queue_.remove(v);
     else
-        heap_.set(v, best.key);
+        queue_.set(v, best.key);
 }
 
 void Candidates::refuse() {
-    const VertexId v = heap_.top();
-    const Best refused{partner_[index(v)], heap_.top_key()};
+    const VertexId v = queue_.top();
+    const Best refused{partner_[index(v)], queue_.top_key()};
     floor_[index(v)] = std::max(floor_[index(v)], refused.key);
     rank(v, best(v, refused, kNoVertex, scratch_));
 }
 
 void Candidates::update(VertexId goes, VertexId stays) {
-    heap_.remove(goes);
+    queue_.remove(goes);
     partner_[index(goes)] = kNoVertex;
     round_merged_.clear();
     for_neighbours(stays, scratch_.seen, [&](VertexId w) { round_merged_.push_back(w); });
@@ -164,7 +164,7 @@ void Candidates::update(VertexId goes, VertexId stays) {
             rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, scratch_));
         } else if (owner_of_edge == w) {
             const Best fresh{stays, key(w, stays, costs_round_merged_[n], scratch_)};
-            if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, heap_.key(w)})))
+            if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, queue_.key(w)})))
                 rank(w, fresh);
         }
     }

@@ -1,10 +1,10 @@
-// The edges that may be collapsed, their costs, and the heap that ranks them.
+// The edges that may be collapsed, their costs, and the queue that ranks them.
 #pragma once
 
 #include <vector>
 
 #include "regionmesh/simplify.h"
-#include "simplify/edge_heap.h"
+#include "simplify/edge_queue.h"
 #include "simplify/placement.h"
 
 namespace regionmesh {
@@ -13,27 +13,33 @@ namespace regionmesh {
 /// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
 class Candidates {
 public:
-    Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options);
+    Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options,
+               EdgeOrder order = EdgeOrder::kByCost);
 
     /// Gathers all candidates anew, on at most `threads` threads (0: one per core). Returns the number of edges that
     /// strata forbid.
     std::uint64_t refresh(std::uint32_t threads = 1);
 
-    bool empty() const { return heap_.empty(); }
+    bool empty() const { return queue_.empty(); }
+    /// Finds the edge whose turn it is, of goes() and stays(), after each refresh, refusal or collapse; about `wanted`
+    /// more have to be collapsed. Requires that there is one.
+    void find_next(std::uint64_t wanted) { queue_.find_next(wanted); }
     /// Whether the largest error has kept an edge out since the last refresh.
     bool has_edges_over_error() const { return scratch_.notes.has_edges_over_error; }
-    VertexId goes() const { return heap_.top(); }
-    VertexId stays() const { return partner_[index(heap_.top())]; }
-    double least_rank() const { return heap_.top_key() / key_unit_; }
+    VertexId goes() const { return queue_.top(); }
+    VertexId stays() const { return partner_[index(queue_.top())]; }
+    double rank() const { return queue_.top_key() / key_unit_; }
     /// May v go to w, by strata? Both are alive.
     bool may_go(VertexId v, VertexId w) const;
 
-    /// Puts the cheapest candidate aside until something near it changes.
+    /// Puts that edge aside until something near it changes.
     void refuse();
     /// After a collapse of any edge: `goes` has left, and the edges round `stays` are ranked again.
     void update(VertexId goes, VertexId stays);
 
-    static constexpr std::size_t kBytesPerVertex = EdgeHeap::kBytesPerVertex + sizeof(VertexId) + sizeof(float);
+    static constexpr std::size_t bytes_per_vertex(EdgeOrder order) {
+        return EdgeQueue::bytes_per_vertex(order) + sizeof(VertexId) + sizeof(float);
+    }
     std::size_t bytes() const;
 
 private:
@@ -67,9 +73,9 @@ private:
     const Mesh& mesh_;
     Placement& placement_;
     const SimplifyOptions& options_;
-    FlatArray<VertexId> partner_;  // where the cheapest edge of a vertex in the heap leads
+    FlatArray<VertexId> partner_;  // where the cheapest edge of a vertex in the queue leads
     FlatArray<float> floor_;       // edges up to this key were refused since the last change
-    EdgeHeap heap_;
+    EdgeQueue queue_;
     Scratch scratch_;
     std::vector<VertexId> round_merged_;        // neighbours of the merged vertex
     std::vector<EdgeCost> costs_round_merged_;  // of its edges

@@ -56,7 +56,7 @@ public:
           rising_(rising_of(mesh, options)),
           outside_(mesh, bounds.limits),
           placement_((count_labels(mesh, bounds.threads), make_placement(mesh, options, bounds.threads))),
-          candidates_(mesh, *placement_, options),
+          candidates_(mesh, *placement_, options, bounds.is_large ? EdgeOrder::kInSweeps : EdgeOrder::kByCost),
           halves_(mesh.vertex_count() / 2),
           collapse_{.mesh = mesh,
                     .tree = tree_ ? &*tree_ : nullptr,
@@ -100,7 +100,7 @@ private:
     static std::optional<FaceTree> tree_of(const Mesh& mesh, const SimplifyOptions& options,
                                            const CollapseBounds& bounds) {
         if (!options.intersect_check) return {};
-        return FaceTree(mesh, bounds.threads, bounds.boxes);
+        return FaceTree(mesh, bounds.threads, bounds.is_large ? FaceTree::Faces::kInPairs : FaceTree::Faces::kOneByOne);
     }
 
     static std::optional<RisingFaces> rising_of(const Mesh& mesh, const SimplifyOptions& options) {
@@ -138,8 +138,10 @@ private:
     }
 
     void step() {
-        if (halves_.empty() || (!candidates_.empty() && candidates_.least_rank() <= halves_.least_rank())) {
-            note_level(candidates_.least_rank());
+        // A collapse takes two faces and seldom more.
+        if (!candidates_.empty()) candidates_.find_next((mesh_.face_count() - options_.target_faces + 1) / 2);
+        if (halves_.empty() || (!candidates_.empty() && candidates_.rank() <= halves_.least_rank())) {
+            note_level(candidates_.rank());
             try_best();
         } else {
             note_level(halves_.least_rank());

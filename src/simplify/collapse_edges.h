@@ -41,7 +41,8 @@ struct CollapseBounds {
     CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
     CollapseLog* log = nullptr;          // filled; those of the prepass have level 0
     std::uint32_t threads = 1;           // 0: one per core. Collapses are made on one, the tree and first ranks on all
-    FaceTree::Faces boxes = FaceTree::Faces::kOneByOne;  // in pairs: 7 bytes a face less, and longer tests
+    bool is_large = false;  // far larger than the caches, and little has to go: takes 11 bytes a face less, and
+                            // collapses edges that cost about as much along the curve of the vertices
 };
 
 struct CollapseResult {

@@ -53,6 +53,12 @@ inline constexpr double kCompactBelow = 0.5;
 /// A second choice waits once more where its rank has risen by more than this factor since it was put aside.
 inline constexpr double kSameRank = 1.0001;
 
+/// Where a mesh is large, a sweep over the candidates is limited to the cheapest ones, as many as have to go, but at
+/// least one in kLeastSweepPart, so that finding the limit takes less than the tests, and at most one in
+/// kMostSweepPart. Trim of a head of 2.1 million faces: 1.13 s in exact order; in sweeps of 0.5, 0.7, 1 and 1.5 times
+/// as many as have to go 0.91, 0.85, 0.80 and 0.77 s; rms 0.00058 in all cases.
+inline constexpr std::uint32_t kLeastSweepPart = 1024, kMostSweepPart = 8;
+
 // --- Prepass ---------------------------------------------------------------------------------------------------------
 
 /// Cost up to which the prepass collapses. 78 of 100 collapses are made by it, at 2.3 microseconds instead of 8.5 (3.3

@@ -25,12 +25,12 @@ inline constexpr std::uint64_t kPairedTreeBytesPerFace = kTreeBytesPerFace / 2;
 inline constexpr std::uint64_t kMeshBytesPerFace = per_face(sizeof(Face), sizeof(Vertex));
 static_assert(kMeshBytesPerFace == 48);
 
-/// Per vertex a quadric of ten floats, the partner of its cheapest edge, the cost up to which edges were refused, a
-/// heap entry and the position in the heap; and 16 bytes of a second choice for every second vertex.
+/// Per vertex a quadric of ten floats, the partner and the key of its cheapest edge, and the key up to which edges were
+/// refused; and 16 bytes of a second choice for every second vertex.
 inline constexpr std::uint64_t kDecimationBytesPerFace =
-    per_face(kPairedTreeBytesPerFace, 10 * sizeof(float) + 5 * sizeof(std::uint32_t)) + 4;
+    per_face(kPairedTreeBytesPerFace, 10 * sizeof(float) + 3 * sizeof(std::uint32_t)) + 4;
 inline constexpr std::uint64_t kBytesPerFace = kMeshBytesPerFace + kDecimationBytesPerFace;
-static_assert(kBytesPerFace == 89, "docs/memory.md has this number");
+static_assert(kBytesPerFace == 85, "docs/memory.md has this number");
 
 /// The mesh while it is sorted or decimated, as a whole or in tiles (93 bytes a face), with free places in between.
 inline constexpr std::uint64_t kWorkBytesPerFace = 100;
@@ -45,10 +45,10 @@ static_assert(kChunkBytesPerFace == 40);
 inline constexpr std::uint64_t kTilesBytesPerFace =
     per_face(sizeof(std::uint32_t), sizeof(std::uint32_t)) + per_face(sizeof(ChunkFace), sizeof(ChunkVertex)) / 2;
 static_assert(kTilesBytesPerFace == 24);
-/// A tile in flight is a small mesh that is decimated, with a box for each face, the directions along which it rises,
-/// and free places in between.
+/// A tile in flight is a small mesh that is decimated, with a box for each face, a heap (an entry and a place of 8 bytes
+/// more than the key alone), the directions along which faces rise, and free places in between.
 inline constexpr std::uint64_t kTileBytesPerFace =
-    kBytesPerFace + kTreeBytesPerFace - kPairedTreeBytesPerFace + sizeof(std::uint32_t) + 4;
+    kBytesPerFace + per_face(kTreeBytesPerFace - kPairedTreeBytesPerFace, 8) + sizeof(std::uint32_t) + 4;
 static_assert(kTileBytesPerFace == 104);
 
 /// The window of smoothing: faces, their trees, and per vertex three positions, about six neighbours and the start of

@@ -117,7 +117,7 @@ void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
     const CollapseBounds bounds{.limits = box_of({.high = safe_high}, shape_.axis()),
                                 .refresh = is_last,
                                 .threads = options_.threads,
-                                .boxes = FaceTree::Faces::kInPairs};
+                                .is_large = true};
     const std::uint64_t held = mesh_.face_count();
     own.on_progress = [&] {
         const auto gone = static_cast<double>(held - mesh_.face_count());

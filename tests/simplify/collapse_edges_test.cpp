@@ -230,6 +230,34 @@ TEST(CollapseEdges, a_higher_cost_level_or_error_leaves_fewer_faces) {
     }
 }
 
+TEST(CollapseEdges, a_large_mesh_gives_up_its_cheap_edges_first_on_any_number_of_threads) {
+    std::set<std::uint64_t> digests;
+    std::map<bool, double> volume;
+    for (const auto& [is_large, threads] : {std::pair{false, 1u}, {true, 1u}, {true, 3u}}) {
+        Mesh mesh = run(test::ball_volume({40, 40, 40}, 15)).mesh;
+        mesh.sort_spatially();
+        const std::uint32_t target = mesh.face_count() / 10;
+        const CollapseResult done =
+            collapse_edges(mesh, {.target_faces = target}, {.threads = threads, .is_large = is_large});
+        EXPECT_EQ(done.stopped, StopReason::kTarget);
+        EXPECT_LE(mesh.face_count(), target);
+        EXPECT_GT(mesh.face_count() + 4, target);
+        test::expect_sound(check(mesh));
+        volume[is_large] = volume_of(mesh, 1);
+        if (is_large) digests.insert(test::digest(mesh));
+    }
+    EXPECT_EQ(digests.size(), 1u);
+    EXPECT_NEAR(volume[true], volume[false], 0.005 * volume[false]);
+}
+
+TEST(CollapseEdges, a_large_mesh_goes_down_to_what_topology_allows) {
+    Mesh mesh = run(test::solid_volume({7, 6, 5})).mesh;
+    const CollapseResult done = collapse_edges(mesh, {}, {.is_large = true});
+    EXPECT_EQ(mesh.face_count(), 12u);
+    EXPECT_EQ(done.stopped, StopReason::kTopology);
+    EXPECT_GT(done.bytes, 0u);
+}
+
 TEST(CollapseEdges, an_error_that_bounds_nothing_is_not_why_it_stopped) {
     Mesh mesh = grains();
     EXPECT_EQ(collapse_edges(mesh, {.max_error = 1e9}).stopped, StopReason::kTopology);

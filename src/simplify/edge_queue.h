@@ -1,0 +1,47 @@
+// The candidate edges in the order in which they are tried.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simplify/edge_heap.h"
+#include "simplify/edge_sweeps.h"
+
+namespace regionmesh {
+
+enum class EdgeOrder : std::uint8_t {
+    kByCost,    // always the cheapest one (EdgeHeap)
+    kInSweeps,  // the cheapest part of them along the curve of the vertices, then the next part (EdgeSweeps)
+};
+
+/// Vertices with the key of the cheapest edge that each owns, in one of two orders.
+class EdgeQueue {
+public:
+    EdgeQueue(std::uint32_t vertex_end, EdgeOrder order)
+        : is_heap_(order == EdgeOrder::kByCost), heap_(is_heap_ ? vertex_end : 0), sweeps_(is_heap_ ? 0 : vertex_end) {}
+
+    bool empty() const { return is_heap_ ? heap_.empty() : sweeps_.empty(); }
+    float key(VertexId v) const { return is_heap_ ? heap_.key(v) : sweeps_.key(v); }
+    void set(VertexId v, float key) { is_heap_ ? heap_.set(v, key) : sweeps_.set(v, key); }
+    void remove(VertexId v) { is_heap_ ? heap_.remove(v) : sweeps_.remove(v); }
+
+    /// Before each use of top(): finds the vertex whose turn it is; about `wanted` more have to go. Requires that it is
+    /// not empty.
+    void find_next(std::uint64_t wanted) {
+        if (!is_heap_) sweeps_.find_next(wanted);
+    }
+    VertexId top() const { return is_heap_ ? heap_.top() : sweeps_.top(); }
+    float top_key() const { return is_heap_ ? heap_.top_key() : sweeps_.key(sweeps_.top()); }
+
+    static constexpr std::size_t bytes_per_vertex(EdgeOrder order) {
+        return order == EdgeOrder::kByCost ? EdgeHeap::kBytesPerVertex : EdgeSweeps::kBytesPerVertex;
+    }
+    std::size_t bytes() const { return heap_.bytes() + sweeps_.bytes(); }
+
+private:
+    bool is_heap_;
+    EdgeHeap heap_;
+    EdgeSweeps sweeps_;
+};
+
+}  // namespace regionmesh
