@@ -124,8 +124,8 @@ std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces, std::uint32_
     for (std::uint32_t tile = 0; tile < faces.grid().tile_count(); ++tile)
         if (!faces.faces_of(tile).empty()) full.push_back(tile);
     const auto count = static_cast<std::uint32_t>(full.size());
-    const std::uint32_t every =
-        std::min(std::clamp(count / kSampledTiles, least_every, kSampledTiles), std::max(count, 1u));
+    const std::uint32_t one_in = std::clamp(count / kSampledTiles, least_every, kSampledTiles);
+    const std::uint32_t every = std::min(std::max(one_in, count / kMostSampledTiles), std::max(count, 1u));
     for (std::uint32_t n = 0; n + every <= full.size(); n += every)
         chosen.push_back(full[n + static_cast<std::uint32_t>(hash_unit(n, every) * every)]);
     return chosen;

@@ -45,8 +45,8 @@ static_assert(kChunkBytesPerFace == 40);
 inline constexpr std::uint64_t kTilesBytesPerFace =
     per_face(sizeof(std::uint32_t), sizeof(std::uint32_t)) + per_face(sizeof(ChunkFace), sizeof(ChunkVertex)) / 2;
 static_assert(kTilesBytesPerFace == 24);
-/// A tile in flight is a small mesh that is decimated, with a box for each face, a heap (an entry and a place of 8 bytes
-/// more than the key alone), the directions along which faces rise, and free places in between.
+/// A tile in flight is a small mesh that is decimated, with a box for each face, a heap (an entry and a place of 8
+/// bytes more than the key alone), the directions along which faces rise, and free places in between.
 inline constexpr std::uint64_t kTileBytesPerFace =
     kBytesPerFace + per_face(kTreeBytesPerFace - kPairedTreeBytesPerFace, 8) + sizeof(std::uint32_t) + 4;
 static_assert(kTileBytesPerFace == 104);

@@ -19,7 +19,7 @@ bool TileStage::may_coarsen_caps(const SourceShape& shape, const Target& target)
 TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const SourceShape& shape, RunLog& log)
     : plan_(plan), log_(log), coarsens_caps_(may_coarsen_caps(shape, plan.target)) {
     const double share = plan.target.share();
-    is_on_ = plan.is_decimating && share * kFreeMargin < 1;
+    is_on_ = plan.is_decimating && share * kFreeMargin < 1 - kLeastFreeGain;
     tile_options_ = {.threshold = kTileThreshold,
                      .keep_share = std::min(share * kTileMargin, 1.0),
                      .free_share = share > kFreeFrom ? share * kFreeMargin : 1,
@@ -33,16 +33,20 @@ void TileStage::run(GatheredStrips& gathered) {
     TileOptions options = tile_options_;
     const StageTimer timer = log_.time("decimate tiles");
     if (coarsens_caps_ && !gathered.chunk.faces.empty()) coarsen_caps(gathered, options);
-    if (has_few_free()) return log_.note_strips_through(WorkStage::kTiles, gathered.end);
+    if (had_few_free_ && options.keep_share >= kNearShare)
+        return log_.note_strips_through(WorkStage::kTiles, gathered.end);
     options.on_share = [&](double share) {
         log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gathered.end - strips_done_));
     };
     options.faces_in_flight = static_cast<std::uint64_t>(
         std::ceil(plan_.budget.share_in_flight * static_cast<double>(gathered.chunk.faces.size())));
-    given_ += gathered.chunk.faces.size();
+    const std::size_t given = gathered.chunk.faces.size();
     log_.add(simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, options));
-    left_ += gathered.chunk.faces.size();
     strips_done_ = gathered.end;
+    if (given < kFreeTrialFaces) return;
+    const double left = static_cast<double>(gathered.chunk.faces.size()) / static_cast<double>(given);
+    // Where half of what may go for free went, there may have been more.
+    had_few_free_ = left > std::max(options.keep_share - kLeastFreeGain, (options.keep_share + options.free_share) / 2);
 }
 
 /// What the target leaves is a share of the faces before.
@@ -57,11 +61,6 @@ void TileStage::coarsen_caps(GatheredStrips& gathered, TileOptions& options) con
     const double left = static_cast<double>(gathered.chunk.faces.size()) / before;
     options.keep_share = std::min(options.keep_share / left, 1.0);
     options.free_share = std::min(options.free_share / left, 1.0);
-}
-
-bool TileStage::has_few_free() const {
-    return tile_options_.keep_share >= 1 && given_ >= kFreeTrialFaces &&
-           static_cast<double>(left_) > (1 - kLeastFreeGain) * static_cast<double>(given_);
 }
 
 }  // namespace regionmesh

@@ -17,20 +17,19 @@ public:
     /// Whether run() does anything.
     bool is_on() const { return is_on_; }
     /// Coarsens the caps of the chunk, and decimates it up to a fixed cost; never below what the target leaves. Where
-    /// the target allows only collapses at zero cost, and chunks so far had few, makes none: the trim makes those few
-    /// in less time.
+    /// the target is near, and few collapses of the chunk before cost nothing, only coarsens caps: the second stage
+    /// makes the same collapses in less time.
     void run(GatheredStrips& gathered);
 
 private:
     /// Sets the shares of what is left to those of the faces that are left.
     void coarsen_caps(GatheredStrips& gathered, TileOptions& options) const;
-    bool has_few_free() const;
 
     const Plan& plan_;
     TileOptions tile_options_;
     RunLog& log_;
     std::uint32_t strips_done_ = 0;
-    std::uint64_t given_ = 0, left_ = 0;  // faces of the chunks so far
+    bool had_few_free_ = false;  // of the last chunk with many faces
     bool coarsens_caps_;
     bool is_on_;
 };

@@ -10,8 +10,10 @@ namespace regionmesh {
 namespace {
 
 /// Faces of each chunk before and after the first stage.
-std::vector<std::pair<std::size_t, std::size_t>> faces_of_chunks(test::ArrayVolume volume, double reduce) {
-    const ReconstructOptions options = test::reduced(reduce);
+std::vector<std::pair<std::size_t, std::size_t>> faces_of_chunks(test::ArrayVolume volume, double reduce,
+                                                                 std::uint32_t passes = 0) {
+    ReconstructOptions options = test::reduced(reduce);
+    options.smooth = {.filter = SmoothFilter::kTaubin, .passes = passes};
     Reconstruction result;
     const OnProgress on_progress;
     RunLog log(result, on_progress);
@@ -19,7 +21,7 @@ std::vector<std::pair<std::size_t, std::size_t>> faces_of_chunks(test::ArrayVolu
     std::optional<FaceCount> counted = source.count();
     const SourceShape& shape = source.shape();
     const Plan plan = make_plan(shape, std::move(counted), 0, options);
-    Strips strips(source, {.passes = 0}, strip_order(shape, 0), log);
+    Strips strips(source, options.smooth, strip_order(shape, 0), log);
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
     TileStage stage(plan, options, shape, log);
     std::vector<std::pair<std::size_t, std::size_t>> faces;
@@ -31,12 +33,24 @@ std::vector<std::pair<std::size_t, std::size_t>> faces_of_chunks(test::ArrayVolu
     return faces;
 }
 
-TEST(TileStage, ends_where_a_near_target_allows_free_collapses_only_and_few_are_free) {
-    const auto faces = faces_of_chunks(test::noise_volume({12, 12, 60}, 60, 7), 0.05);
+TEST(TileStage, ends_where_the_target_is_near_and_few_collapses_are_free) {
+    const auto faces = faces_of_chunks(test::noise_volume({12, 12, 60}, 60, 7), 0.3, 2);
     ASSERT_GE(faces.size(), 3u);
     EXPECT_GT(faces[0].first, 1u << 16);
     EXPECT_LT(faces[0].second, faces[0].first) << "some are free";
     for (std::size_t n = 1; n < faces.size(); ++n) EXPECT_EQ(faces[n].second, faces[n].first);
+}
+
+TEST(TileStage, goes_on_where_the_target_ends_free_collapses) {
+    const auto faces = faces_of_chunks(test::solid_volume({160, 160, 60}), 0.2);
+    ASSERT_GE(faces.size(), 3u);
+    EXPECT_GT(faces[0].first, 1u << 16);
+    for (const auto& [before, after] : faces) EXPECT_LT(static_cast<double>(after), 0.85 * static_cast<double>(before));
+}
+
+TEST(TileStage, does_nothing_where_the_target_is_very_near) {
+    for (const auto& [before, after] : faces_of_chunks(test::noise_volume({12, 12, 60}, 60, 7), 0.05))
+        EXPECT_EQ(after, before);
 }
 
 TEST(TileStage, goes_on_where_a_farther_target_allows_more) {
