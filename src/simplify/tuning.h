@@ -105,11 +105,11 @@ inline constexpr double kTileThreshold = 3e-2;
 inline constexpr double kTileMargin = 1.25, kFreeMargin = 1.02, kFreeFrom = 0.45;
 
 /// Collapses below this cost count as free. Tiles of a run of the first stage that may keep kNearShare or more are left
-/// to the second stage, which goes over all faces anyway, if the run before had few free collapses: it removed less than
-/// kLeastFreeGain of its faces in addition to what the target allows at a cost, and less than half of what it allows for
-/// free. The stage is omitted if the target leaves all but kLeastFreeGain. A smoothed head to 2 million: 5.9 to 5.2 s,
-/// rms 0.0054 to 0.0050. kNearShare 0.85 instead of 0.75: no gain for targets of 0.64; 0.6: a gain of 0 to 10 % for
-/// 0.55, with 8 to 15 % more memory.
+/// to the second stage, which goes over all faces anyway, if the run before had few free collapses: it removed less
+/// than kLeastFreeGain of its faces in addition to what the target allows at a cost, and less than half of what it
+/// allows for free. The stage is omitted if the target leaves all but kLeastFreeGain. A smoothed head to 2 million: 5.9
+/// to 5.2 s, rms 0.0054 to 0.0050. kNearShare 0.85 instead of 0.75: no gain for targets of 0.64; 0.6: a gain of 0 to 10
+/// % for 0.55, with 8 to 15 % more memory.
 inline constexpr double kFreeCost = 1e-6, kLeastFreeGain = 0.05, kNearShare = 0.75;
 inline constexpr std::uint64_t kFreeTrialFaces = 1u << 16;
 
@@ -152,10 +152,10 @@ inline constexpr std::uint32_t kFewestTiles = 6, kPartsInFlight = 6, kFacesInFli
 inline constexpr double kPassMargin = 1.03, kWorthPass = 1.15, kLeastPassGain = 0.02;
 inline constexpr int kMostPasses = 3;
 
-/// Search: 1 tile in kSampledTiles, and not many more than kMostSampledTiles: with 38 of 300 tiles of a smoothed head the
-/// search takes 0.37 of 1.4 s, with 16 0.12 s, with the same result to 0.1 %. The share left is noted at thresholds from kFirstThreshold, which is where the
-/// prepass ends, to kThresholdRange times that, each kThresholdStep times the one before; where all of them leave too
-/// little, over the range below.
+/// Search: 1 tile in kSampledTiles, and not many more than kMostSampledTiles: with 38 of 300 tiles of a smoothed head
+/// the search takes 0.37 of 1.4 s, with 16 0.12 s, with the same result to 0.1 %. The share left is noted at thresholds
+/// from kFirstThreshold, which is where the prepass ends, to kThresholdRange times that, each kThresholdStep times the
+/// one before; where all of them leave too little, over the range below.
 inline constexpr std::uint32_t kSampledTiles = 8, kMostSampledTiles = 16;
 inline constexpr double kFirstThreshold = kPrepassCost, kThresholdStep = 1.5, kThresholdRange = 1e9;
 
