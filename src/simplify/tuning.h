@@ -153,7 +153,7 @@ inline constexpr double kPassMargin = 1.03, kWorthPass = 1.15, kLeastPassGain = 
 inline constexpr int kMostPasses = 3;
 
 /// Search: 1 tile in kSampledTiles, and not many more than kMostSampledTiles: with 38 of 300 tiles of a smoothed head
-/// the search takes 0.37 of 1.4 s, with 16 0.12 s, with the same result to 0.1 %. The share left is noted at thresholds
+/// the search takes 0.37 of 1.4 s, with 16 0.12 s. The share left is noted at thresholds
 /// from kFirstThreshold, which is where the prepass ends, to kThresholdRange times that, each kThresholdStep times the
 /// one before; where all of them leave too little, over the range below.
 inline constexpr std::uint32_t kSampledTiles = 8, kMostSampledTiles = 16;
