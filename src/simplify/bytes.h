@@ -7,10 +7,11 @@
 
 namespace regionmesh {
 
-/// Ranked collapses, a vertex, with quadrics; the tree of boxes over the faces comes on top (FaceTree::bytes).
+/// Ranked collapses of a large mesh, per vertex, with quadrics; the tree of boxes over the faces is not included
+/// (FaceTree::bytes).
 inline constexpr std::size_t kCollapseBytesPerVertex =
-    Candidates::bytes_per_vertex(EdgeOrder::kByCost) + VertexQuadrics::kBytesPerVertex;
-static_assert(kCollapseBytesPerVertex == 60, "docs/memory.md has this number");
+    Candidates::bytes_per_vertex(EdgeOrder::kInSweeps) + VertexQuadrics::kBytesPerVertex;
+static_assert(kCollapseBytesPerVertex == 52, "docs/memory.md has these numbers");
 
 /// A chunk that is cut into tiles, a face with half a vertex: the chunk, the chunk made of it, and the tables of tiles.
 inline constexpr std::size_t kTilingBytesPerFace =

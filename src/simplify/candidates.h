@@ -13,16 +13,15 @@ namespace regionmesh {
 /// then owns it (where both ends qualify, their ids decide). Keeps for each vertex the cheapest edge that it owns.
 class Candidates {
 public:
-    Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options,
-               EdgeOrder order = EdgeOrder::kByCost);
+    Candidates(const Mesh& mesh, Placement& placement, const SimplifyOptions& options, EdgeOrder order);
 
     /// Gathers all candidates anew, on at most `threads` threads (0: one per core). Returns the number of edges that
     /// strata forbid.
     std::uint64_t refresh(std::uint32_t threads = 1);
 
     bool empty() const { return queue_.empty(); }
-    /// Finds the edge whose turn it is, of goes() and stays(), after each refresh, refusal or collapse; about `wanted`
-    /// more have to be collapsed. Requires that there is one.
+    /// Finds the next edge, from goes() to stays(). Call it after each refresh, refusal or collapse, before these two,
+    /// rank() or refuse(). About `wanted` more edges have to be collapsed. Requires !empty().
     void find_next(std::uint64_t wanted) { queue_.find_next(wanted); }
     /// Whether the largest error has kept an edge out since the last refresh.
     bool has_edges_over_error() const { return scratch_.notes.has_edges_over_error; }

@@ -1,4 +1,4 @@
-// One mesh simplified by one heap: prepass, then ranked collapses one by one (P 3.5-3.7).
+// One mesh simplified by one queue of edges: prepass, then ranked collapses one by one (P 3.5-3.7).
 #pragma once
 
 #include <algorithm>
@@ -41,8 +41,8 @@ struct CollapseBounds {
     CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
     CollapseLog* log = nullptr;          // filled; those of the prepass have level 0
     std::uint32_t threads = 1;           // 0: one per core. Collapses are made on one, the tree and first ranks on all
-    bool is_large = false;  // far larger than the caches, and little has to go: takes 11 bytes a face less, and
-                            // collapses edges that cost about as much along the curve of the vertices
+    bool is_large = false;  // the mesh is far larger than the caches and near its target: collapses go along the curve
+                            // of the vertices (EdgeSweeps), boxes hold two faces, memory is 11 bytes a face less
 };
 
 struct CollapseResult {

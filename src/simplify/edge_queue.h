@@ -10,8 +10,8 @@
 namespace regionmesh {
 
 enum class EdgeOrder : std::uint8_t {
-    kByCost,    // always the cheapest one (EdgeHeap)
-    kInSweeps,  // the cheapest part of them along the curve of the vertices, then the next part (EdgeSweeps)
+    kByCost,    // the cheapest first (EdgeHeap)
+    kInSweeps,  // the cheapest ones along the curve of the vertices, then the next ones (EdgeSweeps)
 };
 
 /// Vertices with the key of the cheapest edge that each owns, in one of two orders.
@@ -25,8 +25,8 @@ public:
     void set(VertexId v, float key) { is_heap_ ? heap_.set(v, key) : sweeps_.set(v, key); }
     void remove(VertexId v) { is_heap_ ? heap_.remove(v) : sweeps_.remove(v); }
 
-    /// Before each use of top(): finds the vertex whose turn it is; about `wanted` more have to go. Requires that it is
-    /// not empty.
+    /// Finds the next vertex. Call it before top() after each change. About `wanted` more vertices have to go. Requires
+    /// !empty().
     void find_next(std::uint64_t wanted) {
         if (!is_heap_) sweeps_.find_next(wanted);
     }

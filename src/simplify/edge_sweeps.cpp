@@ -9,7 +9,7 @@
 namespace regionmesh {
 namespace {
 
-/// Floats in their order, as numbers.
+/// Numbers have the order of the keys, negative ones included.
 std::uint32_t number_of(float key) {
     const auto bits = std::bit_cast<std::uint32_t>(key);
     return bits ^ ((bits >> 31) != 0 ? 0xFFFFFFFFu : 0x80000000u);
@@ -32,7 +32,7 @@ void EdgeSweeps::find_next(std::uint64_t wanted) {
     }
 }
 
-/// The key that comes in this place, counted from 1, by two rounds of counting digits of 16 bits.
+/// The key in this place by cost, counted from 1. Counts the digits of 16 bits twice, without a copy of the keys.
 float EdgeSweeps::least_key(std::uint64_t rank) const {
     std::vector<std::uint32_t> counts(1u << 16);
     const auto digit_at_rank = [&] {

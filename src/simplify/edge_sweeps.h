@@ -1,4 +1,4 @@
-// The candidate edges of a large mesh: the cheapest part of them after the other, each along the curve of the vertices.
+// The candidate edges of a large mesh, in sweeps along the curve of the vertices.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,11 @@
 
 namespace regionmesh {
 
-/// Holds for each vertex the key of the cheapest edge that it owns. A sweep visits the vertices up to a limit in order
-/// of their ids, which should be a spatial order (Mesh::sort_spatially): what a collapse needs then often lies in the
-/// cache already. A vertex whose key falls below the limit is visited by the same sweep if its id comes later, else by
-/// the next one. What EdgeHeap does in 12 bytes a vertex, in exact order, takes 4 here.
+/// Holds for each vertex the key of the cheapest edge that it owns. A sweep visits the vertices with keys up to a
+/// limit, in order of their ids; the next sweep has a limit of its own. Ids should be in a spatial order
+/// (Mesh::sort_spatially): the cache then often holds what a collapse needs. If the key of a vertex falls below the
+/// limit, the same sweep visits it where its id comes later, else the next sweep. Takes 4 bytes a vertex; EdgeHeap,
+/// which keeps the exact order, takes 12.
 class EdgeSweeps {
 public:
     explicit EdgeSweeps(std::uint32_t vertex_end) { keys_.resize(vertex_end, kAbsent); }
@@ -21,10 +22,10 @@ public:
     bool contains(VertexId v) const { return keys_[index(v)] != kAbsent; }
     float key(VertexId v) const { return keys_[index(v)]; }
 
-    /// Goes on to the next vertex, in a new sweep where this one is at its end. A sweep is limited to the cheapest
-    /// `wanted` vertices: as many as have to go, or about. Requires that not all are gone.
+    /// Goes on to the next vertex; at the end of a sweep begins a new one. The limit of a new sweep is the key of the
+    /// vertex in place `wanted` by cost, within bounds (kLeastSweepPart, kMostSweepPart). Requires !empty().
     void find_next(std::uint64_t wanted);
-    /// The vertex found last, if nothing has changed its key since.
+    /// The vertex that find_next() found.
     VertexId top() const { return VertexId{at_}; }
 
     /// Inserts v, or changes its key, which must be finite.

@@ -45,7 +45,7 @@ std::uint32_t tiles_in_flight(const TiledFaces& faces, std::span<const std::uint
                               const TileOptions& options);
 
 /// One of every kSampledTiles tiles that have faces, drawn by a hash; of fewer where there are few, but not fewer than
-/// `least_every`; of more where there are many, for about kMostSampledTiles in all.
+/// `least_every`; of more where the sample would have more than about kMostSampledTiles.
 std::vector<std::uint32_t> sample_of_tiles(const TiledFaces& faces, std::uint32_t least_every = 1);
 
 /// Size of a sample of tiles, before and after.

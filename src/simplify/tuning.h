@@ -53,10 +53,10 @@ inline constexpr double kCompactBelow = 0.5;
 /// A second choice waits once more where its rank has risen by more than this factor since it was put aside.
 inline constexpr double kSameRank = 1.0001;
 
-/// Where a mesh is large, a sweep over the candidates is limited to the cheapest ones, as many as have to go, but at
-/// least one in kLeastSweepPart, so that finding the limit takes less than the tests, and at most one in
-/// kMostSweepPart. Trim of a head of 2.1 million faces: 1.13 s in exact order; in sweeps of 0.5, 0.7, 1 and 1.5 times
-/// as many as have to go 0.91, 0.85, 0.80 and 0.77 s; rms 0.00058 in all cases.
+/// In a large mesh a sweep over the candidates visits the cheapest ones, as many as have to go: at least one in
+/// kLeastSweepPart of all, so that finding the limit takes less time than the tests, and at most one in kMostSweepPart.
+/// Trim of a head of 2.1 million faces: 1.13 s in exact order; 0.91, 0.85, 0.80 and 0.77 s in sweeps of 0.5, 0.7, 1 and
+/// 1.5 times as many as have to go; rms 0.00058 in exact order and in sweeps of 0.5 to 1 times as many.
 inline constexpr std::uint32_t kLeastSweepPart = 1024, kMostSweepPart = 8;
 
 // --- Prepass ---------------------------------------------------------------------------------------------------------
@@ -104,12 +104,12 @@ inline constexpr double kTileThreshold = 3e-2;
 /// (106 thousand faces), and the AAL atlas 1.08 instead of 1.86 times the seconds of a tenth.
 inline constexpr double kTileMargin = 1.25, kFreeMargin = 1.02, kFreeFrom = 0.45;
 
-/// Collapses below this cost count as free. Tiles of a run of the first stage that may keep kNearShare or more are left
-/// to the second stage, which goes over all faces anyway, if the run before had few free collapses: it removed less
-/// than kLeastFreeGain of its faces in addition to what the target allows at a cost, and less than half of what it
-/// allows for free. The stage is omitted if the target leaves all but kLeastFreeGain. A smoothed head to 2 million: 5.9
-/// to 5.2 s, rms 0.0054 to 0.0050. kNearShare 0.85 instead of 0.75: no gain for targets of 0.64; 0.6: a gain of 0 to 10
-/// % for 0.55, with 8 to 15 % more memory.
+/// Collapses below kFreeCost count as free. The first stage leaves the tiles of a run to the second stage, which visits
+/// all faces anyway, if they may keep kNearShare or more, and if the run before had few free collapses: in addition to
+/// the collapses with a cost they removed less than kLeastFreeGain of its faces, and less than half of what the target
+/// allows. The first stage is omitted if the target leaves about 1 - kLeastFreeGain or more. A smoothed head to 2
+/// million: 6.0 to 5.5 s, rms 0.0054 to 0.0050. With a kNearShare of 0.85 instead of 0.75 targets of 0.64 gain nothing;
+/// with 0.6, targets of 0.55 take up to 10 % less time and 8 to 15 % more memory.
 inline constexpr double kFreeCost = 1e-6, kLeastFreeGain = 0.05, kNearShare = 0.75;
 inline constexpr std::uint64_t kFreeTrialFaces = 1u << 16;
 
@@ -152,8 +152,8 @@ inline constexpr std::uint32_t kFewestTiles = 6, kPartsInFlight = 6, kFacesInFli
 inline constexpr double kPassMargin = 1.03, kWorthPass = 1.15, kLeastPassGain = 0.02;
 inline constexpr int kMostPasses = 3;
 
-/// Search: 1 tile in kSampledTiles, and not many more than kMostSampledTiles: with 38 of 300 tiles of a smoothed head
-/// the search takes 0.37 of 1.4 s, with 16 0.12 s. The share left is noted at thresholds
+/// Search: 1 tile in kSampledTiles, about kMostSampledTiles at most. Of a second stage of 1.4 s (a smoothed head, 300
+/// tiles), the search takes 0.37 s with 1 tile in 8, and 0.12 s with 16 tiles. The share left is noted at thresholds
 /// from kFirstThreshold, which is where the prepass ends, to kThresholdRange times that, each kThresholdStep times the
 /// one before; where all of them leave too little, over the range below.
 inline constexpr std::uint32_t kSampledTiles = 8, kMostSampledTiles = 16;

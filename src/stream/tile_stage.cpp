@@ -45,7 +45,7 @@ void TileStage::run(GatheredStrips& gathered) {
     strips_done_ = gathered.end;
     if (given < kFreeTrialFaces) return;
     const double left = static_cast<double>(gathered.chunk.faces.size()) / static_cast<double>(given);
-    // Where half of what may go for free went, there may have been more.
+    // If half of the faces that free collapses may remove are gone, more collapses may be free.
     had_few_free_ = left > std::max(options.keep_share - kLeastFreeGain, (options.keep_share + options.free_share) / 2);
 }
 

@@ -16,9 +16,9 @@ public:
     static bool may_coarsen_caps(const SourceShape& shape, const Target& target);
     /// Whether run() does anything.
     bool is_on() const { return is_on_; }
-    /// Coarsens the caps of the chunk, and decimates it up to a fixed cost; never below what the target leaves. Where
-    /// the target is near, and few collapses of the chunk before cost nothing, only coarsens caps: the second stage
-    /// makes the same collapses in less time.
+    /// Coarsens the caps of the chunk, and decimates it up to a fixed cost; never below what the target leaves. If
+    /// the target is near, and the chunk before had few free collapses, only coarsens the caps: the second stage takes
+    /// less time for the other collapses.
     void run(GatheredStrips& gathered);
 
 private:
@@ -29,7 +29,7 @@ private:
     TileOptions tile_options_;
     RunLog& log_;
     std::uint32_t strips_done_ = 0;
-    bool had_few_free_ = false;  // of the last chunk with many faces
+    bool had_few_free_ = false;  // the last chunk with kFreeTrialFaces or more
     bool coarsens_caps_;
     bool is_on_;
 };

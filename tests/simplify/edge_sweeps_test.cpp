@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "base/hash.h"
@@ -14,7 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Takes `count` vertices out in turn; as many are wanted as `wanted` says at each.
+/// Takes `count` vertices out in turn, each with this argument of find_next().
 std::vector<std::uint32_t> take(EdgeSweeps& edges, std::uint32_t count, std::uint64_t wanted) {
     std::vector<std::uint32_t> taken;
     while (taken.size() < count) {
@@ -29,7 +30,7 @@ std::vector<std::uint32_t> take(EdgeSweeps& edges, std::uint32_t count, std::uin
 std::vector<float> mixed_keys(std::uint32_t count) {
     std::vector<float> keys(count);
     std::vector<std::uint32_t> order(count);
-    for (std::uint32_t v = 0; v < count; ++v) order[v] = v;
+    std::iota(order.begin(), order.end(), 0u);
     std::ranges::sort(order, {}, [](std::uint32_t v) { return mix64(v); });
     for (std::uint32_t n = 0; n < count; ++n) keys[order[n]] = static_cast<float>(n);
     return keys;
