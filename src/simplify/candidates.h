@@ -20,8 +20,8 @@ public:
     std::uint64_t refresh(std::uint32_t threads = 1);
 
     bool empty() const { return queue_.empty(); }
-    /// Finds the next edge, from goes() to stays(). Call it after each refresh, refusal or collapse, before these two,
-    /// rank() or refuse(). About `wanted` more edges have to be collapsed. Requires !empty().
+    /// Finds the next edge, from goes() to stays(). After each refresh, refusal or collapse, call it before goes(),
+    /// stays(), rank() or refuse(). About `wanted` more edges have to be collapsed. Requires !empty().
     void find_next(std::uint64_t wanted) { queue_.find_next(wanted); }
     /// Whether the largest error has kept an edge out since the last refresh.
     bool has_edges_over_error() const { return scratch_.notes.has_edges_over_error; }
