@@ -8,6 +8,8 @@
 #include <new>
 #include <utility>
 
+#include "regionmesh/huge_pages.h"
+
 namespace regionmesh {
 
 /// Several threads may find and join concurrently (Anderson and Woll 1991): a number is only ever linked to a smaller
@@ -18,6 +20,7 @@ public:
     explicit UnionFind(std::uint32_t size)
         : steps_(static_cast<std::uint32_t*>(std::calloc(std::size_t{size} + 1, sizeof(std::uint32_t)))) {
         if (!steps_) throw std::bad_alloc();
+        prefer_huge_pages(steps_.get(), (std::size_t{size} + 1) * sizeof(std::uint32_t));
     }
 
     std::uint32_t find(std::uint32_t x) {

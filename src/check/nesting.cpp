@@ -5,6 +5,7 @@
 #include "base/parallel_for.h"
 #include "base/union_find.h"
 #include "check/nesting_ray.h"
+#include "mesh/extent.h"
 
 namespace regionmesh {
 namespace {
@@ -33,6 +34,8 @@ public:
         for (const auto& [root, part] : parts_)
             if (!part.touches_box) inner.push_back(&part);
         if (inner.empty()) return;
+        const Box extent = extent_of(mesh_, options_.threads);
+        reach_ = 2 * length(extent.high - extent.low);
         std::optional<SortedFaceTree> own;
         if (!tree_) tree_ = &own.emplace(mesh_, options_.threads);
         for_chunks(
@@ -51,22 +54,14 @@ private:
         for_chunks(mesh_.face_end(), kCheckChunk, options_.threads, find, append);
     }
 
-    /// First pass: joins the vertices of each face, and measures the length that a ray needs.
+    /// First pass: joins the vertices of each face.
     void join_faces() {
-        Box box;
-        const auto find = [&](std::uint32_t first, std::uint32_t end) {
-            Box own;
-            for (std::uint32_t f = first; f < end; ++f) {
-                if (!mesh_.is_alive(FaceId{f})) continue;
-                const auto& v = mesh_[FaceId{f}].vertices;
-                joined_.join(index(v[0]), index(v[1]));
-                joined_.join(index(v[0]), index(v[2]));
-                for (Vec3 p : mesh_.corners(FaceId{f})) own.add(p);
-            }
-            return own;
-        };
-        for_face_chunks(find, [&](const Box& own) { box.join(own); });
-        reach_ = 2 * length(box.high - box.low);
+        for_each_index(mesh_.face_end(), kCheckChunk, options_.threads, [&](std::uint32_t f) {
+            if (!mesh_.is_alive(FaceId{f})) return;
+            const auto& v = mesh_[FaceId{f}].vertices;
+            joined_.join(index(v[0]), index(v[1]));
+            joined_.join(index(v[0]), index(v[2]));
+        });
     }
 
     /// Second pass: finds the parts, and the farthest vertex of each along the ray.
@@ -146,7 +141,7 @@ private:
     Findings& findings_;
     UnionFind joined_;
     Parts parts_;
-    double reach_ = 0;
+    double reach_ = 0;  // the length that a ray needs
 };
 
 }  // namespace

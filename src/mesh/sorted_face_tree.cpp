@@ -7,8 +7,8 @@
 namespace regionmesh {
 namespace {
 
-std::vector<FaceId> along_curve(std::uint32_t face_end, const std::function<Box(FaceId)>& box_of, const Box& extent,
-                                std::uint32_t threads) {
+template <class BoxOf>
+std::vector<FaceId> along_curve(std::uint32_t face_end, const BoxOf& box_of, const Box& extent, std::uint32_t threads) {
     const MortonCurve curve(extent);
     std::vector<KeyedIndex> order;
     for (std::uint32_t f = 0; f < face_end; ++f) {
@@ -24,18 +24,23 @@ std::vector<FaceId> along_curve(std::uint32_t face_end, const std::function<Box(
 
 }  // namespace
 
-SortedFaceTree::SortedFaceTree(const Mesh& mesh, std::uint32_t threads)
-    : SortedFaceTree(
-          mesh.face_end(), extent_of(mesh, threads), [&](FaceId f) { return box_of(mesh, f); }, threads) {}
+SortedFaceTree::SortedFaceTree(const Mesh& mesh, std::uint32_t threads) {
+    build(mesh.face_end(), extent_of(mesh, threads), [&](FaceId f) { return regionmesh::box_of(mesh, f); }, threads);
+}
 
 SortedFaceTree::SortedFaceTree(std::uint32_t face_end, const Box& extent, const std::function<Box(FaceId)>& box_of,
                                std::uint32_t threads) {
-    const auto box_at = [&](std::uint32_t place) { return box_of(face(place)); };
-    boxes_.build(face_end, extent, threads, box_at);
+    build(face_end, extent, box_of, threads);
+}
+
+template <class BoxOf>
+void SortedFaceTree::build(std::uint32_t face_end, const Box& extent, const BoxOf& box_of, std::uint32_t threads) {
+    boxes_.build(face_end, extent, threads, [&](std::uint32_t place) { return box_of(FaceId{place}); });
     if (boxes_.is_spatial()) return;
     boxes_ = GridTree();
     faces_ = along_curve(face_end, box_of, extent, threads);
-    boxes_.build(static_cast<std::uint32_t>(faces_.size()), extent, threads, box_at);
+    boxes_.build(static_cast<std::uint32_t>(faces_.size()), extent, threads,
+                 [&](std::uint32_t place) { return box_of(faces_[place]); });
 }
 
 }  // namespace regionmesh

@@ -38,6 +38,9 @@ public:
     FaceId face(std::uint32_t place) const { return faces_.empty() ? FaceId{place} : faces_[place]; }
 
 private:
+    template <class BoxOf>
+    void build(std::uint32_t face_end, const Box& extent, const BoxOf& box_of, std::uint32_t threads);
+
     std::vector<FaceId> faces_;  // by place; empty if places are ids
     GridTree boxes_;
 };
