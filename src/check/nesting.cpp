@@ -49,11 +49,6 @@ public:
     }
 
 private:
-    template <class Find, class Append>
-    void for_face_chunks(Find&& find, Append&& append) {
-        for_chunks(mesh_.face_end(), kCheckChunk, options_.threads, find, append);
-    }
-
     /// First pass: joins the vertices of each face.
     void join_faces() {
         for_each_index(mesh_.face_end(), kCheckChunk, options_.threads, [&](std::uint32_t f) {
@@ -103,7 +98,7 @@ private:
             }
             return parts;
         };
-        for_face_chunks(find, [&](const Parts& parts) {
+        for_chunks(mesh_.face_end(), kCheckChunk, options_.threads, find, [&](const Parts& parts) {
             for (const auto& [root, part] : parts) {
                 parts_[root].touches_box |= part.touches_box;
                 for (const auto& [label, volume] : part.volumes) parts_[root].volumes[label] += volume;

@@ -64,6 +64,32 @@ private:
             findings_.add(ViolationKind::kUnusedVertex, {index(v)}, {}, [&] { return name(v) + " has no face"; });
             return;
         }
+        if (!look_at_interface(v)) look_at_star(v);
+    }
+
+    /// The case of most vertices: faces of one interface that turn once around v, from one neighbour to the next. Then
+    /// its edges are sound, too. Returns false otherwise, and has then changed nothing.
+    bool look_at_interface(VertexId v) {
+        fans_.clear();
+        std::array<Label, 2> labels{};
+        bool is_one = true;
+        mesh_.for_star(v, [&](FaceId f, int place) {
+            const Face& face = mesh_[f];
+            if (fans_.empty()) labels = face.labels;
+            const bool is_back = face.labels[0] != labels[0];
+            const VertexId a = face.vertices[place_after(place)], b = face.vertices[place_before(place)];
+            is_one &= (face.labels[is_back] == labels[0]) & (face.labels[!is_back] == labels[1]);
+            is_one &= (a != b) & (a != v) & (b != v);
+            fans_.push_back({is_back ? b : a, is_back ? a : b, sheet(f, is_back)});
+        });
+        if (!is_one || labels[0] == labels[1] || is_exterior(labels[0]) || is_exterior(labels[1])) return false;
+        if (!order_closed(fans_)) return false;
+        if (options_.crossing && !is_fan_simple(v, fans_)) return false;
+        for (std::uint32_t side = 0; side < 2; ++side) regions_[labels[side]].euler += 1 - join_fan(v, fans_, side);
+        return true;
+    }
+
+    void look_at_star(VertexId v) {
         pages_.clear();
         labels_ = LabelSet();
         SideSet sides = mesh_[v].sides & kAnySide;  // that it lies on, or that its faces name
@@ -90,12 +116,12 @@ private:
         if (met > 2) edges_.gather(mesh_, v);
         if (labels_.size() > 2) lines_.add(mesh_, v, edges_);
         if (mesh_[v].sides == 0 && !has_exterior && labels_.size() == 4) ++quadruple_points_inside_;
-        const bool is_small = labels_.size() < LabelSet::kCapacity && pages_.size() <= kMostOrdered;
-        if (!is_odd && is_small && look_at_closed_fans(v, has_exterior)) {
+        if (!is_odd && labels_.size() < LabelSet::kCapacity && look_at_closed_fans(v)) {
             // Faces on the same vertices are not in a closed fan, unless they have no label in common.
             if (has_exterior || labels_.size() > 3) look_for_duplicates(v);
             if (has_exterior || labels_.size() > 2)
                 report_form(v, repeats ? generic_.fault(v) : generic_.fault_of_fans(v, met, edges_));
+            // With two or three labels any two faces are in a fan together.
             if (options_.crossing && (has_exterior || labels_.size() > 3 || !are_fans_simple(v))) look_for_crossings(v);
         } else {
             look_at_any_fans(v);
@@ -115,52 +141,50 @@ private:
         });
     }
 
-    /// The case of nearly all vertices: the faces of each region turn once around v, from one neighbour to the next.
-    /// Then its edges are sound, too. Returns false otherwise, and has then changed nothing.
-    bool look_at_closed_fans(VertexId v, bool has_exterior) {
-        const bool is_interface = labels_.size() == 2 && !has_exterior;  // the two regions have the same faces
+    /// The faces of each region turn once around v, from one neighbour to the next. Then its edges are sound, too.
+    /// Returns false otherwise, and has then changed nothing.
+    bool look_at_closed_fans(VertexId v) {
         fans_.clear();
         ends_.clear();
         for (Label label : labels_) {
-            if (!is_interface || ends_.empty())
-                if (!add_closed_fan(label)) return false;
+            const std::size_t start = fans_.size();
+            for (const Page& page : pages_) {
+                if (page.labels[0] == label)
+                    fans_.push_back({page.a, page.b, sheet(page.face, 0)});
+                else if (page.labels[1] == label)
+                    fans_.push_back({page.b, page.a, sheet(page.face, 1)});
+            }
+            if (!order_closed(std::span(fans_).subspan(start))) return false;
             ends_.push_back(fans_.size());
         }
         std::size_t start = 0;
         for (int n = 0; n < labels_.size(); ++n) {
-            if (is_interface) start = 0;
-            const auto fan = std::span(fans_).subspan(start, ends_[n] - start);
-            regions_[labels_.begin()[n]].euler += 1 - join_fan(v, fan, is_interface && n == 1);
+            regions_[labels_.begin()[n]].euler += 1 - join_fan(v, std::span(fans_).subspan(start, ends_[n] - start), 0);
             start = ends_[n];
         }
         return true;
     }
 
-    /// Adds the faces of a region in their order around the vertex.
-    bool add_closed_fan(Label label) {
-        const std::size_t start = fans_.size();
-        for (const Page& page : pages_) {
-            if (page.labels[0] == label)
-                fans_.push_back({page.a, page.b, sheet(page.face, 0)});
-            else if (page.labels[1] == label)
-                fans_.push_back({page.b, page.a, sheet(page.face, 1)});
-        }
-        const std::span<FanPage> fan = std::span(fans_).subspan(start);
-        return fan.size() >= 3 && order_fan(fan) && is_closed(fan);
+    /// False unless they form a closed fan.
+    static bool order_closed(std::span<FanPage> fan) {
+        return fan.size() >= 3 && fan.size() <= kMostOrdered && order_fan(fan) && is_closed(fan);
     }
 
-    /// Of the closed fans of all labels; any two faces are in a fan together if there are two or three labels. Those of
-    /// the first of two labels are those of the other.
+    /// Of the closed fans of all labels.
     bool are_fans_simple(VertexId v) {
         std::size_t start = 0;
-        for (int n = 0; n < (labels_.size() == 2 ? 1 : labels_.size()); ++n) {
-            rim_.clear();
-            for (std::size_t page = start; page < ends_[n]; ++page) rim_.push_back(mesh_.position(fans_[page].first));
-            rim_.push_back(rim_.front());
-            if (!crossing_.is_simple(mesh_.position(v), rim_, true)) return false;
-            start = ends_[n];
+        for (const std::size_t end : ends_) {
+            if (!is_fan_simple(v, std::span(fans_).subspan(start, end - start))) return false;
+            start = end;
         }
         return true;
+    }
+
+    bool is_fan_simple(VertexId v, std::span<const FanPage> fan) {
+        rim_.clear();
+        for (const FanPage& page : fan) rim_.push_back(mesh_.position(page.first));
+        rim_.push_back(rim_.front());
+        return crossing_.is_simple(mesh_.position(v), rim_, true);
     }
 
     void look_for_crossings(VertexId v) {

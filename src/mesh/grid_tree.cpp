@@ -153,24 +153,8 @@ public:
     /// Adds one pair for each bit of the mask.
     void add(std::uint32_t m, std::uint32_t first_n, unsigned mask) {
         const Pair first(m, first_n);
-        std::uint64_t* const to = &pairs_[size_].both_;
-#if defined(__SSE2__)
-        const __m128i nothing = _mm_setzero_si128(), base = _mm_set1_epi64x(static_cast<std::int64_t>(first.both_));
-        // The number of each bit goes to the upper half of its pair.
-        const __m128i bits =
-            _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kSetBits.bits[mask])), nothing);
-        const __m128i low = _mm_unpacklo_epi16(bits, nothing), high = _mm_unpackhi_epi16(bits, nothing);
-        const auto store = [&](int at, __m128i two) {
-            _mm_storeu_si128(reinterpret_cast<__m128i*>(to + at), _mm_add_epi64(base, two));
-        };
-        store(0, _mm_unpacklo_epi32(nothing, low));
-        store(2, _mm_unpackhi_epi32(nothing, low));
-        store(4, _mm_unpacklo_epi32(nothing, high));
-        store(6, _mm_unpackhi_epi32(nothing, high));
-#else
         for (std::uint32_t k = 0; k < kFan; ++k)
-            to[k] = first.both_ + (std::uint64_t{kSetBits.bits[mask][k]} << 32);
-#endif
+            pairs_[size_ + k] = Pair(first.both_ + (std::uint64_t{kSetBits.bits[mask][k]} << 32));
         size_ += kSetBits.count[mask];
     }
     std::size_t size() const { return size_; }
