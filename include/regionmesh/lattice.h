@@ -9,7 +9,8 @@
 namespace regionmesh {
 
 /// Sample (i, j, k) lies at origin + direction * (i * spacing.x, j * spacing.y, k * spacing.z).
-/// Lengths are in the unit of the file. `direction` has orthonormal columns in row-major order; it may mirror.
+/// Lengths are in the unit of the file. `direction` has columns of unit length, in row-major order: orthogonal but for
+/// rounding, unless the file shears the volume, as a tilted scanner does; it may mirror.
 struct Lattice {
     std::array<std::uint32_t, 3> size{0, 0, 0};  // samples along x, y, z
     Vec3 spacing{1, 1, 1};
@@ -22,6 +23,14 @@ struct Lattice {
         const auto& d = direction;
         return origin +
                Vec3{dot({d[0], d[1], d[2]}, along), dot({d[3], d[4], d[5]}, along), dot({d[6], d[7], d[8]}, along)};
+    }
+    /// The inverse of `direction`: from space into the axes, after the origin was subtracted.
+    std::array<double, 9> into_axes() const {
+        const auto& d = direction;
+        const Vec3 x{d[0], d[3], d[6]}, y{d[1], d[4], d[7]}, z{d[2], d[5], d[8]};
+        const double per_volume = 1 / dot(x, cross(y, z));
+        const Vec3 a = per_volume * cross(y, z), b = per_volume * cross(z, x), c = per_volume * cross(x, y);
+        return {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
     }
     bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
 };

@@ -16,16 +16,15 @@ namespace {
 /// Share of the spacing within which a vertex of an oblique model lies on a side of the box.
 constexpr double kOnSide = 1e-9;
 
+/// Share of a coordinate that is lost when it is rounded a few times.
+constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
+
+double size(Vec3 p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
+
 /// Room for rounding, in samples: positions of crossings and of samples are rounded a few times.
 double doubt(double coordinate, double spacing) {
-    constexpr double kLeast = 1e-6, kRounding = 64 * std::numeric_limits<double>::epsilon();
+    constexpr double kLeast = 1e-6;
     return kLeast + kRounding * std::abs(coordinate) / spacing;
-}
-
-/// The inverse of the rotation of a lattice: its transpose.
-Vec3 into_axes(const std::array<double, 9>& d, Vec3 p) {
-    return {d[0] * p.x + d[3] * p.y + d[6] * p.z, d[1] * p.x + d[4] * p.y + d[7] * p.z,
-            d[2] * p.x + d[5] * p.y + d[8] * p.z};
 }
 
 /// An oblique lattice has its vertices turned into its axes, with the origin at 0.
@@ -41,6 +40,7 @@ Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint
     : mesh_(mesh), options_(options), lines_(std::make_shared<SampleLines>(lines_of(options))) {
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
     is_turned_ = !options.lattice.is_axis_aligned();
+    into_axes_ = options.lattice.into_axes();
     const auto& d = options.lattice.direction;
     is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
     find_sections(threads);
@@ -52,11 +52,16 @@ Vec3 Voxeliser::place(VertexId v) const {
     const Lattice& lattice = options_.lattice;
     Vec3 p = mesh_.position(v);
     if (is_turned_) {
-        p = into_axes(lattice.direction, p - lattice.origin);
+        const Vec3 from = p - lattice.origin;
+        const auto& m = into_axes_;
+        const double rounding = kRounding * (size(p) + size(lattice.origin));
+        p = {m[0] * from.x + m[1] * from.y + m[2] * from.z, m[3] * from.x + m[4] * from.y + m[5] * from.z,
+             m[6] * from.x + m[7] * from.y + m[8] * from.z};
         for (int axis = 0; axis < 3; ++axis) {
+            const double near = kOnSide * lattice.spacing[axis] + rounding;
             const double far = (lattice.size[axis] - 1) * lattice.spacing[axis];
-            if (std::abs(p[axis]) < kOnSide * lattice.spacing[axis]) p[axis] = 0;
-            if (std::abs(p[axis] - far) < kOnSide * lattice.spacing[axis]) p[axis] = far;
+            if (std::abs(p[axis]) < near) p[axis] = 0;
+            if (std::abs(p[axis] - far) < near) p[axis] = far;
         }
     }
     const auto& axes = options_.sweep.axes;

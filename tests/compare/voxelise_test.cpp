@@ -63,6 +63,24 @@ TEST(Voxelise, oblique_and_mirrored_lattices_are_lossless) {
     }
 }
 
+TEST(Voxelise, rotations_of_few_digits_and_sheared_lattices_are_lossless) {
+    // As files have them: turned about three axes and rounded to floats or to three digits; a tilted scanner.
+    const std::array<std::array<double, 9>, 3> directions{{
+        {0.97517031f, -0.03695701f, 0.21835066f, 0.0978434f, 0.95642507f, -0.27509585f, -0.19866933f, 0.28962949f,
+         0.93629336f},
+        {0.975, -0.037, 0.218, 0.098, 0.956, -0.275, -0.199, 0.29, 0.936},
+        {1, 0.4472135954999579, 0, 0, 0.8944271909999159, 0, 0, 0, 1},
+    }};
+    for (const auto& direction : directions)
+        for (const Sweep sweep : {kSweepX, kSweepY, kSweepZ}) {
+            ArrayVolume volume = test::grain_volume({9, 8, 7}, 12, 5);
+            volume.spaced({0.3, 1.7, 1}).swept(sweep);
+            volume.lattice().direction = direction;
+            volume.lattice().origin = {-2e4, 1e5 / 3, 11};
+            expect_lossless(volume, plain());
+        }
+}
+
 TEST(Voxelise, decimated_flat_interfaces_are_lossless) {
     // Two halves: the large faces that are left cross many rows.
     std::vector<InputLabel> labels;
