@@ -133,6 +133,15 @@ TEST(Reconstruct, sheets_on_an_open_boundary_do_not_cross_when_decimated) {
         }
 }
 
+TEST(Reconstruct, faces_do_not_cross_at_an_open_rim_when_samples_may_move) {
+    // Sheets end on the sides: their rims move with the stars, and could lie down there.
+    for (const std::uint64_t seed : {22, 144, 179, 185, 198}) {
+        test::ArrayVolume volume = test::noise_volume({11, 11, 11}, 3, seed);
+        const ReconstructOptions options{.reduce = 0.9, .keep_samples = false, .cap = false, .background = {}};
+        test::expect_sound(run(volume, options).report.check);
+    }
+}
+
 TEST(Reconstruct, an_open_rim_may_have_a_vertex_with_two_edges) {
     const ReconstructOptions open{.decimate = false, .cap = false, .background = {}};
     test::expect_sound(run(test::TextVolume({{"00", "00"}, {"00", "01"}}), open).report.check);

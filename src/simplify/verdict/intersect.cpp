@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {
@@ -13,16 +15,29 @@ bool is_within_limits(const Collapse& collapse) {
     return true;
 }
 
+/// Would a face between two regions come to lie in a side of the box? Where the side has faces, it meets them; where it
+/// has none (open, or background), it could spread there over other such faces as if in a plane of its own.
+bool lies_down_on_side(const Mesh& mesh, const EdgeStar& star) {
+    const SideSet stays = mesh[star.stays].sides;
+    if (stays == 0) return false;
+    return std::any_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) {
+        const auto& labels = mesh[f.face].labels;
+        return (stays & mesh[f.a].sides & mesh[f.b].sides) != 0 && !is_exterior(labels[0]) && !is_exterior(labels[1]);
+    });
+}
+
 }  // namespace
 
 Verdict test_intersect(Collapse& collapse) {
     // A vertex that stays where it is adds nothing beyond the limits, which are convex.
     if (!collapse.star.keeps_stays && !is_within_limits(collapse)) return Verdict::kIntersect;
-    if (collapse.tree)
-        return collapse.intersect.verdict(collapse.mesh, *collapse.tree, collapse.rising, collapse.star,
-                                          collapse.position, collapse.bounds);
-    return pinches_around(collapse.mesh, collapse.star, collapse.position, collapse.bounds) ? Verdict::kPinch
-                                                                                            : Verdict::kAccepted;
+    const Verdict verdict =
+        collapse.tree ? collapse.intersect.verdict(collapse.mesh, *collapse.tree, collapse.rising, collapse.star,
+                                                   collapse.position, collapse.bounds)
+        : pinches_around(collapse.mesh, collapse.star, collapse.position, collapse.bounds) ? Verdict::kPinch
+                                                                                           : Verdict::kAccepted;
+    return verdict == Verdict::kAccepted && lies_down_on_side(collapse.mesh, collapse.star) ? Verdict::kIntersect
+                                                                                            : verdict;
 }
 
 }  // namespace regionmesh

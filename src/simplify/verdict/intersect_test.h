@@ -26,12 +26,12 @@ public:
     /// front of it.
     ///
     /// With `rising`, faces of the star's interface are skipped if they and the whole star, before and after the
-    /// collapse, rise along a common direction. A line in that direction passes from region A to region B wherever it
-    /// crosses the star or a skipped face. Between two such crossings it passes back, through a face that is not
-    /// skipped. Projected along the direction, the old and the new star cover the same polygon once. If no other face
-    /// meets the new star or lies in the swept space, a line crosses no other face between the old and the new star,
-    /// and so no skipped face. A skipped face makes more than 5 degrees with a face of the star at an edge
-    /// (kLeastRise).
+    /// collapse, rise along a common direction, and no vertex moves on a side of the box. A line in that direction
+    /// passes from region A to region B wherever it crosses the star or a skipped face. Between two such crossings it
+    /// passes back, through a face that is not skipped. Projected along the direction, the old and the new star cover
+    /// the same polygon once. If no other face meets the new star or lies in the swept space, a line crosses no other
+    /// face between the old and the new star, and so no skipped face. A skipped face makes more than 5 degrees with a
+    /// face of the star at an edge (kLeastRise).
     Verdict verdict(const Mesh& mesh, const FaceTree& tree, const RisingFaces* rising, const EdgeStar& star,
                     Vec3 position, const ShapeBounds& bounds);
 
