@@ -58,7 +58,7 @@ public:
 
 private:
     struct Crossing {
-        std::uint64_t sample;  // in the section: the first one beyond the face
+        std::uint64_t sample;  // first_of(row) + the number of the first one beyond the face, or the number of all
         Label left, entered;
     };
     /// Room for one section.
@@ -86,6 +86,7 @@ private:
     void label_row(std::span<const Crossing> crossings, std::uint64_t first, std::span<Label> labels,
                    Scratch& scratch) const;
     bool is_outside(Label label) const;
+    std::uint64_t first_of(std::uint32_t row) const { return std::uint64_t{row} * (size_[0] + 1); }
     std::uint32_t first_at_or_above(int axis, double low) const;
     std::uint32_t end_at_or_below(int axis, double high) const;
 

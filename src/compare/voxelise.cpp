@@ -157,10 +157,11 @@ void Voxeliser::label_section(std::uint32_t section, std::span<Label> labels, Sc
     std::ranges::sort(crossings, {}, &Crossing::sample);
     std::size_t begin = 0;
     for (std::uint32_t row = 0; row < size_[1]; ++row) {
-        const std::uint64_t first = std::uint64_t{row} * size_[0];
+        const std::uint64_t first = first_of(row);
         std::size_t end = begin;
-        while (end < crossings.size() && crossings[end].sample < first + size_[0]) ++end;
-        label_row(std::span(crossings).subspan(begin, end - begin), first, labels.subspan(first, size_[0]), scratch);
+        while (end < crossings.size() && crossings[end].sample < first_of(row + 1)) ++end;
+        label_row(std::span(crossings).subspan(begin, end - begin), first,
+                  labels.subspan(std::size_t{row} * size_[0], size_[0]), scratch);
         begin = end;
     }
 }
@@ -183,11 +184,10 @@ void Voxeliser::cross(FaceId f, std::uint32_t section, std::vector<Crossing>& cr
     const std::uint32_t end = end_at_or_below(1, high);
     for (std::uint32_t row = first_at_or_above(1, low); row < end; ++row) {
         const auto crossing = lines_->crossing(p, row, section);
-        if (!crossing || crossing->first_beyond == size_[0]) continue;
+        if (!crossing) continue;
         // The normal points from the first label to the second; along it the line leaves the first.
         const int left = crossing->is_ahead == is_mirrored_;
-        crossings.push_back(
-            {std::uint64_t{row} * size_[0] + crossing->first_beyond, face.labels[left], face.labels[1 - left]});
+        crossings.push_back({first_of(row) + crossing->first_beyond, face.labels[left], face.labels[1 - left]});
     }
 }
 
@@ -204,21 +204,28 @@ void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t fir
     };
     Label now = outside;
     bool contradicts = false;
-    std::size_t done = 0;  // samples
+    std::size_t begin = 0, end = 0;  // of the samples since the last crossing
+    const auto label_up_to = [&](std::size_t sample) {
+        begin = std::exchange(end, sample);
+        std::fill(labels.begin() + begin, labels.begin() + end, now);
+        scratch.contradictions += contradicts ? end - begin : 0;
+    };
     for (std::size_t next = 0; next < crossings.size();) {
         const std::uint64_t sample = crossings[next].sample;
-        std::fill(labels.begin() + done, labels.begin() + (sample - first), now);
-        scratch.contradictions += contradicts ? sample - first - done : 0;
-        done = sample - first;
+        label_up_to(sample - first);
         for (; next < crossings.size() && crossings[next].sample == sample; ++next) {
             add(crossings[next].left, -1);
             add(crossings[next].entered, 1);
         }
+        if (end == labels.size()) break;
         contradicts = entered.size() > 1 || (entered.size() == 1 && entered[0].second != 1);
         now = entered.empty() || contradicts ? outside : entered[0].first;
     }
-    std::fill(labels.begin() + done, labels.end(), now);
-    scratch.contradictions += contradicts ? labels.size() - done : 0;
+    if (end < labels.size()) label_up_to(labels.size());
+    // Beyond the last sample the line has to leave what it has entered.
+    if (contradicts || entered.empty()) return;
+    std::fill(labels.begin() + begin, labels.end(), outside);
+    scratch.contradictions += end - begin;
 }
 
 double SampleAgreement::dice() const {

@@ -105,6 +105,20 @@ TEST(Voxelise, samples_that_moved_to_another_region_are_counted) {
     EXPECT_EQ(found.regions[made.labels.dense(1)].in_both + 1, found.regions[made.labels.dense(1)].in_sections);
 }
 
+TEST(Voxelise, no_hole_goes_unnoticed) {
+    // A line that enters through a hole, or stays inside because it would have left through one.
+    ArrayVolume volume = test::ball_volume({8, 7, 6}, 2.5);
+    const Reconstruction whole = reconstruct(volume, plain());
+    for (std::uint32_t f = 0; f < whole.mesh.face_end(); ++f) {
+        volume.rewind();
+        Reconstruction made = reconstruct(volume, plain());
+        made.mesh.remove_face(FaceId{f});
+        volume.rewind();
+        const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);
+        EXPECT_TRUE(found.wrong == 0 || found.contradictions > 0) << "without face " << f;
+    }
+}
+
 TEST(Voxelise, a_surface_with_a_hole_contradicts_itself) {
     ArrayVolume volume = test::ball_volume({12, 12, 12}, 4);
     Reconstruction made = reconstruct(volume, plain());
