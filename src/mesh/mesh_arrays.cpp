@@ -82,6 +82,28 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
     });
 }
 
+/// Where the regions on both sides are background, an interface ends on a side of the box, in edges with one face:
+/// their ends lie on that side, too.
+void mark_open_rims(Mesh& mesh, const MeshArrays& arrays, const Box& box) {
+    const auto is_on_hull = [&](VertexId v) { return arrays.node_types[index(v)] >= kFirstHullType; };
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+        const Face& face = mesh[FaceId{f}];
+        if (is_exterior(face.labels[0]) || is_exterior(face.labels[1])) continue;
+        for (int place = 0; place < 3; ++place) {
+            const VertexId a = face.vertices[place], b = face.vertices[place_after(place)];
+            if (!is_on_hull(a) || !is_on_hull(b)) continue;
+            int faces = 0;
+            mesh.for_star(a, [&](FaceId g, int) { faces += std::ranges::count(mesh[g].vertices, b) > 0; });
+            if (faces != 1) continue;
+            for (int side = 0; side < 6; ++side) {
+                const double plane = (side % 2 == 0 ? box.low : box.high)[side / 2];
+                if (mesh.position(a)[side / 2] != plane || mesh.position(b)[side / 2] != plane) continue;
+                for (const VertexId v : {a, b}) mesh[v].sides |= static_cast<SideSet>(1u << side);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 LabelledMesh assemble(const MeshArrays& arrays) {
@@ -91,6 +113,7 @@ LabelledMesh assemble(const MeshArrays& arrays) {
     for (const Vec3& point : arrays.points) mesh.add_vertex(point);
     const Box box = bounding_box(arrays);
     const bool has_sides = exterior_is_box(arrays, box);
+    bool is_capped = false;  // somewhere
     for (std::size_t f = 0; f < arrays.faces.size(); ++f) {
         std::array<Label, 2> labels;
         for (int i = 0; i < 2; ++i) {
@@ -104,12 +127,14 @@ LabelledMesh assemble(const MeshArrays& arrays) {
                 continue;
             }
             const int side = *side_of_face(arrays, arrays.faces[f], box);
+            is_capped = true;
             labels[i] = exterior(side);
             for (const std::uint32_t v : arrays.faces[f]) mesh[VertexId{v}].sides |= static_cast<SideSet>(1u << side);
         }
         const auto& [a, b, c] = arrays.faces[f];
         mesh.add_face(VertexId{a}, VertexId{b}, VertexId{c}, labels[0], labels[1]);
     }
+    if (is_capped && !arrays.node_types.empty()) mark_open_rims(mesh, arrays, box);
     // A vertex without a face on a side of the box may lie on a side that is not capped, or on a hull of another shape.
     for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
         if (arrays.node_types[v] >= kFirstHullType && mesh[VertexId{v}].sides == 0) mesh[VertexId{v}].sides = kOnHull;

@@ -41,6 +41,18 @@ TEST(MeshArrays, come_back_as_the_same_mesh) {
     test::expect_sound(check(back.mesh));
 }
 
+TEST(MeshArrays, of_several_backgrounds_have_their_open_rims_on_the_sides) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        test::ArrayVolume volume = test::noise_volume({4, 3, 5}, 4, seed);
+        const Reconstruction made =
+            test::run(volume, {.smooth = {.passes = 0}, .decimate = false, .background = {0, 2}});
+        const MeshArrays arrays = export_arrays(made.mesh, made.labels, made.background);
+        LabelledMesh back = import_arrays(arrays);
+        const std::vector<Label> background{back.labels.dense(0), back.labels.dense(2)};
+        test::expect_sound(check(back.mesh, {.background = background}));
+    }
+}
+
 TEST(MeshArrays, simplify_without_a_file) {
     const Reconstruction made = grains();
     LabelledMesh mesh = import_arrays(export_arrays(made.mesh, made.labels));
