@@ -54,7 +54,9 @@ BlockReport BlockRun::run() {
         begin_run(open_, options_, blocks_, tasks_, on_progress_);
         manifest_ = read_manifest_together(folder_, tasks_);
         job_ = job_of(manifest_.identity);
-        if (!manifest_.is_complete) {
+        if (manifest_.is_complete) {
+            require_pieces(manifest_, folder_);
+        } else {
             open_volume();
             run_passes();
             if (tasks_.is_first()) complete();

@@ -13,11 +13,28 @@
 namespace regionmesh {
 namespace fs = std::filesystem;
 
-Piece read_entry(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
+namespace {
+
+/// Of a piece that is the one in the manifest.
+fs::path path_of(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
     const PieceEntry& entry = manifest.pieces[block];
     const fs::path path = piece_path(folder, entry.pass, block);
+    if (manifest.is_complete && !fs::exists(path))
+        formats::fail(path, "is gone, of a run that was finished; remove the folder, and run again");
     if (read_checksum(path) != entry.checksum)
         formats::fail(path, "is not the piece that the manifest names; remove the folder, and run again");
+    return path;
+}
+
+}  // namespace
+
+void require_pieces(const Manifest& manifest, const fs::path& folder) {
+    read_labels(manifest, folder);
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) path_of(manifest, folder, block);
+}
+
+Piece read_entry(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
+    const fs::path path = path_of(manifest, folder, block);
     Piece piece = read_piece(path);
     for (const PieceFace& face : piece.faces)
         for (const Label label : face.labels)

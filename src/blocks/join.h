@@ -10,6 +10,9 @@
 
 namespace regionmesh {
 
+/// Throws Error(kInput) if labels or pieces of a finished run are gone, or are not those that it made.
+void require_pieces(const Manifest& manifest, const std::filesystem::path& folder);
+
 /// The file of a piece: "pass-0-000017.piece".
 std::filesystem::path piece_path(const std::filesystem::path& folder, std::uint32_t pass, std::uint32_t block);
 

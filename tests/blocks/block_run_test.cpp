@@ -203,6 +203,21 @@ TEST(BlockRun, refuses_other_options_and_folders_with_other_files) {
     EXPECT_THROW(run_blocks(other.path, volume, options_for(0.8)), Error);
 }
 
+TEST(BlockRun, notices_that_pieces_of_a_finished_run_are_gone) {
+    for (const char* name : {"labels.bin", "piece"}) {
+        const TestFolder folder;
+        const test::ArrayVolume volume = foam();
+        run_blocks(folder.path, volume, options_for(0.8));
+        EXPECT_EQ(run_blocks(folder.path, volume, options_for(0.8)).made, 0u);
+        std::vector<fs::path> gone;
+        for (const auto& entry : fs::directory_iterator(folder.path))
+            if (entry.path().string().ends_with(name)) gone.push_back(entry.path());
+        ASSERT_FALSE(gone.empty());
+        fs::remove(gone.front());
+        EXPECT_THROW(run_blocks(folder.path, volume, options_for(0.8)), Error) << name;
+    }
+}
+
 /// Replaces the first `old` in a file.
 void replace_in(const fs::path& path, const std::string& old, const std::string& by) {
     std::ifstream in(path, std::ios::binary);
