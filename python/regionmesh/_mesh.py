@@ -304,7 +304,7 @@ class Mesh:
     def _source(self, labels, spacing, origin, direction):
         if _sources.is_path(labels):
             pairs = _options.pairs("reconstruct", {"spacing": spacing})
-            return _core.file_source(_sources.paths_of(labels), pairs)
+            return _core.file_source(_sources.paths_of(labels), pairs, None)
         source = _sources.source(labels, self._place(spacing, origin, direction), [], {})
         if not source.info["can_rewind"]:
             raise ValueError("labels: an iterator is read once and check reads twice; give a list or an array")

@@ -23,8 +23,8 @@ def _from_files(labels, options, kept, names, progress):
             if kept is not None:
                 raise ValueError("labels_to_keep: does not apply to tables and meshes; leave it out")
             return Mesh(_core.reconstruct_tetrahedra(paths[0], options, names, progress))
-        source = _core.file_source(paths, options)
-        return Mesh(_core.reconstruct_source(source, options, kept, names, progress), lattice=source.info)
+        source = _core.file_source(paths, options, kept)
+        return Mesh(_core.reconstruct_source(source, options, names, progress), lattice=source.info)
     except ValueError as error:
         missing = next((path for path in paths if not os.path.exists(path.split(":/")[0])), None)
         if missing is not None:
@@ -62,7 +62,7 @@ def reconstruct(
     names : dict of int to str, or path, optional
         Names of labels.
     labels_to_keep : sequence of int, optional
-        All other labels become background.
+        All other labels become background, before `downsample` and `min_region`.
     sections : int, optional
         Number of sections of an iterator. With it the sections are used as they come and the volume is never
         stored; without it they go through a temporary file in TMPDIR.
@@ -117,8 +117,9 @@ def reconstruct(
             if options.get(name) is not None:
                 raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
         pairs = _options.pairs("reconstruct", options)
-        given = _sources.source(labels, (spacing, origin, direction), _split(pairs, _OF_SOURCE), names or {}, sections)
-        model = _core.reconstruct_source(given, pairs, kept, names, report)
+        where, chosen = (spacing, origin, direction), _split(pairs, _OF_SOURCE)
+        given = _sources.source(labels, where, chosen, names or {}, sections, kept)
+        model = _core.reconstruct_source(given, pairs, names, report)
     return Mesh(model, lattice=given.info)
 
 

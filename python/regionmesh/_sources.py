@@ -221,7 +221,7 @@ def _is_sliced(data):
     return True
 
 
-def source(labels, given, options, names, sections=None):
+def source(labels, given, options, names, sections=None, kept=None):
     """Open an input that is no path.
 
     `given` has spacing, origin and direction, None where the input's own are meant.
@@ -241,9 +241,9 @@ def source(labels, given, options, names, sections=None):
             raise TypeError(f"labels: {type(labels).__name__}; give an array, a path or an iterable of sections")
         data = _iterated(data, sections)
     if not isinstance(data, np.ndarray):
-        return _core.call_source(data, where, options, names, "labels")
+        return _core.call_source(data, where, options, kept, names, "labels")
     if not data.dtype.isnative and data.dtype.kind in "iu" and data.ndim == 3:
         calls = _ArrayCalls(data)
         call = calls.next, calls.rewind, data.shape[::-1], _type_name(data.dtype.newbyteorder("="))
-        return _core.call_source(call, where, options, names, "labels")
-    return _core.array_source(data, where, options, names, "labels")
+        return _core.call_source(call, where, options, kept, names, "labels")
+    return _core.array_source(data, where, options, kept, names, "labels")

@@ -11,6 +11,7 @@
 #include "regionmesh/compare.h"
 #include "regionmesh/error.h"
 #include "regionmesh/improve.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/process.h"
@@ -28,10 +29,6 @@ Model model_from(Reconstruction made, const LabelNames& names, bool is_open, Spa
         std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, space, colours};
     model.report = report_json(made.report, model.labels, names);
     return model;
-}
-
-InputLabel first_background(const ReconstructOptions& options) {
-    return options.background.empty() ? 0 : options.background.front();
 }
 
 /// The same vertices and faces under the same ids, with other dense labels. Requires ids without gaps.
@@ -139,9 +136,7 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
     const ReconstructOptions& options = settings.reconstruct;
     Model model;
     watch.run([&] {
-        std::unique_ptr<SectionReader> kept;
-        if (run.kept) kept = keep_labels(*source.reader, *run.kept, first_background(options));
-        WatchedSections sections(kept ? *kept : *source.reader, watch);
+        WatchedSections sections(*source.reader, watch);
         StageProgress progress(watch, options);
         Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
         const VolumeInfo& info = sections.info();
@@ -315,6 +310,7 @@ void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::ar
                        {s[0], s[1], s[2]},
                        {o[0], o[1], o[2]},
                        frame.direction};
+    require_lattice("voxelise()", options.lattice);
     options.background = model.background;
     auto* to = static_cast<std::byte*>(labels.mutable_data());
     const auto bytes = static_cast<std::size_t>(labels.itemsize());

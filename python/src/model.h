@@ -31,7 +31,6 @@ struct Model {
 /// What a reconstruction takes besides its labels.
 struct RunOptions {
     OptionValues options;
-    std::optional<std::vector<InputLabel>> kept = {};
     std::optional<LabelNames> names = {};
 };
 

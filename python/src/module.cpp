@@ -52,33 +52,32 @@ void bind_sources(py::module_& module) {
         .def(py::init<std::array<double, 3>, std::array<double, 3>, std::array<double, 9>>());
     py::class_<Source>(module, "Source").def_property_readonly("info", info_of);
     module.def("array_source", [](const py::array& array, const Frame& frame, const OptionValues& options,
-                                  const LabelNames& names, const std::string& name) {
-        return select(array_source(array, frame, array_options(options, names, name)), options);
+                                  const KeptLabels& kept, const LabelNames& names, const std::string& name) {
+        return select(array_source(array, frame, array_options(options, names, name)), options, kept);
     });
-    module.def(
-        "call_source",
-        [](const std::tuple<py::object, py::object, std::array<std::uint32_t, 3>, std::string>& calls,
-           const Frame& frame, const OptionValues& options, const LabelNames& names, const std::string& name) {
-            const auto& [next, rewind, size, type] = calls;
-            return select(call_source({next, rewind, size, type}, frame, {.names = names, .name = name}), options);
-        });
+    module.def("call_source", [](const std::tuple<py::object, py::object, std::array<std::uint32_t, 3>, std::string>&
+                                     calls,
+                                 const Frame& frame, const OptionValues& options, const KeptLabels& kept,
+                                 const LabelNames& names, const std::string& name) {
+        const auto& [next, rewind, size, type] = calls;
+        return select(call_source({next, rewind, size, type}, frame, {.names = names, .name = name}), options, kept);
+    });
     module.def("file_source", file_source);
 }
 
 void bind_runs(py::module_& module) {
-    using Kept = std::optional<std::vector<InputLabel>>;
     using Names = std::optional<LabelNames>;
-    module.def("reconstruct_source", [](Source& source, const OptionValues& options, const Kept& kept,
-                                        const Names& names, const py::object& progress) {
-        free_large_arrays_at_once();
-        Watch watch(progress);
-        return reconstruct_source(source, {options, kept, names}, watch);
-    });
+    module.def("reconstruct_source",
+               [](Source& source, const OptionValues& options, const Names& names, const py::object& progress) {
+                   free_large_arrays_at_once();
+                   Watch watch(progress);
+                   return reconstruct_source(source, {options, names}, watch);
+               });
     module.def("reconstruct_tetrahedra", [](const std::string& path, const OptionValues& options, const Names& names,
                                             const py::object& progress) {
         free_large_arrays_at_once();
         Watch watch(progress);
-        return reconstruct_tetrahedra(path, {options, std::nullopt, names}, watch);
+        return reconstruct_tetrahedra(path, {options, names}, watch);
     });
     using Samples = std::optional<std::pair<Frame, ArraySize>>;
     module.def("simplify", [](const Model& model, const OptionValues& options, const Samples& samples,

@@ -94,36 +94,13 @@ private:
     std::uint32_t section_ = 0;
 };
 
-class KeptLabels : public SectionReader {
-public:
-    KeptLabels(SectionReader& reader, std::vector<InputLabel> kept, InputLabel other)
-        : reader_(reader), kept_(std::move(kept)), other_(other) {
-        std::ranges::sort(kept_);
-    }
-
-    const VolumeInfo& info() const override { return reader_.info(); }
-
-    bool next(std::span<InputLabel> section) override {
-        if (!reader_.next(section)) return false;
-        for (InputLabel& label : section) {
-            if (label != last_ || is_first_) {
-                last_ = label;
-                result_ = std::ranges::binary_search(kept_, label) ? label : other_;
-                is_first_ = false;
-            }
-            label = result_;
-        }
-        return true;
-    }
-
-    void rewind() override { reader_.rewind(); }
-
-private:
-    SectionReader& reader_;
-    std::vector<InputLabel> kept_;
-    InputLabel other_, last_ = 0, result_ = 0;
-    bool is_first_ = true;
-};
+/// With only these labels kept.
+Selection keeping(Selection selection, const KeptLabels& kept) {
+    if (!kept) return selection;
+    if (kept->empty()) throw py::value_error("labels_to_keep: no label; name one or more");
+    for (const InputLabel label : *kept) selection.labels.push_back({label, label});
+    return selection;
+}
 
 }  // namespace
 
@@ -156,8 +133,9 @@ Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& r
     return {py::none(), std::make_unique<CalledSections>(std::move(calls), std::move(info))};
 }
 
-Source file_source(const std::vector<std::string>& paths, const OptionValues& options) {
-    const Settings settings = settings_from(options, paths);
+Source file_source(const std::vector<std::string>& paths, const OptionValues& options, const KeptLabels& kept) {
+    Settings settings = settings_from(options, paths);
+    settings.volume.select = keeping(settings.volume.select, kept);
     Source source;
     {
         const py::gil_scoped_release release;
@@ -169,15 +147,11 @@ Source file_source(const std::vector<std::string>& paths, const OptionValues& op
     return source;
 }
 
-Source select(Source source, const OptionValues& options) {
-    const Selection selection = settings_from(options).volume.select;
+Source select(Source source, const OptionValues& options, const KeptLabels& kept) {
+    const Selection selection = keeping(settings_from(options).volume.select, kept);
     const py::gil_scoped_release release;
     source.reader = select_sections(std::move(source.reader), selection);
     return source;
-}
-
-std::unique_ptr<SectionReader> keep_labels(SectionReader& reader, std::vector<InputLabel> kept, InputLabel other) {
-    return std::make_unique<KeptLabels>(reader, std::move(kept), other);
 }
 
 }  // namespace regionmesh::python

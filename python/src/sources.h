@@ -44,13 +44,13 @@ struct SectionCalls {
 };
 Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& rest);
 
-Source file_source(const std::vector<std::string>& paths, const OptionValues& options);
+/// The labels to keep; none: all. The others become background before anything else is chosen.
+using KeptLabels = std::optional<std::vector<InputLabel>>;
 
-/// The part of a source that the options roi, box, downsample and min-region choose. Sources of files are chosen from
-/// when they are opened.
-Source select(Source source, const OptionValues& options);
+Source file_source(const std::vector<std::string>& paths, const OptionValues& options, const KeptLabels& kept);
 
-/// The labels of a reader; those that are not kept become `other`.
-std::unique_ptr<SectionReader> keep_labels(SectionReader& reader, std::vector<InputLabel> kept, InputLabel other);
+/// The part of a source that the labels and the options roi, box, downsample and min-region choose. Sources of files
+/// are chosen from when they are opened.
+Source select(Source source, const OptionValues& options, const KeptLabels& kept);
 
 }  // namespace regionmesh::python

@@ -445,3 +445,9 @@ def test_the_view_of_nothing():
 
 def test_repr_and_length(mesh):
     assert repr(mesh) == f"<regionmesh.Mesh: {len(mesh.faces)} faces, {len(mesh.points)} points, 2 regions, certified>"
+
+
+def test_voxelise_refuses_spacings_that_are_none(mesh):
+    for place in ({"spacing": (float("nan"), 1, 1)}, {"spacing": (0, 1, 1)}, {"origin": (float("nan"), 0, 0)}):
+        with pytest.raises(ValueError, match="voxelise"):
+            mesh.voxelise(shape=(4, 4, 4), **place)

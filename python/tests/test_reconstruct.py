@@ -56,6 +56,19 @@ def test_labels_to_keep_makes_the_others_background(grains):
     np.testing.assert_array_equal(mesh.points, same.points)
 
 
+@pytest.mark.parametrize("choice", [{"downsample": 2}, {"min_region": 5}])
+def test_labels_are_kept_before_all_else_is_chosen(tmp_path, choice):
+    labels = np.zeros((12, 12, 12), np.uint8)
+    labels[2:10, 2:10, 2:10] = np.random.default_rng(0).integers(1, 4, (8, 8, 8))
+    np.save(tmp_path / "labels.npy", labels)
+    same = regionmesh.reconstruct(np.where(labels == 1, labels, 0), **choice)
+    for source in (labels, str(tmp_path / "labels.npy")):
+        made = regionmesh.reconstruct(source, labels_to_keep=[1], **choice)
+        np.testing.assert_array_equal(made.points, same.points)
+    with pytest.raises(ValueError, match="name one or more"):
+        regionmesh.reconstruct(labels, labels_to_keep=[])
+
+
 @pytest.mark.parametrize("extension", [".vtp", ".ply", ".obj", ".stl"])
 def test_a_saved_model_is_loaded_again(mesh, tmp_path, extension):
     path = tmp_path / f"model{extension}"

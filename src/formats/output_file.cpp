@@ -127,7 +127,11 @@ void OutputFile::write(std::string_view bytes) {
 }
 
 void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
-    if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) fail(errno);
+    if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) {
+        if (errno == ESPIPE)
+            fail("is a pipe, and this format is not written in one go; name a file, or a .ply or .stl");
+        fail(errno);
+    }
     put(bytes);
     if (::fseeko(file_, 0, SEEK_END) != 0) fail(errno);
 }
