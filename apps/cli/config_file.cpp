@@ -62,6 +62,10 @@ OptionValues values_in(const std::string& path, const CommandSpec& command) {
     for (CLI::ConfigItem& item : items_in(path)) {
         if (item.name == "++" || item.name == "--") continue;  // start and end of a table
         const std::string table = item.parents.empty() ? "" : item.parents.front();
+        if (!table.empty() && std::ranges::find(command_table(), table, &CommandSpec::name) == command_table().end())
+            throw Error(ErrorCode::kUsage,
+                        fmt::format("{}: [{}]: no command has this name; tables are named after commands, such as [{}]",
+                                    path, table, command.name));
         if (!table.empty() && table != command.name) continue;
         std::ranges::replace(item.name, '_', '-');
         const OptionSpec* const option = find_option(item.name);

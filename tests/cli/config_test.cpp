@@ -75,6 +75,8 @@ TEST_F(Config, that_is_wrong_is_refused_in_one_line) {
     };
     refused(whole() + "redcue = \"5%\"\n", 2, "run.toml: redcue: reconstruct has no such option; did you mean reduce?");
     refused(whole() + "config = \"x.toml\"\n", 2, "run.toml: config: ");
+    refused(whole() + "[smoothing]\nreduce = \"5%\"\n", 2, "run.toml: [smoothing]: no command has this name");
+    refused(whole() + "a.b = 1\n", 2, "run.toml: [a]: no command has this name");
     refused(whole() + "reduce = \"x\"\n", 2, "--reduce x: not a share");
     refused(whole() + "reduce = \"5%\"\ntarget-faces = 10\n", 2, "--reduce and --target-faces: ");
     refused("reduce = \"5%\"\n", 2, "input is required");
