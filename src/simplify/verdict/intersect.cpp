@@ -18,7 +18,8 @@ bool is_within_limits(const Collapse& collapse) {
 /// Would a face between two regions come to lie in a side of the box? Where the side has faces, it meets them; where it
 /// has none (open, or background), it could spread there over other such faces as if in a plane of its own.
 bool lies_down_on_side(const Mesh& mesh, const EdgeStar& star) {
-    const SideSet stays = mesh[star.stays].sides;
+    constexpr SideSet kPlanes = (1 << kHull) - 1;  // a hull of another shape has no planes
+    const SideSet stays = mesh[star.stays].sides & kPlanes;
     if (stays == 0) return false;
     return std::any_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) {
         const auto& labels = mesh[f.face].labels;
