@@ -10,11 +10,10 @@ constexpr double kNear = 1e-5;  // samples; files of single precision move point
 
 /// The sides of the box of samples that a point lies on, as bits.
 unsigned sides_at(const Lattice& lattice, Vec3 point) {
-    const Vec3 from = point - lattice.origin;
-    const auto& d = lattice.direction;
+    const Vec3 along = IntoAxes(lattice)(point);
     unsigned sides = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double index = dot({d[axis], d[3 + axis], d[6 + axis]}, from) / lattice.spacing[axis];
+        const double index = along[axis] / lattice.spacing[axis];
         if (std::abs(index) < kNear) sides |= 1u << (2 * axis);
         if (std::abs(index - (lattice.size[axis] - 1.0)) < kNear) sides |= 2u << (2 * axis);
     }

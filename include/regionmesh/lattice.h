@@ -9,7 +9,7 @@
 namespace regionmesh {
 
 /// Sample (i, j, k) lies at origin + direction * (i * spacing.x, j * spacing.y, k * spacing.z).
-/// Lengths are in the unit of the file. `direction` has columns of unit length, in row-major order: orthogonal but for
+/// Lengths are in the unit of the file. `direction` has columns of unit length, in row-major order: orthogonal up to
 /// rounding, unless the file shears the volume, as a tilted scanner does; it may mirror.
 struct Lattice {
     std::array<std::uint32_t, 3> size{0, 0, 0};  // samples along x, y, z
@@ -24,15 +24,28 @@ struct Lattice {
         return origin +
                Vec3{dot({d[0], d[1], d[2]}, along), dot({d[3], d[4], d[5]}, along), dot({d[6], d[7], d[8]}, along)};
     }
-    /// The inverse of `direction`: from space into the axes, after the origin was subtracted.
-    std::array<double, 9> into_axes() const {
-        const auto& d = direction;
-        const Vec3 x{d[0], d[3], d[6]}, y{d[1], d[4], d[7]}, z{d[2], d[5], d[8]};
-        const double per_volume = 1 / dot(x, cross(y, z));
-        const Vec3 a = per_volume * cross(y, z), b = per_volume * cross(z, x), c = per_volume * cross(x, y);
-        return {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
-    }
     bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
+};
+
+/// Brings places in space into the axes of a lattice. Inverts `direction`: its transpose is the inverse only where it
+/// is a rotation to the last digit.
+class IntoAxes {
+public:
+    explicit IntoAxes(const Lattice& lattice) : origin_(lattice.origin) {
+        const auto& d = lattice.direction;
+        const Vec3 x{d[0], d[3], d[6]}, y{d[1], d[4], d[7]}, z{d[2], d[5], d[8]};
+        const double volume = dot(x, cross(y, z));
+        rows_ = {cross(y, z) / volume, cross(z, x) / volume, cross(x, y) / volume};
+    }
+    /// How far a place is from the first sample along each axis, as a length.
+    Vec3 operator()(Vec3 place) const {
+        const Vec3 from = place - origin_;
+        return {dot(rows_[0], from), dot(rows_[1], from), dot(rows_[2], from)};
+    }
+
+private:
+    Vec3 origin_;
+    std::array<Vec3, 3> rows_;
 };
 
 /// Cells, or samples, from `low` to `high` - 1 along x, y, z.

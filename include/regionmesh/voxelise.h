@@ -58,7 +58,7 @@ public:
 
 private:
     struct Crossing {
-        std::uint64_t sample;  // first_of(row) + the number of the first one beyond the face, or the number of all
+        std::uint64_t sample;  // first_of(row) + index of the first one beyond the face (row length if none is)
         Label left, entered;
     };
     /// Room for one section.
@@ -99,7 +99,7 @@ private:
     std::vector<std::uint32_t> start_;   // of the faces of each section in order_
     std::vector<ActiveFace> active_;     // faces that reach the sections in hand
     std::vector<Scratch> scratch_;       // by section in hand
-    std::array<double, 9> into_axes_;    // of a lattice that is turned
+    IntoAxes into_axes_;
     bool is_mirrored_ = false, is_turned_ = false;
     std::uint32_t section_ = 0;
     std::uint64_t contradictions_ = 0;

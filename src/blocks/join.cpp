@@ -20,7 +20,7 @@ fs::path path_of(const Manifest& manifest, const fs::path& folder, std::uint32_t
     const PieceEntry& entry = manifest.pieces[block];
     const fs::path path = piece_path(folder, entry.pass, block);
     if (manifest.is_complete && !fs::exists(path))
-        formats::fail(path, "is gone, of a run that was finished; remove the folder, and run again");
+        formats::fail(path, "is missing, and its run was finished; remove the folder, and run again");
     if (read_checksum(path) != entry.checksum)
         formats::fail(path, "is not the piece that the manifest names; remove the folder, and run again");
     return path;

@@ -37,10 +37,12 @@ SampleLines lines_of(const VoxeliseOptions& options) {
 }  // namespace
 
 Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads)
-    : mesh_(mesh), options_(options), lines_(std::make_shared<SampleLines>(lines_of(options))) {
+    : mesh_(mesh),
+      options_(options),
+      lines_(std::make_shared<SampleLines>(lines_of(options))),
+      into_axes_(options.lattice) {
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
     is_turned_ = !options.lattice.is_axis_aligned();
-    into_axes_ = options.lattice.into_axes();
     const auto& d = options.lattice.direction;
     is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
     find_sections(threads);
@@ -52,11 +54,8 @@ Vec3 Voxeliser::place(VertexId v) const {
     const Lattice& lattice = options_.lattice;
     Vec3 p = mesh_.position(v);
     if (is_turned_) {
-        const Vec3 from = p - lattice.origin;
-        const auto& m = into_axes_;
         const double rounding = kRounding * (size(p) + size(lattice.origin));
-        p = {m[0] * from.x + m[1] * from.y + m[2] * from.z, m[3] * from.x + m[4] * from.y + m[5] * from.z,
-             m[6] * from.x + m[7] * from.y + m[8] * from.z};
+        p = into_axes_(p);
         for (int axis = 0; axis < 3; ++axis) {
             const double near = kOnSide * lattice.spacing[axis] + rounding;
             const double far = (lattice.size[axis] - 1) * lattice.spacing[axis];

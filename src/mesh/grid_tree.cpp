@@ -8,8 +8,6 @@
 #include <emmintrin.h>
 #endif
 
-#include "regionmesh/huge_pages.h"
-
 namespace regionmesh {
 namespace {
 
@@ -27,18 +25,17 @@ void GridTree::start(std::uint32_t count, const Box& extent) {
     }
     for (std::uint32_t size = count;;) {
         size = std::max(size / kFan + (size % kFan != 0), 1u);
-        levels_.push_back({size, std::make_unique_for_overwrite<Boxes[]>(size)});
-        prefer_huge_pages(levels_.back().groups.get(), size * sizeof(Boxes));
+        levels_.emplace_back().resize_for_overwrite(size);
         if (size == 1) break;
     }
 }
 
 void GridTree::build_upper(std::uint32_t threads) {
     for (std::size_t level = 1; level < levels_.size(); ++level) {
-        const Level &below = levels_[level - 1], &own = levels_[level];
-        for_each_index(own.size, kBuildGroups, threads, [&](std::uint32_t g) {
+        FlatArray<Boxes>&below = levels_[level - 1], &own = levels_[level];
+        for_each_index(own.size(), kBuildGroups, threads, [&](std::uint32_t g) {
             Boxes boxes = Boxes::none();
-            for (std::uint32_t child = g * kFan; child < std::min(below.size, (g + 1) * kFan); ++child)
+            for (std::uint32_t child = g * kFan; child < std::min(below.size(), (g + 1) * kFan); ++child)
                 boxes.put(child % kFan, below[child].hull());
             own[g] = boxes;
         });
@@ -263,7 +260,7 @@ void GridTree::remove(std::uint32_t place) { levels_[0][place / kFan].put(place 
 
 std::size_t GridTree::bytes() const {
     std::size_t sum = 0;
-    for (const Level& level : levels_) sum += level.size * sizeof(Boxes);
+    for (const FlatArray<Boxes>& level : levels_) sum += level.bytes();
     return sum;
 }
 

@@ -5,12 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/lanes.h"
 #include "base/parallel_for.h"
+#include "regionmesh/flat_array.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
@@ -102,7 +102,7 @@ public:
         std::uint64_t both_;
     };
     /// The number of parts into which the pairs of places with meeting boxes are divided, by m.
-    std::uint32_t part_count() const { return levels_[part_level()].size; }
+    std::uint32_t part_count() const { return levels_[part_level()].size(); }
     /// Calls visit(span<const Pair>) until all pairs of these parts have been visited, with at most 2^18 at once.
     void visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
                      const std::function<void(std::span<const Pair>)>& visit) const;
@@ -121,12 +121,6 @@ private:
     class PairList;
     struct PairSearch;
 
-    /// Allocated without touching the memory.
-    struct Level {
-        std::uint32_t size;
-        std::unique_ptr<Boxes[]> groups;
-        Boxes& operator[](std::uint32_t group) const { return groups[group]; }
-    };
     static constexpr std::uint32_t kBuildGroups = 2048;  // built by one task
 
     Entry root() const { return {static_cast<std::uint32_t>(levels_.size()) - 1, 0}; }
@@ -152,13 +146,13 @@ private:
 
     Vec3 origin_;
     double cells_per_length_ = 1;
-    std::vector<Level> levels_;
+    std::vector<FlatArray<Boxes>> levels_;
 };
 
 template <class BoxOf>
 void GridTree::build(std::uint32_t count, const Box& extent, std::uint32_t threads, BoxOf&& box_of) {
     start(count, extent);
-    for_each_index(levels_[0].size, kBuildGroups, threads, [&](std::uint32_t g) {
+    for_each_index(levels_[0].size(), kBuildGroups, threads, [&](std::uint32_t g) {
         Boxes boxes = Boxes::none();
         for (std::uint32_t place = g * kFan; place < std::min(count, (g + 1) * kFan); ++place) {
             const Box box = box_of(place);

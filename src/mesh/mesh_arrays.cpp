@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 
 #include "mesh/assemble.h"
@@ -47,14 +48,21 @@ Box bounding_box(const MeshArrays& arrays) {
     return box;
 }
 
-/// The side of the box whose plane contains the face, exactly.
-std::optional<int> side_of_face(const MeshArrays& arrays, const Corners& face, const Box& box) {
+/// The sides of the box whose planes contain all the points, exactly.
+SideSet sides_of(const MeshArrays& arrays, std::span<const std::uint32_t> points, const Box& box) {
+    SideSet sides = 0;
     for (int side = 0; side < 6; ++side) {
         const int axis = side / 2;
         const double plane = (side % 2 == 0 ? box.low : box.high)[axis];
-        if (std::ranges::all_of(face, [&](std::uint32_t v) { return arrays.points[v][axis] == plane; })) return side;
+        if (std::ranges::all_of(points, [&](std::uint32_t v) { return arrays.points[v][axis] == plane; }))
+            sides |= static_cast<SideSet>(1u << side);
     }
-    return std::nullopt;
+    return sides;
+}
+
+std::optional<int> side_of_face(const MeshArrays& arrays, const Corners& face, const Box& box) {
+    const SideSet sides = sides_of(arrays, face, box);
+    return sides == 0 ? std::nullopt : std::optional(std::countr_zero(sides));
 }
 
 /// Do all faces to the exterior lie in planes of the box, and do at most four labels, sides included, meet on its edges
@@ -95,11 +103,8 @@ void mark_open_rims(Mesh& mesh, const MeshArrays& arrays, const Box& box) {
             int faces = 0;
             mesh.for_star(a, [&](FaceId g, int) { faces += std::ranges::count(mesh[g].vertices, b) > 0; });
             if (faces != 1) continue;
-            for (int side = 0; side < 6; ++side) {
-                const double plane = (side % 2 == 0 ? box.low : box.high)[side / 2];
-                if (mesh.position(a)[side / 2] != plane || mesh.position(b)[side / 2] != plane) continue;
-                for (const VertexId v : {a, b}) mesh[v].sides |= static_cast<SideSet>(1u << side);
-            }
+            const SideSet sides = sides_of(arrays, std::array{index(a), index(b)}, box);
+            for (const VertexId v : {a, b}) mesh[v].sides |= sides;
         }
     }
 }

@@ -26,7 +26,7 @@ std::vector<FaceId> along_curve(std::uint32_t face_end, const BoxOf& box_of, con
 
 SortedFaceTree::SortedFaceTree(const Mesh& mesh, std::uint32_t threads) {
     build(
-        mesh.face_end(), extent_of(mesh, threads), [&](FaceId f) { return regionmesh::box_of(mesh, f); }, threads);
+        mesh.face_end(), extent_of(mesh, threads), [&](FaceId f) { return box_of(mesh, f); }, threads);
 }
 
 SortedFaceTree::SortedFaceTree(std::uint32_t face_end, const Box& extent, const std::function<Box(FaceId)>& box_of,

@@ -27,10 +27,8 @@ std::pair<std::uint32_t, std::uint32_t> samples_along(const VolumeInfo& volume, 
 
 /// Indices along the axes of the lattice, not whole, of a place.
 Vec3 index_of(const Lattice& lattice, Vec3 place) {
-    const Vec3 from = place - lattice.origin;
-    const auto& d = lattice.direction;
-    return {dot({d[0], d[3], d[6]}, from) / lattice.spacing.x, dot({d[1], d[4], d[7]}, from) / lattice.spacing.y,
-            dot({d[2], d[5], d[8]}, from) / lattice.spacing.z};
+    const Vec3 along = IntoAxes(lattice)(place);
+    return {along.x / lattice.spacing.x, along.y / lattice.spacing.y, along.z / lattice.spacing.z};
 }
 
 Vec3 corner_of(const Vec3& low, const Vec3& high, int corner) {

@@ -103,6 +103,12 @@ TEST(SelectSections, box_keeps_the_samples_inside) {
     EXPECT_THAT(refusal_of(volume, {.box = {{{}, {18.2, 18.4}, {}}}}), HasSubstr("--box holds no sample"));
 }
 
+TEST(SelectSections, box_follows_the_axes_of_a_sheared_volume) {
+    ArrayVolume volume = digits();
+    volume.lattice().direction = {1, 0.6, 0, 0, 0.8, 0, 0, 0, 1};  // rows of samples along x, 0.8 apart
+    EXPECT_EQ(result_of(volume, {.box = {{{}, {0.8, 0.8}, {0, 0}}}}), "456");
+}
+
 TEST(SelectSections, ranges_outside_the_volume_are_refused) {
     EXPECT_THAT(refusal_of(digits(), {.roi = {{{0, 4}, {}, {}}}}),
                 HasSubstr("--roi 0:4 along x is not within the 3 samples; give a part of 0:3"));

@@ -15,8 +15,8 @@ bool is_within_limits(const Collapse& collapse) {
     return true;
 }
 
-/// Would a face between two regions come to lie in a side of the box? Where the side has faces, it meets them; where it
-/// has none (open, or background), it could spread there over other such faces as if in a plane of its own.
+/// Would a face between two regions come to lie in a side of the box? A side without caps (open, or background) has no
+/// faces that it would meet, and flat stars are not searched: there it could later overlap other such faces.
 bool lies_down_on_side(const Mesh& mesh, const EdgeStar& star) {
     constexpr SideSet kPlanes = (1 << kHull) - 1;  // a hull of another shape has no planes
     const SideSet stays = mesh[star.stays].sides & kPlanes;

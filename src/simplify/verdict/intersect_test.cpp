@@ -74,7 +74,7 @@ Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const Ris
     position_ = position;
     box_ = star.link_box;
     for (Vec3 p : {position, star.at_goes, star.at_stays}) box_.add(p);
-    // On a side of the box the star may end at an open rim, which moves with it.
+    // A star on a side of the box may end at an open rim, which moves with its vertices.
     const bool is_inside = mesh[star.goes].sides == 0 && (star.keeps_stays || mesh[star.stays].sides == 0);
     const Directions directions =
         rising && star.is_interface && is_inside ? rising->common(star, position) : Directions{0};
