@@ -31,6 +31,7 @@ void print_findings(const std::string& name, const CheckReport& report) {
     fmt::print("{}: {}, {} with an interface, {} inside, lowest quality {:.3f}, mean {:.3f}\n", printable(name),
                counted(report.regions.size(), "region"), counted(report.region_pairs, "pair"),
                counted(report.quadruple_points_inside, "quadruple point"), report.quality.min, report.quality.mean);
+    if (report.regions.empty()) fmt::print("it has no regions: nothing was checked\n");
     print_violations(report, kListed);
     if (report.violation_count() == 0) fmt::print("no violations\n");
     print_orient_hint(report);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "arguments.h"
@@ -13,6 +14,8 @@
 
 namespace regionmesh::cli {
 namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // UTF-8, as some editors begin a file
 
 bool has(const OptionValues& values, std::string_view name) {
     return std::ranges::any_of(values, [&](const auto& value) { return value.first == name; });
@@ -38,12 +41,12 @@ void require_no_number_sign_in_quotes(const std::string& path, const std::string
 
 std::vector<CLI::ConfigItem> items_in(const std::string& path) {
     std::ifstream stream(path);
-    std::ostringstream text;
-    text << stream.rdbuf();
+    std::string text(std::istreambuf_iterator<char>(stream), {});
     if (!stream || std::filesystem::is_directory(path))
         throw Error(ErrorCode::kInput, path + ": cannot be read; check the path");
-    require_no_number_sign_in_quotes(path, text.str());
-    std::istringstream again(text.str());
+    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+    require_no_number_sign_in_quotes(path, text);
+    std::istringstream again(text);
     try {
         return CLI::ConfigTOML().from_config(again);
     } catch (const CLI::Error& error) {
@@ -77,6 +80,16 @@ OptionValues values_in(const std::string& path, const CommandSpec& command) {
     return values;
 }
 
+/// Errors name the file, too.
+void require_value(const std::string& path, const OptionSpec& option, const std::string& text) {
+    Settings settings;
+    try {
+        option.set(settings, text);
+    } catch (const Error& error) {
+        throw Error(error.code(), path + ": " + error.what());
+    }
+}
+
 }  // namespace
 
 void add_config(OptionValues& values, const CommandSpec& command) {
@@ -89,7 +102,9 @@ void add_config(OptionValues& values, const CommandSpec& command) {
         const OptionSpec* const option = find_option(name);
         if (!option || !(option->commands & command.command) || name == "config")
             throw Error(ErrorCode::kUsage, path + ": " + no_such_option(command, name));
-        if (!has(typed, name)) values.emplace_back(name, text);
+        if (has(typed, name)) continue;
+        require_value(path, *option, text);
+        values.emplace_back(name, text);
     }
 }
 

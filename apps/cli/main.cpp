@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -106,6 +107,11 @@ void hold_standard_streams() {
             (void)!::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
+/// A file at its limit of size and a pipe that nobody reads are errors of the write, not the end of the process.
+void let_writes_fail() {
+    for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+}
+
 void add_commands(CLI::App& app, bool has_config, Action& action) {
     // In the order of command_table().
     constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth,   run_check, run_convert,
@@ -174,6 +180,7 @@ void name_process(std::string name, bool says_all) {
 
 int run_program(int argc, char** argv) {
     hold_standard_streams();
+    let_writes_fail();
     std::set_terminate(end_without_destructors);
     remove_outputs_on_signals();
     keep_large_arrays_apart();

@@ -2,7 +2,7 @@
 
 import os
 
-from . import _core
+from . import _core, _sources
 
 
 def bits(label):
@@ -16,5 +16,6 @@ def names_of(names):
     if names is None:
         return None
     if isinstance(names, (str, os.PathLike)):
-        return _core.read_names(os.fspath(names))
+        with _sources.missing_files(names):
+            return _core.read_names(os.fspath(names))
     return {bits(label): str(name) for label, name in dict(names).items()}

@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from . import _core, _options
+from . import _core, _options, _sources
 from ._labels import bits as _bits, names_of
 from ._mesh import Mesh
 
@@ -65,12 +65,8 @@ def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
     if weld is not None:
         pairs.append(("weld", repr(float(weld))))
     pairs.append(("orient", "true" if orient else "false"))
-    try:
+    with _sources.missing_files(path):
         return Mesh(_core.load(path, pairs))
-    except ValueError as error:
-        if not os.path.exists(path):
-            raise FileNotFoundError(str(error)) from None
-        raise
 
 
 def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names=None, boundary="cap"):

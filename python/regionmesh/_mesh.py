@@ -284,7 +284,9 @@ class Mesh:
         Parameters
         ----------
         labels : array_like, path or image, optional
-            The labels that the model was made from, as in `reconstruct`: the model is compared with them, too.
+            The labels that the model was made from, as in `reconstruct`: the model is compared with them, too. `roi`,
+            `downsample` and all else that chose samples for the model chooses them here, too; samples already so
+            chosen are taken as they are.
         spacing, origin, direction : optional
             As in `reconstruct`; default: those the model was made with.
         threads : int
@@ -295,22 +297,63 @@ class Mesh:
         dict
             quality, regions, region_pairs, quadruple_points_inside, violations, violation_counts; with labels also
             samples, samples_wrong and dice (docs/report.md).
+
+        Raises
+        ------
+        ValueError
+            For labels that are not as many along each axis as the model was made from.
+        FileNotFoundError
+            For a path where there is no file.
         """
         source = None
         if labels is not None:
-            source = self._source(labels, spacing, origin, direction)
+            opened = self._file_source if _sources.is_path(labels) else self._array_source
+            source = opened(labels, (spacing, origin, direction))
+            if "size" in (self._lattice or {}) and source.info["size"] != self._lattice["size"]:
+                size, own = ([str(n) for n in lattice["size"]] for lattice in (source.info, self._lattice))
+                raise ValueError(
+                    f"labels: {' x '.join(size)} samples along x, y, z, the model was made from {' x '.join(own)}; "
+                    "give the volume that it was made from"
+                )
         return json.loads(_core.check(self._model, threads, source))
 
-    def _source(self, labels, spacing, origin, direction):
-        if _sources.is_path(labels):
-            pairs = _options.pairs("reconstruct", {"spacing": spacing})
-            return _core.file_source(_sources.paths_of(labels), pairs, None)
-        source = _sources.source(labels, self._place(spacing, origin, direction), [], {})
+    def _made(self):
+        """How samples were chosen: options, labels kept, and the place of the whole input."""
+        made = (self._lattice or {}).get("made")
+        return (made["selection"], made["kept"], made["place"]) if made else ([], None, self._place())
+
+    def _is_chosen(self, size, selection):
+        """Whether a volume of that size is the part that was chosen, not the whole."""
+        return _sources.is_cut(selection) and tuple(size) == tuple(self._lattice["size"])
+
+    def _file_source(self, labels, given):
+        if given[1] is not None or given[2] is not None:
+            raise TypeError("check(): origin and direction are those of the file; leave them out")
+        paths = _sources.paths_of(labels)
+        selection, kept, _ = self._made()
+        spacing = _options.pairs("reconstruct", {"spacing": given[0]})
+        if spacing:
+            selection = [pair for pair in selection if pair[0] != "spacing"] + spacing
+        with _sources.missing_files(*paths):
+            whole = [pair for pair in selection if pair[0] == "spacing"]
+            source = _core.file_source(paths, whole, None)
+            if self._is_chosen(source.info["size"], selection) or (selection == whole and kept is None):
+                return source
+            return _core.file_source(paths, selection, kept)
+
+    def _array_source(self, labels, given):
+        opened = _sources.opened(labels)
+        selection, kept, place = self._made()
+        if self._is_chosen(_sources.size_of(opened), selection):
+            selection, kept, place = [], None, self._place()
+        selection = [pair for pair in selection if pair[0] not in ("spacing", "sweep")]
+        place = [mine if mine is not None else made for mine, made in zip(given, place)]
+        source = _sources.source(opened, _sources.place_of(opened, place), selection, {}, kept)
         if not source.info["can_rewind"]:
             raise ValueError("labels: an iterator is read once and check reads twice; give a list or an array")
         return source
 
-    def _place(self, spacing, origin, direction):
+    def _place(self, spacing=None, origin=None, direction=None):
         """Where samples lie: as given, else as the mesh was made."""
         given = {"spacing": spacing, "origin": origin, "direction": direction}
         own = self._lattice or {}

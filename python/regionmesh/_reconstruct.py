@@ -1,7 +1,5 @@
 """From labels to a model."""
 
-import os
-
 from . import _core, _options, _progress, _sources
 from ._labels import bits, names_of
 from ._mesh import Mesh
@@ -18,18 +16,18 @@ def _split(options, names):
 
 def _from_files(labels, options, kept, names, progress):
     paths = _sources.paths_of(labels)
-    try:
+    with _sources.missing_files(*paths):
         if _core.kind_of_input(paths) == "tetrahedra":
             if kept is not None:
                 raise ValueError("labels_to_keep: does not apply to tables and meshes; leave it out")
             return Mesh(_core.reconstruct_tetrahedra(paths[0], options, names, progress))
         source = _core.file_source(paths, options, kept)
-        return Mesh(_core.reconstruct_source(source, options, names, progress), lattice=source.info)
-    except ValueError as error:
-        missing = next((path for path in paths if not os.path.exists(path.split(":/")[0])), None)
-        if missing is not None:
-            raise FileNotFoundError(str(error)) from None
-        raise
+        chosen = _split(options, _OF_SOURCE | {"spacing"})
+        whole = source.info
+        if _sources.is_cut(chosen):
+            whole = _core.file_source(paths, [pair for pair in options if pair[0] not in _OF_SOURCE], None).info
+        made = {"selection": chosen, "kept": kept, "place": tuple(whole[key] for key in ("spacing", "origin", "direction"))}
+        return Mesh(_core.reconstruct_source(source, options, names, progress), {**source.info, "made": made})
 
 
 def reconstruct(
@@ -117,10 +115,11 @@ def reconstruct(
             if options.get(name) is not None:
                 raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
         pairs = _options.pairs("reconstruct", options)
-        where, chosen = (spacing, origin, direction), _split(pairs, _OF_SOURCE)
-        given = _sources.source(labels, where, chosen, names or {}, sections, kept)
-        model = _core.reconstruct_source(given, pairs, names, report)
-    return Mesh(model, lattice=given.info)
+        given = _sources.opened(labels, sections)
+        place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
+        source = _sources.source(given, place, chosen, names or {}, kept)
+        model = _core.reconstruct_source(source, pairs, names, report)
+    return Mesh(model, {**source.info, "made": {"selection": chosen, "kept": kept, "place": place}})
 
 
 def _describe(function, command):

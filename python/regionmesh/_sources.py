@@ -1,5 +1,6 @@
 """Labels in any form that Python has, as sources of sections."""
 
+import contextlib
 import os
 import sys
 import tempfile
@@ -221,29 +222,60 @@ def _is_sliced(data):
     return True
 
 
-def source(labels, given, options, names, sections=None, kept=None):
-    """Open an input that is no path.
+def _calls_of(array):
+    calls = _ArrayCalls(array)
+    size = tuple(int(n) for n in array.shape[::-1])
+    return calls.next, calls.rewind, size, _type_name(np.dtype(array.dtype).newbyteorder("="))
 
-    `given` has spacing, origin and direction, None where the input's own are meant.
-    """
+
+def opened(labels, sections=None):
+    """An input that is no path, with its place: `data` is an array, or the calls for its sections."""
     own = placed(labels)
-    theirs = own.spacing, own.origin, own.direction
-    where = frame(*(mine if mine is not None else other for mine, other in zip(given, theirs)))
     data = own.data
     if _is_sliced(data):
-        calls = _ArrayCalls(data)
-        size = tuple(int(n) for n in data.shape[::-1])
-        data = calls.next, calls.rewind, size, _type_name(data.dtype)
+        data = _calls_of(data)
     elif not isinstance(data, np.ndarray) and hasattr(data, "__array__"):
         data = np.asarray(data)
     elif not isinstance(data, np.ndarray):
         if not hasattr(data, "__iter__"):
             raise TypeError(f"labels: {type(labels).__name__}; give an array, a path or an iterable of sections")
         data = _iterated(data, sections)
-    if not isinstance(data, np.ndarray):
-        return _core.call_source(data, where, options, kept, names, "labels")
-    if not data.dtype.isnative and data.dtype.kind in "iu" and data.ndim == 3:
-        calls = _ArrayCalls(data)
-        call = calls.next, calls.rewind, data.shape[::-1], _type_name(data.dtype.newbyteorder("="))
-        return _core.call_source(call, where, options, kept, names, "labels")
-    return _core.array_source(data, where, options, kept, names, "labels")
+    if isinstance(data, np.ndarray) and not data.dtype.isnative and data.dtype.kind in "iu" and data.ndim == 3:
+        data = _calls_of(data)
+    return Placed(data, own.spacing, own.origin, own.direction)
+
+
+def size_of(input):
+    """Samples along x, y, z of an opened input."""
+    return tuple(input.data.shape[::-1]) if isinstance(input.data, np.ndarray) else tuple(input.data[2])
+
+
+def is_cut(options):
+    """Whether options of the input leave fewer samples."""
+    return any(name in ("roi", "box", "downsample") for name, _ in options)
+
+
+def place_of(input, given):
+    """Spacing, origin and direction: as given, or where that is None, the input's own, or else the default."""
+    own, default = (input.spacing, input.origin, input.direction), ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), IDENTITY)
+    return tuple(next(value for value in values if value is not None) for values in zip(given, own, default))
+
+
+def source(input, place, options, names, kept=None):
+    """The samples of an opened input that `options` and `kept` choose."""
+    if isinstance(input.data, np.ndarray):
+        return _core.array_source(input.data, frame(*place), options, kept, names, "labels")
+    if dict(options).get("sweep", "auto") not in ("auto", "z"):
+        raise ValueError("sweep: these sections come along z only; leave it out, or give an array")
+    return _core.call_source(input.data, frame(*place), options, kept, names, "labels")
+
+
+@contextlib.contextmanager
+def missing_files(*paths):
+    """Turn an error into a FileNotFoundError where one of the paths leads nowhere."""
+    try:
+        yield
+    except ValueError as error:
+        if all(os.path.exists(path.split(":/")[0]) for path in map(os.fspath, paths)):
+            raise
+        raise FileNotFoundError(str(error)) from None

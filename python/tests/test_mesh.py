@@ -224,6 +224,32 @@ def test_check_reads_files_and_sections(filled, grains, tmp_path):
     assert filled.check(iter(grains))["samples_wrong"] == 0
 
 
+@pytest.mark.parametrize(
+    "options",
+    [{"roi": "2:16,:,5:"}, {"box": "1:20,0:30,2:40"}, {"downsample": 2}, {"labels_to_keep": [3, 5]}, {"min_region": 20}],
+)
+def test_check_chooses_samples_as_the_model_did(grains, tmp_path, options):
+    place = {"spacing": (1, 2, 3), "origin": (0.5, -4, 7)}
+    np.save(tmp_path / "grains.npy", grains)
+    made = regionmesh.reconstruct(grains, background=99, **place, **options)
+    derived = made.simplify(reduce=0.2)
+    for mesh in made, derived, pickle.loads(pickle.dumps(made)):
+        for labels in grains, list(grains), mesh.voxelise():
+            found = mesh.check(labels)
+            assert found["samples"] == mesh.voxelise().size and found["samples_wrong"] == 0 and not found["violations"]
+    read = regionmesh.reconstruct(tmp_path / "grains.npy", background=99, spacing=(1, 2, 3), **options)
+    for labels in tmp_path / "grains.npy", grains, read.voxelise():
+        assert read.check(labels)["samples_wrong"] == 0
+
+
+def test_check_refuses_other_volumes(filled, grains, tmp_path):
+    with pytest.raises(ValueError, match="19 x 20 x 20 samples along x, y, z, the model was made from 20 x 20 x 20"):
+        filled.check(grains[:, :, 1:])
+    np.save(tmp_path / "grains.npy", grains)
+    with pytest.raises(TypeError, match="leave them out"):
+        filled.check(tmp_path / "grains.npy", origin=(0, 0, 0))
+
+
 def test_a_hole_is_found(mesh):
     x = mesh.points[mesh.faces, 0].mean(axis=1)
     kept = x > (x.min() + x.max()) / 2  # lines of samples along x leave regions that they have not entered

@@ -388,6 +388,19 @@ def test_a_missing_file_is_not_found(tmp_path):
         regionmesh.reconstruct(tmp_path / "nothing.nii.gz")
     with pytest.raises(FileNotFoundError, match="nothing.vtp"):
         regionmesh.load(tmp_path / "nothing.vtp")
+    labels = np.zeros((4, 4, 4), np.uint8)
+    labels[1:3, 1:3, 1:3] = 1
+    with pytest.raises(FileNotFoundError, match="nothing.csv"):
+        regionmesh.reconstruct(labels, names=tmp_path / "nothing.csv")
+    with pytest.raises(FileNotFoundError, match="nothing.npy"):
+        regionmesh.reconstruct(labels).check(tmp_path / "nothing.npy")
+
+
+def test_sections_by_calls_sweep_along_z_only(two_boxes):
+    same(regionmesh.reconstruct(list(two_boxes), sweep="z"), regionmesh.reconstruct(two_boxes, sweep="z"))
+    for labels in list(two_boxes), two_boxes.astype(">u2"):
+        with pytest.raises(ValueError, match="along z only"):
+            regionmesh.reconstruct(labels, sweep="x")
 
 
 @pytest.mark.parametrize("name, text", [("a.nrrd", "no header"), ("a.txt", "text"), ("a.npy", "")])

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/box.h"
 #include "check/findings.h"
 #include "mesh/strata.h"
 
@@ -35,10 +36,14 @@ void place_violation(const Mesh& mesh, Violation& violation) {
                       : vertex_labels(mesh, VertexId{vertices[0]});
         place_violation(mesh.position(VertexId{vertices[0]}), met, violation);
     } else if (!faces.empty()) {
-        const auto p = mesh.corners(FaceId{faces[0]});
+        // Of two faces that cross: the middle of what their boxes have in common.
+        const Box f = box_of(mesh.corners(FaceId{faces.front()})), g = box_of(mesh.corners(FaceId{faces.back()}));
+        const bool is_crossing = kind == ViolationKind::kCrossingFaces;
+        const auto p = mesh.corners(FaceId{faces.front()});
+        const Vec3 at = is_crossing ? (max(f.low, g.low) + min(f.high, g.high)) / 2 : p[0] / 3 + p[1] / 3 + p[2] / 3;
         for (std::uint32_t f : faces)
             for (Label label : mesh[FaceId{f}].labels) met.add(label);
-        place_violation(p[0] / 3 + p[1] / 3 + p[2] / 3, met, violation);
+        place_violation(at, met, violation);
     }
 }
 

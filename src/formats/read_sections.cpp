@@ -45,8 +45,13 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
     }
     const fs::path file = formats::split_dataset(path).file;
     const formats::InputFile there(file);
-    if (has_raw_option && file == path) return formats::open_raw(path, options);
     const Format* format = formats::find_format(there);
+    if (has_raw_option && file == path) {
+        const bool says_itself = format && format->open_sections != formats::open_raw;
+        if (says_itself && !(options.raw_size && options.raw_type))
+            formats::fail(path, "--size and --type are for raw files: leave them out, or give both to read it as raw");
+        return formats::open_raw(path, options);
+    }
     formats::require_readable(path, format);
     if (format && format->open_sections) return format->open_sections(path, options);
     formats::fail(path, "unknown format '" + formats::extension(path) + "'; regionmesh reads " + volume_extensions() +

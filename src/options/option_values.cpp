@@ -40,6 +40,19 @@ bool parse_whole(const std::string& text, Integer& value) {
     return error == std::errc{} && end == text.data() + text.size();
 }
 
+struct ParsedLabel {
+    InputLabel value = 0;
+    bool is_large = false;  // 2^63 or more: `value` has the bits of an unsigned number
+};
+
+std::optional<ParsedLabel> label_in(const std::string& text) {
+    InputLabel label = 0;
+    std::uint64_t bits = 0;
+    if (parse_whole(text, label)) return ParsedLabel{label, false};
+    if (parse_whole(text, bits)) return ParsedLabel{static_cast<InputLabel>(bits), true};
+    return std::nullopt;
+}
+
 /// Of "A:B,A:B,A:B" along x, y and z, as typed; either end may be empty. None for a text of another form.
 std::optional<std::array<std::pair<std::string, std::string>, 3>> ends_of_ranges(const std::string& text) {
     const std::vector<std::string> parts = split(text);
@@ -102,10 +115,7 @@ std::uint64_t parse_bytes(const std::string& flag, const std::string& text) {
 }
 
 InputLabel parse_label(const std::string& flag, const std::string& text) {
-    InputLabel label = 0;
-    std::uint64_t bits = 0;
-    if (parse_whole(text, label)) return label;
-    if (parse_whole(text, bits)) return static_cast<InputLabel>(bits);
+    if (const auto label = label_in(text)) return label->value;
     refuse_value(flag, text, "a label: a whole number, such as 3");
 }
 
@@ -135,14 +145,12 @@ std::vector<LabelRange> parse_label_ranges(const std::string& flag, const std::s
     for (const std::string& part : split(text)) {
         const std::size_t dash = part.find('-', 1);  // a minus at the start is a sign
         const bool is_range = dash != std::string::npos;
-        const auto is_label = [](const std::string& word) {
-            InputLabel label = 0;
-            std::uint64_t bits = 0;
-            return parse_whole(word, label) || parse_whole(word, bits);
-        };
-        const std::string first = part.substr(0, dash), last = is_range ? part.substr(dash + 1) : first;
-        if (!is_label(first) || !is_label(last)) refuse_value(flag, text, "labels, such as 1,5-9");
-        ranges.push_back({parse_label(flag, first), parse_label(flag, last)});
+        const auto first = label_in(part.substr(0, dash));
+        const auto last = is_range ? label_in(part.substr(dash + 1)) : first;
+        if (!first || !last) refuse_value(flag, text, "labels, such as 1,5-9");
+        if (std::pair(first->is_large, first->value) > std::pair(last->is_large, last->value))
+            refuse_value(flag, text, fmt::format("a range from low to high: {}", part));
+        ranges.push_back({first->value, last->value});
     }
     return ranges;
 }

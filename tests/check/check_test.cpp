@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "base/box.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -133,6 +134,9 @@ TEST(Check, crossing_faces) {
     test::add_octahedron(mesh, {0, 0, 1.2}, {0.1, 0.1, 0.5}, 2, 1);
     EXPECT_THAT(found_in(mesh, kIslands), ElementsAre("crossing_faces"));
     EXPECT_THAT(found_in(mesh, {.background = {1}, .crossing = false}), ElementsAre());
+    for (const Violation& violation : check(mesh, kIslands).violations)
+        for (const std::uint32_t f : violation.faces)
+            EXPECT_TRUE(is_within(violation.at.value(), box_of(mesh.corners(FaceId{f})))) << violation.text;
 }
 
 TEST(Check, crossing_faces_that_share_a_vertex) {

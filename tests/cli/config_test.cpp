@@ -77,7 +77,7 @@ TEST_F(Config, that_is_wrong_is_refused_in_one_line) {
     refused(whole() + "config = \"x.toml\"\n", 2, "run.toml: config: ");
     refused(whole() + "[smoothing]\nreduce = \"5%\"\n", 2, "run.toml: [smoothing]: no command has this name");
     refused(whole() + "a.b = 1\n", 2, "run.toml: [a]: no command has this name");
-    refused(whole() + "reduce = \"x\"\n", 2, "--reduce x: not a share");
+    refused(whole() + "reduce = \"x\"\n", 2, "run.toml: --reduce x: not a share");
     refused(whole() + "reduce = \"5%\"\ntarget-faces = 10\n", 2, "--reduce and --target-faces: ");
     refused("reduce = \"5%\"\n", 2, "input is required");
     refused("input = [\"a.npy\"]\n", 2, "--output is required");
@@ -86,6 +86,10 @@ TEST_F(Config, that_is_wrong_is_refused_in_one_line) {
     expect_refusal("reconstruct --config " + path("none.json").string(), 1, "none.json: no such file");
     put_text(path("other.json"), "{\"a\": 1}");
     expect_refusal("reconstruct --config " + path("other.json").string(), 1, "other.json: has no options");
+}
+
+TEST_F(Config, with_a_byte_order_mark_is_read) {
+    EXPECT_EQ(run("reconstruct --config " + toml("\xEF\xBB\xBF" + whole())).code, 0);
 }
 
 TEST_F(Config, with_a_comment_is_read) {

@@ -188,8 +188,9 @@ TEST_F(CliFiles, a_part_of_a_volume_is_checked_against_the_same_part) {
     EXPECT_THAT(run("info " + volume() + "--merge " + path("merge.csv").string()).out, HasSubstr("inside"));
     std::filesystem::remove(out("m.vtp"));
     expect_refusal("reconstruct " + volume() + "-o " + out("m.vtp") + " --roi 0:99,:,:", 1, "is not within the 14");
-    for (const char* bad : {"--roi 1:2", "--roi 5:5,:,:", "--labels 1,,2", "--labels 3-", "--downsample 0",
-                            "--box 3:1,:,:", "--labels 1 --no-background"})
+    for (const char* bad :
+         {"--roi 1:2", "--roi 5:5,:,:", "--labels 1,,2", "--labels 3-", "--labels 5-3",
+          "--labels 18446744073709551615-3", "--downsample 0", "--box 3:1,:,:", "--labels 1 --no-background"})
         expect_refusal("reconstruct " + volume() + "-o " + out("m.vtp") + ' ' + bad, 2, "--");
 }
 

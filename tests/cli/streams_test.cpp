@@ -15,10 +15,12 @@ protected:
 
     std::string volume() const { return ball("v.raw"); }
 
-    /// Runs the program with its streams as `streams` says. A signal gives 128 and its number.
-    int code_of(const std::string& arguments, const std::string& streams) const {
-        const std::string command = "'" + test::program() + "' " + arguments + " " + streams;
-        const int status = std::system(("( " + command + " ) 2>/dev/null").c_str());
+    /// Runs the program with its streams as `streams` says, after what `before` sets. A signal gives 128 and its
+    /// number.
+    int code_of(const std::string& arguments, const std::string& streams, const std::string& before = "") const {
+        const std::string command = before + "'" + test::program() + "' " + arguments + " " + streams;
+        put_text(path("command"), command);
+        const int status = std::system(("bash '" + path("command").string() + "' 2>/dev/null").c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 };
@@ -41,6 +43,20 @@ TEST_F(Streams, results_that_cannot_be_written_are_an_error) {
         EXPECT_EQ(code_of("reconstruct " + volume() + "-o " + out("m.vtp"), streams), 1);
         EXPECT_EQ(code_of("reconstruct " + volume() + "--quiet -o " + out("m.vtp"), streams), 0);
     }
+}
+
+TEST_F(Streams, a_pipe_that_nobody_reads_is_an_error_and_no_signal) {
+    const std::string said = path("said").string();
+    EXPECT_EQ(code_of("info " + volume(), "2>'" + said + "' | true; exit ${PIPESTATUS[0]}"), 1);
+    EXPECT_THAT(text_of(said), HasSubstr("standard output cannot be written"));
+}
+
+TEST_F(Streams, a_file_at_its_limit_of_size_is_an_error_and_leaves_nothing) {
+    const std::string said = path("said").string(), before = "ulimit -f 4; ";
+    EXPECT_EQ(
+        code_of("reconstruct " + volume() + "--smooth off --quiet -o " + out("m.vtp"), "2>'" + said + "'", before), 1);
+    EXPECT_THAT(text_of(said), HasSubstr("m.vtp: cannot be written: File too large"));
+    EXPECT_TRUE(std::filesystem::is_empty(path("out")));
 }
 
 TEST_F(Streams, a_missed_target_is_said_on_standard_error_when_quiet) {

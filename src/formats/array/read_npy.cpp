@@ -67,7 +67,7 @@ NpyHeader parse_header(const std::filesystem::path& path, std::string_view text)
         if (header.descr.empty()) refuse("descr is empty");
         return header;
     } catch (const nlohmann::json::exception& problem) {
-        refuse(problem.what());
+        refuse(problem_text(problem));
     }
     return {};
 }

@@ -231,8 +231,10 @@ public:
         char* place = bytes_.data();
         for (const InputLabel label : section) {
             if (label < type_.least || label > type_.most)
-                throw Error(ErrorCode::kOutput, fmt::format("{}: samples of {} do not hold the label {}; give --type",
-                                                            path_.string(), type_.nrrd, label));
+                throw Error(
+                    ErrorCode::kOutput,
+                    fmt::format("{}: samples of {} do not hold the label {}; give --like a volume of a larger type",
+                                path_.string(), type_.nrrd, label));
             std::memcpy(place, &label, size);  // little endian: the low bytes come first
             place += size;
         }

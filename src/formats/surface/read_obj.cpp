@@ -23,6 +23,7 @@ public:
     }
 
     FileSurface read() {
+        if (file_.size() == 0) file_.fail("is empty; write the model again");
         std::string whole;
         while (const auto line = file_.take_line()) {
             whole += *line;

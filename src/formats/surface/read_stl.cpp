@@ -48,6 +48,7 @@ void read_text(formats::ByteReader& file, RegionGroups& groups, FileSurface& sur
     std::optional<std::uint32_t> group;
     std::array<Vec3, 3> corners;
     int count = 0;
+    bool is_open = false;
     while (const auto line = file.take_line()) {
         std::string_view rest = *line;
         if (rest.find('\0') != std::string_view::npos)
@@ -58,6 +59,7 @@ void read_text(formats::ByteReader& file, RegionGroups& groups, FileSurface& sur
             read_comment(surface, rest);
             rest = rest.substr(0, rest.find(" SPACE="));
             group = groups.add(formats::one_line(rest), true);
+            is_open = true;
         } else if (word == "vertex") {
             if (!group) file.fail_line("a vertex comes before the first solid");
             if (count == 3) file.fail_line("a facet has more than three vertices: write triangles");
@@ -66,12 +68,14 @@ void read_text(formats::ByteReader& file, RegionGroups& groups, FileSurface& sur
             if (count != 3) file.fail_line("a facet has " + std::to_string(count) + " vertices: three are needed");
             add_face(surface, corners, *group, file.path());
             count = 0;
-        } else if (word != "facet" && word != "outer" && word != "endloop" && word != "endsolid" && !word.empty()) {
+        } else if (word == "endsolid") {
+            is_open = false;
+        } else if (word != "facet" && word != "outer" && word != "endloop" && !word.empty()) {
             file.fail_line("'" + formats::shown(word) + "' is no word of an STL file");
         }
     }
     if (!group) file.fail("is no STL file: it has no solid");
-    if (count != 0) file.fail("ends within a facet: it was cut short");
+    if (is_open || count != 0) file.fail("ends within a solid: it was cut short");
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ char CsvRows::skip_to_header() {
         rest.remove_prefix(rest.starts_with("\r\n") ? 2 : 1);
         ++begun_;
     }
-    if (rest.empty()) fail(file_.path(), "holds no table; write a header like 'x,y,z,label' and rows below it");
+    if (rest.empty()) fail(file_.path(), "holds no table: no line in it is more than blanks or a comment");
     place_ = head.size() - rest.size();
     return find_separator(rest);
 }

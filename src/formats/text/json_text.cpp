@@ -1,6 +1,8 @@
 #include "formats/text/json_text.h"
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace regionmesh::formats {
 namespace {
@@ -28,6 +30,11 @@ bool is_too_deep(const std::string& text) {
 nlohmann::json parse_json(const std::filesystem::path& path, const std::string& text) {
     if (is_too_deep(text)) fail(path, "the metadata are nested deeper than " + std::to_string(kMaxDepth));
     return nlohmann::json::parse(text);
+}
+
+std::string problem_text(const nlohmann::json::exception& problem) {
+    const std::string_view text = problem.what();
+    return std::string(text.substr(std::min(text.find("] ") + 2, text.size())));
 }
 
 std::optional<nlohmann::json> read_json(const std::filesystem::path& path) {

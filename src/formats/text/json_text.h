@@ -18,6 +18,9 @@ nlohmann::json parse_json(const std::filesystem::path& path, const std::string& 
 /// than 100.
 std::optional<nlohmann::json> read_json(const std::filesystem::path& path);
 
+/// What is wrong, without the number that the library puts in front.
+std::string problem_text(const nlohmann::json::exception& problem);
+
 /// Calls `read`, which looks into JSON from `path`; a key that is missing or of another type is an Error that names the
 /// file.
 template <class Read>
@@ -25,8 +28,7 @@ auto reading(const std::filesystem::path& path, Read&& read) {
     try {
         return read();
     } catch (const nlohmann::json::exception& problem) {
-        fail(path,
-             std::string("the metadata are not as they should be (") + problem.what() + "); write the file again");
+        fail(path, "the metadata are not as they should be (" + problem_text(problem) + "); write the file again");
     }
 }
 

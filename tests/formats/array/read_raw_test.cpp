@@ -34,6 +34,12 @@ TEST_F(ReadRawTest, raw_file_without_size_or_type_is_told_which_flags_to_give) {
                 HasSubstr("give --size X,Y,Z and --type uint8"));
 }
 
+TEST_F(ReadRawTest, file_of_another_format_is_raw_only_with_size_and_type) {
+    put_text(path("a.npy"), "12345678");
+    EXPECT_THAT(refusal({path("a.npy")}, raw(std::nullopt, SampleType::kU8)), HasSubstr("leave them out"));
+    EXPECT_EQ(read_volume({path("a.npy")}, raw({{2, 2, 2}}, SampleType::kU8)).info.format, "raw");
+}
+
 TEST_F(ReadRawTest, length_that_is_not_exactly_the_samples_is_refused_with_both_counts) {
     put_text(path("a.raw"), "1234567");
     EXPECT_THAT(refusal({path("a.raw")}, raw({{2, 2, 2}}, SampleType::kU8)),

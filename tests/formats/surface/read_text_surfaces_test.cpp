@@ -126,6 +126,7 @@ TEST_F(TextSurfaces, stl_errors_name_the_line) {
     EXPECT_THAT(failure_of("m.stl", changed("   vertex 0", "   corner 0")), HasSubstr("'corner' is no word"));
     EXPECT_THAT(failure_of("m.stl", changed("endfacet", "endloop")), HasSubstr("more than three vertices"));
     EXPECT_THAT(failure_of("m.stl", good.substr(0, good.find("endfacet"))), HasSubstr("cut short"));
+    EXPECT_THAT(failure_of("m.stl", good.substr(0, good.find("endsolid"))), HasSubstr("within a solid"));
     EXPECT_THAT(failure_of("m.stl", ""), HasSubstr("has no solid"));
 }
 
@@ -156,11 +157,12 @@ TEST_F(TextSurfaces, obj_groups_are_interfaces_or_regions) {
 }
 
 TEST_F(TextSurfaces, obj_errors_name_the_line) {
+    EXPECT_THAT(failure_of("m.obj", ""), HasSubstr("is empty"));
     EXPECT_THAT(failure_of("m.obj", "v 0 0\n"), HasSubstr("line 1: '' stands where a coordinate belongs"));
     EXPECT_THAT(failure_of("m.obj", "v 0 0 0\nf 1 2 1\n"), HasSubstr("line 2: a face names point '2' of 1"));
     EXPECT_THAT(failure_of("m.obj", "v 0 0 0\nf 1 0 1\n"), HasSubstr("names point '0'"));
     EXPECT_THAT(failure_of("m.obj", "v 0 0 0\nf 1 1\n"), HasSubstr("fewer than three corners"));
-    EXPECT_EQ(read("m.obj", "").mesh.face_count(), 0u);
+    EXPECT_EQ(read("m.obj", "# nothing\n").mesh.face_count(), 0u);
 }
 
 TEST_F(TextSurfaces, ply_labels_have_many_names) {
