@@ -33,6 +33,8 @@ public:
     InputLabel input(Label dense) const { return labels_[dense]; }
     std::uint32_t size() const { return static_cast<std::uint32_t>(labels_.size()); }
     bool is_unsigned() const { return is_unsigned_; }
+    /// Whether a label is 2^63 or more.
+    bool has_large() const;
 
     /// The label that stands for the exterior in files and arrays; it is never a label of the table. -1 unless a label
     /// is negative as a signed number (an unsigned label of 2^63 or more is); then the smallest label minus 1; if that

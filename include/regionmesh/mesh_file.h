@@ -39,11 +39,11 @@ struct WriteOptions {
 /// and then renames: a failed run leaves no file and keeps an earlier one. All six exterior sides are written as
 /// labels.exterior_label(). Each face is oriented so that its normal points from its first label to its second: the
 /// smaller label first, background after other labels, the exterior last.
-///   .vtp    VTK PolyData, inline base64 with zlib, UInt64 header. Points Float64; cell array BoundaryLabels (Int64,
-///           2 components; unsigned labels keep their bits); point array NodeType (Int8: 2, 3 or 4 labels, where each
-///           side of the box counts as one; +10 on the box); cell array RGB (UInt8, 3 components); field data
-///           ExteriorLabel where it is not -1, RegionLabels and RegionNames where there are names, ColourLabels and
-///           RegionColours where colours were given.
+///   .vtp    VTK PolyData, inline base64 with zlib, UInt64 header. Points Float64; cell array BoundaryLabels (2
+///           components of Int64, or of UInt64 where a label is 2^63 or more); point array NodeType (Int8: 2, 3 or 4
+///           labels, where each side of the box counts as one; +10 on the box); cell array RGB (UInt8, 3 components);
+///           field data ExteriorLabel where it is not -1, RegionLabels and RegionNames where there are names,
+///           ColourLabels and RegionColours where colours were given.
 ///   .vtu    the same as VTK UnstructuredGrid.
 ///   .ply    binary little endian: double x, y, z, uchar node_type; faces with vertex_indices (uint) and int
 ///           label_first, label_second; where a label needs more than 32 bits all are uint words label_first_low,

@@ -13,6 +13,10 @@ void LabelTable::dense(std::span<const InputLabel> labels, std::span<Label> resu
     }
 }
 
+bool LabelTable::has_large() const {
+    return is_unsigned_ && std::any_of(labels_.begin(), labels_.end(), [](InputLabel label) { return label < 0; });
+}
+
 InputLabel LabelTable::exterior_label() const {
     const InputLabel smallest = labels_.empty() ? 0 : *std::min_element(labels_.begin(), labels_.end());
     if (smallest >= 0) return -1;

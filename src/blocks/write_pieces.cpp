@@ -58,6 +58,9 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
         written.push_back(name);
         pieces += fmt::format("    <Piece Source=\"{}\"/>\n", name.filename().string());
     }
+    const auto label_array = [&](const char* name, const char* components) {
+        return fmt::format("      <PDataArray type=\"{}\" Name=\"{}\"{}/>\n", vtk_label_type(labels), name, components);
+    };
     write_text(path,
                "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
                "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PPolyData GhostLevel=\"0\">\n"
@@ -65,12 +68,11 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
                "    <PPointData GlobalIds=\"GlobalIds\">\n"
                "      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"GlobalIds\"/>\n      <PDataArray type=\"Int8\" "
                "Name=\"NodeType\"/>\n    </PPointData>\n"
-               "    <PCellData>\n"
-               "      <PDataArray type=\"Int64\" Name=\"BoundaryLabels\" NumberOfComponents=\"2\"/>\n"
-               "      <PDataArray type=\"Int64\" Name=\"Region\"/>\n"
-               "      <PDataArray type=\"Int64\" Name=\"Neighbour\"/>\n"
-               "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"
-               "    </PCellData>\n" +
+               "    <PCellData>\n" +
+                   label_array("BoundaryLabels", " NumberOfComponents=\"2\"") + label_array("Region", "") +
+                   label_array("Neighbour", "") +
+                   "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"
+                   "    </PCellData>\n" +
                    pieces + "  </PPolyData>\n</VTKFile>\n",
                options.output);
     written.push_back(path);

@@ -162,6 +162,23 @@ TEST_P(BothFormats, unsigned_labels_are_ordered_as_such_and_keep_their_bits) {
                 testing::Each(std::array<InputLabel, 2>{3, large}));
 }
 
+TEST_F(MeshFileTest, vtk_says_that_large_labels_are_unsigned) {
+    const InputLabel large = std::numeric_limits<InputLabel>::min();  // the bits of 2^63
+    const LabelTable labels = labels_of({large, 3}, true);
+    for (const char* extension : {".vtp", ".vtu"}) {
+        const MeshFile file =
+            round_trip(two_boxes(), labels, extension,
+                       {.background = {0}, .names = {{large, "rest"}}, .colours = {{large, 0xFF8000}}});
+        expect_same(file, two_boxes(), labels);
+        EXPECT_EQ(file.labels.text(large), "9223372036854775808");
+        EXPECT_EQ(file.background, (std::vector<InputLabel>{large}));
+        EXPECT_EQ(file.names, (LabelNames{{large, "rest"}}));
+        EXPECT_EQ(file.colours, (LabelColours{{large, 0xFF8000}}));
+        const LabelTable small = labels_of({7, 3}, true);
+        EXPECT_FALSE(round_trip(two_boxes(), small, extension).labels.is_unsigned()) << "written as Int64";
+    }
+}
+
 TEST_P(BothFormats, background_comes_second_even_where_it_is_smaller) {
     const LabelTable labels = labels_of({0, 5});
     const FileSurface surface = surface_of(tetrahedron(1, 0), labels, GetParam(), {.background = {0}});

@@ -29,6 +29,7 @@ struct FileSurface {
     std::vector<std::array<InputLabel, 2>> labels = {};  // by face; the normal points from the first to the second
     std::vector<bool> is_on_hull = {};  // by point, from node types: on the box or another hull; empty: unknown
     InputLabel exterior_label = -1;
+    bool is_unsigned = false;  // labels are unsigned 64-bit numbers
     LabelNames names = {};
     LabelColours colours = {};
     Space space = Space::kUnknown;

@@ -20,6 +20,8 @@
 namespace regionmesh {
 
 void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);
+/// VTK's name for the type of labels: Int64, which every program reads, unless a label is 2^63 or more.
+const char* vtk_label_type(const LabelTable& labels);
 /// A part of a model. `ids` are the numbers of its vertices in the whole, by vertex id: the point array GlobalIds.
 void write_vtp_part(const FileView& view, std::span<const std::uint64_t> ids, OutputFile& file);
 void write_vtu(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file);

@@ -79,7 +79,8 @@ MeshFile assemble(FileSurface&& surface) {
     MeshArrays arrays{.points = std::move(surface.points),
                       .faces = std::move(surface.faces),
                       .labels = std::move(surface.labels),
-                      .exterior_label = surface.exterior_label};
+                      .exterior_label = surface.exterior_label,
+                      .is_unsigned = surface.is_unsigned};
     for (const bool is_on_hull : surface.is_on_hull) arrays.node_types.push_back(is_on_hull ? kFirstHullType : 0);
     auto [mesh, labels] = regionmesh::assemble(arrays);
     return {.mesh = std::move(mesh),

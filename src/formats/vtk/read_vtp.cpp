@@ -166,9 +166,11 @@ void VtkSurfaceReader::read_types(pugi::xml_node cells, std::uint64_t count) con
 
 /// All triangles of a cell get its labels.
 void VtkSurfaceReader::read_faces(pugi::xml_node piece, pugi::xml_node cells, std::uint64_t count) {
+    const pugi::xml_node label_node = label_array(piece);
+    surface_.is_unsigned |= std::string_view(label_node.attribute("type").value()) == "UInt64";
     VtkNumbers offsets = integers_of(xml_, xml_.required_array(cells, "offsets"), count),
                connectivity = integers_of(xml_, xml_.required_array(cells, "connectivity"), std::nullopt),
-               labels = integers_of(xml_, label_array(piece), 2 * count);
+               labels = integers_of(xml_, label_node, 2 * count);
     const std::uint64_t points = surface_.points.size() - first_point_;
     std::vector<std::uint32_t> corners;
     std::int64_t begin = 0;

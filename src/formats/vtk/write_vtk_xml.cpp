@@ -36,6 +36,7 @@ template <class T>
 constexpr const char* vtk_type() {
     if constexpr (std::is_same_v<T, double>) return "Float64";
     if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
+    if constexpr (std::is_same_v<T, std::uint64_t>) return "UInt64";
     if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
     if constexpr (std::is_same_v<T, std::int8_t>) return "Int8";
     if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
@@ -150,9 +151,11 @@ constexpr std::uint8_t kVtkTriangle = 5;
 
 enum class DataSet { kPolyData, kUnstructuredGrid };
 
-void write_number(std::string_view name, std::int64_t number, OutputFile& file) {
-    file.write(fmt::format(
-        "<DataArray type=\"Int64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name, number));
+/// The header and the end of an array of labels in text.
+void write_label_array(const FileView& view, std::string_view name, std::size_t count, const std::string& text,
+                       OutputFile& file) {
+    file.write(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">{}</DataArray>\n",
+                           vtk_label_type(view.labels()), name, count, text));
 }
 
 // Strings in ascii are the codes of their bytes, with a 0 after each string.
@@ -161,16 +164,15 @@ void write_names(const FileView& view, OutputFile& file) {
     int count = 0;
     view.for_names([&](Label label, const std::string& name) {
         ++count;
-        labels += fmt::format("{}\n", view.labels().input(label));
+        labels += view.label_text(label) + '\n';
         for (const char c : name) codes += fmt::format("{} ", static_cast<unsigned char>(c));
         codes += "0\n";
     });
     if (count == 0) return;
+    write_label_array(view, "RegionLabels", count, '\n' + labels, file);
     file.write(
-        fmt::format("<DataArray type=\"Int64\" Name=\"RegionLabels\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}"
-                    "</DataArray>\n<Array type=\"String\" Name=\"RegionNames\" NumberOfTuples=\"{}\" "
-                    "format=\"ascii\">\n{}</Array>\n",
-                    count, labels, count, codes));
+        fmt::format("<Array type=\"String\" Name=\"RegionNames\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}</Array>\n",
+                    count, codes));
 }
 
 void write_given_colours(const FileView& view, OutputFile& file) {
@@ -178,16 +180,16 @@ void write_given_colours(const FileView& view, OutputFile& file) {
     int count = 0;
     view.for_given_colours([&](Label label, std::uint32_t colour) {
         ++count;
-        labels += fmt::format("{}\n", view.labels().input(label));
+        labels += view.label_text(label) + '\n';
         const auto [red, green, blue] = rgb_of(colour);
         colours += fmt::format("{} {} {}\n", red, green, blue);
     });
     if (count == 0) return;
+    write_label_array(view, "ColourLabels", count, '\n' + labels, file);
     file.write(
-        fmt::format("<DataArray type=\"Int64\" Name=\"ColourLabels\" NumberOfTuples=\"{}\" format=\"ascii\">\n{}"
-                    "</DataArray>\n<DataArray type=\"UInt8\" Name=\"RegionColours\" NumberOfComponents=\"3\" "
-                    "NumberOfTuples=\"{}\" format=\"ascii\">\n{}</DataArray>\n",
-                    count, labels, count, colours));
+        fmt::format("<DataArray type=\"UInt8\" Name=\"RegionColours\" NumberOfComponents=\"3\" NumberOfTuples=\"{}\" "
+                    "format=\"ascii\">\n{}</DataArray>\n",
+                    count, colours));
 }
 
 void write_space(Space space, OutputFile& file) {
@@ -198,12 +200,10 @@ void write_space(Space space, OutputFile& file) {
                            codes));
 }
 
-void write_background(const std::vector<InputLabel>& labels, OutputFile& file) {
+void write_background(const FileView& view, const std::vector<InputLabel>& labels, OutputFile& file) {
     std::string text;
-    for (const InputLabel label : labels) text += fmt::format("{} ", label);
-    file.write(fmt::format(
-        "<DataArray type=\"Int64\" Name=\"BackgroundLabels\" NumberOfTuples=\"{}\" format=\"ascii\">{}</DataArray>\n",
-        labels.size(), text));
+    for (const InputLabel label : labels) text += view.labels().text(label) + ' ';
+    write_label_array(view, "BackgroundLabels", labels.size(), text, file);
 }
 
 void write_head(const FileView& view, DataSet kind, OutputFile& file) {
@@ -212,8 +212,9 @@ void write_head(const FileView& view, DataSet kind, OutputFile& file) {
         fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"LittleEndian\" "
                     "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n<FieldData>\n",
                     is_grid ? "UnstructuredGrid" : "PolyData"));
-    if (view.exterior_label() != -1) write_number("ExteriorLabel", view.exterior_label(), file);
-    if (const auto background = view.background_labels()) write_background(*background, file);
+    if (const InputLabel exterior = view.exterior_label(); exterior != -1)
+        write_label_array(view, "ExteriorLabel", 1, view.labels().text(exterior), file);
+    if (const auto background = view.background_labels()) write_background(view, *background, file);
     write_space(view.space(), file);
     write_names(view, file);
     write_given_colours(view, file);
@@ -256,16 +257,18 @@ void write_points(const FileView& view, const PointNumbers& numbers, ArrayFile& 
     to.file.write("</Points>\n");
 }
 
+// `Number`: a signed or an unsigned integer of 64 bits.
+template <class Number>
 void write_labels(const FileView& view, ArrayFile& to) {
     to.file.write("<CellData Scalars=\"Region\">\n");
     for (const int side : {0, 1}) {
-        ArrayWriter<std::int64_t> region(to, side == 0 ? "Region" : "Neighbour", 1, view.mesh().face_count());
-        view.for_faces([&](FaceId f) { region.put(view.face(f).labels[side]); });
+        ArrayWriter<Number> region(to, side == 0 ? "Region" : "Neighbour", 1, view.mesh().face_count());
+        view.for_faces([&](FaceId f) { region.put(static_cast<Number>(view.face(f).labels[side])); });
         region.close();
     }
-    ArrayWriter<std::int64_t> labels(to, "BoundaryLabels", 2, std::uint64_t{2} * view.mesh().face_count());
+    ArrayWriter<Number> labels(to, "BoundaryLabels", 2, std::uint64_t{2} * view.mesh().face_count());
     view.for_faces([&](FaceId f) {
-        for (const InputLabel label : view.face(f).labels) labels.put(label);
+        for (const InputLabel label : view.face(f).labels) labels.put(static_cast<Number>(label));
     });
     labels.close();
     const FaceColours colours(view);
@@ -303,7 +306,10 @@ void write_vtk_xml(const FileView& view, DataSet kind, const PointNumbers& numbe
     write_head(view, kind, file);
     ArrayFile arrays{file};
     write_points(view, numbers, arrays);
-    write_labels(view, arrays);
+    if (view.labels().has_large())
+        write_labels<std::uint64_t>(view, arrays);
+    else
+        write_labels<std::int64_t>(view, arrays);
     constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
     if (std::uint64_t{3} * view.mesh().face_count() <= kMost && view.mesh().vertex_count() <= kMost)
         write_faces<std::int32_t>(view, kind, arrays);
@@ -314,6 +320,8 @@ void write_vtk_xml(const FileView& view, DataSet kind, const PointNumbers& numbe
 }
 
 }  // namespace
+
+const char* vtk_label_type(const LabelTable& labels) { return labels.has_large() ? "UInt64" : "Int64"; }
 
 void write_vtp(const FileView& view, const std::vector<PointArray>& arrays, OutputFile& file) {
     write_vtk_xml(view, DataSet::kPolyData, {.arrays = arrays}, file);
