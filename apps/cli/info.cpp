@@ -54,7 +54,8 @@ std::string print_info(const Settings& settings, TetrahedronReader& reader) {
     const TetrahedraInfo& info = reader.info();
     const TetrahedronCensus census = count_labels(reader, census_options(settings));
     fmt::print("file       {} ({})\n", printable(info.source), info.format);
-    fmt::print("size       {} points, {} tetrahedra\n", census.point_count, census.tetrahedron_count);
+    fmt::print("size       {} points, {} {}\n", census.point_count, census.tetrahedron_count,
+               census.tetrahedron_count == 1 ? "tetrahedron" : "tetrahedra");
     fmt::print("spacing    {:.6g} (mean){}\n", census.spacing, info.scale_z == 1 ? "" : ", z scaled");
     fmt::print("sweep      along {}\n", "xyz"[census.sweep.axes[2]]);
     print_labels(settings, census, info.names, info.has_cell_labels ? "tetrahedron" : "point");

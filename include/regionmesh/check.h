@@ -19,7 +19,8 @@ namespace regionmesh {
 enum class ViolationKind {
     kOpenEdge,            // a region has a single face at an edge (P 3.6 b)
     kOverfullEdge,        // a region has more than two faces at an edge (P 3.6 b)
-    kOrientation,         // two faces of a region pass their edge in the same direction: inside and outside are mixed
+    kOrientation,         // two faces of a region pass their edge in the same direction: inside and outside are mixed;
+                          // or the volume of a region is negative
     kPinchedVertex,       // a region's faces at a vertex are more than one fan
     kFewEdges,            // a vertex with fewer than three edges (P 3.6 a)
     kDuplicateFace,       // two faces on the same three vertices

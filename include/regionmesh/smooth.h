@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "regionmesh/mesh.h"
+#include "regionmesh/vec3.h"
 
 namespace regionmesh {
 
@@ -52,6 +53,7 @@ struct SmoothReport {
     std::uint64_t window_bytes = 0;   // most bytes of the window
     double filter_seconds = 0, guard_seconds = 0;
     std::vector<double> volume_before, volume_after;  // by dense label, length^3
+    std::optional<Vec3> apex;                         // of the cones whose sums the volumes are
 };
 
 /// With kTaubin, kLaplacian or kNifpms. Moves the vertices in place, except fixed ones; ids stay the same. Runs the

@@ -213,8 +213,9 @@ class Mesh:
     def improve(self, *, min_quality=0.1, keep_samples=True, threads=0, progress=None):
         """Return a mesh with better shaped faces, for finite elements: edges are flipped, vertices moved.
 
-        The worst faces get better first. Regions, interfaces and lines stay; the surface moves by no more than a
-        tenth of a typical edge, three tenths round faces below `min_quality`.
+        The worst faces get better first. Regions, interfaces and lines stay. Steps near a vertex add up to no more than a
+        tenth of a typical edge, three tenths round faces below `min_quality` (docs/improve.md: the surface may move
+        farther in places).
 
         Parameters
         ----------

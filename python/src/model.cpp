@@ -226,6 +226,7 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
         Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
         SimplifyOptions simplify_with = simplify_options(settings, made.mesh);
         simplify_with.samples = samples;
+        if (made.is_open) simplify_with.box = size_of(made.mesh).box;
         const std::uint64_t before = made.mesh.face_count(), gone = before - simplify_with.target_faces;
         simplify_with.on_progress = [&] { watch.note("decimate", before - made.mesh.face_count(), gone); };
         {

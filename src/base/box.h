@@ -20,6 +20,9 @@ inline bool overlap(const Box& a, const Box& b) {
            (b.low.y <= a.high.y) & (b.low.z <= a.high.z);
 }
 
+/// What two boxes have in common.
+inline Box common(const Box& a, const Box& b) { return {max(a.low, b.low), min(a.high, b.high)}; }
+
 /// Whether no point of `inner` is outside of `outer`.
 inline bool is_within(const Box& inner, const Box& outer) {
     for (int axis = 0; axis < 3; ++axis)

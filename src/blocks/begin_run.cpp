@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "stream/section_faces.h"
 #include "stream/stage_options.h"
 #include "volume/room_reader.h"
+#include "volume/section_window.h"
 
 namespace regionmesh {
 namespace {
@@ -40,6 +42,7 @@ struct Input {
         if (options.room > 0) cleaned.emplace(*file, options.room, options.threads);
         info = sections().info();
         require_lattice(info.source, info.lattice);
+        require_cells(info);
         require_fit(info.source, options);
         shape = section_shape(info, cell_kind(options), section_scale(info, options));
         halo_of(shape, options);  // refuses other filters
@@ -147,6 +150,23 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     write_manifest(manifest, blocks.folder, blocks.output);
 }
 
+/// Leaves an empty folder behind, as if the input had been refused at once.
+void require_regions(const Survey& found, const Input& input, const ReconstructOptions& options,
+                     const fs::path& folder) {
+    std::uint32_t background = 0;
+    for (const InputLabel label : std::set(options.background.begin(), options.background.end()))
+        background += found.labels.find(label).has_value();
+    const bool is_empty = background == found.labels.size(), is_one = !options.cap && found.faces == 0;
+    if (!is_empty && !is_one) return;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+    for (const fs::path& file : files) fs::remove(file);
+    throw Error(ErrorCode::kInput,
+                input.info.source + ": there is no region to model: " +
+                    (is_empty ? "all of it is background; give another --background, or --no-background"
+                              : "it has one label only, which has no face with --boundary open; give --boundary cap"));
+}
+
 /// Makes the folder, and a manifest that says which run it belongs to.
 void make_folder(const BlockOptions& blocks) {
     std::error_code error;
@@ -181,6 +201,7 @@ void begin_run(const OpenSections& open, const ReconstructOptions& options, cons
     if (tasks.is_first()) {
         const Survey found =
             boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder) : survey_whole(*input, blocks, on_progress);
+        require_regions(found, *input, options, blocks.folder);
         note_survey(found, *input, options, blocks);
     }
     tasks.end_phase();

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "boreholes/arc.h"
 #include "formats/input_file.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
@@ -22,7 +23,7 @@ constexpr double kMostOverlap = 0.05;  // of the longer interval
 /// Overlapping intervals of one label, merged.
 struct Run {
     double top, bottom;
-    const Interval* first;
+    const Interval* deepest;  // reaches to the bottom
 };
 
 std::string hole_of(const DrillHoles& holes, const Interval& interval) {
@@ -35,20 +36,21 @@ public:
     OverlapSweep(const DrillHoles& holes, const TableLabels& labels) : holes_(holes), labels_(labels) {}
 
     void add(const Interval& interval) {
-        if (!open_.empty() && (open_[0].first->x != interval.x || open_[0].first->y != interval.y)) open_.clear();
+        if (!open_.empty() && (open_[0].deepest->x != interval.x || open_[0].deepest->y != interval.y)) open_.clear();
         std::erase_if(open_, [&](const Run& run) { return run.bottom >= interval.top; });
         Run* same = nullptr;
         for (Run& run : open_) {
-            if (run.first->label == interval.label) {
+            if (run.deepest->label == interval.label) {
                 same = &run;
                 continue;
             }
             const double overlap = interval.top - std::max(run.bottom, interval.bottom);
             const double longer = std::max(run.top - run.bottom, interval.top - interval.bottom);
-            if (overlap > kMostOverlap * longer) refuse(*run.first, interval, overlap);
+            if (overlap > kMostOverlap * longer) refuse(*run.deepest, interval, overlap);
         }
         if (same) {
-            same->bottom = std::min(same->bottom, interval.bottom);
+            if (interval.bottom < same->bottom)
+                std::tie(same->bottom, same->deepest) = std::pair(interval.bottom, &interval);
         } else {
             open_.push_back({interval.top, interval.bottom, &interval});
         }
@@ -57,16 +59,27 @@ public:
 private:
     [[noreturn]] void refuse(const Interval& a, const Interval& b, double overlap) const {
         const auto& [first, second] = std::minmax(a, b, [](const auto& i, const auto& j) { return i.row < j.row; });
-        fail(holes_.path, fmt::format("rows {} and {}{}: '{}' and '{}' overlap by {:.6g}; a place has one label, "
+        const std::string hole = hole_of(holes_, first), other = hole_of(holes_, second);
+        fail(holes_.path, fmt::format("rows {}{} and {}{}: '{}' and '{}' overlap by {:.6g}; a place has one label, "
                                       "mend one of them",
-                                      first.row, second.row, hole_of(holes_, b), shown(labels_.text(first.label)),
-                                      shown(labels_.text(second.label)), overlap));
+                                      first.row, hole == other ? "" : hole, second.row, other,
+                                      shown(labels_.text(first.label)), shown(labels_.text(second.label)), overlap));
     }
 
     const DrillHoles& holes_;
     const TableLabels& labels_;
     std::vector<Run> open_;
 };
+
+/// The place at a share of the length of an interval.
+Vec3 place_in(const Interval& interval, double share) {
+    const Vec3 top{interval.x, interval.y, interval.top};
+    if (angle_between(interval.upper, interval.lower) >= kStraight)
+        return top + along_arc(interval.upper, between(interval.upper, interval.lower, share), interval.length * share);
+    return {interval.x + (interval.bottom_x - interval.x) * share,
+            interval.y + (interval.bottom_y - interval.y) * share,
+            interval.top + (interval.bottom - interval.top) * share};
+}
 
 /// The number of parts of an interval.
 double part_count(const Interval& interval, std::optional<double> step) {
@@ -142,10 +155,7 @@ void append_points(const DrillHoles& holes, std::optional<double> step, PointTab
     for (const Interval& interval : holes.intervals) {
         const double parts = part_count(interval, step);
         for (double part = 0.5; part < parts; ++part) {
-            const double share = part / parts;
-            table.points.positions.push_back({interval.x + (interval.bottom_x - interval.x) * share,
-                                              interval.y + (interval.bottom_y - interval.y) * share,
-                                              interval.top + (interval.bottom - interval.top) * share});
+            table.points.positions.push_back(place_in(interval, part / parts));
             table.points.labels.push_back(interval.label);
             table.rows.push_back(interval.row);
         }

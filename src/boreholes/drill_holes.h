@@ -12,13 +12,14 @@
 
 namespace regionmesh::formats {
 
-/// One row of a table of drill holes, or a straight part of it.
+/// One row of a table of drill holes, or the part of it between two stations.
 struct Interval {
     double x = 0, y = 0, top = 0;                   // the upper end; top and bottom are elevations
     double bottom_x = 0, bottom_y = 0, bottom = 0;  // the lower end
     double collar = 0;                              // elevation of the top of the hole, as far as this row says
     double from = 0;            // grows down the hole: a depth, or an elevation with its sign changed
     double length = 0;          // of the numbers in the table; elevations may be rounded again
+    Vec3 upper{}, lower{};      // directions down the hole at both ends, of unit length, where it is an arc; else zero
     bool is_at_collar = false;  // it begins where the hole begins
     std::uint32_t label = 0;    // of TableLabels, or kNoLabel
     std::uint32_t hole = 0;     // of DrillHoles::holes

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "boreholes/arc.h"
 #include "boreholes/column_titles.h"
 #include "boreholes/table_columns.h"
 #include "formats/text/csv_rows.h"
@@ -17,24 +18,9 @@
 namespace regionmesh::formats {
 namespace {
 
-constexpr double kStraight = 1e-6;  // radians, below which an arc is a line
 constexpr double kOpposite = 1e-6;  // length of the sum of two directions, below which the arc has no plane
 constexpr double kLeastDepth = -1e-9;
 constexpr std::size_t kMostCuts = 16;  // parts, in intervals and stations; overlaps of one unit alone make more
-
-/// The vector along the arc from a direction to another, for a length of the arc.
-Vec3 along_arc(Vec3 from, Vec3 to, double measured) {
-    const double angle = 2 * std::asin(std::min(1.0, length(to - from) / 2));
-    const double factor = angle < kStraight ? 1 : 2 / angle * std::tan(angle / 2);
-    return (from + to) * (measured / 2 * factor);
-}
-
-/// The direction at a share of the arc between two.
-Vec3 between(Vec3 from, Vec3 to, double share) {
-    const double angle = 2 * std::asin(std::min(1.0, length(to - from) / 2));
-    if (angle < kStraight) return from;
-    return (from * std::sin((1 - share) * angle) + to * std::sin(share * angle)) / std::sin(angle);
-}
 
 /// A table with a header, columns found by the words in their titles.
 class NamedColumns {
@@ -179,6 +165,14 @@ Vec3 HolePath::at(double depth) const {
     return places_[n - 1] + along_arc(a.direction, here, length);
 }
 
+Vec3 HolePath::direction_at(double depth) const {
+    const auto after = std::ranges::upper_bound(stations_, depth, {}, &Station::depth);
+    if (after == stations_.begin()) return stations_.front().direction;
+    if (after == stations_.end()) return stations_.back().direction;
+    const Station &a = after[-1], &b = after[0];
+    return between(a.direction, b.direction, (depth - a.depth) / (b.depth - a.depth));
+}
+
 HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys) {
     std::map<std::string, std::vector<Station>, std::less<>> stations;
     if (!surveys.empty()) stations = read_stations(surveys);
@@ -251,6 +245,7 @@ void place_on_paths(DrillHoles& holes, const HolePaths& paths) {
             Interval part = whole;
             part.x = a.x, part.y = a.y, part.top = a.z;
             part.bottom_x = b.x, part.bottom_y = b.y, part.bottom = b.z;
+            part.upper = path.direction_at(from), part.lower = path.direction_at(to);
             part.from = from;
             part.length = to - from;
             part.is_at_collar = part.from <= 0;

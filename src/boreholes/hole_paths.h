@@ -26,6 +26,8 @@ public:
     HolePath(Vec3 collar, std::vector<Station> stations);
 
     Vec3 at(double depth) const;
+    /// Of unit length, down the hole.
+    Vec3 direction_at(double depth) const;
     const std::vector<Station>& stations() const { return stations_; }
 
 private:

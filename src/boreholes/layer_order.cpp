@@ -145,7 +145,13 @@ public:
         }
         require_size(units.size());
         if (units.size() < 2)
-            fail(path_, "--layers has fewer than two units; give auto, or all units from young to old");
+            fail(path_, "--layers has fewer than two units; name all units from young to old, or give auto");
+        for (const std::uint32_t unit : used_)
+            if (std::ranges::count(units, unit) + std::ranges::count(others, unit) == 0)
+                fail(path_,
+                     fmt::format("--layers does not name the unit '{0}'; add it, '-{0}' to leave it out, or auto "
+                                 "for all others",
+                                 shown(labels_.text(unit))));
         return units;
     }
 

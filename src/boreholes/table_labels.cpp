@@ -13,17 +13,27 @@
 namespace regionmesh::formats {
 namespace {
 
-/// None where a text is no whole number, or where some are negative and others above 2^63 - 1.
-std::optional<std::vector<InputLabel>> numbers_of(const TextTable& texts, bool& is_unsigned) {
+bool is_whole_number(std::string_view text) {
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// None where a text is a word. Throws Error(kInput) for whole numbers that no type of 64 bits holds.
+std::optional<std::vector<InputLabel>> numbers_of(const std::filesystem::path& path, const TextTable& texts,
+                                                  bool& is_unsigned) {
+    constexpr std::string_view kWanted = "labels are whole numbers from -2^63 to 2^63 - 1, or from 0 to 2^64 - 1";
     std::vector<InputLabel> labels(texts.size());
     bool has_negative = false, has_large = false;
+    std::optional<std::uint32_t> too_large;
     for (std::uint32_t i = 0; i < texts.size(); ++i) {
         const auto label = parse_table_label(texts.text(i));
-        if (!label) return std::nullopt;
-        labels[i] = *label;
-        (texts.text(i).starts_with('-') ? has_negative : has_large) |= *label < 0;
+        if (!label && !is_whole_number(texts.text(i))) return std::nullopt;
+        if (!label) too_large = i;
+        labels[i] = label.value_or(0);
+        (texts.text(i).starts_with('-') ? has_negative : has_large) |= labels[i] < 0;
     }
-    if (has_negative && has_large) return std::nullopt;
+    if (too_large) fail(path, fmt::format("label '{}': {}", shown(texts.text(*too_large)), kWanted));
+    if (has_negative && has_large) fail(path, fmt::format("has negative labels and some of 2^63 or more: {}", kWanted));
     is_unsigned = has_large;
     return labels;
 }
@@ -66,11 +76,11 @@ std::uint32_t TableLabels::add(std::string_view text, std::string_view name, std
 
 bool TableLabels::are_words() const {
     bool is_unsigned = false;
-    return !numbers_of(texts_, is_unsigned);
+    return !numbers_of(path_, texts_, is_unsigned);
 }
 
 std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
-    auto numbers = numbers_of(texts_, info.is_unsigned);
+    auto numbers = numbers_of(path_, texts_, info.is_unsigned);
     const bool are_words = !numbers;
     const std::vector<InputLabel> labels = are_words ? ranks_of(texts_) : std::move(*numbers);
     std::unordered_map<InputLabel, const Name*> named;  // several texts may be the same number

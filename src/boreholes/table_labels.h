@@ -46,11 +46,12 @@ public:
     const std::string& text(std::uint32_t number) const { return texts_.text(number); }
     std::uint32_t count() const { return texts_.size(); }
 
-    /// Whether any text is no whole number of 64 bits.
+    /// Whether any text is no whole number.
     bool are_words() const;
 
-    /// The labels. Whole numbers of 64 bits keep their value ("3.0" is 3). If any text is no such number, all texts are
-    /// words: they get labels 1, 2, ... in byte order, and their text as name. Sets is_unsigned and names in `info`.
+    /// The labels. Whole numbers keep their value ("3.0" is 3). If any text is no such number, all texts are words:
+    /// they get labels 1, 2, ... in byte order, and their text as name. Sets is_unsigned and names in `info`. This and
+    /// are_words() throw Error(kInput) where all texts are whole numbers that do not fit into 64 bits together.
     std::vector<InputLabel> labels(TetrahedraInfo& info) const;
 
 private:

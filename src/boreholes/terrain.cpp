@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -18,17 +20,20 @@ namespace {
 constexpr std::string_view kNoData = "nodata_value";
 constexpr std::uint64_t kLeastHeightBytes = 2;  // "0 "
 
-/// Names, in lower case, and numbers; ends before the first word in place of a name that is a number.
+constexpr std::array<std::string_view, 8> kNames{"ncols",     "nrows",     "xllcorner", "yllcorner",
+                                                 "xllcenter", "yllcenter", "cellsize",  kNoData};
+
+/// Names, in lower case, and numbers; ends before the first word in place of a name that is none.
 std::map<std::string, double> take_header(ByteReader& file) {
     std::map<std::string, double> header;
     for (;;) {
         const std::uint64_t begin = file.place(), lines = file.lines();
         const auto word = file.take_word();
-        if (!word || parse_real(*word)) {
+        const std::string name = word ? lower(shown(*word)) : std::string();
+        if (std::ranges::find(kNames, name) == kNames.end()) {
             file.go_to(begin, lines);
             return header;
         }
-        const std::string name = lower(shown(*word));
         const auto number = file.take_word();
         const auto value = number ? parse_real(*number) : std::nullopt;
         if (!value || (std::isnan(*value) && name != kNoData))
@@ -101,10 +106,11 @@ void Terrain::read_heights(ByteReader& file, double none) {
 }
 
 std::optional<double> Terrain::at(double x, double y) const {
-    const double column = (x - x_) / cell_, row = static_cast<double>(rows_ - 1) - (y - y_) / cell_;
-    if (!(column >= 0 && column <= static_cast<double>(columns_ - 1) && row >= 0 &&
-          row <= static_cast<double>(rows_ - 1)))
-        return {};
+    const double last_column = static_cast<double>(columns_ - 1), last_row = static_cast<double>(rows_ - 1);
+    double column = (x - x_) / cell_, row = last_row - (y - y_) / cell_;
+    if (!(column >= -0.5 && column <= last_column + 0.5 && row >= -0.5 && row <= last_row + 0.5)) return {};
+    column = std::clamp(column, 0.0, last_column);
+    row = std::clamp(row, 0.0, last_row);
     const auto i = std::min(static_cast<std::size_t>(column), columns_ - 2);
     const auto j = std::min(static_cast<std::size_t>(row), rows_ - 2);
     const double a = column - static_cast<double>(i), b = row - static_cast<double>(j);

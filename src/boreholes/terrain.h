@@ -20,7 +20,8 @@ public:
     /// they take memory where they would take more than `most_bytes`.
     explicit Terrain(const std::filesystem::path& path, std::uint64_t most_bytes = UINT64_MAX);
 
-    /// The height between the four centres of cells round the place; none outside of them, or where one has no height.
+    /// The height between the four centres of cells round the place, and in the outer half of the outermost cells that
+    /// at the nearest place between centres; none outside of all cells, or where a centre has no height.
     std::optional<double> at(double x, double y) const;
 
 private:

@@ -1,6 +1,7 @@
 #include "regionmesh/check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "check/findings.h"
@@ -29,6 +30,30 @@ void list_regions(const CheckOptions& options, const std::vector<RegionReport>& 
     }
 }
 
+void check_volumes(const CheckOptions& options, const std::vector<RegionReport>& sums, const CheckReport& report,
+                   Findings& findings) {
+    constexpr double kRounding = 1e-9;
+    const bool is_closed = findings.count(ViolationKind::kOpenEdge) + findings.count(ViolationKind::kOverfullEdge) +
+                               findings.count(ViolationKind::kOrientation) ==
+                           0;
+    if (options.boundary_is_open || !is_closed) return;
+    // Each face counts on both sides: where no face has an exterior, the volumes of all labels sum to zero, and one of
+    // them, which is outside, is negative.
+    double sum = 0, all = 0;
+    for (const RegionReport& region : sums) {
+        sum += region.volume;
+        all += std::abs(region.volume);
+    }
+    if (std::abs(sum) <= kRounding * all) return;
+    for (const RegionReport& region : report.regions)
+        if (region.volume < -kRounding * std::pow(region.area, 1.5))
+            findings.add(ViolationKind::kOrientation, {}, {}, [&] {
+                return region_name(options, region.label) +
+                       " is inside out: its volume is negative; --orient turns its "
+                       "faces";
+            });
+}
+
 CheckReport check(const Mesh& mesh, const CheckOptions& options) {
     CheckReport report;
     Findings findings(options.listed);
@@ -36,6 +61,7 @@ CheckReport check(const Mesh& mesh, const CheckOptions& options) {
     check_faces(mesh, options, totals.regions, report, findings);
     check_stars(mesh, options, totals, findings);
     list_regions(options, totals.regions, report);
+    check_volumes(options, totals.regions, report, findings);
     report.quadruple_points_inside = totals.quadruple_points_inside;
     report.lines = totals.lines.report();
     check_places(mesh, options, findings);

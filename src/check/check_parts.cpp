@@ -34,6 +34,7 @@ CheckReport PartsCheck::finish() {
         regions[label].components += stars_.regions[label].components;
     }
     list_regions(options_, regions, report_);
+    check_volumes(options_, regions, report_, all_);
     report_.quality = faces_.quality.report();
     report_.region_pairs = faces_.pairs.size();
     report_.quadruple_points_inside = stars_.quadruple_points_inside;

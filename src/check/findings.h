@@ -46,6 +46,8 @@ public:
         for (int kind = 0; kind < kViolationKindCount; ++kind) counts_[kind] += later.counts_[kind];
     }
 
+    std::uint64_t count(ViolationKind kind) const { return counts_[static_cast<int>(kind)]; }
+
     /// The findings of a report, before anything else.
     void take_from(CheckReport&& report) {
         counts_ = report.counts;
@@ -98,6 +100,11 @@ void check_nesting(const Mesh& mesh, const CheckOptions& options, const SortedFa
 /// Lists the regions that have faces, without the background.
 void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report);
 void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings);
+/// Are regions inside out? `sums` are by dense label, the background included. Where edges are open or mixed, volumes
+/// mean nothing, and nothing is added.
+void check_volumes(const CheckOptions& options, const std::vector<RegionReport>& sums, const CheckReport& report,
+                   Findings& findings);
+
 /// Adds the place and the labels of a violation, and appends the place to its sentence.
 void place_violation(const Mesh& mesh, Violation& violation);
 void place_violation(Vec3 at, const LabelSet& met, Violation& violation);

@@ -90,8 +90,8 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
     });
 }
 
-/// Where the regions on both sides are background, an interface ends on a side of the box, in edges with one face:
-/// their ends lie on that side, too.
+/// Where the regions on both sides are background, or no side is capped, an interface ends on a side of the box, in
+/// edges with one face: their ends lie on that side, too.
 void mark_open_rims(Mesh& mesh, const MeshArrays& arrays, const Box& box) {
     const auto is_on_hull = [&](VertexId v) { return arrays.node_types[index(v)] >= kFirstHullType; };
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
@@ -118,7 +118,6 @@ LabelledMesh assemble(const MeshArrays& arrays) {
     for (const Vec3& point : arrays.points) mesh.add_vertex(point);
     const Box box = bounding_box(arrays);
     const bool has_sides = exterior_is_box(arrays, box);
-    bool is_capped = false;  // somewhere
     for (std::size_t f = 0; f < arrays.faces.size(); ++f) {
         std::array<Label, 2> labels;
         for (int i = 0; i < 2; ++i) {
@@ -132,14 +131,13 @@ LabelledMesh assemble(const MeshArrays& arrays) {
                 continue;
             }
             const int side = *side_of_face(arrays, arrays.faces[f], box);
-            is_capped = true;
             labels[i] = exterior(side);
             for (const std::uint32_t v : arrays.faces[f]) mesh[VertexId{v}].sides |= static_cast<SideSet>(1u << side);
         }
         const auto& [a, b, c] = arrays.faces[f];
         mesh.add_face(VertexId{a}, VertexId{b}, VertexId{c}, labels[0], labels[1]);
     }
-    if (is_capped && !arrays.node_types.empty()) mark_open_rims(mesh, arrays, box);
+    if (has_sides && !arrays.node_types.empty()) mark_open_rims(mesh, arrays, box);
     // A vertex without a face on a side of the box may lie on a side that is not capped, or on a hull of another shape.
     for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
         if (arrays.node_types[v] >= kFirstHullType && mesh[VertexId{v}].sides == 0) mesh[VertexId{v}].sides = kOnHull;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "regionmesh/options.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 
@@ -32,6 +33,7 @@ SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh) {
     options.placement = asked.placement;
     options.threads = asked.threads;
     options.scale = typical_edge(mesh);
+    if (!asked.cap) options.box = size_of(mesh).box;
     return options;
 }
 

@@ -19,6 +19,11 @@ const std::string* given(const Settings& settings, std::string_view name) {
     return nullptr;
 }
 
+/// "--reduce 90%", or "--quiet" of a flag.
+std::string typed(const OptionSpec& option, const std::string& text) {
+    return option.flag() + (option.kind == OptionKind::kFlag ? "" : ' ' + text);
+}
+
 [[noreturn]] void refuse_both(std::string_view a, std::string_view b, std::string_view why) {
     throw Error(ErrorCode::kUsage, fmt::format("--{} and --{}: {}; give one of them", a, b, why));
 }
@@ -60,10 +65,10 @@ void require_layers(const Settings& settings, InputKind kind) {
         if (given(settings, "step")) refuse_both("layers", "step", "layers take the whole intervals");
         return;
     }
-    for (const char* name : {"spacing", "box", "terrain", "max-work"})
+    for (const char* name : {"spacing", "box", "terrain", "max-work", "cells", "room", "no-keep-samples"})
         if (const std::string* text = given(settings, name))
-            throw Error(ErrorCode::kUsage,
-                        fmt::format("--{} {}: applies to drill holes as layers; give --layers auto, too", name, *text));
+            throw Error(ErrorCode::kUsage, fmt::format("{}: applies to drill holes as layers; give --layers auto, too",
+                                                       typed(*find_option(name), *text)));
 }
 
 }  // namespace
@@ -105,8 +110,7 @@ void require_fit(const Settings& settings, const std::vector<std::string>& input
     for (const auto& [name, text] : settings.given) {
         const OptionSpec& option = *find_option(name);
         if ((option.inputs & kind) != 0) continue;
-        const std::string value = option.kind == OptionKind::kFlag ? "" : ' ' + text;
-        throw Error(ErrorCode::kUsage, fmt::format("{}{}: does not apply to {}, which is {}", option.flag(), value,
+        throw Error(ErrorCode::kUsage, fmt::format("{}: does not apply to {}, which is {}", typed(option, text),
                                                    inputs[0], kind_text(kind)));
     }
 }

@@ -62,7 +62,7 @@ public:
                     .tree = tree_ ? &*tree_ : nullptr,
                     .rising = rising_ ? &*rising_ : nullptr,
                     .bounds = {.min_quality = options.min_quality},
-                    .limits = bounds.limits,
+                    .limits = options.box ? common(bounds.limits, *options.box) : bounds.limits,
                     .samples = options.samples ? &*options.samples : nullptr,
                     .max_error = options.max_error,
                     .log = bounds.log} {}

@@ -27,8 +27,8 @@ void note_vertices(NumberRange vertices, const Positions& before, const Position
 template <class Positions>
 void note_face(const ChunkFace& face, const Positions& before, const Positions& after, SmoothReport& report) {
     const auto& [v, labels] = face;
-    add_cone(report.volume_before, labels, before[v[0]], before[v[1]], before[v[2]]);
-    add_cone(report.volume_after, labels, after[v[0]], after[v[1]], after[v[2]]);
+    add_cone(report.volume_before, report.apex, labels, before[v[0]], before[v[1]], before[v[2]]);
+    add_cone(report.volume_after, report.apex, labels, after[v[0]], after[v[1]], after[v[2]]);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The share of a chunk in the volumes of the regions.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,10 +11,11 @@
 namespace regionmesh {
 
 /// Adds the cones over all faces (mesh/region_volumes.h); `carried` are the vertices that the chunk carries.
-inline void add_volumes(const Chunk& chunk, std::span<const ChunkVertex> carried, std::vector<double>& volumes) {
+inline void add_volumes(const Chunk& chunk, std::span<const ChunkVertex> carried, std::vector<double>& volumes,
+                        std::optional<Vec3>& apex) {
     const auto position = [&](std::uint32_t local) { return vertex_of(chunk, carried, local).position; };
     for (const auto& [v, labels] : chunk.faces)
-        add_cone(volumes, labels, position(v[0]), position(v[1]), position(v[2]));
+        add_cone(volumes, apex, labels, position(v[0]), position(v[1]), position(v[2]));
 }
 
 }  // namespace regionmesh

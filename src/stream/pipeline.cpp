@@ -46,10 +46,11 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
     TileStage tiles(plan, options, strips.source().shape(), log);
     std::vector<double>& volumes = log.report().unsmoothed_volumes;
+    std::optional<Vec3> apex;  // of the cones that are summed to volumes
     const bool may_gather_ahead = options.threads != 1 && tiles.is_on();
     GatheredStrips now, next;
     for (bool is_more = gatherer.next(now); is_more; std::swap(now, next)) {
-        if (!strips.is_smoothing() && options.preserve_volume) add_volumes(now.chunk, now.carried, volumes);
+        if (!strips.is_smoothing() && options.preserve_volume) add_volumes(now.chunk, now.carried, volumes, apex);
         const std::uint64_t initial_faces = now.chunk.faces.size();
         const auto gather = [&] {
             is_more = gatherer.next(next);

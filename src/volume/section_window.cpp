@@ -5,14 +5,18 @@
 
 namespace regionmesh {
 
-SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader_(reader), labels_(labels) {
-    const VolumeInfo& info = reader.info();
+void require_cells(const VolumeInfo& info) {
     for (int axis = 0; axis < 3; ++axis)
         if (info.lattice.size[axis] < 2)
             throw Error(ErrorCode::kInput, info.source + ": " + std::to_string(info.lattice.size[axis]) +
                                                " sample along " + "xyz"[axis] +
                                                "; a cell needs two. Give a volume, or repeat the section: two equal "
                                                "sections make a plate, one spacing thick");
+}
+
+SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader_(reader), labels_(labels) {
+    const VolumeInfo& info = reader.info();
+    require_cells(info);
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
     if (samples > kMostSectionSamples)
         throw Error(ErrorCode::kInput, info.source + ": a section of " + std::to_string(samples) +

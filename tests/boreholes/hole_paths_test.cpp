@@ -1,5 +1,6 @@
 #include "boreholes/hole_paths.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -74,6 +75,21 @@ TEST_F(InclinedHoles, inclinations_count_from_straight_down_and_dips_of_either_s
         put_text(path("surveys.csv"), text);
         const auto found = read().points.positions;
         for (std::size_t n = 0; n < wanted.size(); ++n) expect_near(found[n], wanted[n]);
+    }
+}
+
+TEST_F(InclinedHoles, points_within_an_interval_lie_on_the_arc) {
+    const double r = 20, quarter = std::numbers::pi / 2 * r;  // from straight down to level, to the north
+    put_text(path("surveys.csv"), fmt::format("hole,depth,azimuth,inclination\nB,0,0,0\nB,{},0,90\n", quarter));
+    put_text(path("intervals.csv"), fmt::format("hole,from,to,lith\nB,0,{},sand\n", quarter));
+    for (const double parts : {1, 8}) {
+        options_.step = quarter / parts * 1.0001;
+        const auto points = read().points.positions;
+        ASSERT_EQ(points.size(), static_cast<std::size_t>(parts));
+        for (std::size_t n = 0; n < points.size(); ++n) {
+            const double angle = (static_cast<double>(n) + 0.5) / parts * std::numbers::pi / 2;
+            expect_near(points[n], {0, r * (1 - std::cos(angle)), 40 - r * std::sin(angle)});
+        }
     }
 }
 

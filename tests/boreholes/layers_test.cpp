@@ -220,6 +220,7 @@ TEST_F(Layers, the_order_is_found_or_given) {
                 HasSubstr("no interval has the unit 'chalk'; units are a, b, c"));
     EXPECT_THAT(failure_of(rows, {.units = "a,a"}), HasSubstr("'a' twice"));
     EXPECT_THAT(failure_of(rows, {.units = "a"}), HasSubstr("fewer than two units"));
+    EXPECT_THAT(failure_of(rows, {.units = "b,a"}), HasSubstr("does not name the unit 'c'"));
     EXPECT_THAT(failure_of(rows, {.units = "c,a,b"}), HasSubstr("% of the logged length is in the order"));
 }
 
@@ -323,8 +324,15 @@ TEST_F(TerrainFile, heights_lie_between_the_centres_of_cells) {
     EXPECT_EQ(*terrain.at(12, 22), 2);
     EXPECT_EQ(*terrain.at(11, 21), 3.5);
     EXPECT_FALSE(terrain.at(13.5, 21)) << "next to a cell without height";
-    EXPECT_FALSE(terrain.at(9, 21));
-    EXPECT_FALSE(terrain.at(11, 22.5));
+}
+
+TEST_F(TerrainFile, heights_reach_to_the_edge_of_the_cells) {
+    const auto terrain = read("ncols 2\nnrows 2\nxllcorner 9\nyllcorner 19\ncellsize 2\n1 2\n5 6\n");
+    EXPECT_EQ(*terrain.at(9, 21), 3) << "as between the centres of the first column";
+    EXPECT_EQ(*terrain.at(11, 23), 1.5);
+    EXPECT_EQ(*terrain.at(13, 19), 6);
+    EXPECT_FALSE(terrain.at(8.9, 21));
+    EXPECT_FALSE(terrain.at(11, 23.1));
 }
 
 TEST_F(TerrainFile, not_a_number_is_no_height) {
@@ -354,6 +362,8 @@ TEST_F(TerrainFile, damaged_files_are_refused) {
     EXPECT_THAT(failure_of(head + "1 2\n3\n"), HasSubstr("is it cut off"));
     EXPECT_THAT(failure_of(head + "1 2\n3 4 5\n"), HasSubstr("more than 4"));
     EXPECT_THAT(failure_of(head + "1 2\n3 x\n"), HasSubstr("'x' is no number"));
+    EXPECT_THAT(failure_of(head + "inf 2\n3 4\n"), HasSubstr("height 1: 'inf' is no number"));
+    EXPECT_THAT(failure_of(head + "NODATA_valu -1\n1 2\n3 4\n"), HasSubstr("'NODATA_valu' is no number"));
     EXPECT_THAT(failure_of("ncols 2\nnrows 2\n1 2 3 4\n"), HasSubstr("no cellsize"));
     EXPECT_THAT(failure_of("ncols 2\nnrows many\n"), HasSubstr("'nrows' has no number"));
     EXPECT_THAT(failure_of("ncols 1\nnrows 2\ncellsize 1\n1 2\n"), HasSubstr("ncols is 1"));

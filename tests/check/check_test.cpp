@@ -129,6 +129,22 @@ TEST(Check, unused_vertex) {
     EXPECT_THAT(found_in(mesh), ElementsAre("unused_vertex"));
 }
 
+TEST(Check, regions_that_are_inside_out) {
+    const auto box = [](double size) {
+        Mesh mesh = test::run(test::grain_volume({8, 7, 6}, 5, 4)).mesh;
+        for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+            mesh[VertexId{v}].position = size * mesh.position(VertexId{v});
+        return mesh;
+    };
+    EXPECT_THAT(found_in(box(1)), ElementsAre());
+    EXPECT_THAT(found_in(box(-1)), ElementsAre("orientation"));
+    EXPECT_EQ(count(check(box(-1)), ViolationKind::kOrientation), 5u) << "each grain";
+    EXPECT_THAT(found_in(box(-1), {.boundary_is_open = true}), ElementsAre());
+    Mesh outside;
+    test::add_octahedron(outside, {}, {1, 1, -1});
+    EXPECT_THAT(found_in(outside, kIslands), ElementsAre()) << "the region may be what is outside";
+}
+
 TEST(Check, crossing_faces) {
     Mesh mesh = octahedron();
     test::add_octahedron(mesh, {0, 0, 1.2}, {0.1, 0.1, 0.5}, 2, 1);

@@ -280,6 +280,25 @@ TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
     EXPECT_THAT(changed.error, testing::HasSubstr("was begun with input grains.raw 64000 bytes"));
 }
 
+TEST_F(BlockProgram, refuses_an_input_without_cells_or_regions_and_leaves_nothing) {
+    put_text(path("one.raw"), std::string(400, '\3'));
+    put_text(path("two.raw"), std::string(500, '\0') + std::string(500, '\1'));
+    const std::string one = "reconstruct " + path("one.raw").string() + " --type uint8 --size ",
+                      two = "reconstruct " + path("two.raw").string() + " --type uint8 --size 10,10,10 ";
+    const auto expect_refused = [&](const std::string& arguments, const std::string& said) {
+        const Ran ran = run(arguments + " -o " + out("m/"));
+        EXPECT_EQ(ran.code, 1);
+        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
+        EXPECT_THAT(ran.error, testing::HasSubstr(said));
+    };
+    for (const char* size : {"1,20,20", "20,1,20", "20,20,1"}) expect_refused(one + size, "1 sample along");
+    expect_refused(two + "--roi :,:,4:5 --block-size 8", "1 sample along z");
+    expect_refused(two + "--background 0,1", "all of it is background");
+    expect_refused(one + "2,10,20 --boundary open", "one label only");
+    EXPECT_TRUE(fs::is_empty(out("m")));
+    EXPECT_EQ(run(two + "--quiet -o " + out("m/")).code, 0) << "the folder is as good as new";
+}
+
 TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {
     for (const auto& [options, said] : {std::pair("--html page.html", "--html: is for a model in one file"),
                                         std::pair("--preserve-volume", "--preserve-volume needs the whole surface"),

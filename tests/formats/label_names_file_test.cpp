@@ -84,6 +84,10 @@ TEST_F(LabelNamesFile, unsigned_labels_keep_their_bits) {
 TEST_F(LabelNamesFile, names_are_one_line_of_utf8) {
     EXPECT_THAT(names_of("1,caf\xC3\xA9\n2,caf\xE9\n3,\"a\tb\"\n"),
                 ElementsAre(Pair(1, "caf\xC3\xA9"), Pair(2, "caf\xC3\xA9"), Pair(3, "a b")));
+    EXPECT_THAT(names_of("1,\xED\x9F\xBF\n2,\xED\xA0\x80\n3,\xE0\x9F\xBF\n4,\xF4\x90\x80\x80\n"),
+                ElementsAre(Pair(1, "\xED\x9F\xBF"), Pair(2, "\xC3\xAD\xC2\xA0\xC2\x80"),
+                            Pair(3, "\xC3\xA0\xC2\x9F\xC2\xBF"), Pair(4, "\xC3\xB4\xC2\x90\xC2\x80\xC2\x80")))
+        << "halves of pairs, characters longer than needed, and those beyond the last are none";
 }
 
 TEST_F(LabelNamesFile, xml_atlases_are_read) {

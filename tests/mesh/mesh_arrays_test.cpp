@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "base/box.h"
 #include "regionmesh/error.h"
 #include "regionmesh/simplify.h"
 #include "support/runs.h"
@@ -51,6 +52,30 @@ TEST(MeshArrays, of_several_backgrounds_have_their_open_rims_on_the_sides) {
         const std::vector<Label> background{back.labels.dense(0), back.labels.dense(2)};
         test::expect_sound(check(back.mesh, {.background = background}));
     }
+}
+
+TEST(MeshArrays, of_an_open_model_have_their_rims_on_the_sides) {
+    test::ArrayVolume volume = test::grain_volume({14, 12, 10}, 9, 3);
+    const Reconstruction made =
+        test::run(volume, {.smooth = {.passes = 0}, .decimate = false, .cap = false, .background = {}});
+    LabelledMesh back = import_arrays(export_arrays(made.mesh, made.labels));
+    for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v)
+        EXPECT_EQ(back.mesh[VertexId{v}].sides, made.mesh[VertexId{v}].sides);
+    const Box box{{0, 0, 0}, {13, 11, 9}};
+    simplify(back.mesh, {.target_faces = back.mesh.face_count() / 5, .bounds_regions = true, .box = box});
+    test::expect_sound(check(back.mesh, {.boundary_is_open = true}));
+    std::uint32_t on_sides = 0;
+    for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v) {
+        if (!back.mesh.is_alive(VertexId{v})) continue;
+        const Vec3 p = back.mesh.position(VertexId{v});
+        EXPECT_TRUE(is_within(p, box));
+        for (int side = 0; side < 6; ++side) {
+            if (!(back.mesh[VertexId{v}].sides >> side & 1)) continue;
+            EXPECT_EQ(p[side / 2], (side % 2 == 0 ? box.low : box.high)[side / 2]);
+            ++on_sides;
+        }
+    }
+    EXPECT_GT(on_sides, 20u);
 }
 
 TEST(MeshArrays, simplify_without_a_file) {

@@ -29,6 +29,14 @@ TEST(RegionVolumes, sum_to_that_of_the_box) {
     EXPECT_NEAR(sum, 8 * 7 * 6, 1e-9);
 }
 
+TEST(RegionVolumes, are_as_exact_far_from_the_origin) {
+    Mesh mesh = test::run(test::grain_volume({9, 8, 7}, 5, 2)).mesh;
+    const std::vector<double> near = region_volumes(mesh);
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].position += Vec3{0x1p23, -0x1p24, 0x1p22};
+    const std::vector<double> far = region_volumes(mesh);
+    for (std::size_t label = 0; label < near.size(); ++label) EXPECT_NEAR(far[label] / near[label], 1, 1e-10);
+}
+
 TEST(PreserveVolume, gives_a_shrunk_ball_its_volume_back) {
     Mesh mesh = test::run(test::ball_volume({21, 21, 21}, 7)).mesh;
     const std::vector<double> before = region_volumes(mesh);

@@ -30,14 +30,39 @@ std::optional<std::vector<Number>> parse_all(std::string_view text, std::optiona
     return numbers;
 }
 
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
 /// Length in bytes of the UTF-8 character at the front of `text`; 0 where there is none.
 std::size_t utf8_length(std::string_view text) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : 4;
     if ((lead >= 0x80 && lead < 0xC2) || lead > 0xF4 || text.size() < length) return 0;
-    const bool is_whole = std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length),
-                                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });
-    return is_whole ? length : 0;
+    if (!std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), is_continuation)) return 0;
+    // Of some leads not every second byte: the others would be longer than needed, surrogates, or beyond U+10FFFF.
+    const auto second = static_cast<unsigned char>(length > 1 ? text[1] : 0);
+    const bool is_good = lead == 0xE0   ? second >= 0xA0
+                         : lead == 0xED ? second < 0xA0
+                         : lead == 0xF0 ? second >= 0x90
+                         : lead == 0xF4 ? second < 0x90
+                                        : true;
+    return is_good ? length : 0;
+}
+
+/// Bytes that are no UTF-8 are read as Latin-1.
+std::string in_utf8(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const auto byte = static_cast<unsigned char>(text[0]);
+        if (length == 0) {
+            result += static_cast<char>(0xC0 | byte >> 6);
+            result += static_cast<char>(0x80 | (byte & 0x3F));
+        } else {
+            result += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return result;
 }
 
 }  // namespace
@@ -129,25 +154,15 @@ std::string_view take_line(std::string_view& text) {
 
 std::string shown(std::string_view text) {
     constexpr std::size_t kMost = 40;
-    return std::string(text.substr(0, kMost)) + (text.size() > kMost ? "..." : "");
+    std::size_t end = std::min(kMost, text.size());
+    while (end < text.size() && end + 4 > kMost && is_continuation(text[end])) --end;  // not within a character
+    return in_utf8(text.substr(0, end)) + (end < text.size() ? "..." : "");
 }
 
 std::string one_line(std::string_view text) {
-    text = trim(text);
-    std::string name;
-    while (!text.empty()) {
-        const std::size_t length = utf8_length(text);
-        const auto byte = static_cast<unsigned char>(text[0]);
-        if (length == 0) {
-            name += static_cast<char>(0xC0 | byte >> 6);
-            name += static_cast<char>(0x80 | (byte & 0x3F));
-        } else if (byte < ' ' || byte == 0x7F) {
-            name += ' ';
-        } else {
-            name += text.substr(0, length);
-        }
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
+    std::string name = in_utf8(trim(text));
+    for (char& c : name)
+        if ((c >= 0 && c < ' ') || c == 0x7F) c = ' ';
     return name;
 }
 

@@ -40,7 +40,7 @@ std::optional<std::vector<std::uint64_t>> parse_sizes(std::string_view text);
 /// Takes the first line off `text`; returns it without its line end.
 std::string_view take_line(std::string_view& text);
 
-/// The beginning of a word or line of a file, for messages.
+/// The beginning of a word or line of a file, for messages, in UTF-8 as one_line() has it.
 std::string shown(std::string_view text);
 
 /// A name from a file, trimmed, as one line of UTF-8. Bytes that are no UTF-8 are read as Latin-1.
