@@ -53,6 +53,7 @@ int run_smooth(const Settings& given) {
     const CheckOptions options = check_options(settings, file.labels);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
+    if (!settings.reconstruct.cap) fix_rims(file.mesh);
     Report report = smoothed(settings, file.mesh, before);
     report.check = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);

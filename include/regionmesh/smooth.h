@@ -61,6 +61,10 @@ struct SmoothReport {
 /// Error(kInput) for kLattice: a mesh has no lattice. Deterministic.
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options);
 
+/// Fixes the vertices on the sides of the box, or on another hull, of a mesh without faces there: a filter could draw a
+/// surface that ends on a side over an edge of the box.
+void fix_rims(Mesh& mesh);
+
 /// What preserve_volumes() did.
 struct PreserveReport {
     std::uint32_t rounds = 0;

@@ -260,6 +260,7 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
         const CheckOptions checks = check_options(made, settings.reconstruct.threads);
         const CheckReport before = check(made.mesh, checks);
         Report report = begin_change(made.mesh, before, checks);
+        if (made.is_open) fix_rims(made.mesh);
         const SmoothOptions smooth_with = smooth_options(settings, made.mesh);
         {
             const Timer timer(report.seconds["smooth"]);

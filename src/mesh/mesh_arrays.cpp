@@ -103,8 +103,8 @@ void mark_open_rims(Mesh& mesh, const MeshArrays& arrays, const Box& box) {
             int faces = 0;
             mesh.for_star(a, [&](FaceId g, int) { faces += std::ranges::count(mesh[g].vertices, b) > 0; });
             if (faces != 1) continue;
-            const SideSet sides = sides_of(arrays, std::array{index(a), index(b)}, box);
-            for (const VertexId v : {a, b}) mesh[v].sides |= sides;
+            if (sides_of(arrays, std::array{index(a), index(b)}, box) == 0) continue;
+            for (const VertexId v : {a, b}) mesh[v].sides |= sides_of(arrays, std::array{index(v)}, box);
         }
     }
 }

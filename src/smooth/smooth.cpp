@@ -22,4 +22,9 @@ SmoothReport smooth(Mesh& mesh, const SmoothOptions& options) {
     return smoother.report();
 }
 
+void fix_rims(Mesh& mesh) {
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        if (mesh.is_alive(VertexId{v}) && mesh[VertexId{v}].sides != 0) mesh[VertexId{v}].is_fixed = true;
+}
+
 }  // namespace regionmesh

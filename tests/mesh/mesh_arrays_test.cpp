@@ -8,6 +8,7 @@
 #include "base/box.h"
 #include "regionmesh/error.h"
 #include "regionmesh/simplify.h"
+#include "regionmesh/smooth.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -61,6 +62,17 @@ TEST(MeshArrays, of_an_open_model_have_their_rims_on_the_sides) {
     LabelledMesh back = import_arrays(export_arrays(made.mesh, made.labels));
     for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v)
         EXPECT_EQ(back.mesh[VertexId{v}].sides, made.mesh[VertexId{v}].sides);
+    const MeshArrays before = export_arrays(back.mesh, back.labels);
+    fix_rims(back.mesh);
+    smooth(back.mesh, {.filter = SmoothFilter::kTaubin, .passes = 20});
+    const MeshArrays after = export_arrays(back.mesh, back.labels);
+    std::uint32_t moved = 0;
+    for (std::size_t n = 0; n < before.points.size(); ++n) {
+        if (before.node_types[n] >= 10) EXPECT_EQ(after.points[n], before.points[n]);
+        moved += after.points[n] != before.points[n];
+    }
+    EXPECT_GT(moved, 100u);
+    for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v) back.mesh[VertexId{v}].is_fixed = false;
     const Box box{{0, 0, 0}, {13, 11, 9}};
     simplify(back.mesh, {.target_faces = back.mesh.face_count() / 5, .bounds_regions = true, .box = box});
     test::expect_sound(check(back.mesh, {.boundary_is_open = true}));
