@@ -24,6 +24,14 @@ struct Lattice {
         return origin +
                Vec3{dot({d[0], d[1], d[2]}, along), dot({d[3], d[4], d[5]}, along), dot({d[6], d[7], d[8]}, along)};
     }
+    /// The box of all samples.
+    Box extent() const {
+        Box box;
+        for (int corner = 0; corner < 8; ++corner)
+            box.add(place_of(
+                {corner & 1 ? size[0] - 1.0 : 0, corner & 2 ? size[1] - 1.0 : 0, corner & 4 ? size[2] - 1.0 : 0}));
+        return box;
+    }
     bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
 };
 

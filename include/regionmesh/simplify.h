@@ -32,7 +32,7 @@ struct SimplifyOptions {
                                   // it, everywhere; collapses are then tested faster, with the same result
     PlacementKind placement = PlacementKind::kQuadric;
     std::optional<Lattice> samples = {};     // no sample of it changes its region; its direction is not looked at
-    std::optional<Box> box = {};             // no merged vertex leaves it: of a model without faces on its sides
+    std::optional<Box> box = {};             // no merged vertex leaves it; for models open on the sides of the box
     std::uint32_t threads = 0;               // at work at a time; 0: one per core. The result is the same
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };

@@ -61,8 +61,8 @@ struct SmoothReport {
 /// Error(kInput) for kLattice: a mesh has no lattice. Deterministic.
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options);
 
-/// Fixes the vertices on the sides of the box, or on another hull, of a mesh without faces there: a filter could draw a
-/// surface that ends on a side over an edge of the box.
+/// Fixes all vertices on the sides of the box, or on another hull. For meshes that have no faces there: a filter could
+/// move the end of a surface out of the box.
 void fix_rims(Mesh& mesh);
 
 /// What preserve_volumes() did.

@@ -215,7 +215,8 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
 }
 
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
-    const Settings settings = settings_from(options);
+    Settings settings = settings_from(options);
+    settings.reconstruct.cap = !model.is_open;
     const ReconstructOptions& asked = settings.reconstruct;
     if (!has_target(settings) && !asked.improve)
         throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error, or improve=True");
@@ -226,7 +227,6 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
         Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
         SimplifyOptions simplify_with = simplify_options(settings, made.mesh);
         simplify_with.samples = samples;
-        if (made.is_open) simplify_with.box = size_of(made.mesh).box;
         const std::uint64_t before = made.mesh.face_count(), gone = before - simplify_with.target_faces;
         simplify_with.on_progress = [&] { watch.note("decimate", before - made.mesh.face_count(), gone); };
         {

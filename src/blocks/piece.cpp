@@ -108,9 +108,7 @@ Piece read_piece(const fs::path& path) {
     std::uint32_t checksum = 0;
     for (const std::string_view bytes : parts_of(piece)) checksum = add_to(checksum, bytes);
     if (checksum != checksum_in(file))
-        formats::fail(path,
-                      "the checksum does not fit: the file is damaged; remove the folder, and "
-                      "run again");
+        formats::fail(path, "the checksum does not fit: the file is damaged; remove the folder, and run again");
     for (const PieceFace& face : piece.faces)
         for (const std::uint32_t v : face.vertices)
             if (v >= piece.vertices.size()) formats::fail(path, "a face has a vertex that is not there");

@@ -19,7 +19,7 @@ struct Interval {
     double collar = 0;                              // elevation of the top of the hole, as far as this row says
     double from = 0;            // grows down the hole: a depth, or an elevation with its sign changed
     double length = 0;          // of the numbers in the table; elevations may be rounded again
-    Vec3 upper{}, lower{};      // directions down the hole at both ends, of unit length, where it is an arc; else zero
+    Vec3 upper{}, lower{};      // directions down the hole at both ends, of unit length; zero without a path
     bool is_at_collar = false;  // it begins where the hole begins
     std::uint32_t label = 0;    // of TableLabels, or kNoLabel
     std::uint32_t hole = 0;     // of DrillHoles::holes

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
@@ -135,23 +136,22 @@ public:
                 fail(path_, fmt::format("--layers names '{}' twice; name it once", shown(word)));
             (is_left_out ? others : units).push_back(unit);
         }
+        std::vector<std::uint32_t> unnamed;
+        for (const std::uint32_t unit : used_)
+            if (std::ranges::count(units, unit) + std::ranges::count(others, unit) == 0) unnamed.push_back(unit);
         if (place_of_rest) {
-            std::vector<std::uint32_t> rest;
-            for (const std::uint32_t unit : used_)
-                if (std::ranges::count(units, unit) + std::ranges::count(others, unit) == 0) rest.push_back(unit);
-            require_size(rest.size());
-            rest = found_order(holes, rest, labels_.count());
+            require_size(unnamed.size());
+            const auto rest = found_order(holes, std::exchange(unnamed, {}), labels_.count());
             units.insert(units.begin() + static_cast<std::ptrdiff_t>(*place_of_rest), rest.begin(), rest.end());
         }
         require_size(units.size());
         if (units.size() < 2)
             fail(path_, "--layers has fewer than two units; name all units from young to old, or give auto");
-        for (const std::uint32_t unit : used_)
-            if (std::ranges::count(units, unit) + std::ranges::count(others, unit) == 0)
-                fail(path_,
-                     fmt::format("--layers does not name the unit '{0}'; add it, '-{0}' to leave it out, or auto "
-                                 "for all others",
-                                 shown(labels_.text(unit))));
+        if (!unnamed.empty())
+            fail(path_,
+                 fmt::format("--layers does not name the unit '{0}'; add it, '-{0}' to leave it out, or auto for "
+                             "all others",
+                             shown(labels_.text(unnamed.front()))));
         return units;
     }
 

@@ -20,8 +20,8 @@ public:
     /// they take memory where they would take more than `most_bytes`.
     explicit Terrain(const std::filesystem::path& path, std::uint64_t most_bytes = UINT64_MAX);
 
-    /// The height between the four centres of cells round the place, and in the outer half of the outermost cells that
-    /// at the nearest place between centres; none outside of all cells, or where a centre has no height.
+    /// The height, interpolated between the four nearest centres of cells. In the outer half of the outermost cells it
+    /// is that of the nearest place between centres. None beyond the cells, and next to a centre without a height.
     std::optional<double> at(double x, double y) const;
 
 private:

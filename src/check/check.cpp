@@ -49,8 +49,7 @@ void check_volumes(const CheckOptions& options, const std::vector<RegionReport>&
         if (region.volume < -kRounding * std::pow(region.area, 1.5))
             findings.add(ViolationKind::kOrientation, {}, {}, [&] {
                 return region_name(options, region.label) +
-                       " is inside out: its volume is negative; --orient turns its "
-                       "faces";
+                       " is inside out: its volume is negative; --orient turns its faces";
             });
 }
 

@@ -100,8 +100,8 @@ void check_nesting(const Mesh& mesh, const CheckOptions& options, const SortedFa
 /// Lists the regions that have faces, without the background.
 void list_regions(const CheckOptions& options, const std::vector<RegionReport>& regions, CheckReport& report);
 void check_against_labels(const CheckOptions& options, CheckReport& report, Findings& findings);
-/// Are regions inside out? `sums` are by dense label, the background included. Where edges are open or mixed, volumes
-/// mean nothing, and nothing is added.
+/// Finds regions that are inside out. `sums` are by dense label, the background included. If the surface is open
+/// somewhere, or its orientation mixed, volumes mean nothing, and nothing is added.
 void check_volumes(const CheckOptions& options, const std::vector<RegionReport>& sums, const CheckReport& report,
                    Findings& findings);
 

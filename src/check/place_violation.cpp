@@ -15,6 +15,14 @@ std::string text_of(double value) {
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
+/// Of faces: the centroid of the first; of two that cross, the middle of what their boxes have in common.
+Vec3 place_of(const Mesh& mesh, const Violation& violation) {
+    const auto p = mesh.corners(FaceId{violation.faces.front()});
+    if (violation.kind != ViolationKind::kCrossingFaces) return p[0] / 3 + p[1] / 3 + p[2] / 3;
+    const Box both = common(box_of(p), box_of(mesh.corners(FaceId{violation.faces.back()})));
+    return (both.low + both.high) / 2;
+}
+
 }  // namespace
 
 void place_violation(Vec3 at, const LabelSet& met, Violation& violation) {
@@ -36,14 +44,9 @@ void place_violation(const Mesh& mesh, Violation& violation) {
                       : vertex_labels(mesh, VertexId{vertices[0]});
         place_violation(mesh.position(VertexId{vertices[0]}), met, violation);
     } else if (!faces.empty()) {
-        // Of two faces that cross: the middle of what their boxes have in common.
-        const Box f = box_of(mesh.corners(FaceId{faces.front()})), g = box_of(mesh.corners(FaceId{faces.back()}));
-        const bool is_crossing = kind == ViolationKind::kCrossingFaces;
-        const auto p = mesh.corners(FaceId{faces.front()});
-        const Vec3 at = is_crossing ? (max(f.low, g.low) + min(f.high, g.high)) / 2 : p[0] / 3 + p[1] / 3 + p[2] / 3;
         for (std::uint32_t f : faces)
             for (Label label : mesh[FaceId{f}].labels) met.add(label);
-        place_violation(at, met, violation);
+        place_violation(place_of(mesh, violation), met, violation);
     }
 }
 

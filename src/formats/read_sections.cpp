@@ -47,8 +47,8 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
     const formats::InputFile there(file);
     const Format* format = formats::find_format(there);
     if (has_raw_option && file == path) {
-        const bool says_itself = format && format->open_sections != formats::open_raw;
-        if (says_itself && !(options.raw_size && options.raw_type))
+        const bool has_header = format && format->open_sections != formats::open_raw;
+        if (has_header && !(options.raw_size && options.raw_type))
             formats::fail(path, "--size and --type are for raw files: leave them out, or give both to read it as raw");
         return formats::open_raw(path, options);
     }

@@ -43,19 +43,6 @@ double section_scale(const VolumeInfo& volume, const ReconstructOptions& options
                 volume.source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
 }
 
-namespace {
-
-/// As meshes have it, along the axes.
-Box box_of_samples(const Lattice& lattice) {
-    Box box;
-    box.add(lattice.origin);
-    box.add(lattice.origin + Vec3{(lattice.size[0] - 1) * lattice.spacing.x, (lattice.size[1] - 1) * lattice.spacing.y,
-                                  (lattice.size[2] - 1) * lattice.spacing.z});
-    return box;
-}
-
-}  // namespace
-
 SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape) {
     SimplifyOptions own;
     if (options.max_error) own.max_error = *options.max_error;
@@ -67,7 +54,11 @@ SimplifyOptions simplify_options(const ReconstructOptions& options, const Source
     own.bounds_regions = options.cap || shape.has_samples;
     if (options.keep_samples && shape.has_samples) own.samples = shape.lattice;
     own.placement = options.placement;
-    if (!options.cap && shape.has_samples) own.box = box_of_samples(shape.lattice);
+    if (!options.cap && shape.has_samples) {
+        Lattice along_axes = shape.lattice;
+        along_axes.direction = Lattice().direction;  // meshes are turned at the end
+        own.box = along_axes.extent();
+    }
     return own;
 }
 

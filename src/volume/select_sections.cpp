@@ -35,24 +35,10 @@ Vec3 corner_of(const Vec3& low, const Vec3& high, int corner) {
     return {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
 }
 
-/// The box of the lattice's samples in space.
-Box extent_of(const Lattice& lattice) {
-    Box extent;
-    const auto& d = lattice.direction;
-    const Vec3 last{(lattice.size[0] - 1) * lattice.spacing.x, (lattice.size[1] - 1) * lattice.spacing.y,
-                    (lattice.size[2] - 1) * lattice.spacing.z};
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 along = corner_of({0, 0, 0}, last, corner);
-        extent.add(lattice.origin + Vec3{dot({d[0], d[1], d[2]}, along), dot({d[3], d[4], d[5]}, along),
-                                         dot({d[6], d[7], d[8]}, along)});
-    }
-    return extent;
-}
-
 /// Makes `samples` smaller: the samples in `box`. An index within 1e-6 of a whole number counts as that number.
 void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box, IndexBox& samples) {
     constexpr double kRounding = 1e-6;
-    const Box extent = extent_of(volume.lattice);
+    const Box extent = volume.lattice.extent();
     Vec3 low = extent.low, high = extent.high;
     for (int axis = 0; axis < 3; ++axis) {
         low[axis] = std::max(low[axis], box[axis].low);

@@ -77,7 +77,7 @@ char CsvRows::skip_to_header() {
         rest.remove_prefix(rest.starts_with("\r\n") ? 2 : 1);
         ++begun_;
     }
-    if (rest.empty()) fail(file_.path(), "holds no table: no line in it is more than blanks or a comment");
+    if (rest.empty()) fail(file_.path(), "holds no table: all its lines are blank or comments");
     place_ = head.size() - rest.size();
     return find_separator(rest);
 }

@@ -38,7 +38,7 @@ std::size_t utf8_length(std::string_view text) {
     const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3 : 4;
     if ((lead >= 0x80 && lead < 0xC2) || lead > 0xF4 || text.size() < length) return 0;
     if (!std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), is_continuation)) return 0;
-    // Of some leads not every second byte: the others would be longer than needed, surrogates, or beyond U+10FFFF.
+    // After these leads, other second bytes make a character too long, a surrogate, or one beyond U+10FFFF.
     const auto second = static_cast<unsigned char>(length > 1 ? text[1] : 0);
     const bool is_good = lead == 0xE0   ? second >= 0xA0
                          : lead == 0xED ? second < 0xA0
