@@ -26,7 +26,9 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving)
     }
     if (is_improving) {
         const Timer timer(report.seconds["improve"]);
-        report.improved = improve(mesh, {.min_quality = options.min_quality, .scale = options.scale});
+        report.improved =
+            improve(mesh, {.min_quality = options.min_quality, .scale = options.scale, .max_error = options.max_error});
+        report.error_bound = report.improved->error_bound;
     }
     report.final_faces = mesh.face_count();
     report.final_vertices = mesh.vertex_count();

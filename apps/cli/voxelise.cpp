@@ -18,7 +18,7 @@ int run_voxelise(const Settings& given) {
     VoxeliseOptions options{.lattice = lattice};
     for (const InputLabel label : settings.reconstruct.background)
         options.background.push_back(file.labels.dense(label));
-    const auto writer = create_volume(settings.output, lattice, info.type, settings.writing);
+    const auto writer = create_volume(settings.output, lattice, info.space, info.type, settings.writing);
     std::vector<InputLabel> written(std::size_t{lattice.size[0]} * lattice.size[1]);
     const auto write = [&](std::span<const Label> section) {
         for (std::size_t n = 0; n < section.size(); ++n)

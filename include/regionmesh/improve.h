@@ -1,6 +1,7 @@
 // Better shaped faces, the same surface: flips of edges and moves of vertices, for finite elements.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,11 +12,12 @@
 namespace regionmesh {
 
 struct ImproveOptions {
-    double min_quality = 0.1;   // of faces: round those below, the surface may move farther and edges be collapsed
-    double scale = 1;           // length of a typical edge: the sample spacing, or typical_edge(mesh)
-    double tolerance = 0.1;     // share of the scale by which the surface may move, all steps together; three times as
-                                // much round faces below min_quality
-    std::uint32_t sweeps = 12;  // at most, over all edges and vertices
+    double min_quality = 0.1;  // of faces: round those below, the surface may move farther and edges be collapsed
+    double scale = 1;          // length of a typical edge: the sample spacing, or typical_edge(mesh)
+    double tolerance = 0.1;    // share of the scale by which the surface may move, all steps together; three times as
+                               // much round faces below min_quality
+    double max_error = HUGE_VAL;             // limit of ImproveResult::error_bound, as of SimplifyOptions
+    std::uint32_t sweeps = 12;               // at most, over all edges and vertices
     std::optional<Lattice> samples = {};     // no sample of it changes its region; its direction is not looked at
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };
@@ -31,6 +33,7 @@ struct ImproveResult {
     std::uint64_t flips = 0, moves = 0, collapses = 0;
     std::uint32_t sweeps = 0;
     FaceShapes before, after;
+    double error_bound = 0;  // of simplify() and this together (SimplifyResult)
 };
 
 /// Flips edges inside interfaces, moves vertices within their stratum (along interfaces and sides of the box, along

@@ -21,10 +21,11 @@ public:
     virtual void commit() = 0;
 };
 
-/// By extension: .npy (shape z, y, x), .nii and .nii.gz (NIfTI-1, NIfTI-2 for axes beyond 32767 samples; the affine as
-/// sform in single or double precision), .nrrd (raw, in its own space), .raw (bare samples); little endian.
-/// Throws Error(kOutput) for another extension.
-std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, SampleType type,
-                                             const OutputOptions& options = {});
+/// By extension: .npy (shape z, y, x), .nii and .nii.gz (the affine as sform; NIfTI-1, but NIfTI-2 if single precision
+/// does not hold the affine, or an axis has more than 32767 samples), .nrrd (raw), .raw (bare samples); little endian.
+/// `space` is that of the lattice: NIfTI files are in RAS, NRRD files name it. Throws Error(kOutput) for another
+/// extension.
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, Space space,
+                                             SampleType type, const OutputOptions& options = {});
 
 }  // namespace regionmesh

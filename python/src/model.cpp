@@ -241,10 +241,13 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
         }
         if (asked.improve) {
             const Timer timer(report.seconds["improve"]);
-            ImproveOptions improve_with{
-                .min_quality = asked.min_quality, .scale = simplify_with.scale, .samples = samples};
+            ImproveOptions improve_with{.min_quality = asked.min_quality,
+                                        .scale = simplify_with.scale,
+                                        .max_error = simplify_with.max_error,
+                                        .samples = samples};
             improve_with.on_progress = [&] { watch.note("improve", 0, std::nullopt); };
             report.improved = improve(made.mesh, improve_with);
+            report.error_bound = report.improved->error_bound;
         }
         watch.note("check", 0, std::nullopt);
         end_change(made, report, checks);

@@ -30,7 +30,7 @@ fs::path path_of(const Manifest& manifest, const fs::path& folder, std::uint32_t
 
 void require_pieces(const Manifest& manifest, const fs::path& folder) {
     read_labels(manifest, folder);
-    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) path_of(manifest, folder, block);
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) read_entry(manifest, folder, block);
 }
 
 Piece read_entry(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {

@@ -10,7 +10,7 @@
 
 namespace regionmesh {
 
-/// Throws Error(kInput) if labels or pieces of a finished run are missing or are not those that it made.
+/// Reads all of a finished run. Throws Error(kInput) if labels or pieces are missing or are not those that it made.
 void require_pieces(const Manifest& manifest, const std::filesystem::path& folder);
 
 /// The file of a piece: "pass-0-000017.piece".

@@ -99,13 +99,19 @@ Columns columns_of(const Fields& header) {
 }
 
 /// Without a header: `label r g b a visible mesh "name"` (ITK-SNAP), or `label name r g b a` (FreeSurfer, 3D Slicer).
-std::optional<std::uint32_t> colour_by_place(const Fields& fields) {
+/// Nothing for a row of neither form.
+std::optional<Places> places_in(const Fields& fields) {
     constexpr std::size_t kItkSnap = 8, kFreeSurfer = 6;
     const std::size_t count = fields.size();
-    if (count >= kItkSnap && !part_of(fields.back()))
-        if (const auto colour = colour_at(fields, {1, 2, 3})) return colour;
+    const auto are_numbers = [&](const Places& places) {
+        return std::ranges::all_of(places,
+                                   [&](std::size_t n) { return formats::parse_integer(fields[n]).has_value(); });
+    };
+    if (constexpr Places places{1, 2, 3}; count >= kItkSnap && !part_of(fields.back()) && are_numbers(places))
+        return places;
     if (count < kFreeSurfer || !part_of(fields.back()) || part_of(fields[1])) return {};
-    return colour_at(fields, {count - 4, count - 3, count - 2});
+    const Places places{count - 4, count - 3, count - 2};
+    return are_numbers(places) ? std::optional(places) : std::nullopt;
 }
 
 char separator_of(std::string_view line) {
@@ -147,13 +153,17 @@ LabelColours read_label_colours(const std::filesystem::path& path) {
     }
     const bool is_by_place = !columns.hex && !columns.parts;
     LabelColours colours;
+    std::size_t damaged = 0;
     for (; row; row = take_row(rest)) {
         if (row->size() > kMostFields) return {};
-        const auto colour = is_by_place ? colour_by_place(*row) : columns.colour(*row);
-        if (is_by_place && !colour) return {};  // numbers of another kind
+        const auto places = is_by_place ? places_in(*row) : std::nullopt;
+        if (is_by_place && !places) return {};
+        const auto colour = places ? colour_at(*row, *places) : columns.colour(*row);
+        damaged += !colour;
         if (!colour || columns.label >= row->size()) continue;
         if (const auto label = formats::parse_table_label((*row)[columns.label])) colours.emplace(*label, *colour);
     }
+    if (is_by_place && damaged >= colours.size()) return {};  // numbers of another kind
     return colours;
 }
 

@@ -110,8 +110,9 @@ bool TableReader::find_rows(char separator) {
 }
 
 /// In a table without separators each row becomes its label and its name: all words from the first that is no number.
-/// Trailing numbers that every row has are dropped from the names where they are colours (three or more), or where the
-/// names differ without them ("1 Precentral_L 2001", but not "1 Brodmann area 4").
+/// Trailing numbers that every row has are dropped from the names where they are colours (three or more; of more than
+/// four, the last four where these may be red, green, blue and alpha), or where the names differ without them
+/// ("1 Precentral_L 2001", but not "1 Brodmann area 4"). Rows of numbers alone have no name, and are left out.
 void TableReader::join_words() {
     if (!rows_.empty() && !is_label(rows_[0].fields[0])) rows_.erase(rows_.begin());  // a header
     std::size_t dropped = SIZE_MAX;
@@ -120,6 +121,15 @@ void TableReader::join_words() {
         while (numbers + 2 < row.fields.size() && is_number(row.fields[row.fields.size() - 1 - numbers])) ++numbers;
         dropped = std::min(dropped, numbers);
     }
+    constexpr std::size_t kColours = 4;
+    const auto has_colours = [](const Row& row) {
+        return std::all_of(row.fields.end() - kColours, row.fields.end(), [](const std::string& field) {
+            const auto number = formats::parse_integer(field);
+            return number && *number >= 0 && *number <= 255;
+        });
+    };
+    if (dropped > kColours && dropped < SIZE_MAX && std::all_of(rows_.begin(), rows_.end(), has_colours))
+        dropped = kColours;
     const auto name_of = [](const Row& row, std::size_t without) {
         std::string name;
         for (std::size_t i = 1; i < row.fields.size() - without; ++i) {
@@ -134,11 +144,15 @@ void TableReader::join_words() {
         std::sort(names.begin(), names.end());
         if (std::adjacent_find(names.begin(), names.end()) != names.end()) dropped = 0;
     }
-    for (Row& row : rows_) {
+    constexpr const char* kNoName = "has no name behind the label; write 'label,name'";
+    std::vector<Row> named;
+    for (const Row& row : rows_) {
         const std::string name = name_of(row, dropped);
-        if (name.empty()) refuse(row.number, "has no name behind the label; write 'label,name'");
-        row.fields = {row.fields[0], name};
+        if (name.empty() && row.fields.size() < 2) refuse(row.number, kNoName);
+        if (!name.empty()) named.push_back({row.number, {row.fields[0], name}});
     }
+    if (named.empty() && !rows_.empty()) refuse(rows_[0].number, kNoName);
+    rows_ = std::move(named);
 }
 
 /// Whether the fields of a column satisfy `is_wanted`; rows with too few columns are reported later.

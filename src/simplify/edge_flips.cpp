@@ -39,14 +39,6 @@ bool are_joined(const Mesh& mesh, VertexId a, VertexId b) {
     return joined;
 }
 
-/// The distance between the two edges, the old and the new, which cross.
-double height(const Mesh& mesh, const Flip& flip) {
-    const Vec3 u = mesh.position(flip.u), c = mesh.position(flip.c);
-    const Vec3 across = cross(mesh.position(flip.v) - u, mesh.position(flip.d) - c);
-    const double size = length(across);
-    return size > 0 ? std::abs(dot(across, c - u)) / size : HUGE_VAL;
-}
-
 }  // namespace
 
 /// The bound on quality is FanShape's, and samples are looked at for the flip itself.
@@ -69,9 +61,10 @@ std::optional<Flip> EdgeFlips::try_flip(FaceId f, int place) {
     after.add(c, u, d);
     after.add(c, d, v);
     if (!after.is_better_than(before)) return {};
-    const double step = height(mesh_, *flip);
+    const std::optional<FlipBound> step = flip_bound(mesh_, *flip);
+    if (!step || !is_within(step->bound, options_.max_error)) return {};
     const float drift = std::max({drift_.of(flip->u), drift_.of(flip->v), drift_.of(flip->c), drift_.of(flip->d)});
-    if (!drift_.may_move(drift, step, before.worst3 < bound3_) || are_joined(mesh_, flip->c, flip->d) ||
+    if (!drift_.may_move(drift, step->height, before.worst3 < bound3_) || are_joined(mesh_, flip->c, flip->d) ||
         is_refused(*flip))
         return {};
     const auto labels = mesh_[f].labels;
@@ -80,7 +73,8 @@ std::optional<Flip> EdgeFlips::try_flip(FaceId f, int place) {
     flip->f = mesh_.add_face(flip->c, flip->u, flip->d, labels[0], labels[1]);
     flip->g = mesh_.add_face(flip->c, flip->d, flip->v, labels[0], labels[1]);
     for (FaceId made : {flip->f, flip->g}) tree_.set(made, box_of(mesh_.corners(made)));
-    for (VertexId w : {flip->c, flip->d}) drift_.set(w, drift, step);
+    step->apply(mesh_, *flip);
+    for (VertexId w : {flip->c, flip->d}) drift_.set(w, drift, step->height);
     return flip;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/triangle.h"
+
 namespace regionmesh {
 namespace {
 
@@ -90,7 +92,9 @@ bool ErrorBound::stays_flat(const Mesh& mesh, const EdgeStar& star) const {
     if (!star.is_flat || goes_bound_ > 0 || stays_bound_ > 0 || mesh[star.goes].label_count != 2) return false;
     if (!star.keeps_stays && mesh[star.stays].label_count != 2) return false;
     // Closed all round.
-    if (star.dead.size() != 2 || star.link.size() != star.faces.size() + (star.keeps_stays ? 1 : 0)) return false;
+    if (star.dead.size() != (star.goes == star.stays ? 0 : 2) ||
+        star.link.size() != star.faces.size() + (star.keeps_stays ? 1 : 0))
+        return false;
     return std::all_of(star.link.begin(), star.link.end(), [&](VertexId v) { return mesh[v].error_bound() == 0; });
 }
 
@@ -183,11 +187,15 @@ bool ErrorBound::bring_rim() {
         if (ends) last = &face;
     }
     if (!covers_once(first)) return false;
-    if (!first || !last) {
-        goes_is_inside_ = stays_is_inside_ = merged_is_inside_ = true;
-        return dead_.size() == 2;
+    goes_is_inside_ = stays_is_inside_ = merged_is_inside_ = !first || !last;
+    if (merged_is_inside_) {
+        if (dead_.size() == 2) return true;
+        // A move, or faces of one end only, which then has no edge to the other.
+        const bool is_of_goes = fan_.front().is_of_goes;
+        (is_of_goes ? stays_is_inside_ : goes_is_inside_) = false;
+        return dead_.empty() && std::all_of(fan_.begin(), fan_.end(),
+                                            [&](const FanFace& face) { return face.is_of_goes == is_of_goes; });
     }
-    goes_is_inside_ = stays_is_inside_ = merged_is_inside_ = false;
     // The vertex next to the ends of the rim: that of the face there, or beyond a dead one the other.
     const auto is_apex = [&](VertexId v) {
         return std::any_of(dead_.begin(), dead_.end(), [&](const DeadFace& face) { return face.at_apex == v; });
@@ -340,6 +348,33 @@ void ErrorBound::cross_edges() {
 void ErrorBound::demand(double value, double share, double rest, std::array<VertexId, 2> others) {
     needed_ = std::max(needed_, value);
     if (share < 1 && value > rest) demands_.push_back({value, share, rest, others});
+}
+
+std::optional<FlipBound> flip_bound(const Mesh& mesh, const Flip& flip) {
+    const Vec3 u = mesh.position(flip.u), v = mesh.position(flip.v), c = mesh.position(flip.c),
+               d = mesh.position(flip.d);
+    const Vec3 up = cross(d - c, v - u);
+    const double old_c = dot(up, area_vector(c, u, v)), old_d = dot(up, area_vector(d, v, u));
+    const double new_u = dot(up, area_vector(c, u, d)), new_v = dot(up, area_vector(c, d, v));
+    if (!(old_c >= 0 && old_d >= 0 && old_c + old_d > 0 && new_u > 0 && new_v > 0)) return {};
+    FlipBound step{.height = std::abs(dot(up, c - u)) / length(up), .share = old_c / (old_c + old_d)};
+    const double u_bound = mesh[flip.u].error_bound(), v_bound = mesh[flip.v].error_bound();
+    step.bound = u_bound + new_u / (new_u + new_v) * (v_bound - u_bound) + step.height;
+    if (step.height > 0) step.bound += kSlack * (length(v - u) + length(d - c));
+    return step;
+}
+
+void FlipBound::apply(Mesh& mesh, const Flip& flip) const {
+    const double c_bound = mesh[flip.c].error_bound(), d_bound = mesh[flip.d].error_bound();
+    if (c_bound + share * (d_bound - c_bound) >= bound) return;
+    mesh[flip.c].set_error_bound(std::max(c_bound, bound));
+    mesh[flip.d].set_error_bound(std::max(d_bound, bound));
+}
+
+bool is_within(double bound, double most) {
+    Vertex vertex;  // rounds up
+    vertex.set_error_bound(bound);
+    return vertex.error_bound() <= most;
 }
 
 double largest_error_bound(const Mesh& mesh) {

@@ -1,7 +1,8 @@
-// How far a collapse may take the surface from the one that decimation was given.
+// How far a step may take the surface from the one that decimation was given.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "simplify/edge_star.h"
@@ -11,7 +12,8 @@ namespace regionmesh {
 /// Every vertex has a bound (Vertex::error_bound), linear over each face. Kept true by every collapse: there is a
 /// relation between the points of the surface that decimation was given and those of the surface now, each interface
 /// to itself, that leaves out no point of either, and no two related points are farther apart than the bound at the
-/// point of the surface now. So the largest bound of a vertex bounds the two-sided Hausdorff distance.
+/// point of the surface now. So the largest bound of a vertex bounds the two-sided Hausdorff distance. A move is
+/// bounded as a collapse without faces that vanish (gather_move), a flip by FlipBound.
 ///
 /// A collapse relates the points of the old star to those of the new one, and only the merged vertex gets another
 /// bound: the least that is at every point of the new star at least the bound at the old point plus the distance
@@ -98,6 +100,23 @@ private:
     double needed_ = 0;            // of the merged vertex, for the interface
     double bound_ = 0;             // and for all
 };
+
+/// The bound that a flip makes necessary. Seen along the normal of both edges, the old faces and the new ones cover the
+/// same area once; the corners of the overlay are the four corners, which stay, and the crossing of the edges.
+struct FlipBound {
+    double height = 0;  // between the old edge and the new one
+    double share = 0;   // of the new edge, from c to their crossing
+    double bound = 0;   // there
+
+    /// Raises the bounds of c and d to this one, where they give less at the crossing.
+    void apply(Mesh& mesh, const Flip& flip) const;
+};
+
+/// None where a face, seen so, looks down.
+std::optional<FlipBound> flip_bound(const Mesh& mesh, const Flip& flip);
+
+/// Is the bound at most `most`, as a vertex stores it?
+bool is_within(double bound, double most);
 
 /// The largest bound of a vertex.
 double largest_error_bound(const Mesh& mesh);

@@ -8,6 +8,7 @@
 #include "base/triangle.h"
 #include "mesh/strata.h"
 #include "simplify/edge_flips.h"
+#include "simplify/error_bound.h"
 #include "simplify/short_edges.h"
 #include "simplify/vertex_moves.h"
 
@@ -125,7 +126,10 @@ private:
 
 }  // namespace
 
-ImproveResult improve(Mesh& mesh, const ImproveOptions& options) {
+ImproveResult improve(Mesh& mesh, const ImproveOptions& given) {
+    ImproveOptions options = given;
+    options.max_error =
+        std::min(given.max_error, largest_error_bound(mesh) + SurfaceDrift::kPoorShare * given.tolerance * given.scale);
     ImproveResult result;
     result.before = shapes_of(mesh, options.min_quality);
     mesh.sort_spatially();
@@ -133,6 +137,7 @@ ImproveResult improve(Mesh& mesh, const ImproveOptions& options) {
     ImproveLoop(mesh, options).run(result);
     if (result.collapses > 0) mesh.compact();
     result.after = shapes_of(mesh, options.min_quality);
+    result.error_bound = largest_error_bound(mesh);
     return result;
 }
 

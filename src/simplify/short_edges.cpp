@@ -17,7 +17,8 @@ ShortEdges::ShortEdges(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const Im
       collapse_{.mesh = mesh,
                 .tree = &tree,
                 .bounds = {.min_quality = 0},
-                .samples = options.samples ? &*options.samples : nullptr} {}
+                .samples = options.samples ? &*options.samples : nullptr,
+                .max_error = options.max_error} {}
 
 bool ShortEdges::try_collapse(FaceId f) {
     const auto v = mesh_[f].vertices;

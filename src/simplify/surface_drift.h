@@ -8,10 +8,12 @@
 
 namespace regionmesh {
 
-/// The surface round a vertex has moved by no more than its drift, as steps add up (Gueziec 1996, without the part
-/// between the crossings of old and new edges).
+/// How far the surface round a vertex has moved, as steps add up (Gueziec 1996): an estimate, without the part between
+/// the crossings of old and new edges. Each vertex stays near its own part of the surface; ErrorBound has the proof.
 class SurfaceDrift {
 public:
+    static constexpr double kPoorShare = 3;
+
     SurfaceDrift(std::uint32_t vertex_end, double most) : drift_(vertex_end, 0.0f), most_(most) {}
 
     float of(VertexId v) const { return drift_[index(v)]; }
@@ -23,8 +25,6 @@ public:
     void set(VertexId v, float before, double step) { drift_[index(v)] = before + static_cast<float>(step); }
 
 private:
-    static constexpr double kPoorShare = 3;
-
     std::vector<float> drift_;
     double most_;
 };

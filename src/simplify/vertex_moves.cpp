@@ -52,7 +52,8 @@ VertexMoves::VertexMoves(Mesh& mesh, FaceTree& tree, SurfaceDrift& drift, const 
       collapse_{.mesh = mesh,
                 .tree = &tree,
                 .bounds = {.min_quality = 0},
-                .samples = options.samples ? &*options.samples : nullptr} {}
+                .samples = options.samples ? &*options.samples : nullptr,
+                .max_error = options.max_error} {}
 
 bool VertexMoves::try_move(VertexId v) {
     const Vertex& vertex = mesh_[v];
@@ -72,6 +73,7 @@ bool VertexMoves::try_move(VertexId v) {
     for (std::size_t n = 0; n < std::min(candidates_.size(), kAttempts); ++n) {
         const Candidate& best = candidates_[n];
         if (verdict_at(collapse_, {best.at}) != Verdict::kAccepted) continue;
+        collapse_.error.apply(mesh_, v);
         mesh_[v].position = best.at;
         set_boxes(tree_, star, best.at);
         drift_.set(v, drift_now_, best.step);

@@ -231,6 +231,15 @@ private:
     double largest_displacement_ = 0;
 };
 
+/// The faces of a vertex that moved follow it, and no point of them moves farther than their corners, in between.
+void raise_error_bounds(Mesh& mesh, const std::vector<Vec3>& before) {
+    for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n) {
+        Vertex& vertex = mesh[VertexId{n}];
+        if (vertex.is_alive && vertex.position != before[n])
+            vertex.set_error_bound(vertex.error_bound() + length(vertex.position - before[n]));
+    }
+}
+
 /// Regions that are farther off now than before.
 std::vector<Label> worse_regions(const State& before, const State& now) {
     std::vector<Label> worse;
@@ -262,6 +271,7 @@ PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const S
         for (Label label : worse) left[label] = true;
     }
     put_back(mesh, best.positions);
+    raise_error_bounds(mesh, before.positions);
     report.drift_before = before.worst();
     report.drift = best.worst();
     report.regions_off = best.regions_off();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "regionmesh/smooth.h"
+#include "simplify/error_bound.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {
@@ -11,7 +12,10 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
     if (!options.improve) return;
     const StageTimer timer = log.time("improve");
     const SimplifyOptions simplify = simplify_options(options, shape);
-    ImproveOptions own{.min_quality = simplify.min_quality, .scale = simplify.scale, .samples = simplify.samples};
+    ImproveOptions own{.min_quality = simplify.min_quality,
+                       .scale = simplify.scale,
+                       .max_error = simplify.max_error,
+                       .samples = simplify.samples};
     // The number of sweeps is not known: the share nears 1 ever more slowly.
     double calls = 0;
     const double calls_a_sweep = 1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0;
@@ -20,6 +24,7 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
         log.report_progress("improve");
     };
     result.report.improved = improve(result.mesh, own);
+    result.report.error_bound = result.report.improved->error_bound;
 }
 
 void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log) {
@@ -30,6 +35,7 @@ void restore_volumes(Reconstruction& result, const ReconstructOptions& options, 
     for (Label label : result.background)
         if (label < wanted.size()) wanted[label].reset();
     result.report.preserved = preserve_volumes(result.mesh, wanted, smooth_options(options, scale));
+    result.report.error_bound = largest_error_bound(result.mesh);
 }
 
 namespace {

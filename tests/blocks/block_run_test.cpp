@@ -218,6 +218,23 @@ TEST(BlockRun, notices_that_pieces_of_a_finished_run_are_gone) {
     }
 }
 
+TEST(BlockRun, notices_that_a_piece_of_a_finished_run_is_damaged) {
+    const TestFolder folder;
+    const test::ArrayVolume volume = foam();
+    run_blocks(folder.path, volume, options_for(0.8));
+    for (const auto& entry : fs::directory_iterator(folder.path)) {
+        if (!entry.path().string().ends_with("piece")) continue;
+        std::fstream piece(entry.path(), std::ios::binary | std::ios::in | std::ios::out);
+        const auto middle = static_cast<std::streamoff>(fs::file_size(entry.path()) / 2);
+        piece.seekg(middle);
+        const int byte = piece.get();
+        piece.seekp(middle);
+        piece.put(static_cast<char>(byte ^ 1));
+        break;
+    }
+    EXPECT_THROW(run_blocks(folder.path, volume, options_for(0.8)), Error);
+}
+
 /// Replaces the first `old` in a file.
 void replace_in(const fs::path& path, const std::string& old, const std::string& by) {
     std::ifstream in(path, std::ios::binary);

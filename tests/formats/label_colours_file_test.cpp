@@ -57,6 +57,10 @@ TEST_F(LabelColoursFile, rows_that_are_damaged_have_none) {
                 ElementsAre(Pair(6, 0x000001u)));
     EXPECT_THAT(colours_of("label,r,g,b\n1,-1,0,0\n2,0,0\n3,1e2,0,0\n4,0x1,0,0\n5,1,2,3\n"),
                 ElementsAre(Pair(5, 0x010203u)));
+    EXPECT_THAT(colours_of("0 bg 0 0 0 0\n1 a 300 0 0 255\n2 b 1 2 3 255\n"),
+                ElementsAre(Pair(0, 0u), Pair(2, 0x010203u)));
+    EXPECT_THAT(colours_of("0 0 0 0 0 0 0 \"x\"\n1 300 0 0 1 1 1 \"a\"\n2 1 2 3 1 1 1 \"b\"\n"),
+                ElementsAre(Pair(0, 0u), Pair(2, 0x010203u)));
     EXPECT_THAT(colours_of(std::string("label,color\n1,\0#000001\n", 23)), IsEmpty());
     EXPECT_THAT(colours_of(std::string(100000, '"')), IsEmpty());
     EXPECT_THAT(colours_of(std::string(100000, ',')), IsEmpty());

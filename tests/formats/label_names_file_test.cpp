@@ -57,6 +57,18 @@ TEST_F(LabelNamesFile, numbers_that_tell_names_apart_are_part_of_them) {
                 ElementsAre(Pair(1, "Brodmann area 4"), Pair(2, "Brodmann area 6")));
 }
 
+TEST_F(LabelNamesFile, numbers_before_four_of_a_colour_are_part_of_names) {
+    EXPECT_THAT(names_of("1 Area 44 255 0 0 0\n2 Brodmann 17 12 13 14 0\n"),
+                ElementsAre(Pair(1, "Area 44"), Pair(2, "Brodmann 17")));
+    EXPECT_THAT(names_of("1 a 44 2500 0 0 0\n2 b 17 12 13 14 0\n"), ElementsAre(Pair(1, "a"), Pair(2, "b")))
+        << "no colours";
+}
+
+TEST_F(LabelNamesFile, rows_of_numbers_alone_are_left_out) {
+    EXPECT_THAT(names_of("0 0 0 0 0 0 0 \"\"\n1 255 0 0 1 1 1 \"Label 1\"\n"), ElementsAre(Pair(1, "Label 1")));
+    EXPECT_THAT(failure_of("1 a\n2\n"), HasSubstr("row 2: has no name"));
+}
+
 TEST_F(LabelNamesFile, commas_in_names_separate_no_columns) {
     EXPECT_THAT(names_of("1 Thalamus, left\n2 Thalamus, right\n"),
                 ElementsAre(Pair(1, "Thalamus, left"), Pair(2, "Thalamus, right")));

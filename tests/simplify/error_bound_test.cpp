@@ -52,7 +52,8 @@ void for_runs(const std::vector<ReconstructOptions>& goals, Visit&& visit) {
                 if (!is_smooth) options.smooth.passes = 0;
                 options.background = {};
                 ReconstructOptions whole = options;
-                whole.decimate = false;
+                whole.decimate = whole.improve = whole.preserve_volume = false;
+                if (options.preserve_volume) whole.cells = CellKind::kTetrahedra;  // as the option has it
                 SCOPED_TRACE(std::string(one.name) + (is_smooth ? ", smooth" : ""));
                 visit(test::run(one.volume, whole), test::run(one.volume, options), options);
             }
@@ -62,7 +63,9 @@ TEST(ErrorBound, is_never_below_the_distance) {
     for_runs({{.reduce = 0.5},
               {.reduce = 0.9},
               {.reduce = 0.97},
-              {.reduce = 0.9, .placement = PlacementKind::kLindstromTurk}},
+              {.reduce = 0.9, .placement = PlacementKind::kLindstromTurk},
+              {.reduce = 0.9, .improve = true},
+              {.reduce = 0.8, .preserve_volume = true}},
              [](const Reconstruction& whole, const Reconstruction& made, const ReconstructOptions&) {
                  const double distance = sampled_distance(whole, made);
                  EXPECT_GT(distance, 0);
@@ -71,7 +74,10 @@ TEST(ErrorBound, is_never_below_the_distance) {
 }
 
 TEST(ErrorBound, max_error_is_kept) {
-    for_runs({{.max_error = 0.05}, {.max_error = 0.3}, {.max_error = 1, .placement = PlacementKind::kLindstromTurk}},
+    for_runs({{.max_error = 0.05},
+              {.max_error = 0.3},
+              {.max_error = 0.3, .improve = true},
+              {.max_error = 1, .placement = PlacementKind::kLindstromTurk}},
              [](const Reconstruction& whole, const Reconstruction& made, const ReconstructOptions& options) {
                  EXPECT_LT(made.mesh.face_count(), whole.mesh.face_count());
                  EXPECT_LE(made.report.error_bound, *options.max_error);
@@ -80,6 +86,18 @@ TEST(ErrorBound, max_error_is_kept) {
                  EXPECT_TRUE(made.report.verdicts[static_cast<int>(Verdict::kError)] > 0 || !is_small);
                  EXPECT_EQ(made.report.stopped, "max_error");
              });
+}
+
+TEST(ErrorBound, begins_with_improvement_where_nothing_is_decimated) {
+    test::ArrayVolume volume = test::noise_volume({12, 11, 16}, 4, 1);
+    for (const CellKind cells : {CellKind::kCompact, CellKind::kTetrahedra}) {
+        const Reconstruction whole = test::run(volume, {.cells = cells, .background = {}});
+        const Reconstruction made = test::run(volume, {.cells = cells, .improve = true, .background = {}});
+        const double distance = sampled_distance(whole, made);
+        EXPECT_GT(distance, 0);
+        EXPECT_LE(distance, made.report.error_bound + kRounding);
+        EXPECT_LE(made.report.error_bound, 3 * ImproveOptions().tolerance);
+    }
 }
 
 TEST(ErrorBound, holds_through_budgets_runs_and_tiles) {

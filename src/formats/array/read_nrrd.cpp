@@ -248,14 +248,18 @@ Vec3 vector3(const fs::path& path, const std::vector<double>& vector, std::size_
     return {vector[0], vector[1], vector.size() > 2 ? vector[2] : 0};
 }
 
-Space named_space(std::string_view name) {
+/// LAS is turned into LPS. Of other spaces the numbers are kept.
+Space place_in_named_space(std::string_view name, Lattice& lattice) {
     const std::string word = lower(trim(name));
     if (word == "ras" || word == "right-anterior-superior") return Space::kRas;
     if (word == "lps" || word == "left-posterior-superior") return Space::kLps;
-    return Space::kUnknown;
+    if (word != "las" && word != "left-anterior-superior") return Space::kUnknown;
+    lattice.origin.y = -lattice.origin.y;
+    for (int axis = 0; axis < 3; ++axis) lattice.direction[3 + axis] = -lattice.direction[3 + axis];
+    return Space::kLps;
 }
 
-/// In the space of the header, whichever it is: its numbers are kept.
+/// With the numbers of the header.
 void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, Lattice& lattice) {
     const fs::path& path = fields.path();
     constexpr const char* kRemedy = "mend space directions, spacings or origin";
@@ -340,7 +344,7 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     for (std::size_t i = 0; i < roles.space.size(); ++i) size[i] = roles.space[i].size;
     array.lattice.size = checked_size(path, size);
     place_in_space(text.fields, roles.space, array.lattice);
-    array.space = named_space(text.fields.text({"space"}));
+    array.space = place_in_named_space(text.fields.text({"space"}), array.lattice);
     set_files(text, array);
     const std::uint32_t layer = chosen_layer(path, roles.layers, options);
     (roles.has_layers_first ? array.components : array.blocks) =

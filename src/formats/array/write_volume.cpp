@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -55,7 +57,7 @@ const TypeNames& names_of(SampleType type) {
     throw Error(ErrorCode::kOutput, "no such type of samples");
 }
 
-std::string npy_header(const Lattice& lattice, const TypeNames& type) {
+std::string npy_header(const Lattice& lattice, Space, const TypeNames& type) {
     std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}, {}), }}", type.npy,
                                    lattice.size[2], lattice.size[1], lattice.size[0]);
     text.append((64 - (10 + text.size() + 1) % 64) % 64, ' ');
@@ -73,10 +75,13 @@ Vec3 step(const Lattice& lattice, int axis) {
     return lattice.spacing[axis] * Vec3{d[axis], d[3 + axis], d[6 + axis]};
 }
 
-std::string nrrd_header(const Lattice& lattice, const TypeNames& type) {
-    std::string text = fmt::format(
-        "NRRD0004\ntype: {}\ndimension: 3\nspace dimension: 3\nsizes: {} {} {}\nspace directions:", type.nrrd,
-        lattice.size[0], lattice.size[1], lattice.size[2]);
+std::string nrrd_header(const Lattice& lattice, Space space, const TypeNames& type) {
+    const char* where = space == Space::kRas   ? "space: right-anterior-superior"
+                        : space == Space::kLps ? "space: left-posterior-superior"
+                                               : "space dimension: 3";
+    std::string text =
+        fmt::format("NRRD0004\ntype: {}\ndimension: 3\n{}\nsizes: {} {} {}\nspace directions:", type.nrrd, where,
+                    lattice.size[0], lattice.size[1], lattice.size[2]);
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 s = step(lattice, axis);
         text += fmt::format(" ({},{},{})", s.x, s.y, s.z);
@@ -100,17 +105,35 @@ private:
     std::string bytes_;
 };
 
-/// The affine as rows of Real from `at` on.
-template <class Real>
-void put_affine(Places& header, std::size_t at, const Lattice& lattice) {
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column) {
-            const double value = column < 3 ? step(lattice, column)[row] : lattice.origin[row];
-            header.put<Real>(at + sizeof(Real) * (4 * row + column), static_cast<Real>(value));
-        }
+/// Rows of three steps and the origin, in RAS, as NIfTI has them.
+using Affine = std::array<double, 12>;
+
+Affine affine_in_ras(const Lattice& lattice, Space space) {
+    Affine affine;
+    for (int row = 0; row < 3; ++row) {
+        const double sign = space == Space::kLps && row < 2 ? -1 : 1;
+        for (int column = 0; column < 4; ++column)
+            affine[4 * row + column] = sign * (column < 3 ? step(lattice, column)[row] : lattice.origin[row]);
+    }
+    return affine;
 }
 
-std::string nifti1_header(const Lattice& lattice, const TypeNames& type) {
+/// Does single precision hold the affine, but for the rounding of its steps? Else samples on a side of a model would
+/// lie beyond it.
+bool is_single(const Affine& affine, const Lattice& lattice) {
+    constexpr double kRounding = 1e-14;
+    const double most = kRounding * std::max({lattice.spacing.x, lattice.spacing.y, lattice.spacing.z});
+    return std::ranges::all_of(affine,
+                               [&](double value) { return std::abs(static_cast<float>(value) - value) <= most; });
+}
+
+template <class Real>
+void put_affine(Places& header, std::size_t at, const Affine& affine) {
+    for (std::size_t n = 0; n < affine.size(); ++n)
+        header.put<Real>(at + sizeof(Real) * n, static_cast<Real>(affine[n]));
+}
+
+std::string nifti1_header(const Lattice& lattice, const Affine& affine, const TypeNames& type) {
     Places header(352);
     header.put<std::int32_t>(0, 348);
     header.put<std::int16_t>(40, 3);
@@ -125,12 +148,12 @@ std::string nifti1_header(const Lattice& lattice, const TypeNames& type) {
     header.put<float>(108, 352);
     header.put<float>(112, 1);
     header.put<std::int16_t>(254, 1);  // sform: scanner coordinates
-    put_affine<float>(header, 280, lattice);
+    put_affine<float>(header, 280, affine);
     header.put_text(344, "n+1");
     return header.take();
 }
 
-std::string nifti2_header(const Lattice& lattice, const TypeNames& type) {
+std::string nifti2_header(const Lattice& lattice, const Affine& affine, const TypeNames& type) {
     Places header(544);
     header.put<std::int32_t>(0, 540);
     header.put_text(4, std::string_view("n+2\0\r\n\x1a\n", 8));
@@ -146,20 +169,22 @@ std::string nifti2_header(const Lattice& lattice, const TypeNames& type) {
     header.put<std::int64_t>(168, 544);
     header.put<double>(176, 1);
     header.put<std::int32_t>(348, 1);  // sform: scanner coordinates
-    put_affine<double>(header, 400, lattice);
+    put_affine<double>(header, 400, affine);
     return header.take();
 }
 
-std::string nifti_header(const Lattice& lattice, const TypeNames& type) {
+std::string nifti_header(const Lattice& lattice, Space space, const TypeNames& type) {
+    const Affine affine = affine_in_ras(lattice, space);
     const bool fits = std::ranges::all_of(lattice.size, [](std::uint32_t n) { return n <= 32767; });
-    return fits ? nifti1_header(lattice, type) : nifti2_header(lattice, type);
+    return fits && is_single(affine, lattice) ? nifti1_header(lattice, affine, type)
+                                              : nifti2_header(lattice, affine, type);
 }
 
-std::string no_header(const Lattice&, const TypeNames&) { return {}; }
+std::string no_header(const Lattice&, Space, const TypeNames&) { return {}; }
 
 struct Format {
     const char* extension;
-    std::string (*header)(const Lattice&, const TypeNames&);
+    std::string (*header)(const Lattice&, Space, const TypeNames&);
     bool is_gzipped;
 };
 constexpr std::array<Format, 5> kFormats{{{".npy", npy_header, false},
@@ -214,6 +239,7 @@ private:
 
 struct VolumeKind {
     const Lattice& lattice;
+    Space space;
     SampleType type;
 };
 
@@ -222,7 +248,7 @@ public:
     VolumeWriter(const std::filesystem::path& path, const Format& format, const VolumeKind& kind,
                  const OutputOptions& options)
         : path_(path), type_(names_of(kind.type)), output_(path, format.is_gzipped, options) {
-        output_.write(format.header(kind.lattice, type_));
+        output_.write(format.header(kind.lattice, kind.space, type_));
     }
 
     void write(std::span<const InputLabel> section) override {
@@ -251,13 +277,13 @@ private:
 
 }  // namespace
 
-std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, SampleType type,
-                                             const OutputOptions& options) {
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, Space space,
+                                             SampleType type, const OutputOptions& options) {
     const std::string name = path.filename().string();
     std::string known;
     for (const Format& format : kFormats) {
         if (name.ends_with(format.extension))
-            return std::make_unique<VolumeWriter>(path, format, VolumeKind{lattice, type}, options);
+            return std::make_unique<VolumeWriter>(path, format, VolumeKind{lattice, space, type}, options);
         known += std::string(" ") + format.extension;
     }
     throw Error(ErrorCode::kOutput, path.string() + ": labels are written as" + known);

@@ -261,6 +261,20 @@ std::uint64_t deepest_block(const StoreArray& array, const ArrayAxes& axes) {
     return most;
 }
 
+/// Does a file, named from the folder of the array, hold a chunk?
+bool is_chunk(const StoreArray& array, std::string_view name) {
+    if (!name.starts_with(array.names.prefix)) return false;
+    name.remove_prefix(array.names.prefix.size());
+    for (std::size_t axis = 0; axis < array.shape.size(); ++axis) {
+        if (axis > 0 && !name.starts_with(array.names.separator)) return false;
+        if (axis > 0) name.remove_prefix(1);
+        const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+        if (digits == 0) return false;
+        name.remove_prefix(digits);
+    }
+    return name.empty();
+}
+
 /// Whether the chunk files may unpack to `wanted` bytes, judged by their sizes; stops at the first file that suffices.
 /// Throws if there is no chunk: a folder of metadata alone was not fetched completely, or is the wrong one.
 bool may_be_filled(const StoreArray& array, std::uint64_t wanted) {
@@ -268,16 +282,15 @@ bool may_be_filled(const StoreArray& array, std::uint64_t wanted) {
     std::uint64_t bytes = 0, files = 0;
     for (fs::recursive_directory_iterator entry(array.folder, error);
          !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-        const std::string name = entry->path().filename().string();
         std::error_code ignored;
-        if (name.starts_with('.') || name == "zarr.json" || name == "attributes.json") continue;
+        if (!is_chunk(array, entry->path().lexically_relative(array.folder).generic_string())) continue;
         if (!entry->is_regular_file(ignored)) continue;
         bytes += entry->file_size(ignored);
         ++files;
         if (may_hold(bytes, array.codecs, wanted) || files == kMaxChunks) return true;
     }
     if (error) fail(array.folder, "the folder cannot be read: " + error.message());
-    if (files == 0) fail(array.folder, "holds no chunk of samples; fetch the store again");
+    if (files == 0) fail(array.folder, "holds no chunk of samples named as its metadata say; fetch the store again");
     return false;
 }
 

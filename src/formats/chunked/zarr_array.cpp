@@ -26,6 +26,10 @@ std::vector<std::byte> stored_sample(const fs::path& metadata, const Json& value
     } else if (!value.is_null() && value != 0.0) {
         fail(metadata, "the fill value " + value.dump() + " is no integer; labels must be integers");
     }
+    const bool is_negative = value.is_number_integer() && !value.is_number_unsigned() && value.get<std::int64_t>() < 0;
+    if (!range_of(format.type).holds(static_cast<InputLabel>(bits), is_negative))
+        fail(metadata, "the fill value " + value.dump() + " is no number of type " + to_string(format.type) +
+                           "; correct it, or the type");
     std::vector<std::byte> sample(sample_bytes(format.type));
     for (std::size_t i = 0; i < sample.size(); ++i)
         sample[format.is_big_endian ? sample.size() - 1 - i : i] = static_cast<std::byte>(bits >> (8 * i));

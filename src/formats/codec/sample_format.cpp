@@ -1,6 +1,7 @@
 #include "formats/codec/sample_format.h"
 
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "regionmesh/read_sections.h"
@@ -49,6 +50,19 @@ SampleType sample_type(NumberType integer) {
 }
 
 std::size_t sample_bytes(SampleType type) { return bytes_of(number_type(type)); }
+
+SampleRange range_of(SampleType type) {
+    const std::uint64_t all = std::numeric_limits<std::uint64_t>::max() >> (64 - 8 * sample_bytes(type));
+    switch (type) {
+        case SampleType::kI8:
+        case SampleType::kI16:
+        case SampleType::kI32:
+        case SampleType::kI64:
+            return {-static_cast<std::int64_t>(all / 2) - 1, all / 2};
+        default:
+            return {0, all};
+    }
+}
 
 void decode_samples(const std::byte* bytes, std::size_t pitch, SampleFormat format, std::span<InputLabel> labels) {
     load_all(bytes, pitch, number_type(format.type), format.is_big_endian, labels);

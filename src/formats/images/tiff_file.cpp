@@ -1,5 +1,7 @@
 #include "formats/images/tiff_file.h"
 
+#include <libdeflate.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdarg>
@@ -199,14 +201,34 @@ TiffFile::Blocks TiffFile::blocks(const ImageShape& shape, std::uint64_t section
     return blocks;
 }
 
+/// Of a deflated strip or tile: libtiff does not look at it.
+void TiffFile::check_sum(const Blocks& blocks, std::uint32_t number, std::uint64_t section) const {
+    TIFF* tiff = tiff_.get();
+    const auto compression = tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    if (compression != COMPRESSION_ADOBE_DEFLATE && compression != COMPRESSION_DEFLATE) return;
+    if (tag<std::uint16_t>(tiff, TIFFTAG_FILLORDER, FILLORDER_MSB2LSB) != FILLORDER_MSB2LSB) return;
+    std::vector<std::byte> packed(std::min(TIFFGetStrileByteCount(tiff, number), size_)), plain(blocks.bytes);
+    const auto size = static_cast<tmsize_t>(packed.size());
+    const tmsize_t read = blocks.are_tiles ? TIFFReadRawTile(tiff, number, packed.data(), size)
+                                           : TIFFReadRawStrip(tiff, number, packed.data(), size);
+    if (read != size) refuse(section, "a strip or tile is cut short");
+    const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
+        libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+    if (!decompressor) throw std::bad_alloc();
+    std::size_t written = 0;
+    if (libdeflate_zlib_decompress(decompressor.get(), packed.data(), packed.size(), plain.data(), plain.size(),
+                                   &written) == LIBDEFLATE_BAD_DATA)
+        refuse(section, "a deflated strip or tile does not have its checksum");
+}
+
 void TiffFile::decode(const Blocks& blocks, Block block, std::uint64_t section, std::span<std::byte> pixels) {
     TIFF* tiff = tiff_.get();
+    const std::uint32_t number = blocks.are_tiles ? TIFFComputeTile(tiff, block.left, block.top, 0, block.plane)
+                                                  : TIFFComputeStrip(tiff, block.top, block.plane);
+    check_sum(blocks, number, section);
     const auto wanted = static_cast<tmsize_t>(pixels.size());
-    const tmsize_t count =
-        blocks.are_tiles
-            ? TIFFReadEncodedTile(tiff, TIFFComputeTile(tiff, block.left, block.top, 0, block.plane), pixels.data(),
-                                  wanted)
-            : TIFFReadEncodedStrip(tiff, TIFFComputeStrip(tiff, block.top, block.plane), pixels.data(), wanted);
+    const tmsize_t count = blocks.are_tiles ? TIFFReadEncodedTile(tiff, number, pixels.data(), wanted)
+                                            : TIFFReadEncodedStrip(tiff, number, pixels.data(), wanted);
     if (count < wanted || messages_->first[0]) refuse(section, "a strip or tile is cut short");
 }
 

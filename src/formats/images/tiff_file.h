@@ -72,6 +72,7 @@ private:
     bool can_hold(std::uint64_t bytes) const;
     void check_backing(const ImageShape& shape, std::uint64_t section) const;
     Blocks blocks(const ImageShape& shape, std::uint64_t section) const;
+    void check_sum(const Blocks& blocks, std::uint32_t number, std::uint64_t section) const;
     void decode(const Blocks& blocks, Block block, std::uint64_t section, std::span<std::byte> pixels);
 
     std::filesystem::path path_;

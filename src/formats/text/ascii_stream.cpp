@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "formats/text/header_text.h"
+#include "regionmesh/read_sections.h"
 
 namespace regionmesh::formats {
 
@@ -13,6 +14,10 @@ bool AsciiStream::take_number() {
     if (!word) problem_ = "the numbers end early; the file is truncated, fetch it again";
     if (word && !number) problem_ = "'" + shown(*word) + "' is no label; labels must be whole numbers";
     if (!number) return false;
+    if (!range_of(type_).holds(*number, word->starts_with('-'))) {
+        problem_ = "'" + shown(*word) + "' is no number of type " + to_string(type_) + "; correct it, or the type";
+        return false;
+    }
     std::memcpy(number_, &*number, sizeof number_);
     number_place_ = 0;
     return true;

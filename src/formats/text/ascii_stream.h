@@ -17,11 +17,11 @@ inline constexpr SampleFormat kAsciiFormat{.type = SampleType::kI64};
 constexpr std::uint64_t most_ascii_samples(std::uint64_t letters) { return letters / 2 + 1; }
 
 /// The whole numbers in a text between blanks or commas, each as the eight bytes of a little-endian integer; above
-/// 2^63 - 1 the bits of an unsigned one.
+/// 2^63 - 1 the bits of an unsigned one. Numbers that the type does not hold are a problem.
 class AsciiStream final : public ByteStream {
 public:
-    explicit AsciiStream(InputFile file, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX)
-        : begin_(begin), words_(std::move(file), begin, end, kBlanksAndCommas) {}
+    AsciiStream(InputFile file, SampleType type, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX)
+        : type_(type), begin_(begin), words_(std::move(file), begin, end, kBlanksAndCommas) {}
 
     std::size_t read(std::span<std::byte> bytes) override;
     void rewind() override;
@@ -30,6 +30,7 @@ public:
 private:
     bool take_number();
 
+    SampleType type_;
     std::uint64_t begin_;
     ByteReader words_;
     std::byte number_[8];

@@ -115,8 +115,8 @@ std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const
     if (place.form == Form::kAscii) {
         if (most_ascii_samples(present) < needed / sample_bytes(header.type))
             xml.fail(header.array, "has fewer numbers than its extent needs");
-        return open_stream(std::make_unique<AsciiStream>(InputFile(path), place.begin, place.end), std::move(info),
-                           {.format = kAsciiFormat}, options);
+        return open_stream(std::make_unique<AsciiStream>(InputFile(path), header.type, place.begin, place.end),
+                           std::move(info), {.format = kAsciiFormat}, options);
     }
     const bool is_compressed = xml.encoding().is_compressed;
     if (is_compressed) check_inflated(path, present, needed);

@@ -61,6 +61,38 @@ TEST_F(ReadNrrdTest, places_in_space_are_those_of_the_header) {
     expect_in_space(info_of(nrrd("", "spacings: -0.5 nan 2")), {0, 0, 0}, {-0.5, 0, 0, 0, 1, 0, 0, 0, 2});
 }
 
+TEST_F(ReadNrrdTest, las_is_turned_into_lps) {
+    const std::string where = "\nspace directions: (0.3,0.4,0) (-0.6,0.45,0) (0,0,2)\nspace origin: (10,-20,30)";
+    for (const char* name : {"left-anterior-superior", "LAS"}) {
+        const VolumeInfo info = info_of(nrrd("", std::string("space: ") + name + where));
+        EXPECT_EQ(info.space, Space::kLps);
+        expect_in_space(info, {10, 20, 30}, {0.3, -0.6, 0, -0.4, -0.45, 0, 0, 0, 2});
+    }
+    EXPECT_EQ(info_of(nrrd("", "space: scanner-xyz" + where)).space, Space::kUnknown);
+}
+
+TEST_F(ReadNrrdTest, numbers_as_text_must_be_of_the_type) {
+    const auto text = [&](const std::string& type, const std::string& number) {
+        put_text(path("t.nrrd"),
+                 "NRRD0004\ntype: " + type + "\ndimension: 3\nsizes: 2 1 1\nencoding: text\n\n0 " + number + "\n");
+        return path("t.nrrd");
+    };
+    for (const auto& [type, number] : {std::pair("uint8", "255"),
+                                       {"int8", "-128"},
+                                       {"int64", "-9223372036854775808"},
+                                       {"uint64", "18446744073709551615"},
+                                       {"uint32", "-0"}})
+        EXPECT_NO_THROW(read_volume({text(type, number)})) << type;
+    for (const auto& [type, number] : {std::pair("uint8", "256"),
+                                       {"uint8", "-1"},
+                                       {"int8", "128"},
+                                       {"int16", "-32769"},
+                                       {"int64", "9223372036854775808"},
+                                       {"uint64", "-1"}})
+        EXPECT_THAT(refusal({text(type, number)}),
+                    HasSubstr(std::string("'") + number + "' is no number of type " + type));
+}
+
 TEST_F(ReadNrrdTest, two_axes_are_one_section) {
     const Volume volume = read_volume({data("nrrd/two_axes_uint8.nrrd")});
     EXPECT_EQ(volume.info.lattice.size, (std::array<std::uint32_t, 3>{5, 4, 1}));

@@ -183,6 +183,18 @@ TEST_F(ReadZarrTest, store_without_chunks_is_refused) {
     fs::create_directory(path("a.zarr"));
     fs::copy_file(data("chunked/zarr2/type_uint16.zarr/.zarray"), path("a.zarr") / ".zarray");
     EXPECT_THAT(refusal({path("a.zarr")}), HasSubstr("holds no chunk of samples"));
+    fs::create_directories(path("a.zarr") / "0" / "0");
+    put_text(path("a.zarr") / "0" / "0" / "0", "chunk");  // where the separator is a slash
+    EXPECT_THAT(refusal({path("a.zarr")}), HasSubstr("holds no chunk of samples"));
+}
+
+TEST_F(ReadZarrTest, fill_value_must_be_of_the_type) {
+    for (const char* value : {"65536", "-1"}) {
+        const fs::path store =
+            changed("zarr2/type_uint16.zarr", ".zarray", "\"fill_value\": 0", std::string("\"fill_value\": ") + value);
+        EXPECT_THAT(refusal({store}),
+                    HasSubstr(std::string("the fill value ") + value + " is no number of type uint16"));
+    }
 }
 
 TEST_F(ReadZarrTest, sizes_that_no_chunk_backs_are_refused_before_anything_is_allocated) {

@@ -113,6 +113,21 @@ TEST_F(TiledTiff, a_box_is_read_from_the_tiles_that_it_meets) {
     EXPECT_EQ(pull(*part).size(), std::size_t{kWidth} * 32 * kPages);
 }
 
+TEST_F(TiledTiff, blocks_without_their_checksum_are_refused) {
+    for (const bool is_tiled : {true, false}) {
+        write_file(path("a.tif"), 1, {.is_tiled = is_tiled});
+        EXPECT_NO_THROW(read_volume({path("a.tif")}));
+        TIFF* const tiff = TIFFOpen(path("a.tif").c_str(), "r");
+        ASSERT_TRUE(tiff);
+        const std::uint64_t end = TIFFGetStrileOffset(tiff, 0) + TIFFGetStrileByteCount(tiff, 0);
+        TIFFClose(tiff);
+        std::string bytes = text_of(path("a.tif"));
+        bytes[end - 1] ^= 1;  // of Adler-32, behind the pixels
+        put_text(path("a.tif"), bytes);
+        EXPECT_NE(refusal({path("a.tif")}).find("does not have its checksum"), std::string::npos);
+    }
+}
+
 TEST_F(TiledTiff, strips_are_not_read_in_boxes) {
     write_file(path("pages.tif"), kPages, {.is_tiled = false});
     EXPECT_FALSE(open_sections({path("pages.tif")})->crop({{1, 1, 1}, {5, 5, 2}}));

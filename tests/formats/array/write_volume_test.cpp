@@ -1,0 +1,86 @@
+// Volumes that are written, read back.
+#include "regionmesh/write_volume.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "formats/array/read_volume.h"
+#include "formats/temporary_folder.h"
+
+namespace regionmesh {
+namespace {
+
+class WriteVolume : public TemporaryFolder {
+protected:
+    std::filesystem::path written(const char* name, const Lattice& lattice, Space space) {
+        const auto writer = create_volume(path(name), lattice, space, SampleType::kU16, {.sync = false});
+        for (std::uint32_t z = 0; z < lattice.size[2]; ++z)
+            writer->write(std::span(labels_).subspan(std::size_t{z} * lattice.size[0] * lattice.size[1],
+                                                     std::size_t{lattice.size[0]} * lattice.size[1]));
+        writer->commit();
+        return path(name);
+    }
+
+    std::vector<InputLabel> labels_ = [] {
+        std::vector<InputLabel> labels(24);
+        std::iota(labels.begin(), labels.end(), 1000);
+        return labels;
+    }();
+};
+
+/// Oblique; its spacing is not one of single precision.
+Lattice oblique() {
+    Lattice lattice{.size = {4, 3, 2}};
+    lattice.origin = {10.1, -20.2, 30.3};
+    lattice.spacing = {0.5, 0.7, 2.3};
+    lattice.direction = {0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, -1};
+    return lattice;
+}
+
+void expect_same_place(const Lattice& a, const Lattice& b) {
+    EXPECT_EQ(a.size, b.size);
+    for (int row = 0; row < 3; ++row) {
+        EXPECT_NEAR(a.origin[row], b.origin[row], 1e-14);
+        EXPECT_NEAR(a.spacing[row], b.spacing[row], 1e-14);
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_NEAR(a.direction[3 * row + axis], b.direction[3 * row + axis], 1e-14);
+    }
+}
+
+TEST_F(WriteVolume, keeps_the_place_in_every_space) {
+    for (const Space space : {Space::kRas, Space::kLps})
+        for (const char* name : {"v.nii", "v.nii.gz", "v.nrrd"}) {
+            SCOPED_TRACE(std::string(name) + " " + space_name(space));
+            ReadOptions options;
+            options.space = space;
+            const Volume back = read_volume({written(name, oblique(), space)}, options);
+            EXPECT_EQ(back.info.space, space);
+            EXPECT_EQ(back.labels, labels_);
+            expect_same_place(back.info.lattice, oblique());
+        }
+}
+
+TEST_F(WriteVolume, nrrd_of_no_known_space_names_none) {
+    const Volume back = read_volume({written("v.nrrd", oblique(), Space::kUnknown)});
+    EXPECT_EQ(back.info.space, Space::kUnknown);
+    expect_same_place(back.info.lattice, oblique());
+}
+
+TEST_F(WriteVolume, nifti_has_single_precision_where_that_holds_the_affine) {
+    Lattice lattice = oblique();
+    EXPECT_EQ(text_of(written("v.nii", lattice, Space::kRas)).substr(0, 2), "\x1C\x02") << "540: NIfTI-2";
+    // Rounded to single precision, as a NIfTI-1 file would have it.
+    for (int axis = 0; axis < 3; ++axis) {
+        lattice.origin[axis] = static_cast<float>(lattice.origin[axis]);
+        lattice.spacing[axis] = static_cast<float>(lattice.spacing[axis]);
+    }
+    lattice.direction = {0, -1, 0, 1, 0, 0, 0, 0, -1};
+    EXPECT_EQ(text_of(written("v.nii", lattice, Space::kLps)).substr(0, 2), "\x5C\x01") << "348: NIfTI-1";
+    ReadOptions options;
+    options.space = Space::kLps;
+    expect_same_place(read_volume({path("v.nii")}, options).info.lattice, lattice);
+}
+
+}  // namespace
+}  // namespace regionmesh
