@@ -121,11 +121,14 @@ void print_violations(const CheckReport& report, int listed) {
     }
 }
 
-void print_certificate(const CheckReport& report, const SampleAgreement* samples) {
+void print_certificate(const Report& run) {
+    const CheckReport& report = run.check;
+    const std::optional<SampleAgreement>& samples = run.samples;
     std::string text = report.violation_count() == 0 ? "no violations" : counts_text(report);
     if (samples)
         text += samples->wrong == 0
-                    ? fmt::format("; every one of {} samples keeps its label", grouped(samples->samples))
+                    ? fmt::format("; every one of {} samples keeps its label{}", grouped(samples->samples),
+                                  run.samples_in_room > 0 ? ", or the one that --room gave it" : "")
                     : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}", grouped(samples->wrong),
                                   grouped(samples->samples), samples->dice());
     say("checked: {}", text);

@@ -66,7 +66,7 @@ void print_improved(const Report& report);
 /// Prints "violation KIND: COUNT" for each kind found, and at most `listed` findings of each.
 void print_violations(const CheckReport& report, int listed);
 /// One line on what was proved: violations, and samples that lie in another region.
-void print_certificate(const CheckReport& report, const SampleAgreement* samples);
+void print_certificate(const Report& report);
 
 /// Prints why decimation ended before its target, if it did: on standard output, or with --quiet on standard error.
 void print_stop(const Settings& settings, const Report& report);

@@ -81,7 +81,7 @@ void print_summary(const Settings& settings, const Report& report) {
     say("made: {}, {}, {} (from {} faces); quality lowest {:.3f}, mean {:.3f}", counted(check.regions.size(), "region"),
         counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
         check.quality.min, check.quality.mean);
-    print_certificate(check, report.samples ? &*report.samples : nullptr);
+    print_certificate(report);
     say("written: {}; {:.2f} s, {} MB of memory", files_text(settings), report.seconds.at("total"),
         grouped(report.peak_bytes / 1000000));
 }

@@ -35,7 +35,8 @@ struct VoxeliseOptions {
 /// axis. A sample on a capped side of the box therefore has the region inside.
 ///
 /// An oblique lattice has its vertices turned into the axes of the lattice first; there the coordinates are rounded,
-/// and vertices within 1e-9 spacings of a side of the box are moved onto it.
+/// and vertices within 1e-9 spacings of a side of the box are moved onto it. If all coordinates are numbers of single
+/// precision, as in .dream3d and binary .stl files, vertices within its rounding of a side are moved onto it, too.
 class Voxeliser {
 public:
     /// Holds a reference to the mesh. Memory: 8 bytes a face, 8 bytes a vertex, and the crossings of the sections
@@ -101,6 +102,7 @@ private:
     std::vector<Scratch> scratch_;       // by section in hand
     IntoAxes into_axes_;
     bool is_mirrored_ = false, is_turned_ = false;
+    double rounding_ = 0;  // share of a coordinate that is lost; 0 where none is
     std::uint32_t section_ = 0;
     std::uint64_t contradictions_ = 0;
 };

@@ -19,6 +19,9 @@ constexpr double kOnSide = 1e-9;
 /// Share of a coordinate that is lost when it is rounded a few times.
 constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 
+/// The same where a coordinate is stored in single precision.
+constexpr double kSingleRounding = std::numeric_limits<float>::epsilon() / 2;
+
 double size(Vec3 p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
 
 /// Room for rounding, in samples: positions of crossings and of samples are rounded a few times.
@@ -34,6 +37,17 @@ SampleLines lines_of(const VoxeliseOptions& options) {
     return {lattice, options.sweep.axes};
 }
 
+/// Are all coordinates numbers of single precision, as in a file that has no others?
+bool is_single(const Mesh& mesh) {
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+        if (!mesh.is_alive(VertexId{v})) continue;
+        const Vec3 p = mesh.position(VertexId{v});
+        for (int axis = 0; axis < 3; ++axis)
+            if (static_cast<float>(p[axis]) != p[axis]) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads)
@@ -43,6 +57,7 @@ Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint
       into_axes_(options.lattice) {
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
     is_turned_ = !options.lattice.is_axis_aligned();
+    rounding_ = is_single(mesh) ? kSingleRounding : is_turned_ ? kRounding : 0;
     const auto& d = options.lattice.direction;
     is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
     find_sections(threads);
@@ -53,18 +68,17 @@ Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint
 Vec3 Voxeliser::place(VertexId v) const {
     const Lattice& lattice = options_.lattice;
     Vec3 p = mesh_.position(v);
-    if (is_turned_) {
-        const double rounding = kRounding * (size(p) + size(lattice.origin));
-        p = into_axes_(p);
-        for (int axis = 0; axis < 3; ++axis) {
-            const double near = kOnSide * lattice.spacing[axis] + rounding;
-            const double far = (lattice.size[axis] - 1) * lattice.spacing[axis];
-            if (std::abs(p[axis]) < near) p[axis] = 0;
-            if (std::abs(p[axis] - far) < near) p[axis] = far;
-        }
-    }
+    const double rounding = rounding_ * (size(p) + size(lattice.origin));
+    if (is_turned_) p = into_axes_(p);
     const auto& axes = options_.sweep.axes;
-    return {p[axes[0]], p[axes[1]], p[axes[2]]};
+    p = {p[axes[0]], p[axes[1]], p[axes[2]]};
+    if (rounding_ == 0) return p;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double near = kOnSide * lines_->spacing(axis) + rounding;
+        for (const double side : {lines_->at(axis, 0), lines_->at(axis, size_[axis] - 1)})
+            if (std::abs(p[axis] - side) < near) p[axis] = side;
+    }
+    return p;
 }
 
 bool Voxeliser::is_outside(Label label) const {

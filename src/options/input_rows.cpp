@@ -334,7 +334,7 @@ Rows label_rows() {
         word_option({.name = "boundary",
                      .help = "cap: faces on the six sides of the box; open: none there",
                      .group = kGroup,
-                     .commands = kBoxed},
+                     .commands = kBoxed | kView},
                     {"cap", "open"}, [](Settings& s, std::size_t word) { s.reconstruct.cap = word == 0; }),
         word_option({.name = "cells",
                      .help = "how sections are meshed: compact, eight samples at a time, with a third of the faces for "

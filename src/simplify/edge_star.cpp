@@ -35,12 +35,14 @@ void measure(const Mesh& mesh, EdgeStar& star) {
     star.link_box = {min(low[0], low[1]), max(high[0], high[1])};
 }
 
-/// All faces have the same two labels.
+/// All faces have the same two labels, those that vanish, too: a spike at an open rim may be all that its interface has
+/// here.
 bool is_one_interface(const Mesh& mesh, const EdgeStar& star) {
     if (star.faces.empty()) return true;
     const auto& labels = mesh[star.faces[0].face].labels;
     return std::all_of(star.faces.begin(), star.faces.end(),
-                       [&](const StarFace& f) { return mesh[f.face].has_labels(labels); });
+                       [&](const StarFace& f) { return mesh[f.face].has_labels(labels); }) &&
+           std::all_of(star.dead.begin(), star.dead.end(), [&](FaceId f) { return mesh[f].has_labels(labels); });
 }
 
 void add_to_link(EdgeStar& star, VertexId v) {

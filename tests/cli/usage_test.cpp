@@ -21,6 +21,13 @@ protected:
     std::string of(const std::string& file, const std::string& more = "") const {
         return path(file + ".raw").string() + " --size 9,9,9 --type uint8 " + more;
     }
+    /// Writes a volume like that of the ball, of the upper bits of random numbers of 32 bits.
+    void put_noise(int bits_without) const {
+        std::string noise;
+        for (std::uint32_t n = 0, bits = 7; n < 729; ++n)
+            noise += static_cast<char>((bits = bits * 1664525 + 1013904223) >> bits_without);
+        put_text(path("noise.raw"), noise);
+    }
     std::string to_model() const { return " -o " + out("m.vtp"); }
     std::string reconstruct_ball(const std::string& more = "") const {
         return "reconstruct " + of("ball", more) + to_model();
@@ -99,16 +106,29 @@ TEST_F(Usage, unknown_commands_and_options_are_answered_with_the_nearest) {
 }
 
 TEST_F(Usage, a_grey_scale_image_is_noticed) {
-    std::string noise;
-    for (std::uint32_t n = 0, bits = 7; n < 729; ++n)
-        noise += static_cast<char>((bits = bits * 1664525 + 1013904223) >> 26);
-    put_text(path("grey.raw"), noise);
-    for (const std::string& command : {"info " + of("grey"), "reconstruct " + of("grey") + to_model()}) {
+    put_noise(26);
+    for (const std::string& command : {"info " + of("noise"), "reconstruct " + of("noise") + to_model()}) {
         const Ran ran = run(command);
         EXPECT_EQ(ran.code, 0);
         EXPECT_THAT(ran.error, HasSubstr("looks like a grey-scale image"));
     }
     EXPECT_EQ(run("info " + of("ball")).error, "");
+}
+
+TEST_F(Usage, open_models_are_viewed_as_open) {
+    put_noise(31);
+    ASSERT_EQ(run("reconstruct " + of("noise") + " --no-background --boundary open" + to_model()).code, 0);
+    const std::string view = "view " + out("m.vtp") + " -o " + out("m.html");
+    EXPECT_THAT(run(view + " --boundary open").out, HasSubstr("0 violations"));
+    EXPECT_THAT(run(view).out, HasSubstr("violation open_edge"));
+}
+
+TEST_F(Usage, what_room_changed_is_not_said_to_keep_its_label) {
+    put_noise(31);
+    const Ran ran = run("reconstruct " + of("noise") + " --room 1" + to_model());
+    EXPECT_THAT(ran.out, HasSubstr("changed the label within --room"));
+    EXPECT_THAT(ran.out, HasSubstr("samples keeps its label, or the one that --room gave it"));
+    EXPECT_EQ(run(reconstruct_ball()).out.find("--room"), std::string::npos);
 }
 
 TEST_F(Usage, one_thing_is_one_thing_and_lists_say_how_many_more) {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "regionmesh/reconstruct.h"
 #include "support/meshes.h"
 #include "support/volumes.h"
@@ -50,6 +52,25 @@ TEST(Voxelise, sweeps_spacings_and_origins_are_lossless) {
         volume.spaced({0.3, 1.7, 5}).swept(sweep);
         volume.lattice().origin = {-17.1, 1e3 / 3, 0.1};
         expect_lossless(volume, plain());
+    }
+}
+
+TEST(Voxelise, positions_rounded_to_single_precision_leave_no_sample_on_a_side_outside) {
+    for (const double turn : {0.0, 0.6}) {
+        ArrayVolume volume = test::grain_volume({9, 8, 7}, 12, 3);
+        volume.spaced({0.3, 0.7, 1.1});
+        volume.lattice().origin = {10.1, -3.3, 7.7};
+        volume.lattice().direction = {
+            std::sqrt(1 - turn * turn), -turn, 0, turn, std::sqrt(1 - turn * turn), 0, 0, 0, 1};
+        Reconstruction made = reconstruct(volume, plain());
+        for (std::uint32_t v = 0; v < made.mesh.vertex_end(); ++v) {
+            Vec3& p = made.mesh[VertexId{v}].position;
+            for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+        }
+        volume.rewind();
+        const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);
+        EXPECT_EQ(found.wrong, 0u) << turn;
+        EXPECT_EQ(found.contradictions, 0u) << turn;
     }
 }
 

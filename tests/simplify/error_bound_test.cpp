@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/strata.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/simplify.h"
 #include "support/digest.h"
@@ -125,6 +126,37 @@ TEST(ErrorBound, is_zero_where_flat_faces_stay_flat) {
     EXPECT_EQ(made.report.error_bound, 0);
     const Reconstruction kept = test::run(one_label(), {.max_error = 1e-6, .background = {}});
     EXPECT_LT(kept.mesh.face_count(), 50u) << "what costs nothing goes";
+}
+
+/// A sheet of one interface, and at its rim a spike of another one, of a single face: g, the tip, may go to q.
+struct Spike {
+    Mesh mesh;
+    VertexId g, q;
+
+    Spike() {
+        const auto add = [&](Vec3 p) { return mesh.add_vertex(p); };
+        const VertexId a = add({-1, -1, 0}), b = add({1, -1, 0}), s = add({-0.5, 0, 0});
+        q = add({0.5, 0, 0});
+        g = add({0, 0.2, 5});
+        mesh.add_face(s, q, g, 0, exterior(2));
+        mesh.add_face(a, s, g, 0, 1);
+        mesh.add_face(b, a, g, 0, 1);
+        mesh.add_face(q, b, g, 0, 1);
+        count_labels(mesh);
+    }
+};
+
+TEST(ErrorBound, counts_an_interface_that_vanishes_from_the_star) {
+    Spike spike;
+    EdgeStar star;
+    gather_half(spike.mesh, spike.g, spike.q, star);
+    EXPECT_EQ(star.dead.size(), 2u);
+    EXPECT_FALSE(star.is_interface);
+    const Vec3 at = spike.mesh.position(spike.q);
+    set_normals(star, at);
+    note_flat(star, at);
+    ErrorBound bound;
+    EXPECT_GE(bound.merged(spike.mesh, star, at), 5);
 }
 
 TEST(ErrorBound, of_simplify_counts_from_the_mesh_as_it_comes) {

@@ -48,5 +48,14 @@ TEST(ScaleZ, a_factor_that_leaves_the_range_of_lengths_is_refused) {
     for (const double factor : {-2.0, 1e300, 1e11, std::nan("")}) EXPECT_THROW(run_flat(kFlat, factor), Error);
 }
 
+TEST(ScaleZ, volumes_of_the_report_are_not_scaled) {
+    test::ArrayVolume volume = test::grain_volume({12, 11, 10}, 5, 3);
+    const Reconstruction made = test::run(volume, {.scale_z = 4, .decimate = false, .background = {}});
+    for (const RegionReport& region : made.report.check.regions) {
+        EXPECT_NEAR(made.report.smoothing.volume_after[region.label], region.volume, 1e-9 * region.volume);
+        EXPECT_EQ(made.report.smoothing.volume_before[region.label], made.report.unsmoothed_volumes[region.label]);
+    }
+}
+
 }  // namespace
 }  // namespace regionmesh

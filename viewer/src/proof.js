@@ -11,10 +11,11 @@ function certificates(data) {
     return [samplesKept(report), violations(report), topology(data, report), qualityFloor(data, report), errorBound(data, report), sameBytes(data)];
 }
 
-function samplesKept({ samples, samples_wrong: wrong, dice }) {
-    const meaning = "Every sample of the input lies in the region of its label. Tested for each sample, in exact arithmetic.";
+function samplesKept({ samples, samples_wrong: wrong, samples_in_room: changed, dice }) {
+    const meaning = "Every sample of the input lies in the region of its label" + (changed ? ", or of the one that --room gave it" : "") + ". Tested for each sample, in exact arithmetic.";
+    const room = changed ? ` after --room changed ${grouped(changed)}` : "";
     if (samples === undefined) return { name: "Samples kept", verdict: "none", said: "not tested: the input was not at hand", meaning };
-    if (wrong === 0) return { name: "Samples kept", verdict: "good", said: `all ${grouped(samples)}`, meaning };
+    if (wrong === 0) return { name: "Samples kept", verdict: "good", said: `all ${grouped(samples)}${room}`, meaning };
     return { name: "Samples kept", verdict: "bad", said: `${grouped(wrong)} of ${grouped(samples)} lie in another region; Dice ${dice.toFixed(6)}`, meaning };
 }
 
@@ -27,8 +28,8 @@ function violations({ violation_counts: counts }) {
     };
 }
 
-function topology({ has_labels: has }, { violation_counts: counts }) {
-    const meaning = "Euler characteristic of every region, number of quadruple points, and pairs of regions in contact equal those of the labels.";
+function topology({ has_labels: has }, { violation_counts: counts, samples_in_room: changed }) {
+    const meaning = "Euler characteristic of every region, number of quadruple points, and pairs of regions in contact equal those of the labels" + (changed ? " after --room" : "") + ".";
     if (!has) return { name: "Topology", verdict: "none", said: "not compared with labels", meaning };
     const wrong = kOfLabels.reduce((count, kind) => count + (counts[kind] ?? 0), 0);
     return { name: "Topology", verdict: wrong ? "bad" : "good", said: wrong ? `${grouped(wrong)} differences from the labels` : "equal to that of the labels", meaning };
@@ -47,9 +48,11 @@ function qualityFloor({ min_quality: bound }, { quality }) {
     };
 }
 
-function errorBound({ max_error: bound }, { stopped }) {
+function errorBound({ max_error: bound }, { stopped, error_bound: found }) {
     const meaning = "No point of the model is farther than this from the surface before decimation, and no point of that surface is farther from the model.";
     if (bound === null) return { name: "Error bound", verdict: "none", said: "none was asked", meaning };
+    if (found > bound * (1 + 1e-9))
+        return { name: "Error bound", verdict: "none", said: `at most ${short(found)}: volumes were restored after decimation to at most ${short(bound)}`, meaning };
     return { name: "Error bound", verdict: "good", said: `at most ${short(bound)}${stopped === "max_error" ? "; decimation ended there" : ""}`, meaning };
 }
 
