@@ -26,6 +26,8 @@ void choose_strength(Settings& settings, const std::string& flag, const std::str
     SmoothOptions& smooth = settings.reconstruct.smooth;
     const auto known = std::ranges::find(kStrengths, text, &Strength::word);
     if (known == std::end(kStrengths)) {
+        if (text.find_first_not_of("0123456789") != std::string::npos)
+            refuse_value(flag, text, "off, light, normal, strong or a whole number of " + kPasses.text());
         smooth.passes = static_cast<std::uint32_t>(parse_count(flag, text, kPasses));
         return;
     }
