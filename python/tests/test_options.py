@@ -100,7 +100,7 @@ def test_a_wrong_type_or_name_raises_type_error(two_boxes, options):
         ({"target_faces": -1}, "--target-faces -1: not a whole number"),
         ({"memory": "much"}, "--memory much: not a size, such as 500MiB or 2GiB"),
         ({"smooth_filter": "soft"}, "--smooth-filter soft"),
-        ({"smooth": "more"}, "--smooth more: not a whole number of 0 to 100000"),
+        ({"smooth": "more"}, "--smooth more: not off, light, normal, strong or a whole number of 0 to 100000"),
         ({"sweep": "w"}, "--sweep w"),
         ({"boundary": "open", "preserve_volume": True}, "--preserve-volume: open regions have no volume"),
     ],
