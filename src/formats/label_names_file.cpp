@@ -128,8 +128,7 @@ void TableReader::join_words() {
             return number && *number >= 0 && *number <= 255;
         });
     };
-    if (dropped > kColours && dropped < SIZE_MAX && std::all_of(rows_.begin(), rows_.end(), has_colours))
-        dropped = kColours;
+    if (dropped > kColours && std::all_of(rows_.begin(), rows_.end(), has_colours)) dropped = kColours;
     const auto name_of = [](const Row& row, std::size_t without) {
         std::string name;
         for (std::size_t i = 1; i < row.fields.size() - without; ++i) {

@@ -290,7 +290,8 @@ bool may_be_filled(const StoreArray& array, std::uint64_t wanted) {
         if (may_hold(bytes, array.codecs, wanted) || files == kMaxChunks) return true;
     }
     if (error) fail(array.folder, "the folder cannot be read: " + error.message());
-    if (files == 0) fail(array.folder, "holds no chunk of samples named as its metadata say; fetch the store again");
+    if (files == 0)
+        fail(array.folder, "holds no chunk of samples under the names that its metadata give; fetch the store again");
     return false;
 }
 
