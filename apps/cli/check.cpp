@@ -13,6 +13,12 @@ namespace {
 
 constexpr int kListed = 3;  // findings printed of each kind; the JSON has up to CheckOptions::listed
 
+/// The volume that the model was made from, with the labels that --room gave it.
+std::unique_ptr<SectionReader> open_modelled(const Settings& settings) {
+    const ReconstructOptions& options = settings.reconstruct;
+    return clean_sections(open_volume(settings, settings.sections), options.room, options.threads);
+}
+
 /// The oracle in the dense labels of the model's table; labels that the model does not have are added to it.
 template <class AnyCensus>
 LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
@@ -42,10 +48,20 @@ bool has_samples(const Settings& settings) {
     return settings.reconstruct.cap && !settings.sections.empty() && is_lattice(settings, settings.sections);
 }
 
+/// What the labels of the input say, of either kind.
+std::optional<LabelOracle> oracle_of(const Settings& settings, LabelTable& labels) {
+    if (settings.sections.empty()) return {};
+    const CensusOptions census = census_options(settings);
+    require_fit(settings, settings.sections);
+    if (is_lattice(settings, settings.sections))
+        return translate(count_labels(*open_modelled(settings), census), labels);
+    return translate(count_labels(*open_tetrahedra(settings.sections.front(), settings.tetrahedra), census), labels);
+}
+
 std::optional<SampleAgreement> compare_with_sections(const Settings& settings, MeshFile& file,
                                                      const CheckOptions& options) {
     if (!has_samples(settings)) return {};
-    const auto reader = open_volume(settings, settings.sections);
+    const auto reader = open_modelled(settings);
     return compare_samples(file.mesh, file.labels, options.background, *reader);
 }
 
@@ -76,7 +92,7 @@ int check_folder(const Settings& given) {
     options.threads = settings.reconstruct.threads;
     std::optional<SampleAgreement> samples;
     if (!settings.sections.empty()) {
-        const auto reader = open_volume(settings, settings.sections);
+        const auto reader = open_modelled(settings);
         options.oracle = translate(count_labels(*reader, census_options(settings)), file.labels);
         if (!has_lattice_of(path, reader->info()))
             throw Error(ErrorCode::kInput, settings.sections.front() + ": its samples do not lie where those of " +
@@ -119,11 +135,7 @@ int run_check(const Settings& given) {
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
     options.threads = settings.reconstruct.threads;
-    if (!settings.sections.empty()) {
-        options.oracle = with_reader(settings, settings.sections, [&](auto& reader) {
-            return translate(count_labels(reader, census_options(settings)), file.labels);
-        });
-    }
+    options.oracle = oracle_of(settings, file.labels);
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
     const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);

@@ -26,8 +26,7 @@ Report simplified(Mesh& mesh, const SimplifyOptions& options, bool is_improving)
     }
     if (is_improving) {
         const Timer timer(report.seconds["improve"]);
-        report.improved =
-            improve(mesh, {.min_quality = options.min_quality, .scale = options.scale, .max_error = options.max_error});
+        report.improved = improve(mesh, improve_options(options));
         report.error_bound = report.improved->error_bound;
     }
     report.final_faces = mesh.face_count();

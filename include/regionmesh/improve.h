@@ -8,6 +8,7 @@
 
 #include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
+#include "regionmesh/simplify.h"
 
 namespace regionmesh {
 
@@ -21,6 +22,9 @@ struct ImproveOptions {
     std::optional<Lattice> samples = {};     // no sample of it changes its region; its direction is not looked at
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };
+
+/// To improve what was simplified: the same scale, samples and bounds.
+ImproveOptions improve_options(const SimplifyOptions& simplified);
 
 /// The shape of all faces of a mesh. Angles are in degrees; all are 0 for a mesh without faces.
 struct FaceShapes {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "regionmesh/label_names.h"
 
@@ -31,12 +32,13 @@ LabelColours read_label_colours(const std::filesystem::path& path);
 namespace formats {
 
 struct NamesAndColours {
-    LabelNames names;
-    LabelColours colours;
+    LabelNames names = {};
+    LabelColours colours = {};
+    std::string warning = {};  // of a table with a row that cannot be read, as in VolumeInfo
 };
 
 /// From a table beside a volume: for atlas.nii.gz atlas.nii.txt or atlas.txt, then likewise .xml, .tsv, .csv, .label
-/// and .ctbl. Ignores files of these names that are no tables of labels.
+/// and .ctbl. Ignores files of these names that are no tables of labels: half of the lines of a table begin with one.
 NamesAndColours table_beside(const std::filesystem::path& volume);
 
 }  // namespace formats

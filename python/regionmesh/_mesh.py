@@ -118,7 +118,7 @@ class Mesh:
     def report(self):
         """The report of the last step as a dict; docs/report.md lists the keys. A loaded model is checked first."""
         if self._report is None:
-            self._report = json.loads(self._model.report or _core.check(self._model, 0, None))
+            self._report = json.loads(self._model.report or _core.check(self._model, 0, None, 0))
         return self._report
 
     @property
@@ -287,7 +287,7 @@ class Mesh:
         labels : array_like, path or image, optional
             The labels that the model was made from, as in `reconstruct`: the model is compared with them, too. `roi`,
             `downsample` and all else that chose samples for the model chooses them here, too; samples already so
-            chosen are taken as they are.
+            chosen are taken as they are. `room` changes labels as it did for the model.
         spacing, origin, direction : optional
             As in `reconstruct`; default: those the model was made with.
         threads : int
@@ -316,7 +316,8 @@ class Mesh:
                     f"labels: {' x '.join(size)} samples along x, y, z, the model was made from {' x '.join(own)}; "
                     "give the volume that it was made from"
                 )
-        return json.loads(_core.check(self._model, threads, source))
+        room = (self._lattice or {}).get("made", {}).get("room", 0)
+        return json.loads(_core.check(self._model, threads, source, room))
 
     def _made(self):
         """How samples were chosen: options, labels kept, and the place of the whole input."""

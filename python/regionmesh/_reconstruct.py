@@ -26,8 +26,14 @@ def _from_files(labels, options, kept, names, progress):
         whole = source.info
         if _sources.is_cut(chosen):
             whole = _core.file_source(paths, [pair for pair in options if pair[0] not in _OF_SOURCE], None).info
-        made = {"selection": chosen, "kept": kept, "place": tuple(whole[key] for key in ("spacing", "origin", "direction"))}
-        return Mesh(_core.reconstruct_source(source, options, names, progress), {**source.info, "made": made})
+        place = tuple(whole[key] for key in ("spacing", "origin", "direction"))
+        model = _core.reconstruct_source(source, options, names, progress)
+        return Mesh(model, {**source.info, "made": _made(options, chosen, kept, place)})
+
+
+def _made(options, chosen, kept, place):
+    """What Mesh.check needs to choose the same samples again."""
+    return {"selection": chosen, "kept": kept, "place": place, "room": float(dict(options).get("room", 0))}
 
 
 def reconstruct(
@@ -119,7 +125,7 @@ def reconstruct(
         place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
         source = _sources.source(given, place, chosen, names or {}, kept)
         model = _core.reconstruct_source(source, pairs, names, report)
-    return Mesh(model, {**source.info, "made": {"selection": chosen, "kept": kept, "place": place}})
+    return Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place)})
 
 
 def _describe(function, command):

@@ -15,6 +15,7 @@
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/process.h"
+#include "regionmesh/select_sections.h"
 #include "regionmesh/voxelise.h"
 #include "regionmesh/write_report.h"
 #include "settings.h"
@@ -241,10 +242,7 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
         }
         if (asked.improve) {
             const Timer timer(report.seconds["improve"]);
-            ImproveOptions improve_with{.min_quality = asked.min_quality,
-                                        .scale = simplify_with.scale,
-                                        .max_error = simplify_with.max_error,
-                                        .samples = samples};
+            ImproveOptions improve_with = improve_options(simplify_with);
             improve_with.on_progress = [&] { watch.note("improve", 0, std::nullopt); };
             report.improved = improve(made.mesh, improve_with);
             report.error_bound = report.improved->error_bound;
@@ -278,7 +276,7 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
     return made;
 }
 
-std::string check_text(const Model& model, std::uint32_t threads, Source* source, Watch& watch) {
+std::string check_text(const Model& model, std::uint32_t threads, Source* source, double room, Watch& watch) {
     std::string text;
     watch.run([&] {
         LabelTable labels = model.labels;
@@ -286,6 +284,7 @@ std::string check_text(const Model& model, std::uint32_t threads, Source* source
         options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
         std::optional<SampleAgreement> samples;
         if (source != nullptr) {
+            source->reader = clean_sections(std::move(source->reader), room, threads);
             WatchedSections sections(*source->reader, watch);
             const CensusOptions census{.cap = !model.is_open, .background = background_of(model)};
             options.oracle = translate(count_labels(sections, census), labels);

@@ -68,8 +68,8 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels);
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch);
 Model smoothed(const Model& model, const OptionValues& options, Watch& watch);
 
-/// The check as JSON. With a source also against its labels.
-std::string check_text(const Model& model, std::uint32_t threads, Source* source, Watch& watch);
+/// The check as JSON. With a source also against its labels, cleaned as `room` says.
+std::string check_text(const Model& model, std::uint32_t threads, Source* source, double room, Watch& watch);
 std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch);
 
 /// Fills `labels` [z, y, x], of integers in memory order. Throws Error(kInput) for a surface that is not closed.

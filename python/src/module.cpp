@@ -92,11 +92,11 @@ void bind_runs(py::module_& module) {
     });
     module.def(
         "check",
-        [](const Model& model, std::uint32_t threads, Source* source) {
+        [](const Model& model, std::uint32_t threads, Source* source, double room) {
             Watch watch(py::none{});
-            return check_text(model, threads, source, watch);
+            return check_text(model, threads, source, room, watch);
         },
-        py::arg("model"), py::arg("threads"), py::arg("source").none(true));
+        py::arg("model"), py::arg("threads"), py::arg("source").none(true), py::arg("room"));
     module.def("compare", [](const Model& a, const Model& b, const OptionValues& options) {
         Watch watch(py::none{});
         return compare_text(a, b, options, watch);

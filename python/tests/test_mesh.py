@@ -242,6 +242,17 @@ def test_check_chooses_samples_as_the_model_did(grains, tmp_path, options):
         assert read.check(labels)["samples_wrong"] == 0
 
 
+def test_check_cleans_labels_as_the_model_did(grains, tmp_path):
+    noisy = np.where(np.random.default_rng(7).random(grains.shape) < 0.1, 3, grains)
+    np.save(tmp_path / "noisy.npy", noisy)
+    for labels in noisy, tmp_path / "noisy.npy":
+        made = regionmesh.reconstruct(labels, room=1.5, roi="0:18,:,:")
+        assert (made.voxelise() != noisy[:, :, :18]).any()
+        for mesh in made, pickle.loads(pickle.dumps(made)):
+            found = mesh.check(labels)
+            assert found["samples"] == 18 * 400 and found["samples_wrong"] == 0 and not found["violations"]
+
+
 def test_check_refuses_other_volumes(filled, grains, tmp_path):
     with pytest.raises(ValueError, match="19 x 20 x 20 samples along x, y, z, the model was made from 20 x 20 x 20"):
         filled.check(grains[:, :, 1:])

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include "formats/text/header_text.h"
 #include "regionmesh/error.h"
 
 namespace regionmesh::formats {
@@ -69,6 +70,13 @@ std::size_t InputFile::read(std::uint64_t offset, std::span<std::byte> bytes) co
         done += static_cast<std::size_t>(count);
     }
     return done;
+}
+
+std::string InputFile::text() const {
+    std::string text(size_, '\0');
+    text.resize(read(0, std::as_writable_bytes(std::span(text))));
+    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+    return text;
 }
 
 }  // namespace regionmesh::formats

@@ -31,6 +31,9 @@ public:
     /// file.
     std::size_t read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
+    /// All of it, for small files; without the mark of UTF-8 that some editors begin a file with.
+    std::string text() const;
+
 private:
     std::filesystem::path path_;
     int descriptor_ = -1;

@@ -45,18 +45,12 @@ Fields split(std::string_view line, char separator) {
     return fields;
 }
 
-std::optional<std::uint32_t> part_of(std::string_view text) {
-    const auto number = formats::parse_integer(text);
-    if (!number || *number < 0 || *number > 255) return {};
-    return static_cast<std::uint32_t>(*number);
-}
-
 using Places = std::array<std::size_t, 3>;  // of red, green and blue
 
 std::optional<std::uint32_t> colour_at(const Fields& fields, const Places& places) {
     std::uint32_t colour = 0;
     for (const std::size_t place : places) {
-        const auto part = place < fields.size() ? part_of(fields[place]) : std::nullopt;
+        const auto part = place < fields.size() ? formats::parse_byte(fields[place]) : std::nullopt;
         if (!part) return {};
         colour = colour << 8 | *part;
     }
@@ -107,9 +101,10 @@ std::optional<Places> places_in(const Fields& fields) {
         return std::ranges::all_of(places,
                                    [&](std::size_t n) { return formats::parse_integer(fields[n]).has_value(); });
     };
-    if (constexpr Places places{1, 2, 3}; count >= kItkSnap && !part_of(fields.back()) && are_numbers(places))
+    if (constexpr Places places{1, 2, 3};
+        count >= kItkSnap && !formats::parse_byte(fields.back()) && are_numbers(places))
         return places;
-    if (count < kFreeSurfer || !part_of(fields.back()) || part_of(fields[1])) return {};
+    if (count < kFreeSurfer || !formats::parse_byte(fields.back()) || formats::parse_byte(fields[1])) return {};
     const Places places{count - 4, count - 3, count - 2};
     return are_numbers(places) ? std::optional(places) : std::nullopt;
 }
@@ -139,9 +134,7 @@ bool is_label(const std::string& field) { return formats::parse_table_label(fiel
 LabelColours read_label_colours(const std::filesystem::path& path) {
     const formats::InputFile file(path);
     if (file.size() > kMostBytes) return {};
-    std::string text(file.size(), '\0');
-    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark
+    const std::string text = file.text();
     std::string_view rest = text;
     auto row = take_row(rest);
     if (!row) return {};

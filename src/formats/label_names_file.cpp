@@ -123,10 +123,8 @@ void TableReader::join_words() {
     }
     constexpr std::size_t kColours = 4;
     const auto has_colours = [](const Row& row) {
-        return std::all_of(row.fields.end() - kColours, row.fields.end(), [](const std::string& field) {
-            const auto number = formats::parse_integer(field);
-            return number && *number >= 0 && *number <= 255;
-        });
+        return std::all_of(row.fields.end() - kColours, row.fields.end(),
+                           [](const std::string& field) { return formats::parse_byte(field).has_value(); });
     };
     if (dropped > kColours && std::all_of(rows_.begin(), rows_.end(), has_colours)) dropped = kColours;
     const auto name_of = [](const Row& row, std::size_t without) {
@@ -237,16 +235,28 @@ LabelNames read_xml(const fs::path& path, const std::string& text) {
     return result;
 }
 
+/// Whether at least half of the lines do, so that the file is meant as a table.
+bool begins_with_labels(const fs::path& path) {
+    const formats::InputFile file(path);
+    if (file.size() > kMostBytes) return false;
+    const std::string text = without_comments(file.text());
+    std::size_t lines = 0, labelled = 0;
+    for (std::string_view rest = text; !rest.empty();) {
+        const auto words = formats::split_words(formats::take_line(rest), " \t\r,;\"");
+        lines += !words.empty();
+        labelled += words.size() > 1 && is_label(words[0]);
+    }
+    return labelled > 0 && 2 * labelled >= lines;
+}
+
 }  // namespace
 
 LabelNames read_label_names(const fs::path& path) {
     const formats::InputFile file(path);
     if (file.size() > kMostBytes) formats::fail(path, "is larger than 4 MiB: no table of names; name another file");
-    std::string text(file.size(), '\0');
-    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
+    const std::string text = file.text();
     if (text.find('\0') != std::string::npos)
         formats::fail(path, "is no text (in UTF-8); name a table of labels and names");
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     const bool is_xml = begin != std::string::npos && text[begin] == '<';
     const LabelNames names = is_xml ? read_xml(path, text) : TableReader(path, text).read();
@@ -264,9 +274,10 @@ formats::NamesAndColours formats::table_beside(const fs::path& volume) {
             std::error_code ignored;
             if (beside == volume || !fs::is_regular_file(beside, ignored)) continue;
             try {
-                return {read_label_names(beside), read_label_colours(beside)};
-            } catch (const Error&) {
-                // A file of that name for another purpose: the volume is read without names.
+                return {.names = read_label_names(beside), .colours = read_label_colours(beside)};
+            } catch (const Error& error) {
+                if (begins_with_labels(beside)) return {.warning = fmt::format("has no names: {}", error.what())};
+                // Else a file of that name for another purpose: the volume is read without names.
             }
         }
     }

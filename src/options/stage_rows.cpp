@@ -118,7 +118,7 @@ Rows smoothing_rows() {
              .help = "samples nearer than this to the boundary of their region may change their label first, for noisy "
                      "or enlarged labels; 0: none",
              .group = kGroup,
-             .commands = kReconstruct,
+             .commands = kReconstruct | kCheck,
              .unit = "finest spacings",
              .inputs = kVolumeInput | kTableInput},
             [](Settings& s) { return &s.reconstruct.room; }, kRoom),

@@ -126,6 +126,13 @@ private:
 
 }  // namespace
 
+ImproveOptions improve_options(const SimplifyOptions& simplified) {
+    return {.min_quality = simplified.min_quality,
+            .scale = simplified.scale,
+            .max_error = simplified.max_error,
+            .samples = simplified.samples};
+}
+
 ImproveResult improve(Mesh& mesh, const ImproveOptions& given) {
     ImproveOptions options = given;
     options.max_error =

@@ -11,11 +11,7 @@ namespace regionmesh {
 void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.improve) return;
     const StageTimer timer = log.time("improve");
-    const SimplifyOptions simplify = simplify_options(options, shape);
-    ImproveOptions own{.min_quality = simplify.min_quality,
-                       .scale = simplify.scale,
-                       .max_error = simplify.max_error,
-                       .samples = simplify.samples};
+    ImproveOptions own = improve_options(simplify_options(options, shape));
     // The number of sweeps is not known: the share nears 1 ever more slowly.
     double calls = 0;
     const double calls_a_sweep = 1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0;

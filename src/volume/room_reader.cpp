@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "regionmesh/select_sections.h"
 
 namespace regionmesh {
 namespace {
@@ -20,6 +21,11 @@ RoomReader::RoomReader(SectionReader& reader, double room, std::uint32_t threads
     make_offsets(room);
     const std::uint64_t section_bytes = std::uint64_t{section_width()} * section_height() * sizeof(InputLabel);
     info_.held_bytes = std::max(info_.held_bytes, section_bytes) + (2 * reach_ + 2) * section_bytes;
+}
+
+RoomReader::RoomReader(std::unique_ptr<SectionReader> reader, double room, std::uint32_t threads)
+    : RoomReader(*reader, room, threads) {
+    own_ = std::move(reader);
 }
 
 void RoomReader::make_offsets(double room) {
@@ -116,6 +122,12 @@ InputLabel RoomReader::cleaned(std::int32_t i, std::int32_t j) const {
             (other.second == best.second && best.first != own && other.first < best.first))
             best = other;
     return best.first;
+}
+
+std::unique_ptr<SectionReader> clean_sections(std::unique_ptr<SectionReader> reader, double room,
+                                              std::uint32_t threads) {
+    if (room == 0) return reader;
+    return std::make_unique<RoomReader>(std::move(reader), room, threads);
 }
 
 }  // namespace regionmesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <vector>
 
 #include "regionmesh/section_reader.h"
@@ -14,8 +15,10 @@ namespace regionmesh {
 /// between samples. Small regions may vanish. Holds the sections within the cut-off.
 class RoomReader final : public SectionReader {
 public:
-    /// Requires room > 0. Holds a reference to the reader. `threads`: 0 for one per core; the result is the same.
+    /// Requires room > 0. The first holds a reference to the reader. `threads`: 0 for one per core; the result is the
+    /// same.
     RoomReader(SectionReader& reader, double room, std::uint32_t threads);
+    RoomReader(std::unique_ptr<SectionReader> reader, double room, std::uint32_t threads);
 
     const VolumeInfo& info() const override { return info_; }
     bool next(std::span<InputLabel> section) override;
@@ -37,6 +40,7 @@ private:
     InputLabel cleaned(std::int32_t i, std::int32_t j) const;
     const InputLabel* neighbour(std::int32_t i, std::int32_t j, const Offset& offset) const;
 
+    std::unique_ptr<SectionReader> own_ = {};
     SectionReader& reader_;
     VolumeInfo info_;
     std::uint32_t threads_;

@@ -10,6 +10,7 @@
 namespace regionmesh {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -192,6 +193,27 @@ TEST_F(CliFiles, a_part_of_a_volume_is_checked_against_the_same_part) {
          {"--roi 1:2", "--roi 5:5,:,:", "--labels 1,,2", "--labels 3-", "--labels 5-3",
           "--labels 18446744073709551615-3", "--downsample 0", "--box 3:1,:,:", "--labels 1 --no-background"})
         expect_refusal("reconstruct " + volume() + "-o " + out("m.vtp") + ' ' + bad, 2, "--");
+}
+
+TEST_F(CliFiles, a_model_of_cleaned_labels_is_checked_against_them) {
+    const std::string labels = volume(), checked = "check " + out("m.vtp") + " --sections " + labels;
+    expect_good("reconstruct " + labels + "-o " + out("m.vtp") + " --room 1.5");
+    EXPECT_THAT(run(checked).out, HasSubstr("samples lie in another region"));
+    EXPECT_THAT(run(checked + "--room 1.5").out,
+                AllOf(HasSubstr("no violations"), HasSubstr("every one of 2744 samples keeps its label")));
+    EXPECT_EQ(run("reconstruct " + labels + "--block-size 8 -o " + out("pieces") + "/ --room 1.5").code, 0);
+    EXPECT_THAT(run("check " + out("pieces") + " --room 1.5 --sections " + labels).out,
+                HasSubstr("every one of 2744 samples keeps its label"));
+}
+
+TEST_F(CliFiles, a_bad_row_of_a_table_beside_the_volume_is_a_warning) {
+    const std::string labels = volume();
+    put_text(path("v.csv"), "label,name\n1,top\n3x,left\n");
+    const Ran ran = run("info " + labels);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_THAT(ran.error, AllOf(HasSubstr("warning: "), HasSubstr("v.csv: row 3: '3x' is no label")));
+    put_text(path("v.csv"), "A note on the volume,\nwith 2 lines\n");
+    EXPECT_EQ(run("info " + labels).error, "");
 }
 
 TEST_F(CliFiles, the_manual_page_and_completions_have_every_option) {

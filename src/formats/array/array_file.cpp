@@ -112,6 +112,7 @@ void take_table_beside(ArrayFile& array) {
     NamesAndColours table = table_beside(array.source);
     array.names = std::move(table.names);
     array.colours = std::move(table.colours);
+    array.warning = std::move(table.warning);
 }
 
 std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options) {
@@ -134,6 +135,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     info.space = array.space;
     info.names = array.names;
     info.colours = array.colours;
+    info.warning = array.warning;
     if (array.encoding == Encoding::kRaw && files.size() == 1 && array.components == 1) {
         if (array.can_sweep_all) info.can_sweep = {true, true, true};
         InputFile file(files[0]);

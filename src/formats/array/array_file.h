@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct ArrayFile {
     Space space = Space::kUnknown;
     LabelNames names = {};
     LabelColours colours = {};
+    std::string warning = {};   // as VolumeInfo has it
     bool can_sweep_all = true;  // if raw samples in one file; else along z alone
     const char* remedy = "write the samples uncompressed in one file";  // if the user wants another sweep
 };

@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t kPartBytes = std::size_t{1} << 16;
 constexpr std::size_t kMostRowBytes = std::size_t{1} << 20;
 constexpr std::size_t kMostFields = std::size_t{1} << 16;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::span<std::byte> bytes_of(std::string& text) { return std::as_writable_bytes(std::span(text)); }
 

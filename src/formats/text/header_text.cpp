@@ -119,6 +119,12 @@ std::optional<std::int64_t> parse_label(std::string_view text) {
     return bits ? std::optional(static_cast<std::int64_t>(*bits)) : std::nullopt;
 }
 
+std::optional<std::uint8_t> parse_byte(std::string_view text) {
+    const auto number = parse_integer(text);
+    if (!number || *number < 0 || *number > 255) return {};
+    return static_cast<std::uint8_t>(*number);
+}
+
 std::optional<std::uint32_t> parse_colour(std::string_view text) {
     if (text.starts_with('#')) text.remove_prefix(1);
     if (text.size() != 6) return {};

@@ -9,6 +9,8 @@
 
 namespace regionmesh::formats {
 
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8
+
 std::string_view trim(std::string_view text);
 std::string lower(std::string_view text);  // ASCII letters
 
@@ -28,6 +30,8 @@ std::optional<std::uint64_t> parse_size(std::string_view text);
 std::optional<double> parse_finite(std::string_view text);
 /// A whole number; above 2^63 - 1 the bits of an unsigned one.
 std::optional<std::int64_t> parse_label(std::string_view text);
+/// A whole number from 0 to 255, as of red, green, blue or alpha.
+std::optional<std::uint8_t> parse_byte(std::string_view text);
 /// "#RRGGBB", with or without '#'.
 std::optional<std::uint32_t> parse_colour(std::string_view text);
 /// A label in a table: programs without missing integers write "3.0".

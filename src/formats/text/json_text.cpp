@@ -43,9 +43,7 @@ std::optional<nlohmann::json> read_json(const std::filesystem::path& path) {
     const InputFile file(path);
     if (file.size() > kMaxBytes)
         fail(path, "the metadata take " + std::to_string(file.size()) + " bytes; check the file");
-    std::string text(file.size(), '\0');
-    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
-    return reading(path, [&] { return parse_json(path, text); });
+    return reading(path, [&] { return parse_json(path, file.text()); });
 }
 
 }  // namespace regionmesh::formats

@@ -109,6 +109,7 @@ std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const
     NamesAndColours table = table_beside(path);
     info.names = std::move(table.names);
     info.colours = std::move(table.colours);
+    info.warning = std::move(table.warning);
     const std::uint64_t needed = volume_bytes(path, info.lattice.size, sample_bytes(header.type));
     const VtkArrayPlace place = xml.place_of(header.array);
     const std::uint64_t present = place.end - place.begin;
