@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "commands.h"
 #include "input.h"
+#include "memory_watch.h"
 #include "messages.h"
 #include "output.h"
 #include "printable.h"
@@ -38,6 +40,13 @@ fs::path folder_of(const std::string& output) {
     return path.has_filename() ? path : path.parent_path();
 }
 
+/// FNV-1a: the same in every build.
+std::uint64_t hash_of(std::string_view text) {
+    std::uint64_t hash = 0xCBF29CE484222325;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
+    return hash;
+}
+
 /// "82,131 bytes, changed at 1700000000.5": a file that differs is another input.
 std::string state_of(const fs::path& path) {
     struct stat status {};
@@ -45,22 +54,46 @@ std::string state_of(const fs::path& path) {
     if (!S_ISDIR(status.st_mode))
         return fmt::format("{} bytes, changed at {}.{:09}", status.st_size, status.st_mtim.tv_sec,
                            status.st_mtim.tv_nsec);
-    std::uint64_t files = 0, bytes = 0;
+    std::uint64_t files = 0, bytes = 0, states = 0;
     std::error_code ignored;
     for (const auto& entry : fs::recursive_directory_iterator(path, ignored)) {
         if (!entry.is_regular_file(ignored)) continue;
         ++files;
         bytes += entry.file_size(ignored);
+        states += hash_of(entry.path().lexically_relative(path).string() + ' ' + state_of(entry.path()));
     }
-    return fmt::format("{} files, {} bytes", files, bytes);
+    return fmt::format("{} files, {} bytes, state {:016x}", files, bytes, states);
 }
 
+/// Those that a header names.
+std::vector<fs::path> files_of_samples(const Settings& settings) {
+    if (kind_of_input(settings.inputs) != kVolumeInput || settings.inputs.front() == "-") return {};
+    ReadOptions options = settings.volume;
+    options.select = {};  // which may read samples
+    options.merge_table.clear();
+    return open_sections({settings.inputs.begin(), settings.inputs.end()}, options)->info().files;
+}
+
+/// Inputs and files of options by their states, files of samples that an input names likewise; other options by their
+/// values.
 RunIdentity identity_of(const Settings& settings) {
     RunIdentity identity{{"version", REGIONMESH_VERSION}};
-    for (const std::string& input : settings.inputs)
-        identity.emplace_back("input " + fs::path(input).filename().string(), state_of(input));
-    for (const auto& [name, text] : settings.given)
-        if (std::ranges::find(kFree, name) == kFree.end()) identity.emplace_back("--" + name, text);
+    const auto add = [&](const std::string& name, const fs::path& path, const std::string& inside = "") {
+        identity.emplace_back(fmt::format("{} {}{}", name, path.filename().string(), inside), state_of(path));
+    };
+    for (std::size_t n = 0; n < settings.inputs.size(); ++n) {
+        const fs::path file = file_of_input(settings.inputs[n]);
+        add(fmt::format("input {}", n + 1), file, settings.inputs[n].substr(file.string().size()));
+    }
+    const std::vector<fs::path> files = files_of_samples(settings);
+    for (std::size_t n = 0; n < files.size(); ++n) add(fmt::format("samples {}", n + 1), files[n]);
+    for (const auto& [name, text] : settings.given) {
+        if (std::ranges::find(kFree, name) != kFree.end()) continue;
+        if (find_option(name)->kind == OptionKind::kFile && fs::exists(text))
+            add("--" + name, text);
+        else
+            identity.emplace_back("--" + name, text);
+    }
     return identity;
 }
 
@@ -151,6 +184,8 @@ int run_blocks(const Settings& settings) {
     BlockTasks alone;
     BlockTasks& tasks = shared_tasks ? *shared_tasks : alone;
     require_fit_of_blocks(settings);
+    std::optional<MemoryWatch> watch;
+    if (settings.memory_is_hard) watch.emplace(settings.reconstruct.memory, true);
     const BlockOptions blocks{.folder = folder_of(settings.output),
                               .block_cells = settings.block_cells.value_or(0),
                               .identity = identity_of(settings),

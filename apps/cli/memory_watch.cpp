@@ -36,8 +36,8 @@ std::optional<std::uint64_t> resident_bytes(int statm) {
 
 }  // namespace
 
-MemoryWatch::MemoryWatch(std::uint64_t limit)
-    : limit_(limit), statm_(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC)) {
+MemoryWatch::MemoryWatch(std::uint64_t limit, bool keeps)
+    : limit_(limit), keeps_(keeps), statm_(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC)) {
     if (!resident_bytes(statm_)) {
         if (statm_ >= 0) ::close(statm_);
         throw Error(ErrorCode::kInput, "--memory-limit hard: /proc/self/statm cannot be read; use --memory-limit plan");
@@ -62,11 +62,14 @@ void MemoryWatch::watch() const {
     for (; !is_over_; std::this_thread::sleep_for(kPause)) {
         const std::optional<std::uint64_t> bytes = resident_bytes(statm_);
         if (!bytes || *bytes <= most) continue;
-        constexpr char kLine[] =
+        constexpr const char* kNothing =
             "\nregionmesh: --memory-limit hard: the run needs more than --memory, nothing was written; raise --memory, "
             "or set a lower target or fewer passes of --smooth\n";
+        constexpr const char* kBlocks =
+            "\nregionmesh: --memory-limit hard: the run needs more than --memory, finished blocks stay; raise --memory "
+            "and go on, or give a smaller --block-size in a new folder\n";
         const bool has_progress_line = ::isatty(STDERR_FILENO) != 0;
-        const char* line = kLine + (has_progress_line ? 0 : 1);
+        const char* line = (keeps_ ? kBlocks : kNothing) + (has_progress_line ? 0 : 1);
         (void)!::write(STDERR_FILENO, line, std::strlen(line));
         end_without_outputs(kBadInput);
     }

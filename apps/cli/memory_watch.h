@@ -11,8 +11,9 @@ namespace regionmesh::cli {
 /// limit it prints one line, removes the temporary files of all outputs and ends the process with exit code 1.
 class MemoryWatch {
 public:
-    /// `limit` in bytes. Throws Error(kInput) where the system does not tell the resident size (/proc/self/statm).
-    explicit MemoryWatch(std::uint64_t limit);
+    /// `limit` in bytes; `keeps` for runs whose finished parts stay. Throws Error(kInput) where the system does not
+    /// tell the resident size (/proc/self/statm).
+    explicit MemoryWatch(std::uint64_t limit, bool keeps = false);
     ~MemoryWatch();
     MemoryWatch(const MemoryWatch&) = delete;
     MemoryWatch& operator=(const MemoryWatch&) = delete;
@@ -21,6 +22,7 @@ private:
     void watch() const;
 
     std::uint64_t limit_;
+    bool keeps_;
     int statm_;  // file descriptor
     std::atomic<bool> is_over_ = false;
     std::thread thread_;

@@ -208,7 +208,8 @@ std::string SegmentationFile::Parts::obstacle() {
     }
     if (dataset().getOriginalXfer() != EXS_RLELossless || bits == 1) {
         return "its samples are compressed as " + std::string(syntax().getXferName()) +
-               ", which is not read; write them uncompressed, for example with gdcmconv --raw";
+               ", which is not read; write them uncompressed, with gdcmconv --raw, or with dcmdjpls or dcmdjpeg of "
+               "DCMTK";
     }
     if (frames * frame_bits() / 8 / kMostGrowth > stored_bytes)
         return "is too small for the samples that it describes; it is truncated, fetch it again";
@@ -296,8 +297,8 @@ Description SegmentationFile::description() {
         OFString label;
         if (converts && characters.convertString(stored.c_str(), stored.size(), label).good())
             segment.label.assign(label.begin(), label.end());
-        else
-            segment.label = stored;
+        else if (constexpr char kEscape = 27; stored.find(kEscape) == std::string::npos)
+            segment.label = stored;  // else in characters that cannot be read
         for (unsigned i = 0; i < 3 && item.findAndGetUint16(DCM_RecommendedDisplayCIELabValue, value, i).good(); ++i)
             segment.recommended_lab.push_back(value);
         segment.palette = palette_colour(dataset, segment.number);

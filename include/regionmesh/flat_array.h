@@ -24,7 +24,8 @@ public:
     FlatArray() = default;
     FlatArray(FlatArray&& other) noexcept { swap(other); }
     FlatArray& operator=(FlatArray&& other) noexcept {
-        swap(other);
+        FlatArray moved(std::move(other));
+        swap(moved);
         return *this;
     }
     FlatArray(const FlatArray&) = delete;

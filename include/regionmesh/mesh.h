@@ -71,6 +71,15 @@ static_assert(sizeof(Vertex) == 32);
 /// renumbered. To visit all, iterate over [0, vertex_end()) or [0, face_end()) and skip those that are not alive.
 class Mesh {
 public:
+    Mesh() = default;
+    /// Leave the other mesh empty.
+    Mesh(Mesh&& other) noexcept { swap(other); }
+    Mesh& operator=(Mesh&& other) noexcept {
+        Mesh moved(std::move(other));
+        swap(moved);
+        return *this;
+    }
+
     /// Throws Error(kInput) beyond kMostVertices (limits.h).
     VertexId add_vertex(Vec3 position, SideSet sides = 0, bool is_fixed = false);
     /// The normal of a, b, c points from region `first` to region `second`. Stored with the smaller label first, so
@@ -137,6 +146,14 @@ public:
     void reserve(std::size_t vertices, std::size_t faces);
 
 private:
+    void swap(Mesh& other) noexcept {
+        std::swap(vertices_, other.vertices_);
+        std::swap(faces_, other.faces_);
+        std::swap(vertex_count_, other.vertex_count_);
+        std::swap(face_count_, other.face_count_);
+        std::swap(free_vertex_, other.free_vertex_);
+        std::swap(free_face_, other.free_face_);
+    }
     void unlink(VertexId v, Corner corner);
     void link(FaceId f);
     std::vector<KeyedIndex> vertices_along_curve(std::uint32_t threads) const;

@@ -140,6 +140,9 @@ void require_consistent(const Settings& settings);
 /// the files; changes nothing.
 void require_distinct_files(const Settings& settings);
 
+/// The file that an input is in: file.h5 for the dataset file.h5:/path, else the input itself.
+std::filesystem::path file_of_input(const std::string& input);
+
 /// What the process of a command needs to do: read anything, write below the folders of its outputs and in that of
 /// temporary files, start the helper programs. Looks at the files.
 SandboxRules sandbox_rules(const Settings& settings);

@@ -24,7 +24,7 @@ struct ReconstructOptions {
     std::optional<double> max_error = {};  // or no point farther than this from the surface before, nor the other way
                                            // round, in the unit of the spacing
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
-                      // change their label first, for noisy labels (docs/smoothing.md); 0: none changes
+                      // change their label first, for noisy labels (docs/smoothing.md); at most 8; 0: none
     CellKind cells = CellKind::kAuto;  // of sections: how they are meshed
     double scale_z = 1;  // of sections: z is multiplied by the nearest power of two while positions, costs, qualities
                          // and errors are computed; the model is not scaled. Tetrahedra have their own
@@ -77,7 +77,8 @@ std::uint64_t expected_bytes(const VolumeInfo& volume, std::uint64_t faces);
 
 /// Reads all sections, builds the mesh on the fly within the memory, decimates it to the target and checks it. Sections
 /// that can be read twice are read first to count faces and to plan memory. With more than one thread, the reader is
-/// called on a thread of its own, one call at a time. Throws Error(kInput) for a volume with fewer than two samples
+/// called on a thread of its own, one call at a time. A reader that can be rewound is rewound first; another one begins
+/// where it is. Throws Error(kUsage) for options out of range, Error(kInput) for a volume with fewer than two samples
 /// along an axis and, after the first pass, for a target that does not fit in the memory; and whatever the reader or
 /// `on_model` throws. Deterministic.
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& options = {},

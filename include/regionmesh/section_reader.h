@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
@@ -27,6 +29,7 @@ struct VolumeInfo {
     Space space = Space::kUnknown;                      // of the lattice
     LabelNames names = {};                              // given by the file, or by a table next to it
     LabelColours colours = {};                          // likewise
+    std::vector<std::filesystem::path> files = {};      // of samples, where `source` is a header that names them
     std::string warning = {};  // what the reader decided that the user may not expect: a line, or empty
 };
 
@@ -38,7 +41,7 @@ public:
     virtual const VolumeInfo& info() const = 0;
 
     /// Fills `section` with the next section: size[axes[0]] * size[axes[1]] samples, axes[0] fastest. Returns false
-    /// after all size[axes[2]] sections. Throws Error(kInput) naming file and section.
+    /// after all size[axes[2]] sections, not before. Throws Error(kInput) naming file and section.
     virtual bool next(std::span<InputLabel> section) = 0;
 
     /// Returns to the first section. Requires info().can_rewind.
@@ -53,5 +56,8 @@ public:
     std::uint32_t section_height() const { return info().lattice.size[info().sweep.axes[1]]; }
     std::uint32_t section_count() const { return info().lattice.size[info().sweep.axes[2]]; }
 };
+
+/// Throws Error(kInput) where a reader ends before its last section: `is_there` is what next() returned for `section`.
+void require_section(bool is_there, const VolumeInfo& info, std::uint32_t section);
 
 }  // namespace regionmesh

@@ -14,10 +14,10 @@ namespace regionmesh {
 class SectionWriter {
 public:
     virtual ~SectionWriter() = default;
-    /// The next section, size[0] * size[1] labels. Throws Error(kOutput) for a label that the sample type cannot hold,
-    /// and when the file cannot be written.
+    /// The next section, size[0] * size[1] labels. Throws Error(kOutput) for another number, for a label that the
+    /// sample type cannot hold, and when the file cannot be written.
     virtual void write(std::span<const InputLabel> section) = 0;
-    /// Requires size[2] sections.
+    /// Throws Error(kOutput) for another number of sections than size[2].
     virtual void commit() = 0;
 };
 

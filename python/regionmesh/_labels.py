@@ -8,6 +8,10 @@ from . import _core, _sources
 def bits(label):
     """A label as a signed number of 64 bits; unsigned ones keep their bits."""
     value = int(label)
+    if value != label:
+        raise TypeError(f"label {label!r}: not a whole number")
+    if not -(1 << 63) <= value < 1 << 64:
+        raise ValueError(f"label {value}: more than 64 bits")
     return value - (1 << 64) if value >= 1 << 63 else value
 
 
@@ -18,4 +22,12 @@ def names_of(names):
     if isinstance(names, (str, os.PathLike)):
         with _sources.missing_files(names):
             return _core.read_names(os.fspath(names))
-    return {bits(label): str(name) for label, name in dict(names).items()}
+    return {bits(label): _text(name) for label, name in dict(names).items()}
+
+
+def _text(name):
+    try:
+        str(name).encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"name {str(name)!r}: no UTF-8; it has half of a surrogate pair") from None
+    return str(name)

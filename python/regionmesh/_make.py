@@ -111,6 +111,8 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     >>> mesh.certified, round(float(mesh.regions["volume"][0]), 4)
     (True, 0.1667)
     """
+    if boundary not in ("cap", "open"):
+        raise ValueError(f"boundary={boundary!r}: neither 'cap' nor 'open'")
     points = _rows("points", np.asarray(points, dtype=np.float64), 3)
     faces = _rows("faces", _integers("faces", faces), 3)
     labels = _rows("labels", _integers("labels", labels), 2)

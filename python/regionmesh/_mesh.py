@@ -274,9 +274,9 @@ class Mesh:
 
     def _derived(self, model):
         mesh = Mesh(model, self._lattice)
-        for key in ("dice_of_regions",):  # the counts of samples stay
-            if key in self.report:
-                mesh.report.setdefault(key, self.report[key])
+        rows = self.report.get("dice_of_regions")
+        if rows and "dice_of_regions" not in mesh.report:  # the samples of regions stay, what the model makes of them may not
+            mesh.report["dice_of_regions"] = [{key: row[key] for key in ("label", "samples")} for row in rows]
         return mesh
 
     def check(self, labels=None, *, spacing=None, origin=None, direction=None, threads=0):
@@ -406,6 +406,7 @@ class Mesh:
         """
         own = self._lattice or {}
         if like is not None:
+            like = like if hasattr(like, "shape") else np.asarray(like)
             shape, dtype = like.shape, like.dtype if dtype is None else dtype
         if shape is None and "size" in own:
             shape = own["size"][::-1]

@@ -25,7 +25,7 @@ def _vector(name, value, default):
         return default
     try:
         vector = tuple(float(item) for item in value)
-    except TypeError:
+    except (TypeError, ValueError):
         raise TypeError(f"{name}={value!r}: not three numbers") from None
     if len(vector) != 3:
         raise ValueError(f"{name}={value!r}: {len(vector)} numbers; give three, along x, y and z")
@@ -154,18 +154,23 @@ class _ArrayCalls:
 class _IteratorCalls:
     """Sections of an iterator, once, or of a sequence, any number of times."""
 
-    def __init__(self, first, rest, sections=None):
-        self.first, self.rest, self.sections = first, rest, sections
+    def __init__(self, first, rest, count, sequence):
+        self.first, self.rest, self.count, self.sequence = first, rest, count, sequence
+        self.like, self.section = first, 0
 
     def rewind(self):
-        self.rest, self.first = iter(self.sections), None
+        self.rest, self.first, self.section = iter(self.sequence), None, 0
 
     def next(self):
         if self.first is not None:
             section, self.first = self.first, None
-            return section
-        section = next(self.rest, None)
-        return None if section is None else _section(section)
+        else:
+            section = next(self.rest, None)
+            section = None if section is None else _section_like(self.like, section, self.section)
+        self.section += 1
+        if self.section == self.count and next(self.rest, None) is not None:
+            raise ValueError(f"labels: more than the {self.count} sections that were announced; give their number")
+        return section
 
 
 def _section(section):
@@ -176,21 +181,26 @@ def _section(section):
     return section
 
 
+def _section_like(first, section, number):
+    section = _section(section)
+    if section.shape != first.shape or section.dtype != first.dtype:
+        raise ValueError(
+            f"labels section {number}: {section.shape} {section.dtype}, the first has {first.shape} "
+            f"{first.dtype}; give sections of one size and type"
+        )
+    return section
+
+
 def _spooled(first, rest):
     """Copy sections into a file without a name, in TMPDIR, and map it: their number is known only at the end."""
     with tempfile.TemporaryFile(prefix="regionmesh-") as file:
         count = 0
         section = first
         while section is not None:
-            if section.shape != first.shape or section.dtype != first.dtype:
-                raise ValueError(
-                    f"labels section {count}: {section.shape} {section.dtype}, the first has {first.shape} "
-                    f"{first.dtype}; give sections of one size and type"
-                )
             file.write(np.ascontiguousarray(section).data)
             count += 1
             section = next(rest, None)
-            section = None if section is None else _section(section)
+            section = None if section is None else _section_like(first, section, count)
         file.flush()
         return np.memmap(file, dtype=first.dtype, mode="r", shape=(count, *first.shape))
 
@@ -198,6 +208,8 @@ def _spooled(first, rest):
 def _iterated(labels, sections):
     """An array or the calls for an iterable of sections."""
     count = len(labels) if hasattr(labels, "__len__") else sections
+    if count is not None and not 0 <= count < 1 << 31:
+        raise ValueError(f"sections={count}: not a number of sections")
     rest = iter(labels)
     first = next(rest, None)
     if first is None:
@@ -206,7 +218,7 @@ def _iterated(labels, sections):
     if count is None:
         return _spooled(first, rest)
     sequence = labels if hasattr(labels, "__len__") else None
-    calls = _IteratorCalls(first, rest, sequence)
+    calls = _IteratorCalls(first, rest, int(count), sequence)
     size = (first.shape[1], first.shape[0], int(count))
     return calls.next, (calls.rewind if sequence is not None else None), size, _type_name(first.dtype)
 

@@ -39,6 +39,7 @@ void require_fit(const std::string& source, const ReconstructOptions& options) {
 /// The volume as it is asked for, and how it is surveyed. Refuses what blocks do not have.
 struct Input {
     Input(const OpenSections& open, const ReconstructOptions& options) : file(open()) {
+        require_in_range(options);
         if (options.room > 0) cleaned.emplace(*file, options.room, options.threads);
         info = sections().info();
         require_lattice(info.source, info.lattice);
@@ -146,6 +147,7 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     manifest.block_cells =
         blocks.block_cells > 0 ? blocks.block_cells : default_block_cells(input.shape, found.faces, options);
     require_block_count(info, manifest.block_cells);
+    require_block_memory(info.source, input.shape, found.faces, manifest.block_cells, options);
     write_labels(found.labels, blocks.folder, blocks.output);
     write_manifest(manifest, blocks.folder, blocks.output);
 }

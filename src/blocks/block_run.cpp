@@ -231,6 +231,7 @@ void BlockRun::remove_passes_before(std::uint32_t pass) {
 
 void BlockRun::reconstruct_pass() {
     const BlockGrid blocks = grid(0);
+    require_block_memory(manifest_.source, volume_->shape, manifest_.initial_faces, manifest_.block_cells, options_);
     const std::vector<IndexBox> sweeps =
         plan_sweeps(blocks, volume_->shape, manifest_.initial_faces, options_, tasks_.processes());
     std::vector<std::uint32_t> all(blocks.count());

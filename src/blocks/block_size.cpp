@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/megabytes.h"
 #include "blocks/own_faces.h"
 #include "cells/strip_mesher.h"
 #include "regionmesh/error.h"
@@ -26,13 +27,14 @@ constexpr double kMostBlocks = 10e6;
 /// Sweeps for each process, at least, so that all end at about the same time.
 constexpr std::uint32_t kSweepsPerProcess = 3;
 
-/// Bytes that a process takes which sweeps over blocks.
+/// Bytes that a process takes which sweeps over blocks of `uneven` times as many faces as the mean.
 class SweepBytes {
 public:
-    SweepBytes(const SourceShape& shape, std::uint64_t faces, const ReconstructOptions& options)
+    SweepBytes(const SourceShape& shape, std::uint64_t faces, const ReconstructOptions& options,
+               double uneven = kUneven)
         : shape_(shape), halo_(halo_of(shape, options)) {
         const auto& size = shape.lattice.size;
-        faces_per_cell_ = kUneven * static_cast<double>(faces) / (static_cast<double>(size[0]) * size[1] * size[2]);
+        faces_per_cell_ = uneven * static_cast<double>(faces) / (static_cast<double>(size[0]) * size[1] * size[2]);
     }
 
     /// Of a box of `cells` cells, in blocks of `block`: it holds the window of smoothing, one layer of blocks along the
@@ -88,6 +90,17 @@ std::uint32_t default_block_cells(const SourceShape& shape, std::uint64_t faces,
     cells = std::max(cells, kFewestCells);
     const std::uint32_t count = (longest + cells - 1) / cells;
     return std::max((longest + count - 1) / count, 2u);
+}
+
+void require_block_memory(const std::string& source, const SourceShape& shape, std::uint64_t faces, std::uint32_t cells,
+                          const ReconstructOptions& options) {
+    const double side = cells, needed = SweepBytes(shape, faces, options, 1).of({side, side, side}, side);
+    if (needed <= static_cast<double>(options.memory)) return;
+    throw Error(
+        ErrorCode::kInput,
+        fmt::format("{}: {} needs at least {} in blocks of {} cells; raise --memory to that, or give a smaller "
+                    "--block-size in a new folder",
+                    memory_limit_text(options.memory), source, megabytes(static_cast<std::uint64_t>(needed)), cells));
 }
 
 std::vector<IndexBox> plan_sweeps(const BlockGrid& grid, const SourceShape& shape, std::uint64_t faces,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "blocks/block_grid.h"
@@ -13,6 +14,10 @@ namespace regionmesh {
 /// Cells along an axis of the largest blocks that the memory of the options has room for, of about equal size along the
 /// longest axis. `faces` is their number before simplification.
 std::uint32_t default_block_cells(const SourceShape& shape, std::uint64_t faces, const ReconstructOptions& options);
+
+/// Throws Error(kInput) where memory has no room for one block of mean size.
+void require_block_memory(const std::string& source, const SourceShape& shape, std::uint64_t faces, std::uint32_t cells,
+                          const ReconstructOptions& options);
 
 /// Boxes of blocks, each swept in one go (OwnFaces): as large as memory has room for, and a few for each process where
 /// there are several. Their order and size do not change the faces.

@@ -19,8 +19,8 @@ namespace {
 fs::path path_of(const Manifest& manifest, const fs::path& folder, std::uint32_t block) {
     const PieceEntry& entry = manifest.pieces[block];
     const fs::path path = piece_path(folder, entry.pass, block);
-    if (manifest.is_complete && !fs::exists(path))
-        formats::fail(path, "is missing, and its run was finished; remove the folder, and run again");
+    if (!fs::exists(path))
+        formats::fail(path, "is missing, and the manifest names it; remove the folder, and run again");
     if (read_checksum(path) != entry.checksum)
         formats::fail(path, "is not the piece that the manifest names; remove the folder, and run again");
     return path;

@@ -29,7 +29,7 @@ template <class T>
 std::uint64_t read_items(const formats::InputFile& file, std::uint64_t offset, std::span<T> items) {
     const auto bytes = std::as_writable_bytes(items);
     if (file.read(offset, bytes) != bytes.size())
-        formats::fail(file.path(), "the piece ends early; remove the file, and run again");
+        formats::fail(file.path(), "the piece ends early; remove the folder, and run again");
     return offset + bytes.size();
 }
 
@@ -47,7 +47,7 @@ PieceHeader header_of(const formats::InputFile& file) {
     const std::uint64_t size = end_of_faces(header) + sizeof(std::uint32_t);
     if (file.size() < size || (file.size() - size) % sizeof(LoggedCollapse) != 0)
         formats::fail(file.path(), std::to_string(file.size()) + " bytes instead of " + std::to_string(size) +
-                                       "; remove the file, and run again");
+                                       "; remove the folder, and run again");
     return header;
 }
 

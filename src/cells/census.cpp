@@ -15,6 +15,7 @@ std::vector<Label> dense_background(const std::vector<InputLabel>& background, L
 }
 
 Census count_labels(SectionReader& reader, const CensusOptions& options) {
+    if (reader.info().can_rewind) reader.rewind();
     Census census{.labels = table_for(reader.info()), .samples = {}, .strip_faces = {}, .oracle = {}};
     const std::vector<Label> background = dense_background(options.background, census.labels);
     SectionWindow window(reader, census.labels);

@@ -294,18 +294,17 @@ SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std:
                                 SectionReader& reader, std::uint32_t threads) {
     constexpr std::uint32_t kMostSections = 4;  // of a wave; it is read while the one before is compared
     const VolumeInfo& info = reader.info();
+    if (info.can_rewind) reader.rewind();
     Voxeliser voxeliser(mesh, {.lattice = info.lattice, .sweep = info.sweep, .background = background}, threads);
     const std::uint32_t most = threads == 0 ? kMostSections : 2 * std::min(threads, kMostSections / 2);
     const std::size_t samples = std::size_t{reader.section_width()} * reader.section_height();
     const auto room = [&] { return std::vector<std::vector<Label>>(most, std::vector<Label>(samples)); };
     std::vector<std::vector<Label>> given = room(), ahead = room(), in_model = room();
     std::vector<InputLabel> input(samples);
-    std::uint32_t read = 0;  // sections ahead
-    bool is_more = true;
+    std::uint32_t read = 0, all = 0;  // sections ahead, and up to them
     const auto read_ahead = [&] {
-        for (read = 0; read < most; ++read) {
-            is_more = is_more && reader.next(input);
-            if (!is_more) return;
+        for (read = 0; read < most && all < reader.section_count(); ++read, ++all) {
+            require_section(reader.next(input), info, all);
             labels.dense(input, ahead[read]);
         }
     };

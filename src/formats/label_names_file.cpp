@@ -235,7 +235,7 @@ LabelNames read_xml(const fs::path& path, const std::string& text) {
     return result;
 }
 
-/// Whether at least half of the lines do, so that the file is meant as a table.
+/// Whether at least half of the lines below a header do, so that the file is meant as a table.
 bool begins_with_labels(const fs::path& path) {
     const formats::InputFile file(path);
     if (file.size() > kMostBytes) return false;
@@ -246,7 +246,7 @@ bool begins_with_labels(const fs::path& path) {
         lines += !words.empty();
         labelled += words.size() > 1 && is_label(words[0]);
     }
-    return labelled > 0 && 2 * labelled >= lines;
+    return labelled > 0 && 2 * labelled + 1 >= lines;  // one may be a header
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "formats/array/volume_formats.h"
 #include "formats/registry.h"
 #include "regionmesh/error.h"
 #include "regionmesh/options.h"
@@ -50,14 +51,6 @@ struct NamedFile {
     std::string text() const { return (option->is_argument ? "" : option->flag() + " ") + path.string(); }
 };
 
-/// "file.h5:/dataset" is in file.h5.
-fs::path file_of(const std::string& text) {
-    std::error_code ignored;
-    const std::size_t colon = text.rfind(":/");
-    if (colon == std::string::npos || colon == 0 || fs::exists(text, ignored)) return text;
-    return text.substr(0, colon);
-}
-
 struct Files {
     std::vector<NamedFile> read, written;
 };
@@ -68,7 +61,7 @@ Files files_of(const Settings& settings) {
         const OptionSpec& option = *find_option(name);
         if (option.kind != OptionKind::kFile || text.empty()) continue;
         if (!option.is_output) {
-            files.read.push_back({&option, file_of(text)});
+            files.read.push_back({&option, file_of_input(text)});
             continue;
         }
         files.written.push_back({&option, text});
@@ -120,6 +113,8 @@ bool is_region_file(const fs::path& path, const fs::path& model) {
 }
 
 }  // namespace
+
+fs::path file_of_input(const std::string& input) { return formats::split_dataset(input).file; }
 
 void require_distinct_files(const Settings& settings) {
     const auto [read, written] = files_of(settings);

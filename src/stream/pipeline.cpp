@@ -187,6 +187,7 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
 
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,
                            const OnModel& on_model) {
+    require_in_range(given);
     require_lattice(reader.info().source, reader.info().lattice);
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
     if (options.room == 0) return reconstruct_sections(reader, options, on_progress, on_model);
@@ -198,6 +199,7 @@ Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& give
 
 Reconstruction reconstruct(TetrahedronReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,
                            const OnModel& on_model) {
+    require_in_range(given);
     const ReconstructOptions options = with_filter(given, SmoothFilter::kTaubin);
     require_no_lattice(options.smooth);
     TetrahedronFaces source(reader, {.cap = options.cap,

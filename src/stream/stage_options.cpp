@@ -1,13 +1,43 @@
 #include "stream/stage_options.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
 
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "stream/tuning.h"
 #include "volume/exact_grid.h"
+#include "volume/room_reader.h"
 
 namespace regionmesh {
+namespace {
+
+constexpr double kBestQuality = 0.26;  // of an equilateral face, rounded down
+
+}  // namespace
+
+void require_in_range(const ReconstructOptions& options) {
+    const auto require = [](const char* name, double number, double least, double most) {
+        if (number >= least && number <= most) return;
+        throw Error(ErrorCode::kUsage, std::string(name) + ": " + std::to_string(number) + " is not a number of " +
+                                           std::to_string(least) + " to " + std::to_string(most) + "; give one");
+    };
+    constexpr double kMost = std::numeric_limits<double>::max();
+    if (options.reduce) require("reduce", *options.reduce, 0, 1);
+    if (options.max_error) require("max_error", *options.max_error, 0, HUGE_VAL);
+    require("room", options.room, 0, kMostRoom);
+    require("min_quality", options.min_quality, 0, kBestQuality);
+    require("perturbation", options.perturbation, 0, kMost);
+    require("smooth.lambda", options.smooth.lambda, 0, 1);
+    require("smooth.mu_per_lambda", options.smooth.mu_per_lambda, 0, kMost);
+    constexpr double kReaches[] = {0, 2, 4, 8, 16};
+    if (std::ranges::find(kReaches, options.smooth.reach) == std::end(kReaches))
+        throw Error(ErrorCode::kUsage, "smooth.reach: " + std::to_string(options.smooth.reach) +
+                                           " is none of 0, 2, 4, 8 and 16; give one of them");
+}
 
 ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter automatic) {
     ReconstructOptions own = options;

@@ -7,6 +7,9 @@
 
 namespace regionmesh {
 
+/// Throws Error(kUsage) for numbers out of range, NaN among them.
+void require_in_range(const ReconstructOptions& options);
+
 /// The options with the filter that kAuto stands for.
 ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter automatic);
 

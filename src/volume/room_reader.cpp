@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "regionmesh/error.h"
 #include "regionmesh/select_sections.h"
 
 namespace regionmesh {
@@ -127,6 +129,8 @@ InputLabel RoomReader::cleaned(std::int32_t i, std::int32_t j) const {
 std::unique_ptr<SectionReader> clean_sections(std::unique_ptr<SectionReader> reader, double room,
                                               std::uint32_t threads) {
     if (room == 0) return reader;
+    if (!(room > 0 && room <= kMostRoom))
+        throw Error(ErrorCode::kUsage, "room: " + std::to_string(room) + " is not a number of 0 to 8; give one");
     return std::make_unique<RoomReader>(std::move(reader), room, threads);
 }
 

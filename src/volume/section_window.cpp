@@ -14,6 +14,13 @@ void require_cells(const VolumeInfo& info) {
                                                "sections make a plate, one spacing thick");
 }
 
+void require_section(bool is_there, const VolumeInfo& info, std::uint32_t section) {
+    if (is_there) return;
+    throw Error(ErrorCode::kInput, info.source + ": section " + std::to_string(section) + " is missing; " +
+                                       std::to_string(info.lattice.size[info.sweep.axes[2]]) +
+                                       " sections were announced, give as many");
+}
+
 SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader_(reader), labels_(labels) {
     const VolumeInfo& info = reader.info();
     require_cells(info);
@@ -28,7 +35,8 @@ SectionWindow::SectionWindow(SectionReader& reader, LabelTable& labels) : reader
 }
 
 bool SectionWindow::move_up() {
-    if (!is_ahead_ && !reader_.next(input_)) return false;
+    if (is_last()) return false;
+    if (!is_ahead_) require_section(reader_.next(input_), reader_.info(), sections_read_);
     low_.swap(high_);
     if (is_ahead_)
         high_.swap(ahead_);
@@ -46,7 +54,8 @@ bool SectionWindow::advance() {
 
 std::span<const Label> SectionWindow::read_ahead() {
     if (!is_ahead_) {
-        if (is_last() || !reader_.next(input_)) return {};
+        if (is_last()) return {};
+        require_section(reader_.next(input_), reader_.info(), sections_read_);
         ahead_.resize(input_.size());
         labels_.dense(input_, ahead_);
         is_ahead_ = true;

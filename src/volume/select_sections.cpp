@@ -78,6 +78,19 @@ bool is_in(InputLabel label, const LabelRange& range, bool is_unsigned) {
     return bits(range.first) <= bits(label) && bits(label) <= bits(range.last);
 }
 
+/// Ranges that no volume has.
+void require_ranges(const VolumeInfo& volume, const Selection& selection) {
+    for (const std::uint32_t samples : selection.downsample)
+        if (samples == 0) refuse(volume, "--downsample 0: no samples that become one; give 1 or more");
+    for (const LengthRange& range : selection.box)
+        if (!(range.low <= range.high)) refuse(volume, "--box ends before it begins; give LOW:HIGH");
+    const bool is_unsigned = volume.type == SampleType::kU64;
+    for (const LabelRange& range : selection.labels)
+        if (!is_in(range.first, range, is_unsigned))
+            refuse(volume, "--labels " + std::to_string(range.first) + "-" + std::to_string(range.last) +
+                               " ends before it begins; give the smaller label first");
+}
+
 ReaderPointer relabelled(ReaderPointer reader, const Selection& selection) {
     if (selection.merge.empty() && selection.labels.empty()) return reader;
     const bool is_unsigned = reader->info().type == SampleType::kU64;
@@ -95,6 +108,7 @@ ReaderPointer relabelled(ReaderPointer reader, const Selection& selection) {
 }  // namespace
 
 std::unique_ptr<SectionReader> select_sections(std::unique_ptr<SectionReader> reader, const Selection& selection) {
+    require_ranges(reader->info(), selection);
     reader = relabelled(cropped(std::move(reader), selection), selection);
     if (selection.downsample != std::array<std::uint32_t, 3>{1, 1, 1})
         reader = downsample_sections(std::move(reader), selection.downsample, selection.rest);

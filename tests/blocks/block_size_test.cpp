@@ -39,6 +39,18 @@ TEST(BlockSize, grows_with_memory_up_to_the_whole_volume) {
     EXPECT_EQ(cells_for(129, 4096 * kMiB), 128u);
 }
 
+TEST(BlockSize, needs_room_for_one_block) {
+    constexpr std::uint64_t kMiB = 1 << 20, kFaces = std::uint64_t{257} * 257 * 257 / 2;
+    ReconstructOptions options;
+    options.smooth.filter = SmoothFilter::kLattice;
+    const SourceShape shape = section_shape(cube(257), CellKind::kCompact, 1);
+    options.memory = 4096 * kMiB;
+    EXPECT_NO_THROW(require_block_memory("cube", shape, kFaces, 128, options));
+    options.memory = 64 * kMiB;
+    EXPECT_THROW(require_block_memory("cube", shape, kFaces, 128, options), Error);
+    EXPECT_NO_THROW(require_block_memory("cube", shape, kFaces, 8, options));
+}
+
 TEST(PlanSweeps, take_each_block_once_as_many_as_memory_holds_and_some_for_each_process) {
     constexpr std::uint64_t kMiB = 1 << 20;
     ReconstructOptions options;

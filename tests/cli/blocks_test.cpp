@@ -277,7 +277,46 @@ TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
     put_text(path("grains.raw"), std::string(64000, 'x'));
     const Ran changed = run(grains("model"));
     EXPECT_EQ(changed.code, 1);
-    EXPECT_THAT(changed.error, testing::HasSubstr("was begun with input grains.raw 64000 bytes"));
+    EXPECT_THAT(changed.error, testing::HasSubstr("was begun with input 1 grains.raw 64000 bytes"));
+}
+
+TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
+    const auto refused = [&](const std::string& arguments, const std::string& said) {
+        const Ran ran = run(arguments);
+        EXPECT_EQ(ran.code, 1) << arguments;
+        EXPECT_THAT(ran.error, testing::HasSubstr(said));
+    };
+    grains("");  // writes grains.raw
+    const std::string last = " --block-size 14 --quiet -o ";
+    put_text(path("g.nhdr"),
+             "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 40 40 40\nencoding: raw\ndata file: grains.raw\n");
+    put_text(path("m.csv"), "1,2\n");
+    const std::string header = "reconstruct " + path("g.nhdr").string(),
+                      merged = header + " --merge " + path("m.csv").string();
+    ASSERT_EQ(run(merged + last + out("merged")).code, 0);
+    put_text(path("m.csv"), "1,3\n");
+    refused(merged + last + out("merged"), "was begun with --merge m.csv 4 bytes");
+    ASSERT_EQ(run(header + last + out("header")).code, 0);
+    put_text(path("grains.raw"), std::string(64000, 'x'));
+    refused(header + last + out("header"), "was begun with samples 1 grains.raw 64000 bytes");
+
+    const fs::path store = path("s.zarr");
+    fs::copy(test::data_folder() + std::string("/chunked/zarr2/type_uint8.zarr"), store, fs::copy_options::recursive);
+    const std::string zarr = "reconstruct " + store.string();
+    ASSERT_EQ(run(zarr + last + out("zarr")).code, 0);
+    EXPECT_EQ(run(zarr + last + out("zarr")).code, 0);
+    for (const auto& entry : fs::recursive_directory_iterator(store))
+        if (entry.is_regular_file()) put_text(entry.path(), text_of(entry.path()));
+    refused(zarr + last + out("zarr"), "was begun with input 1 s.zarr");
+}
+
+TEST_F(BlockProgram, keeps_to_the_memory_or_says_that_it_cannot) {
+    const std::string arguments = grains("model");
+    const Ran refused = run(arguments + " --memory 1MB");
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.error, testing::HasSubstr("--memory 1 MB: "));
+    EXPECT_THAT(refused.error, testing::HasSubstr("in blocks of 14 cells; raise --memory to that"));
+    EXPECT_EQ(run(arguments + " --memory 200MB --memory-limit hard").code, 0);
 }
 
 TEST_F(BlockProgram, refuses_an_input_without_cells_or_regions_and_leaves_nothing) {

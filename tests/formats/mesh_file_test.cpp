@@ -301,6 +301,9 @@ TEST_F(MeshFileTest, point_arrays_stand_in_vtp_files_and_nowhere_else) {
     EXPECT_EQ(faces_of(file.mesh, file.labels), faces_of(mesh, labels_of({1, 2})));
     EXPECT_THROW(write_mesh(mesh, labels_of({1, 2}), path("m.ply"), options), Error);
     EXPECT_THROW(require_writable_mesh(path("m.ply"), {}, true), Error);
+    const std::span<const double> few = std::span(values).first(12);
+    EXPECT_THROW(write_mesh(mesh, labels_of({1, 2}), path("m.vtp"), {.point_arrays = {{"Distance", few}}}), Error);
+    EXPECT_THROW(write_mesh(mesh, labels_of({1, 2}), path("m.vtp"), {.point_arrays = {{"a b<", values}}}), Error);
     EXPECT_EQ(file_count(), 1);
 }
 

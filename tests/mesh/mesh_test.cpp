@@ -25,6 +25,18 @@ std::set<std::uint32_t> star_of(const Mesh& mesh, VertexId v) {
     return faces;
 }
 
+TEST(Mesh, one_that_was_moved_from_is_empty) {
+    Mesh mesh = test::octahedron();
+    mesh.remove_face(FaceId{0});
+    Mesh other = test::octahedron();
+    other = std::move(mesh);
+    EXPECT_EQ(other.face_count(), 7u);
+    EXPECT_EQ(mesh.face_count() + mesh.face_end() + mesh.vertex_count() + mesh.vertex_end(), 0u);
+    for (double x : {0.0, 1.0, 2.0}) mesh.add_vertex({x, x * x, 0});
+    mesh.add_face(VertexId{0}, VertexId{1}, VertexId{2}, 0, 1);
+    EXPECT_EQ(mesh.face_count(), 1u);
+}
+
 /// The stars hold what the faces say.
 void expect_stars_of_faces(const Mesh& mesh) {
     std::map<std::uint32_t, std::set<std::uint32_t>> stars;

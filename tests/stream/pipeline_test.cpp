@@ -44,6 +44,66 @@ TEST(Reconstruct, noise_of_2_4_and_256_labels_goes_down_by_90_percent_and_stays_
         }
 }
 
+TEST(Reconstruct, readers_begin_at_their_first_section_again) {
+    test::ArrayVolume volume = test::grain_volume({12, 13, 14}, 6, 3);
+    const std::uint64_t digest = test::digest(run(volume, reduced(0.5)).mesh);
+    std::vector<InputLabel> section(12 * 13);
+    for (int read : {0, 1, 7}) {
+        volume.rewind();
+        for (int n = 0; n < read; ++n) ASSERT_TRUE(volume.next(section));
+        const Reconstruction made = reconstruct(volume, reduced(0.5));
+        test::expect_sound(made.report.check);
+        EXPECT_EQ(test::digest(made.mesh), digest);
+        EXPECT_EQ(made.report.samples.value().samples, 12u * 13 * 14);
+    }
+}
+
+/// Says that it has one section more than it has.
+class ShortVolume : public test::ArrayVolume {
+public:
+    using ArrayVolume::ArrayVolume;
+    explicit ShortVolume(test::ArrayVolume volume) : ArrayVolume(std::move(volume)), size_(size()[2]) {
+        ++lattice().size[2];
+    }
+    bool next(std::span<InputLabel>) override { return read_++ < size_; }
+    void rewind() override { read_ = 0; }
+
+private:
+    std::uint32_t size_, read_ = 0;
+};
+
+TEST(Reconstruct, a_reader_that_ends_early_is_refused) {
+    ShortVolume volume(test::solid_volume({4, 5, 6}));
+    try {
+        reconstruct(volume);
+        FAIL() << "a cut volume was taken for whole";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("section 6 is missing; 7 sections were announced"));
+    }
+}
+
+TEST(Reconstruct, options_out_of_range_are_refused) {
+    const auto refused = [](auto change) {
+        ReconstructOptions options;
+        change(options);
+        try {
+            run(test::solid_volume({4, 4, 4}), options);
+        } catch (const Error& error) {
+            return error.code() == ErrorCode::kUsage;
+        }
+        return false;
+    };
+    for (const double bad : {std::nan(""), -1.0, HUGE_VAL}) {
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.room = bad; })) << bad;
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.reduce = bad; })) << bad;
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.perturbation = bad; })) << bad;
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.min_quality = bad; })) << bad;
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.smooth.reach = bad; })) << bad;
+    }
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.max_error = std::nan(""); }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.reach = 3; }));
+}
+
 TEST(Reconstruct, grains_go_down_by_90_percent) {
     const Reconstruction made = run(test::grain_volume({24, 24, 24}, 12, 3), reduced(0.9));
     test::expect_sound(made.report.check);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -236,6 +237,15 @@ TEST(SelectSections, a_selection_is_reconstructed_like_the_volume_it_gives) {
     EXPECT_GT(a.report.final_faces, 0u);
     EXPECT_EQ(a.report.final_faces, b.report.final_faces);
     EXPECT_EQ(test::digest(a.mesh), test::digest(b.mesh));
+}
+
+TEST(SelectSections, refuses_ranges_that_no_volume_has) {
+    const auto refused = [](const Selection& selection) {
+        EXPECT_THROW(selected(test::solid_volume({4, 4, 4}), selection), Error);
+    };
+    refused({.downsample = {1, 0, 1}});
+    refused({.box = {LengthRange{0, std::nan("")}, {}, {}}});
+    refused({.labels = {{5, 2}}});
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string>
 
 #include "blocks/precomputed/precomputed.h"
 #include "mesh/region_colours.h"
@@ -70,6 +72,17 @@ void write_segment_names(const Precomputed& precomputed, const WrittenRegions& r
                                              {"inline", {{"ids", ids}, {"properties", properties}}}}));
 }
 
+/// Percent-encoded, apart from what RFC 3986 calls unreserved.
+std::string in_url(const std::string& name) {
+    std::string text;
+    for (const char c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.' || c == '_' || c == '~')
+            text += c;
+        else
+            text += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    return text;
+}
+
 void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& regions) {
     const fs::path name =
         precomputed.output.has_filename() ? precomputed.output.filename() : precomputed.output.parent_path().filename();
@@ -85,9 +98,10 @@ void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& re
         const auto colour = precomputed.colours().find(precomputed.labels.input(label));
         if (colour != precomputed.colours().end()) colours[precomputed.id(label)] = hex_of(colour->second);
     }
-    const Json layer{{"type", "segmentation"},       {"source", "precomputed://http://localhost:8080/" + name.string()},
-                     {"name", name.stem().string()}, {"tab", "segments"},
-                     {"segments", segments},         {"segmentColors", colours}};
+    const Json layer{
+        {"type", "segmentation"},       {"source", "precomputed://http://localhost:8080/" + in_url(name.string())},
+        {"name", name.stem().string()}, {"tab", "segments"},
+        {"segments", segments},         {"segmentColors", colours}};
     precomputed.write("state.json", text_of({{"dimensions", dimensions},
                                              {"position", position},
                                              {"projectionScale", diagonal},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/input_file.h"
+#include "formats/text/header_text.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -39,6 +40,21 @@ ArrayAxes unnamed_axes(const std::filesystem::path& source, const std::vector<st
     return axes;
 }
 
+/// Axes without a name beside others that have one are those that are left of x, y and z, the fastest first.
+ArrayAxes named_axes(const std::vector<std::string>& names) {
+    ArrayAxes axes;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::size_t known = std::string("xyz").find(lower(names[i]));
+        if (names[i].size() == 1 && known != std::string::npos) axes.axis[known] = static_cast<int>(i);
+    }
+    if (std::ranges::all_of(axes.axis, [](int axis) { return axis < 0; })) return axes;
+    for (std::size_t i = names.size(); i-- > 0;) {
+        const auto free = std::ranges::find(axes.axis, -1);
+        if (names[i].empty() && free != axes.axis.end()) *free = static_cast<int>(i);
+    }
+    return axes;
+}
+
 }  // namespace
 
 std::array<std::uint64_t, 3> ArrayAxes::along(const std::vector<std::uint64_t>& numbers,
@@ -57,18 +73,14 @@ ReadOptions ArrayAxes::without_layer(const ReadOptions& options) const {
 ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std::uint64_t>& shape,
                       const std::vector<std::string>& names, const ReadOptions& options) {
     ArrayAxes axes;
-    if (names.size() == shape.size()) {
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            const std::size_t known = std::string("xyz").find(names[i]);
-            if (names[i].size() == 1 && known != std::string::npos) axes.axis[known] = static_cast<int>(i);
-        }
-    }
+    if (names.size() == shape.size()) axes = named_axes(names);
     const bool is_named = axes.axis[0] >= 0 && axes.axis[1] >= 0;
     if (!is_named) axes = unnamed_axes(source, shape);
     axes.index.assign(shape.size(), 0);
     for (std::size_t i = 0; i < shape.size(); ++i) {
         if (std::ranges::count(axes.axis, static_cast<int>(i)) > 0 || shape[i] == 1) continue;
-        const std::string what = "axis '" + names[i] + "' has " + std::to_string(shape[i]) + " samples";
+        const std::string what = (names[i].empty() ? "axis " + std::to_string(i) : "axis '" + names[i] + "'") +
+                                 " has " + std::to_string(shape[i]) + " samples";
         if (axes.has_layers) fail(source, what + "; another axis has more than one, too: save one volume");
         if (!options.layer) fail(source, what + "; choose one with --layer 0 to " + std::to_string(shape[i] - 1));
         if (*options.layer >= shape[i]) fail(source, what + "; there is no " + std::to_string(*options.layer));

@@ -136,6 +136,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     info.names = array.names;
     info.colours = array.colours;
     info.warning = array.warning;
+    info.files = array.files;
     if (array.encoding == Encoding::kRaw && files.size() == 1 && array.components == 1) {
         if (array.can_sweep_all) info.can_sweep = {true, true, true};
         InputFile file(files[0]);

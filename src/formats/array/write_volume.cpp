@@ -247,11 +247,12 @@ class VolumeWriter final : public SectionWriter {
 public:
     VolumeWriter(const std::filesystem::path& path, const Format& format, const VolumeKind& kind,
                  const OutputOptions& options)
-        : path_(path), type_(names_of(kind.type)), output_(path, format.is_gzipped, options) {
+        : path_(path), size_(kind.lattice.size), type_(names_of(kind.type)), output_(path, format.is_gzipped, options) {
         output_.write(format.header(kind.lattice, kind.space, type_));
     }
 
     void write(std::span<const InputLabel> section) override {
+        if (section.size() != std::uint64_t{size_[0]} * size_[1] || ++written_ > size_[2]) refuse_count();
         const std::size_t size = formats::sample_bytes(type_.type);
         bytes_.resize(section.size() * size);
         char* place = bytes_.data();
@@ -266,10 +267,20 @@ public:
         }
         output_.write(bytes_);
     }
-    void commit() override { output_.commit(); }
+    void commit() override {
+        if (written_ != size_[2]) refuse_count();
+        output_.commit();
+    }
 
 private:
+    [[noreturn]] void refuse_count() const {
+        throw Error(ErrorCode::kOutput, fmt::format("{}: not the {} sections of {} x {} samples that were announced",
+                                                    path_.string(), size_[2], size_[0], size_[1]));
+    }
+
     std::filesystem::path path_;
+    std::array<std::uint32_t, 3> size_;
+    std::uint32_t written_ = 0;
     const TypeNames& type_;
     Output output_;
     std::string bytes_;

@@ -2,7 +2,11 @@
 #include "formats/chunked/ome_zarr.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "formats/input_file.h"
+#include "formats/text/header_text.h"
 #include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
@@ -46,6 +50,40 @@ void transform(const fs::path& group, const Json& transformations, OmeLevel& lev
     }
 }
 
+/// The femtometres of a unit of length, as UDUNITS-2 calls it: whole numbers, so that their ratios are exact.
+std::optional<double> femtometres_in(const std::string& unit) {
+    constexpr std::pair<const char*, double> kUnits[] = {
+        {"femtometer", 1},   {"picometer", 1e3},   {"angstrom", 1e5},    {"nanometer", 1e6},
+        {"micrometer", 1e9}, {"millimeter", 1e12}, {"centimeter", 1e13}, {"decimeter", 1e14},
+        {"meter", 1e15},     {"kilometer", 1e18},  {"inch", 2.54e13},    {"foot", 3.048e14}};
+    for (const auto& [name, femtometres] : kUnits)
+        if (unit == name) return femtometres;
+    return {};
+}
+
+/// Turns axes that have another unit than x into that of x. An axis without a unit stays as it is.
+void use_one_unit(const fs::path& group, const Json& image, OmeLevel& level) {
+    std::vector<std::string> units(level.axes.size());
+    std::string wanted;
+    const Json none = Json::array();
+    const Json& axes = image.contains("axes") ? image.at("axes") : none;
+    for (std::size_t axis = 0; axis < std::min(axes.size(), units.size()); ++axis) {
+        if (axes[axis].is_object() && axes[axis].value("unit", Json()).is_string())
+            axes[axis].at("unit").get_to(units[axis]);
+        if (level.axes[axis] == "x") wanted = units[axis];
+    }
+    for (std::size_t axis = 0; axis < std::min(units.size(), level.scale.size()); ++axis) {
+        const bool is_of_space = level.axes[axis] == "y" || level.axes[axis] == "z";
+        if (!is_of_space || wanted.empty() || units[axis].empty() || units[axis] == wanted) continue;
+        const auto own = femtometres_in(units[axis]), in_wanted = femtometres_in(wanted);
+        if (!own || !in_wanted)
+            fail(group, "axis " + level.axes[axis] + " is in " + shown(units[axis]) + " and axis x in " +
+                            shown(wanted) + "; write both in one unit of length");
+        level.scale[axis] *= *own / *in_wanted;
+        level.translation[axis] *= *own / *in_wanted;
+    }
+}
+
 bool leaves_its_folder(const fs::path& path) {
     return path.is_absolute() || std::ranges::find(path, "..") != path.end();
 }
@@ -65,6 +103,7 @@ std::vector<OmeLevel> ome_levels(const fs::path& group, const Json& attributes) 
             const Json none = Json::array();
             transform(group, dataset.value("coordinateTransformations", none), level);
             transform(group, image.value("coordinateTransformations", none), level);
+            use_one_unit(group, image, level);
             levels.push_back(std::move(level));
         }
         if (levels.empty()) fail(group, "the image has no resolution; write the file again");

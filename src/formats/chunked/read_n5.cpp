@@ -107,15 +107,17 @@ struct Found {
 
 Found find_numbers(const fs::path& array) {
     Found found;
-    fs::path folder = fs::absolute(array);
-    for (int depth = 0; depth <= kMaxLevelDepth; ++depth, folder = folder.parent_path()) {
-        const Json attributes = attributes_of(folder);
-        for (const char* key : {"pixelResolution", "resolution"})
-            if (found.resolution.empty()) found.resolution = numbers_of(attributes, key);
-        if (found.offset.empty()) found.offset = numbers_of(attributes, "offset");
-        if (found.factors.empty() && depth == 0) found.factors = numbers_of(attributes, "downsamplingFactors");
-        if (found.factors.empty() && depth > 0) found.factors = factors_of_level(array, attributes);
-        if (attributes.is_object() && attributes.contains("n5")) break;  // the root
+    for (const fs::path& whole : whole_paths(array)) {
+        fs::path folder = whole;
+        for (int depth = 0; depth <= kMaxLevelDepth; ++depth, folder = folder.parent_path()) {
+            const Json attributes = attributes_of(folder);
+            for (const char* key : {"pixelResolution", "resolution"})
+                if (found.resolution.empty()) found.resolution = numbers_of(attributes, key);
+            if (found.offset.empty()) found.offset = numbers_of(attributes, "offset");
+            if (found.factors.empty() && depth == 0) found.factors = numbers_of(attributes, "downsamplingFactors");
+            if (found.factors.empty() && depth > 0) found.factors = factors_of_level(whole, attributes);
+            if (attributes.is_object() && attributes.contains("n5")) break;  // the root
+        }
     }
     return found;
 }

@@ -30,12 +30,12 @@ Found from_image(const fs::path& group, const OmeLevel& level, const Json& attri
 
 /// Searches the folders above for the image that has the array as one of its resolutions.
 Found with_image(const fs::path& array) {
-    const fs::path whole = fs::absolute(array);
-    fs::path group = whole.parent_path();
-    for (int depth = 0; depth < kMaxLevelDepth; ++depth, group = group.parent_path()) {
-        const Json attributes = read_zarr_attributes(group);
-        for (const OmeLevel& level : ome_levels(group, attributes)) {
-            if (level.folder.lexically_normal() == whole) return from_image(group, level, attributes);
+    for (const fs::path& whole : whole_paths(array)) {
+        fs::path group = whole.parent_path();
+        for (int depth = 0; depth < kMaxLevelDepth; ++depth, group = group.parent_path()) {
+            const Json attributes = read_zarr_attributes(group);
+            for (const OmeLevel& level : ome_levels(group, attributes))
+                if (level.folder.lexically_normal() == whole) return from_image(group, level, attributes);
         }
     }
     return {array};

@@ -66,4 +66,13 @@ fs::path only_volume(const fs::path& folder, const Describe& describe) {
     fail(folder, "holds several arrays; name one: " + list);
 }
 
+std::vector<fs::path> whole_paths(const fs::path& folder) {
+    const auto without_end = [](const fs::path& path) { return path.has_filename() ? path : path.parent_path(); };
+    std::error_code ignored;
+    const fs::path written = without_end(fs::absolute(folder).lexically_normal());
+    const fs::path real = without_end(fs::weakly_canonical(folder, ignored));
+    if (real.empty() || real == written) return {written};
+    return {written, real};
+}
+
 }  // namespace regionmesh::formats

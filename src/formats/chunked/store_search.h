@@ -20,4 +20,8 @@ enum class StoreEntry {
 std::filesystem::path only_volume(const std::filesystem::path& folder,
                                   const std::function<StoreEntry(const std::filesystem::path&)>& describe);
 
+/// The path of a folder from the root, without "." and "..": as it is written, and where its links lead if that is
+/// elsewhere. The folders above either may describe it.
+std::vector<std::filesystem::path> whole_paths(const std::filesystem::path& folder);
+
 }  // namespace regionmesh::formats

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostOff = 0.05;  // of a spacing: a frame off the grid
 constexpr double kMostDifference =
-    1e-4;                              // between numbers of frames that mean the same: less than kMostOff at sample 500
+    1e-4;  // share, between numbers of frames that mean the same: less than kMostOff at sample 500
 constexpr double kSameSection = 0.01;  // of the smallest distance that the file says: frames of one section
 constexpr double kMostDrift = 1e-3;    // of the distance, over all sections, by which a rounded number may differ
 constexpr double kRounding = 1e-12;
@@ -34,9 +34,9 @@ bool are_usable(const std::array<double, kCount>& numbers) {
 Vec3 position_of(const DicomFrame& frame) { return {frame.position[0], frame.position[1], frame.position[2]}; }
 
 template <std::size_t kCount>
-bool differ(const std::array<double, kCount>& a, const std::array<double, kCount>& b) {
+bool differ(const std::array<double, kCount>& a, const std::array<double, kCount>& b, double of) {
     for (std::size_t i = 0; i < kCount; ++i)
-        if (!(std::abs(a[i] - b[i]) <= kMostDifference * std::max(1.0, std::abs(a[i])))) return true;
+        if (!(std::abs(a[i] - b[i]) <= kMostDifference * of)) return true;
     return false;
 }
 
@@ -51,11 +51,11 @@ void require_frame(const std::string& source, std::span<const DicomFrame> frames
     require(are_usable(frame.position), "position (ImagePositionPatient)");
     require(are_usable(frame.orientation), "orientation (ImageOrientationPatient)");
     require(are_usable(frame.pixel_spacing), "distance of samples (PixelSpacing)");
-    if (differ(first.orientation, frame.orientation))
+    if (differ(first.orientation, frame.orientation, 1))
         fail_frame(source, number,
                    fmt::format("its orientation ({}) is not that of frame 1 ({}){}", fmt::join(frame.orientation, ", "),
                                fmt::join(first.orientation, ", "), kResample));
-    if (differ(first.pixel_spacing, frame.pixel_spacing))
+    if (differ(first.pixel_spacing, frame.pixel_spacing, std::abs(first.pixel_spacing[0])))
         fail_frame(source, number,
                    fmt::format("its pixel spacing ({}) is not that of frame 1 ({}){}",
                                fmt::join(frame.pixel_spacing, ", "), fmt::join(first.pixel_spacing, ", "), kResample));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "formats/registry.h"
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
+#include "formats/text/header_text.h"
 #include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/mesh_file.h"
@@ -113,6 +115,27 @@ std::vector<Path> write_regions(const FileView& view, const Format& format, Outp
     return written;
 }
 
+/// Names that formats of lines can hold.
+LabelNames in_one_line(const LabelNames& names) {
+    LabelNames lines;
+    for (const auto& [label, name] : names)
+        if (std::string line = formats::one_line(name); !line.empty()) lines.emplace(label, std::move(line));
+    return lines;
+}
+
+void require_arrays(const Mesh& mesh, const Path& path, const WriteOptions& options) {
+    for (const PointArray& array : options.point_arrays) {
+        const bool is_word = !array.name.empty() && std::ranges::all_of(array.name, [](unsigned char c) {
+            return std::isalnum(c) || c == '_';
+        });
+        if (!is_word || array.values.size() < mesh.vertex_end())
+            throw Error(ErrorCode::kOutput,
+                        fmt::format("{}: point array '{}' of {} values for {} vertices; give a name of letters, digits "
+                                    "and '_', and a value for each vertex",
+                                    path.string(), array.name, array.values.size(), mesh.vertex_end()));
+    }
+}
+
 }  // namespace
 
 std::string writable_extensions() { return formats::extensions_with(&Format::write_surface); }
@@ -120,7 +143,9 @@ std::string writable_extensions() { return formats::extensions_with(&Format::wri
 std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const Path& path, const WriteOptions& options,
                              OutputFiles& files) {
     const Format& format = format_of(path, options, !options.point_arrays.empty());
-    FileView view(mesh, labels, options.background, options.names);
+    require_arrays(mesh, path, options);
+    const LabelNames names = in_one_line(options.names);
+    FileView view(mesh, labels, options.background, names);
     view.set_space(options.space);
     view.set_given_colours(options.colours);
     if (options.per_region) return write_regions(view, format, files, path);

@@ -29,6 +29,16 @@ protected:
     }();
 };
 
+TEST_F(WriteVolume, another_number_of_sections_or_samples_is_refused) {
+    const Lattice lattice{.size = {4, 3, 2}};
+    const auto writer = create_volume(path("v.npy"), lattice, Space::kUnknown, SampleType::kU16, {.sync = false});
+    EXPECT_THROW(writer->write(std::span(labels_).first(11)), Error);
+    writer->write(std::span(labels_).first(12));
+    EXPECT_THROW(writer->commit(), Error);
+    writer->write(std::span(labels_).first(12));
+    EXPECT_THROW(writer->write(std::span(labels_).first(12)), Error);
+}
+
 /// Oblique; its spacing is not one of single precision.
 Lattice oblique() {
     Lattice lattice{.size = {4, 3, 2}};

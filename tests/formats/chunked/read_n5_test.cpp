@@ -50,6 +50,13 @@ TEST_F(ReadN5Test, group_opens_at_its_finest_resolution_and_another_may_be_named
     EXPECT_EQ(coarse.origin, (Vec3{10.25, 21, 32.5})) << "the middle of the samples it was made from";
 }
 
+TEST_F(ReadN5Test, numbers_of_a_group_are_found_however_the_path_is_written) {
+    const fs::path group = data("chunked/n5/bad/levels.n5/volume");
+    fs::create_directory_symlink(fs::absolute(group / "s1"), path("link"));
+    for (const fs::path& written : {group / "s0" / ".." / "s1", group / "s1" / ".", path("link")})
+        EXPECT_EQ(open_sections({written})->info().lattice.spacing, (Vec3{1, 4, 10})) << written;
+}
+
 TEST_F(ReadN5Test, transform_with_named_axes_goes_before_resolutions) {
     const Lattice lattice = open_sections({data("chunked/n5/bad/cosem.n5")})->info().lattice;
     EXPECT_EQ(lattice.spacing, (Vec3{0.5, 2, 5}));

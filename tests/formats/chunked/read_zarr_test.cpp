@@ -114,6 +114,40 @@ TEST_F(ReadZarrTest, image_of_ome_zarr_opens_at_its_finest_resolution_with_scale
     }
 }
 
+TEST_F(ReadZarrTest, a_level_is_of_its_image_however_its_path_is_written) {
+    const fs::path image = changed("ome/image_04.zarr", ".zgroup", "2", "2");
+    fs::create_directory_symlink(image / "1", path("link"));
+    for (const fs::path& written : {image / "1", image / "0" / ".." / "1", image / "1" / ".", path("link")})
+        EXPECT_EQ(open_sections({written})->info().lattice.spacing, (Vec3{1, 4, 10})) << written;
+}
+
+TEST_F(ReadZarrTest, axes_in_other_units_get_that_of_x) {
+    const fs::path image =
+        changed("ome/image_04.zarr", ".zattrs", R"("name": "z")", R"("name": "z", "unit": "micrometer")");
+    const std::string text = text_of(image / ".zattrs"), x = R"("name": "x")";
+    const auto with_unit_of_x = [&](const std::string& unit) {
+        std::string other = text;
+        put_text(image / ".zattrs", other.replace(other.find(x), x.size(), x + R"(, "unit": ")" + unit + '"'));
+        return Paths{image};
+    };
+    const Lattice lattice = open_sections(with_unit_of_x("nanometer"))->info().lattice;
+    EXPECT_NEAR(length(lattice.spacing - Vec3{0.5, 2, 5000}), 0, 1e-9);
+    EXPECT_NEAR(length(lattice.origin - Vec3{10, 20, 30000}), 0, 1e-9);
+    EXPECT_EQ(open_sections(with_unit_of_x("micrometer"))->info().lattice.spacing, (Vec3{0.5, 2, 5}));
+    EXPECT_THAT(refusal(with_unit_of_x("cubit")), HasSubstr("axis z is in micrometer and axis x in cubit"));
+}
+
+TEST_F(ReadZarrTest, names_of_axes_may_be_capital_and_one_may_be_missing) {
+    const std::string store = "zarr3/names_dot_uint16.zarr", file = "zarr.json";
+    const Volume volume = read_volume({data("chunked/" + store)});
+    for (const char* axis : {"x", "y", "z"}) {
+        const std::string name = '"' + std::string(axis) + '"';
+        const std::string capital = {'"', static_cast<char>(axis[0] - 'a' + 'A'), '"'};
+        for (const std::string& other : {capital, std::string("null")})
+            EXPECT_EQ(read_volume({changed(store, file, name, other)}).labels, volume.labels) << axis << other;
+    }
+}
+
 TEST_F(ReadZarrTest, labels_of_an_image_bring_names) {
     for (const char* version : {"04", "05"}) {
         for (const char* level : {"", "/0"}) {

@@ -72,6 +72,15 @@ TEST_P(ReadableFormat, names_come_back) {
         EXPECT_EQ(read_mesh(path(file)).names, names);
 }
 
+TEST_P(ReadableFormat, names_become_one_line) {
+    const std::string file = std::string("m") + GetParam();
+    const LabelNames names{{5, "a\nelement vertex 99"}, {7, ""}};
+    write_mesh(nested(), nested_labels(), path(file), {.background = {2}, .names = names});
+    const MeshFile read = read_mesh(path(file));
+    EXPECT_EQ(read.mesh.face_count(), nested().face_count());
+    if (GetParam() != std::string(".stl")) EXPECT_EQ(read.names, (LabelNames{{5, "a element vertex 99"}}));
+}
+
 class RegionFiles : public WriterTest, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(, RegionFiles, testing::Values(".ply", ".obj", ".stl"),
                          [](const auto& tested) { return std::string(tested.param + 1); });
