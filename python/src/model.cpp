@@ -288,7 +288,6 @@ std::string check_text(const Model& model, std::uint32_t threads, Source* source
             WatchedSections sections(*source->reader, watch);
             const CensusOptions census{.cap = !model.is_open, .background = background_of(model)};
             options.oracle = translate(count_labels(sections, census), labels);
-            sections.rewind();
             if (!model.is_open) samples = compare_samples(model.mesh, labels, model.background, sections);
         }
         const CheckReport report = check(model.mesh, options);

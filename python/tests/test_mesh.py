@@ -253,6 +253,18 @@ def test_check_cleans_labels_as_the_model_did(grains, tmp_path):
             assert found["samples"] == 18 * 400 and found["samples_wrong"] == 0 and not found["violations"]
 
 
+def test_reports_of_changes_do_not_repeat_dice(grains):
+    made = regionmesh.reconstruct(grains, smooth="off")
+    for changed in made.simplify(reduce=0.9, keep_samples=False), made.smooth(smooth=20):
+        rows = changed.report["dice_of_regions"]
+        assert rows and all(set(row) == {"label", "samples"} for row in rows)
+        assert (changed.regions["voxels"] == made.regions["voxels"]).all()
+
+
+def test_voxelise_like_a_list(filled):
+    assert (filled.voxelise(like=filled.voxelise().tolist()) == filled.voxelise()).all()
+
+
 def test_check_refuses_other_volumes(filled, grains, tmp_path):
     with pytest.raises(ValueError, match="19 x 20 x 20 samples along x, y, z, the model was made from 20 x 20 x 20"):
         filled.check(grains[:, :, 1:])

@@ -196,6 +196,36 @@ def test_sections_of_different_size_are_refused(two_boxes, known):
         regionmesh.reconstruct(iter(sections), sections=4 if known else None)
 
 
+def test_other_numbers_of_sections_than_announced_are_refused(two_boxes):
+    with pytest.raises(ValueError, match=f"more than the {len(two_boxes) - 1} sections that were announced"):
+        regionmesh.reconstruct(iter(two_boxes), sections=len(two_boxes) - 1)
+    for count in -1, 1 << 33:
+        with pytest.raises(ValueError, match=f"sections={count}: not a number of sections"):
+            regionmesh.reconstruct(iter(two_boxes), sections=count)
+
+
+def test_sections_of_several_types_are_refused(two_boxes):
+    sections = [section.astype(np.int8 if n < 2 else np.uint64) for n, section in enumerate(two_boxes)]
+    with pytest.raises(ValueError, match="labels section 2: .* uint64, the first has .* int8"):
+        regionmesh.reconstruct(sections)
+
+
+@pytest.mark.parametrize(
+    "options, error, said",
+    [
+        ({"names": {2**70: "a"}}, ValueError, "more than 64 bits"),
+        ({"names": {1.5: "a"}}, TypeError, "not a whole number"),
+        ({"names": {1: "\ud800"}}, ValueError, "no UTF-8"),
+        ({"labels_to_keep": [2**70]}, ValueError, "more than 64 bits"),
+        ({"spacing": "1,1,1"}, TypeError, "spacing='1,1,1': not three numbers"),
+    ],
+)
+def test_values_that_are_none_are_refused_in_one_line(two_boxes, options, error, said):
+    with pytest.raises(error, match=said) as refused:
+        regionmesh.reconstruct(two_boxes, **options)
+    assert "\n" not in str(refused.value)
+
+
 @pytest.mark.parametrize("bad", [np.zeros((2, 3, 4), np.uint8), np.zeros(5, np.uint8)])
 def test_sections_with_other_axes_are_refused(two_boxes, bad):
     with pytest.raises(ValueError, match="axes"):

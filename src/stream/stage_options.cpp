@@ -20,19 +20,19 @@ constexpr double kBestQuality = 0.26;  // of an equilateral face, rounded down
 }  // namespace
 
 void require_in_range(const ReconstructOptions& options) {
-    const auto require = [](const char* name, double number, double least, double most) {
-        if (number >= least && number <= most) return;
-        throw Error(ErrorCode::kUsage, std::string(name) + ": " + std::to_string(number) + " is not a number of " +
-                                           std::to_string(least) + " to " + std::to_string(most) + "; give one");
+    const auto require = [](const char* name, double number, double most, const char* range) {
+        if (number >= 0 && number <= most) return;
+        throw Error(ErrorCode::kUsage,
+                    std::string(name) + ": " + std::to_string(number) + " is not a number of " + range + "; give one");
     };
     constexpr double kMost = std::numeric_limits<double>::max();
-    if (options.reduce) require("reduce", *options.reduce, 0, 1);
-    if (options.max_error) require("max_error", *options.max_error, 0, HUGE_VAL);
-    require("room", options.room, 0, kMostRoom);
-    require("min_quality", options.min_quality, 0, kBestQuality);
-    require("perturbation", options.perturbation, 0, kMost);
-    require("smooth.lambda", options.smooth.lambda, 0, 1);
-    require("smooth.mu_per_lambda", options.smooth.mu_per_lambda, 0, kMost);
+    if (options.reduce) require("reduce", *options.reduce, 1, "0 to 1");
+    if (options.max_error) require("max_error", *options.max_error, HUGE_VAL, "0 or more");
+    require("room", options.room, kMostRoom, "0 to 8");
+    require("min_quality", options.min_quality, kBestQuality, "0 to 0.26");
+    require("perturbation", options.perturbation, kMost, "0 or more");
+    require("smooth.lambda", options.smooth.lambda, 1, "0 to 1");
+    require("smooth.mu_per_lambda", options.smooth.mu_per_lambda, kMost, "0 or more");
     constexpr double kReaches[] = {0, 2, 4, 8, 16};
     if (std::ranges::find(kReaches, options.smooth.reach) == std::end(kReaches))
         throw Error(ErrorCode::kUsage, "smooth.reach: " + std::to_string(options.smooth.reach) +
