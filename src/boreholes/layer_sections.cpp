@@ -22,6 +22,7 @@ constexpr double kColumnsOfSide = 100, kSamplesOfHeight = 200;  // without a spa
 constexpr double kMostHeightBytes = 4e9, kMostSamplesOfAxis = 1e6, kMostNumber = 1e18;
 constexpr double kSolve = 1.0 / 64;  // time to solve for the weights, in evaluations per cube of the holes
 constexpr double kMargin = 0.5;      // of the mean distance from a hole to the next
+constexpr double kRounding = 1e-9;   // of a number of steps
 
 class LayerSections final : public SectionReader {
 public:
@@ -73,12 +74,12 @@ public:
         }
     }
 
-    Lattice find() {
+    /// The lattice with all of the ground in it, where --box leaves the top open: `ground` is its highest height.
+    Lattice find(double ground = -INFINITY) const {
         const double margin = kMargin * mean_distance(table_.holes.collars);
-        low_ = low_ - Vec3{margin, margin, 0};
-        high_ = high_ + Vec3{margin, margin, 0};
-        high_.z += (high_.z - low_.z) / kSamplesOfHeight;  // above the ground
-        std::array<double, 3> low{low_.x, low_.y, low_.z}, high{high_.x, high_.y, high_.z};
+        std::array<double, 3> low{low_.x - margin, low_.y - margin, low_.z},
+            high{high_.x + margin, high_.y + margin, std::max(high_.z, ground)};
+        high[2] += (high[2] - low[2]) / kSamplesOfHeight;  // above the ground
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const LengthRange& range = options_.box[axis];
             if (std::isfinite(range.low)) low[axis] = range.low;
@@ -91,19 +92,30 @@ public:
         const double side = std::max(high[0] - low[0], high[1] - low[1]) / kColumnsOfSide;
         const Vec3 spacing = options_.spacing.value_or(Vec3{side, side, (high[2] - low[2]) / kSamplesOfHeight});
         Lattice lattice{.spacing = spacing, .origin = {low[0], low[1], low[2]}};
-        const std::array<double, 3> steps{spacing.x, spacing.y, spacing.z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double count = std::round((high[axis] - low[axis]) / steps[axis]) + 1;
-            if (!(steps[axis] > 0) || !(count <= kMostSamplesOfAxis))
-                fail(table_.holes.path, fmt::format("--spacing {} along {} makes too many samples; give a larger one",
-                                                    steps[axis], "xyz"[axis]));
-            lattice.size[axis] = static_cast<std::uint32_t>(std::max(count, 2.0));
-        }
+        for (int axis = 0; axis < 3; ++axis) fit(lattice, axis, high[static_cast<std::size_t>(axis)]);
         require_lattice(table_.holes.path.string(), lattice);
         return lattice;
     }
 
 private:
+    /// Sets the number of samples along an axis, up to about `high`. Bounds of --box are kept: where it gives both, the
+    /// spacing is adjusted to them, where it gives the high one alone, the low one is. An open top lies above `high`.
+    void fit(Lattice& lattice, int axis, double high) const {
+        const LengthRange& range = options_.box[static_cast<std::size_t>(axis)];
+        const bool keeps_low = std::isfinite(range.low), keeps_high = std::isfinite(range.high);
+        double& step = lattice.spacing[axis];
+        double& low = lattice.origin[axis];
+        const double steps = (high - low) / step;
+        if (!(step > 0) || !(steps <= kMostSamplesOfAxis))
+            fail(table_.holes.path,
+                 fmt::format("--spacing {} along {} makes too many samples; give a larger one", step, "xyz"[axis]));
+        const bool is_above = !keeps_high && axis == 2;
+        const double count = std::max(is_above ? std::ceil(steps - kRounding) : std::round(steps), 1.0);
+        if (keeps_low && keeps_high && std::abs(count - steps) > kRounding * steps) step = (high - low) / count;
+        if (!keeps_low && keeps_high) low = high - count * step;
+        lattice.size[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(count) + 1;
+    }
+
     static Vec3 min(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
     static Vec3 max(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
@@ -183,16 +195,19 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
     require_places(path, table.holes);
     const LayerOrder order = order_layers(table.holes, table.labels, layers.units);
     VolumeInfo info{.source = path.string(), .format = "csv", .can_sweep = {true, true, true}};
-    info.lattice = LatticeFinder(table, layers).find();
-    info.held_bytes = require_columns(table, info.lattice, order.units.size(), layers);
+    const LatticeFinder lattices(table, layers);
+    const Lattice lattice = lattices.find();  // whose columns stay
+    info.held_bytes = require_columns(table, lattice, order.units.size(), layers);
     std::optional<Terrain> terrain;
     if (!layers.terrain.empty()) terrain.emplace(layers.terrain, layers.memory - info.held_bytes);
-    info.sweep = *choose_sweep(info, layers.sweep);
-    const Lattice& lattice = info.lattice;
     const ColumnGrid grid{lattice.size[0],  lattice.size[1],   lattice.origin.x,
                           lattice.origin.y, lattice.spacing.x, lattice.spacing.y};
-    LayerSurfaces surfaces = interpolate(
-        order, Ground(table.holes.collars, terrain ? &*terrain : nullptr, layers.threads), grid, layers.threads);
+    const Ground ground(table.holes.collars, terrain ? &*terrain : nullptr, layers.threads);
+    std::vector<double> heights = heights_of(ground, grid, layers.threads);
+    info.lattice = lattices.find(std::ranges::max(heights));
+    require_columns(table, info.lattice, order.units.size(), layers);
+    info.sweep = *choose_sweep(info, layers.sweep);
+    LayerSurfaces surfaces = interpolate(order, ground, std::move(heights), grid, layers.threads);
     std::vector<InputLabel> labels = labels_of(table.labels, order, info);
     if (summary) {
         *summary = {};

@@ -71,7 +71,7 @@ Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground, std:
     return base;
 }
 
-std::vector<double> heights_of(const ColumnGrid& grid, const auto& surface, std::uint32_t threads) {
+std::vector<double> surface_at(const ColumnGrid& grid, const auto& surface, std::uint32_t threads) {
     std::vector<double> heights(grid.size());
     parallel_for(grid.height, threads, [&](std::uint32_t j) {
         for (std::uint32_t i = 0; i < grid.width; ++i)
@@ -88,15 +88,19 @@ std::size_t LayerSurfaces::layer_of(std::size_t column, double z) const {
     return static_cast<std::size_t>(below - heights.begin());
 }
 
-LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, const ColumnGrid& grid,
-                          std::uint32_t threads) {
+std::vector<double> heights_of(const Ground& ground, const ColumnGrid& grid, std::uint32_t threads) {
+    return surface_at(grid, ground, threads);
+}
+
+LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, std::vector<double> heights,
+                          const ColumnGrid& grid, std::uint32_t threads) {
     LayerSurfaces surfaces;
-    surfaces.heights.push_back(heights_of(grid, ground, threads));
+    surfaces.heights.push_back(std::move(heights));
     for (const std::vector<Contact>& contacts : order.contacts) {
-        std::vector<double> heights = heights_of(grid, base_of(contacts, ground, threads), threads);
-        for (std::size_t n = 0; n < heights.size(); ++n)
-            heights[n] = std::min(heights[n], surfaces.heights.back()[n]);  // younger units cut older ones
-        surfaces.heights.push_back(std::move(heights));
+        std::vector<double> base = surface_at(grid, base_of(contacts, ground, threads), threads);
+        for (std::size_t n = 0; n < base.size(); ++n)
+            base[n] = std::min(base[n], surfaces.heights.back()[n]);  // younger units cut older ones
+        surfaces.heights.push_back(std::move(base));
     }
     return surfaces;
 }

@@ -46,9 +46,13 @@ private:
     const Terrain* terrain_;
 };
 
-/// Interpolates the bases between the contacts. A contact that only bounds a base takes part where the base
-/// interpolated without it is out of bounds; of the bounds at one place, the tightest of each kind, unless another hole
-/// there has the contact. `threads` as in parallel_for().
-LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, const ColumnGrid& grid, std::uint32_t threads);
+/// The heights of the ground at the columns.
+std::vector<double> heights_of(const Ground& ground, const ColumnGrid& grid, std::uint32_t threads);
+
+/// Interpolates the bases between the contacts, below the heights of the ground at the columns. A contact that only
+/// bounds a base takes part where the base interpolated without it is out of bounds; of the bounds at one place, the
+/// tightest of each kind, unless another hole there has the contact. `threads` as in parallel_for().
+LayerSurfaces interpolate(const LayerOrder& order, const Ground& ground, std::vector<double> heights,
+                          const ColumnGrid& grid, std::uint32_t threads);
 
 }  // namespace regionmesh::formats

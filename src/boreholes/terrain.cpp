@@ -29,7 +29,8 @@ std::map<std::string, double> take_header(ByteReader& file) {
     for (;;) {
         const std::uint64_t begin = file.place(), lines = file.lines();
         const auto word = file.take_word();
-        const std::string name = word ? lower(shown(*word)) : std::string();
+        std::string name = word ? lower(shown(*word)) : std::string();
+        if (begin == 0 && name.starts_with(kByteOrderMark)) name.erase(0, kByteOrderMark.size());
         if (std::ranges::find(kNames, name) == kNames.end()) {
             file.go_to(begin, lines);
             return header;

@@ -17,12 +17,13 @@ namespace {
 
 double angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi; }
 
-FaceShapes shapes_of(const Mesh& mesh, double min_quality) {
+FaceShapes shapes_of(const Mesh& mesh, double min_quality, double scale_z) {
     if (mesh.face_count() == 0) return {};
     FaceShapes shapes{.min_quality = 1, .min_angle = 180};
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
         if (!mesh.is_alive(FaceId{f})) continue;
-        const auto p = mesh.corners(FaceId{f});
+        auto p = mesh.corners(FaceId{f});
+        for (Vec3& corner : p) corner.z /= scale_z;
         const double quality = face_quality(p[0], p[1], p[2]);
         shapes.min_quality = std::min(shapes.min_quality, quality);
         shapes.mean_quality += quality;
@@ -138,12 +139,12 @@ ImproveResult improve(Mesh& mesh, const ImproveOptions& given) {
     options.max_error =
         std::min(given.max_error, largest_error_bound(mesh) + SurfaceDrift::kPoorShare * given.tolerance * given.scale);
     ImproveResult result;
-    result.before = shapes_of(mesh, options.min_quality);
+    result.before = shapes_of(mesh, options.min_quality, options.scale_z);
     mesh.sort_spatially();
     count_labels(mesh);
     ImproveLoop(mesh, options).run(result);
     if (result.collapses > 0) mesh.compact();
-    result.after = shapes_of(mesh, options.min_quality);
+    result.after = shapes_of(mesh, options.min_quality, options.scale_z);
     result.error_bound = largest_error_bound(mesh);
     return result;
 }

@@ -12,6 +12,7 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
     if (!options.improve) return;
     const StageTimer timer = log.time("improve");
     ImproveOptions own = improve_options(simplify_options(options, shape));
+    own.scale_z = shape.scale_z;
     // The number of sweeps is not known: the share nears 1 ever more slowly.
     double calls = 0;
     const double calls_a_sweep = 1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0;

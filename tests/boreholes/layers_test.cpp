@@ -301,6 +301,41 @@ TEST_F(Layers, the_terrain_is_the_top) {
     for (const auto& [x, y, top] : bases(*reader, 0)) EXPECT_NEAR(top, 100 + 40 * x / 1000, 1) << x;
 }
 
+TEST_F(Layers, an_open_top_lies_above_the_highest_ground) {
+    put_text(path("ground.asc"),
+             "ncols 3\nnrows 3\nxllcorner -500\nyllcorner -500\ncellsize 1000\n"
+             "100 100 100\n100 180.3 100\n100 100 100\n");
+    for (const double step : {0.7, 1.0, 3.0}) {
+        LayerOptions options{
+            .spacing = Vec3{50, 50, step}, .box = {{{0, 2000}, {0, 2000}, {20}}}, .sweep = SweepChoice::kZ};
+        options.terrain = path("ground.asc");
+        const auto reader = open(folded(places(20)), options);
+        const Lattice& lattice = reader->info().lattice;
+        EXPECT_EQ(lattice.origin.z, 20);
+        EXPECT_GT(lattice.origin.z + (lattice.size[2] - 1) * lattice.spacing.z, 180.3);
+        std::vector<InputLabel> labels = labels_of(*reader);
+        EXPECT_EQ(std::count(labels.end() - lattice.size[0] * lattice.size[1], labels.end(), 0),
+                  lattice.size[0] * lattice.size[1])
+            << "air";
+    }
+}
+
+TEST_F(Layers, the_model_ends_at_the_box) {
+    const auto lattice_of = [&](const std::array<LengthRange, 3>& box) {
+        return open(folded(places(20)), {.spacing = Vec3{10, 10, 1}, .box = box})->info().lattice;
+    };
+    const Lattice both = lattice_of({{{0, 94}, {3, 103}, {0, 50.4}}});
+    const Box extent = both.extent();
+    EXPECT_NEAR(length(extent.low - Vec3{0, 3, 0}), 0, 1e-9);
+    EXPECT_NEAR(length(extent.high - Vec3{94, 103, 50.4}), 0, 1e-9);
+    EXPECT_EQ(both.spacing.y, 10);
+    LengthRange to_94;
+    to_94.high = 94;
+    const Lattice high = lattice_of({{to_94, {0, 100}, {0, 50}}});
+    EXPECT_NEAR(high.extent().high.x, 94, 1e-9);
+    EXPECT_EQ(high.spacing.x, 10);
+}
+
 class TerrainFile : public TemporaryFolder {
 protected:
     formats::Terrain read(const std::string& text) {
@@ -327,7 +362,7 @@ TEST_F(TerrainFile, heights_lie_between_the_centres_of_cells) {
 }
 
 TEST_F(TerrainFile, heights_reach_to_the_edge_of_the_cells) {
-    const auto terrain = read("ncols 2\nnrows 2\nxllcorner 9\nyllcorner 19\ncellsize 2\n1 2\n5 6\n");
+    const auto terrain = read("\xEF\xBB\xBFncols 2\nnrows 2\nxllcorner 9\nyllcorner 19\ncellsize 2\n1 2\n5 6\n");
     EXPECT_EQ(*terrain.at(9, 21), 3) << "as between the centres of the first column";
     EXPECT_EQ(*terrain.at(11, 23), 1.5);
     EXPECT_EQ(*terrain.at(13, 19), 6);

@@ -113,6 +113,15 @@ TEST(Improve, collapses_short_edges_of_the_worst_faces) {
     EXPECT_LT(2 * done.after.faces_below, done.before.faces_below);
 }
 
+TEST(Improve, shapes_are_those_of_the_model_without_the_scale_of_z) {
+    ReconstructOptions options = improved(0.8);
+    options.scale_z = 8;
+    const Reconstruction made = run(test::grain_volume({12, 12, 12}, 6, 3), options);
+    const FaceShapes& after = made.report.improved.value().after;
+    EXPECT_NEAR(after.min_quality, made.report.check.quality.min, 1e-12);
+    EXPECT_NEAR(after.mean_quality, made.report.check.quality.mean, 1e-12);
+}
+
 TEST(Improve, of_an_empty_mesh_does_nothing) {
     Mesh mesh;
     EXPECT_EQ(improve(mesh, {}).sweeps, 1u);
