@@ -204,7 +204,7 @@ TEST_F(PointTableFile, missing_and_double_columns_are_named) {
               "--columns x=COLUMN,label=COLUMN");
     EXPECT_THAT(failure("x=1", "a,b,z,lith"), HasSubstr("no column for y"));
     EXPECT_THAT(failure("x=a", "a,y,zz,lith"), HasSubstr("no column for z, nor both of top and bottom"));
-    EXPECT_THAT(failure("x=a", "a,y,z,rock"), HasSubstr("no column for label"));
+    EXPECT_THAT(failure("x=a", "a,y,z,stone"), HasSubstr("no column for label"));
     EXPECT_THAT(failure("x=b"), HasSubstr("no column 'b' that --columns names, only 'a', 'y'"));
     EXPECT_THAT(failure("x=5"), HasSubstr("has columns 1 to 4; --columns names 5"));
     EXPECT_THAT(failure("x=0"), HasSubstr("--columns names 0"));
