@@ -98,7 +98,6 @@ int check_folder(const Settings& given) {
             throw Error(ErrorCode::kInput, settings.sections.front() + ": its samples do not lie where those of " +
                                                path + " do; give the volume that the model was made from");
         if (has_samples(settings)) {
-            reader->rewind();
             samples = compare_block_samples(path, file.labels, options.background, *reader);
         }
     }

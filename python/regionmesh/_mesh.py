@@ -275,7 +275,8 @@ class Mesh:
     def _derived(self, model):
         mesh = Mesh(model, self._lattice)
         rows = self.report.get("dice_of_regions")
-        if rows and "dice_of_regions" not in mesh.report:  # the samples of regions stay, what the model makes of them may not
+        # The samples of regions stay; what the model makes of them may change.
+        if rows and "dice_of_regions" not in mesh.report:
             mesh.report["dice_of_regions"] = [{key: row[key] for key in ("label", "samples")} for row in rows]
         return mesh
 

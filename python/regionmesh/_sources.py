@@ -1,6 +1,7 @@
 """Labels in any form that Python has, as sources of sections."""
 
 import contextlib
+import itertools
 import os
 import sys
 import tempfile
@@ -154,19 +155,17 @@ class _ArrayCalls:
 class _IteratorCalls:
     """Sections of an iterator, once, or of a sequence, any number of times."""
 
-    def __init__(self, first, rest, count, sequence):
-        self.first, self.rest, self.count, self.sequence = first, rest, count, sequence
-        self.like, self.section = first, 0
+    def __init__(self, sections, first, count, sequence):
+        self.rest, self.first, self.count, self.sequence = sections, first, count, sequence
+        self.section = 0
 
     def rewind(self):
-        self.rest, self.first, self.section = iter(self.sequence), None, 0
+        self.rest, self.section = iter(self.sequence), 0
 
     def next(self):
-        if self.first is not None:
-            section, self.first = self.first, None
-        else:
-            section = next(self.rest, None)
-            section = None if section is None else _section_like(self.like, section, self.section)
+        section = next(self.rest, None)
+        if section is not None:
+            section = _section_like(self.first, section, self.section)
         self.section += 1
         if self.section == self.count and next(self.rest, None) is not None:
             raise ValueError(f"labels: more than the {self.count} sections that were announced; give their number")
@@ -191,16 +190,13 @@ def _section_like(first, section, number):
     return section
 
 
-def _spooled(first, rest):
+def _spooled(sections, first):
     """Copy sections into a file without a name, in TMPDIR, and map it: their number is known only at the end."""
     with tempfile.TemporaryFile(prefix="regionmesh-") as file:
         count = 0
-        section = first
-        while section is not None:
-            file.write(np.ascontiguousarray(section).data)
+        for section in sections:
+            file.write(np.ascontiguousarray(_section_like(first, section, count)).data)
             count += 1
-            section = next(rest, None)
-            section = None if section is None else _section_like(first, section, count)
         file.flush()
         return np.memmap(file, dtype=first.dtype, mode="r", shape=(count, *first.shape))
 
@@ -215,10 +211,11 @@ def _iterated(labels, sections):
     if first is None:
         raise ValueError("labels: no sections; give at least two")
     first = _section(first)
+    rest = itertools.chain([first], rest)
     if count is None:
-        return _spooled(first, rest)
+        return _spooled(rest, first)
     sequence = labels if hasattr(labels, "__len__") else None
-    calls = _IteratorCalls(first, rest, int(count), sequence)
+    calls = _IteratorCalls(rest, first, int(count), sequence)
     size = (first.shape[1], first.shape[0], int(count))
     return calls.next, (calls.rewind if sequence is not None else None), size, _type_name(first.dtype)
 

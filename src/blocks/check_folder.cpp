@@ -115,10 +115,13 @@ std::uint64_t voxelise_block_folder(const fs::path& path, const VolumeInfo& volu
 
 SampleAgreement compare_block_samples(const fs::path& path, LabelTable& labels, const std::vector<Label>& background,
                                       SectionReader& reader) {
+    if (reader.info().can_rewind) reader.rewind();
     std::vector<InputLabel> given(std::size_t{reader.section_width()} * reader.section_height());
     SampleAgreement result;
+    std::uint32_t section = 0;
     result.contradictions = voxelise_block_folder(path, reader.info(), background, [&](std::span<const Label> found) {
-        if (reader.next(given)) add_samples(result, labels, background, given, found);
+        require_section(reader.next(given), reader.info(), section++);
+        add_samples(result, labels, background, given, found);
     });
     return result;
 }

@@ -79,7 +79,8 @@ void SectionFaces::place(Mesh& mesh) const {
 }
 
 SampleAgreement SectionFaces::compare(const Mesh& mesh, std::uint32_t threads) {
-    rewind();
+    window_.reset();
+    mesher_.reset();
     return compare_samples(mesh, labels_, background_, reader_, threads);
 }
 

@@ -28,7 +28,7 @@ void require_in_range(const ReconstructOptions& options) {
     constexpr double kMost = std::numeric_limits<double>::max();
     if (options.reduce) require("reduce", *options.reduce, 1, "0 to 1");
     if (options.max_error) require("max_error", *options.max_error, HUGE_VAL, "0 or more");
-    require("room", options.room, kMostRoom, "0 to 8");
+    require_room(options.room);
     require("min_quality", options.min_quality, kBestQuality, "0 to 0.26");
     require("perturbation", options.perturbation, kMost, "0 or more");
     require("smooth.lambda", options.smooth.lambda, 1, "0 to 1");

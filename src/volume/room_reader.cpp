@@ -18,6 +18,12 @@ constexpr double kCutOff = 2;
 
 }  // namespace
 
+void require_room(double room) {
+    constexpr double kMost = 8;
+    if (!(room >= 0 && room <= kMost))
+        throw Error(ErrorCode::kUsage, "room: " + std::to_string(room) + " is not a number of 0 to 8; give one");
+}
+
 RoomReader::RoomReader(SectionReader& reader, double room, std::uint32_t threads)
     : reader_(reader), info_(reader.info()), threads_(threads) {
     make_offsets(room);
@@ -128,9 +134,8 @@ InputLabel RoomReader::cleaned(std::int32_t i, std::int32_t j) const {
 
 std::unique_ptr<SectionReader> clean_sections(std::unique_ptr<SectionReader> reader, double room,
                                               std::uint32_t threads) {
+    require_room(room);
     if (room == 0) return reader;
-    if (!(room > 0 && room <= kMostRoom))
-        throw Error(ErrorCode::kUsage, "room: " + std::to_string(room) + " is not a number of 0 to 8; give one");
     return std::make_unique<RoomReader>(std::move(reader), room, threads);
 }
 

@@ -9,8 +9,8 @@
 
 namespace regionmesh {
 
-/// In finest spacings. The kernel of 8 has 4,000 times as many samples as that of 0.5.
-inline constexpr double kMostRoom = 8;
+/// Throws Error(kUsage) for other numbers than 0 to 8: the kernel of 8 has 4,000 times as many samples as that of 0.5.
+void require_room(double room);
 
 /// Returns the sections of another reader. A sample nearer than `room` to the boundary of its region gets the label
 /// that has most weight round it: Gaussian, with a standard deviation of `room`, cut off at twice that. Its own label

@@ -25,9 +25,8 @@ std::vector<std::string> axis_names(const Json& image) {
     if (!image.contains("axes")) return {"t", "c", "z", "y", "x"};
     std::vector<std::string> names;
     for (const Json& axis : image.at("axes")) {
-        std::string name = axis.is_string() ? axis : axis.at("name");
-        std::ranges::transform(name, name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-        names.push_back(name);
+        const std::string name = axis.is_string() ? axis : axis.at("name");
+        names.push_back(lower(name));
     }
     return names;
 }
