@@ -66,7 +66,9 @@ TEST_F(Endless, sparse_npy_of_4_GB_is_refused_by_max_work_and_read_as_far_as_it_
     constexpr std::uint64_t kBytes = std::uint64_t{1} << 32;
     std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (1024, 2048, 2048), }";
     header.resize(117, ' ');
-    put_text(path("v.npy"), std::string("\x93NUMPY\1\0\x76\0", 10) + header + "\n");
+    std::string head("\x93NUMPY\1\0\x76\0", 10);
+    head += header + '\n';
+    put_text(path("v.npy"), head);
     std::filesystem::resize_file(path("v.npy"), 128 + kBytes);
     const std::string volume = path("v.npy").string();
     const auto start = std::chrono::steady_clock::now();

@@ -19,7 +19,8 @@ function(run)
 endfunction()
 
 file(REMOVE_RECURSE ${prefix} ${BINARY}/examples)
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY}/build ${common} -D REGIONMESH_FORMATS=OFF -D REGIONMESH_TESTS=OFF -D REGIONMESH_DELAUNAY=OFF)
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY}/build ${common} -D REGIONMESH_FORMATS=OFF -D REGIONMESH_TESTS=OFF -D REGIONMESH_DELAUNAY=OFF
+    -D REGIONMESH_PRECOMPILE_HEADERS=OFF)
 run(${CMAKE_COMMAND} --build ${BINARY}/build --parallel 2)
 run(${CMAKE_COMMAND} --install ${BINARY}/build --prefix ${prefix})
 run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${BINARY}/examples ${common} -D CMAKE_PREFIX_PATH=${prefix})
