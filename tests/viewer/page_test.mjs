@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
+import { coordinate } from "../../viewer/src/dom.js";
 import { launch, open, picture } from "./browser.mjs";
 
 const [program, repository, folder] = process.argv.slice(2);
@@ -178,7 +179,7 @@ async function tables_equal_the_report(browser) {
         }
         assert.equal(Number(cells.dice), dice.get(region.label));
     });
-    assert.deepEqual(JSON.parse(await downloaded(page, "report")).verdicts, report.verdicts);
+    assert.deepEqual(JSON.parse(await downloaded(page, "report")), report);
     await page.click('#region-table [data-column="volume"] button');
     const volumes = await page.$$eval('#region-table tbody tr td:nth-child(3)', (cells) => cells.map((e) => Number(e.textContent.replaceAll(",", ""))));
     assert.deepEqual(volumes, [...volumes].sort((a, b) => b - a));
@@ -191,6 +192,14 @@ async function tables_equal_the_report(browser) {
     assert.equal(await page.$$eval("svg.histogram", (found) => found.length), 2);
     assert.deepEqual(errors, []);
     await page.close();
+}
+
+function coordinates_have_the_digits_of_the_page() {
+    assert.equal(coordinate(456818.12345, 64), "456,818.1235");
+    assert.equal(coordinate(1e9 + 12.3456, 3), "1,000,000,012.3456");
+    assert.equal(coordinate(3.2, 2e6), "3");
+    assert.equal(coordinate(1e-30, 1e-29), "1e-30");
+    assert.equal(coordinate(5, 0), "5");
 }
 
 async function a_picture_is_saved(browser) {
@@ -313,6 +322,7 @@ async function hostile_names_are_text(browser) {
 
 const browser = await launch(repository);
 try {
+    coordinates_have_the_digits_of_the_page();
     for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
         large_models_are_shown_as_a_preview, a_picture_is_saved, a_click_names_the_region, tables_equal_the_report,
         a_planted_violation_is_found, two_models_share_a_camera, hostile_names_are_text]) {

@@ -26,6 +26,12 @@ export function short(number, digits = 4) {
     return size >= 1000 ? grouped(number) : String(Number(number.toPrecision(digits)));
 }
 
+/** A coordinate in a model of this extent, to the digits that the page holds: 1/65535 of it. */
+export function coordinate(number, extent) {
+    const digits = Math.ceil(Math.log10(65535 / extent));
+    return digits <= 20 ? number.toLocaleString("en", { maximumFractionDigits: Math.max(digits, 0) }) : String(number);
+}
+
 export const percent = (share) => `${short(100 * share, 3)} %`;
 
 export function download(name, type, content) {

@@ -79,7 +79,8 @@ function showModels(data, models, regions) {
     };
     const list = new RegionList(regions, lookAt);
     const act = actions(stage, regions, models[0].title);
-    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [] });
+    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [],
+        violationCount: Object.values(data.report?.violation_counts ?? {}).reduce((sum, count) => sum + count, 0) });
     const update = () => {
         stage.drawn.forEach((drawn, which) => {
             drawn.show(regions.drawnStates(which));

@@ -56,6 +56,21 @@ export function csvOf(columns, rows) {
     return lines.map((cells) => cells.join(",") + "\r\n").join("");
 }
 
+/** The report as it was written: the page holds labels as text, since a number of JavaScript has 53 bits. */
+export function reportText(report) {
+    const mark = (label) => (/^-?\d+$/.test(label) ? `\u0001${label}\u0001` : label);
+    const marked = (value) => {
+        if (Array.isArray(value)) return value.map(marked);
+        if (value === null || typeof value !== "object") return value;
+        return Object.fromEntries(Object.entries(value).map(([key, item]) => {
+            if (key === "options") return [key, item];
+            if (key === "label") return [key, mark(item)];
+            return [key, key === "labels" && Array.isArray(item) ? item.map(mark) : marked(item)];
+        }));
+    };
+    return JSON.stringify(marked(report), null, 2).replace(/"\\u0001(-?\d+)\\u0001"/g, "$1") + "\n";
+}
+
 function jsonOf(columns, rows) {
     const objects = rows.map((row) => Object.fromEntries(columns.map(([name, , value]) => [name, value(row) ?? null])));
     return JSON.stringify(objects, null, 2) + "\n";
@@ -97,7 +112,7 @@ export function showTable(data, regions, goTo) {
         element("div", { class: "buttons" },
             element("button", { type: "button", id: "csv", onclick: () => download(`${name}.regions.csv`, "text/csv", csvOf(columns, all)) }, "Download CSV"),
             element("button", { type: "button", id: "json", onclick: () => download(`${name}.regions.json`, "application/json", jsonOf(columns, all)) }, "Download JSON"),
-            element("button", { type: "button", id: "report", onclick: () => download(`${name}.report.json`, "application/json", JSON.stringify(data.report, null, 2) + "\n") }, "Download the whole report")),
+            element("button", { type: "button", id: "report", onclick: () => download(`${name}.report.json`, "application/json", reportText(data.report)) }, "Download the whole report")),
         element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Table of regions, scrolls" },
             element("table", { id: "region-table" }, element("thead", {}, element("tr", {}, ...heads)), body)), more);
     draw();

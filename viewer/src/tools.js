@@ -1,5 +1,5 @@
 // The panel on the right: the selected region or face, colours, section, exploded view, lines, violations.
-import { byId, element, grouped, short } from "./dom.js";
+import { byId, coordinate, element, grouped, short } from "./dom.js";
 import { faceQuality, interfaceMeasures } from "./measures.js";
 import { farthestVertex, labelsAround, nearestVertex } from "./places.js";
 import { kRamps } from "./ramps.js";
@@ -24,9 +24,16 @@ function toggle(id, label, onchange) {
     return element("label", { class: "toggle" }, input, label);
 }
 
+const extentOf = ({ low, high }) => Math.max(...high.map((x, axis) => x - low[axis]));
+
+/** Coordinates of a place that is relative to the centre of the model. */
+function placeText(model, at) {
+    return at.map((x, axis) => coordinate(x + model.centre[axis], extentOf(model))).join(", ");
+}
+
 export class Tools {
     constructor(page) {
-        Object.assign(this, page);  // stage, regions, models, violations, list
+        Object.assign(this, page);  // stage, regions, models, violations, violationCount, list
         this.info = element("div", { id: "info", role: "status", "aria-live": "polite" });
         byId("tools").append(
             group("Selected", this.info), this.colourGroup(), this.sectionGroup(), this.shapeGroup(), this.lineGroup());
@@ -76,7 +83,7 @@ export class Tools {
         this.stage.lookAt(at, this.stage.radius / 5);
         const names = [...labels].map((label) => this.regions.titleAt(which, label)).join(", ");
         byId("farthest-text").textContent =
-            `${short(distance)} at a vertex of ${"AB"[which]}, ${place.map((x) => short(x)).join(", ")}. Only ${names} shown; the key A shows all.`;
+            `${short(distance)} at a vertex of ${"AB"[which]}, ${placeText(model, at)}. Only ${names} shown; the key A shows all.`;
     }
 
     sectionGroup() {
@@ -84,7 +91,7 @@ export class Tools {
         const update = () => {
             const axis = byId("section-axis").value;
             this.stage.setSection(axis, Number(byId("section-share").value), byId("section-turn").checked);
-            place.textContent = axis === "none" ? "" : `${axis} = ${short(this.stage.sectionPlace)}`;
+            place.textContent = axis === "none" ? "" : `${axis} = ${coordinate(this.stage.sectionPlace, extentOf(this.models[0]))}`;
         };
         const chooseAxis = (axis) => {
             if (axis !== "none") byId("section-turn").checked = this.stage.looksFromBelow(axis);
@@ -157,7 +164,8 @@ export class Tools {
             const { violations } = this, count = violations.length;
             this.violation = ((this.violation ?? (by > 0 ? -1 : 0)) + by + count) % count;
             const found = violations[this.violation];
-            text.textContent = `${this.violation + 1} of ${count}: ${found.text}`;
+            const all = this.violationCount > count ? ` that are listed, ${grouped(this.violationCount)} in all` : "";
+            text.textContent = `${this.violation + 1} of ${grouped(count)}${all}: ${found.text}`;
             if (found.at) this.goToViolation(found.at);
         };
         this.stepViolation = step;
@@ -206,7 +214,7 @@ export class Tools {
     }
 
     faceRows({ which, face, isCap, at }) {
-        const { model } = this.stage.drawn[which], place = at.map((x, axis) => short(x + model.centre[axis])).join(", ");
+        const { model } = this.stage.drawn[which], place = placeText(model, at);
         if (isCap) return [["Place", place]];
         const f = model.surface.faceOf[face], pair = model.geometry.pairOfFace[f], found = interfaceMeasures(model, pair);
         const names = model.pairs[pair].slice(0, 2).map((label) => this.regions.titleAt(which, label));
