@@ -104,6 +104,15 @@ void require_fit_of_blocks(const Settings& settings) {
                         fmt::format("--{}: is for a model in one file, and --output is a folder of pieces; leave it "
                                     "out, and give the folder to regionmesh convert or check",
                                     name));
+    for (const auto& [is_given, name] : {std::pair{settings.reconstruct.preserve_volume, "preserve-volume"},
+                                         std::pair{settings.reconstruct.improve, "improve"}})
+        if (is_given)
+            throw Error(ErrorCode::kUsage,
+                        fmt::format("--{}: needs the whole surface at once, which a folder of pieces has not; leave it "
+                                    "out, or name a file in --output",
+                                    name));
+    if (settings.inputs.front() == "-" && shared_tasks && shared_tasks->processes() > 1)
+        throw Error(ErrorCode::kUsage, "standard input: one process alone can read it; name a file");
     require_fit(settings, settings.inputs);
     if (!is_lattice(settings, settings.inputs))
         throw Error(ErrorCode::kUsage,
@@ -137,9 +146,10 @@ void print_summary(const Settings& settings, const BlockReport& report) {
     if (report.stopped == "topology" || report.stopped == "max_error")
         say("decimation ended by {}, with {}", report.stopped == "topology" ? "topology or quality" : "--max-error",
             counted(report.final_faces, "face"));
-    say("made: {}, {} (from {} faces), in {} of up to {} cells; {} made and {} found complete",
+    say("made: {}, {} (from {} faces), in {} of up to {} cells; {} made{} and {} found complete",
         counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
-        counted(report.pieces, "piece"), report.block_cells, counted(report.made, "block"), report.found);
+        counted(report.pieces, "piece"), report.block_cells, counted(report.made, "block"),
+        has_other_processes() ? " by this process" : "", report.found);
     say("written: {}; {:.2f} s, {} MB of memory", printable(settings.output), report.seconds,
         grouped(report.peak_bytes / 1000000));
 }
@@ -162,9 +172,11 @@ void make_block_folder(const Settings& settings) {
     const bool is_model = !settings.inputs.empty() && writes_blocks(settings);
     const bool is_for_viewer = !settings.models.empty() && is_precomputed(settings.output);
     if (!is_model && !is_for_viewer) return;
+    if (is_model) require_fit_of_blocks(settings);
     for (const std::vector<std::string>* files : {&settings.inputs, &settings.models})
         for (const std::string& file : *files)
-            if (std::error_code missing; file.find(':') == std::string::npos && !fs::exists(file, missing))
+            if (std::error_code missing;
+                file != "-" && file.find(':') == std::string::npos && !fs::exists(file, missing))
                 return;  // the command says so, and leaves nothing behind
     std::error_code error;
     for (const fs::path& path : {folder, folder / "names"}) {
@@ -183,7 +195,6 @@ bool has_other_processes() { return shared_tasks != nullptr; }
 int run_blocks(const Settings& settings) {
     BlockTasks alone;
     BlockTasks& tasks = shared_tasks ? *shared_tasks : alone;
-    require_fit_of_blocks(settings);
     std::optional<MemoryWatch> watch;
     if (settings.memory_is_hard) watch.emplace(settings.reconstruct.memory, true);
     const BlockOptions blocks{.folder = folder_of(settings.output),

@@ -152,9 +152,9 @@ std::string print_anything(const Settings& settings) {
     const bool may_be_model = settings.inputs.size() == 1 &&
                               (has_extension(path, readable_extensions()) || std::filesystem::is_directory(path));
     if (!may_be_model) return print_input(settings);
-    if (!has_extension(path, volume_extensions() + ' ' + tetrahedron_extensions()) &&
-        !std::filesystem::is_directory(path))
-        return model();
+    const bool may_be_input = has_extension(path, volume_extensions() + ' ' + tetrahedron_extensions()) ||
+                              std::filesystem::is_directory(path);
+    if (!may_be_input || is_block_folder(path)) return model();
     try {
         return print_input(settings);
     } catch (const Error& no_input) {

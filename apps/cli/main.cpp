@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "arguments.h"
@@ -35,12 +37,21 @@ bool says_usage = true;
 /// What helps when memory runs out: options that the command has.
 const char* advice = "end other programs, or take a part of the input";
 
-/// One line on standard error. Allocates nothing and cannot fail: the exit code says the same where nobody reads it.
+/// One line on standard error, at once where it is not very long: lines of several processes stay apart. Allocates
+/// nothing and cannot fail: the exit code says the same where nobody reads it.
 void complain(std::initializer_list<const char*> words) {
-    std::fputs(process_name.c_str(), stderr);
-    for (const char* word : words)
-        for_printable(word, [](const char* bytes, std::size_t count) { std::fwrite(bytes, 1, count, stderr); });
-    std::fputc('\n', stderr);
+    std::array<char, 4096> line;
+    std::size_t size = 0;
+    const auto put = [&](const char* bytes, std::size_t count) {
+        if (size + count > line.size()) std::fwrite(line.data(), 1, std::exchange(size, 0), stderr);
+        if (count > line.size()) return static_cast<void>(std::fwrite(bytes, 1, count, stderr));
+        std::copy_n(bytes, count, line.data() + size);
+        size += count;
+    };
+    put(process_name.data(), process_name.size());
+    for (const char* word : words) for_printable(word, put);
+    put("\n", 1);
+    std::fwrite(line.data(), 1, size, stderr);
 }
 
 void say_out_of_memory() {

@@ -120,7 +120,8 @@ struct VtpPiecesOptions {
 /// Writes each piece of a complete folder as NAME-NNNNNN.vtp beside `path`, NAME.pvtp, which ParaView opens as one
 /// model. Holds one piece, and the vertices on seams that later pieces need. The point attribute GlobalIds numbers the
 /// vertices of the whole from 0, in the order of the pieces: one on a seam has the same number in all pieces that have
-/// it. NodeType of a vertex on a seam counts the labels in its piece. Returns the files written.
+/// it. NodeType of a vertex on a seam counts the labels in its piece. All files get their names at the end, together.
+/// Returns the files written.
 std::vector<std::filesystem::path> write_vtp_pieces(const std::filesystem::path& folder,
                                                     const std::filesystem::path& path,
                                                     const VtpPiecesOptions& options = {});

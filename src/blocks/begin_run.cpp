@@ -7,11 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "base/fingerprint.h"
 #include "blocks/block_size.h"
 #include "blocks/manifest.h"
 #include "blocks/own_faces.h"
 #include "blocks/survey.h"
 #include "formats/input_file.h"
+#include "formats/part_files.h"
 #include "regionmesh/error.h"
 #include "stream/plan.h"
 #include "stream/section_faces.h"
@@ -23,6 +25,28 @@ namespace regionmesh {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Sections of an input that has no name by which a run that goes on could tell it from another.
+class FingerprintedSections final : public SectionReader {
+public:
+    explicit FingerprintedSections(std::unique_ptr<SectionReader> reader) : reader_(std::move(reader)) {}
+    const VolumeInfo& info() const override { return reader_->info(); }
+    bool next(std::span<InputLabel> section) override {
+        if (!reader_->next(section)) return false;
+        for (const InputLabel label : section) fingerprint_.add(static_cast<std::uint64_t>(label));
+        return true;
+    }
+    void rewind() override {
+        reader_->rewind();
+        fingerprint_ = {};
+    }
+    /// Of the sections read so far.
+    std::uint64_t fingerprint() const { return fingerprint_.value(); }
+
+private:
+    std::unique_ptr<SectionReader> reader_;
+    Fingerprint fingerprint_;
+};
 
 /// Labels of the input and dense ones of two sections, and the row of a reader.
 constexpr std::uint64_t kSurveyBytesPerSample = 2 * sizeof(InputLabel) + 2 * sizeof(Label);
@@ -40,6 +64,11 @@ void require_fit(const std::string& source, const ReconstructOptions& options) {
 struct Input {
     Input(const OpenSections& open, const ReconstructOptions& options) : file(open()) {
         require_in_range(options);
+        if (!file->info().can_rewind) {
+            auto stream = std::make_unique<FingerprintedSections>(std::move(file));
+            samples = stream.get();
+            file = std::move(stream);
+        }
         if (options.room > 0) cleaned.emplace(*file, options.room, options.threads);
         info = sections().info();
         require_lattice(info.source, info.lattice);
@@ -64,6 +93,7 @@ struct Input {
     }
 
     std::unique_ptr<SectionReader> file;
+    const FingerprintedSections* samples = nullptr;  // `file`, where it is read in one pass
     std::optional<RoomReader> cleaned = {};
     VolumeInfo info = {};
     SourceShape shape = {};
@@ -138,6 +168,8 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     manifest.source = info.source;
     manifest.is_unsigned = found.labels.is_unsigned();
     manifest.label_count = found.labels.size();
+    manifest.labels_hash = hash_of(found.labels);
+    if (input.samples) manifest.samples_hash = input.samples->fingerprint();
     manifest.space = info.space;
     manifest.names = info.names;
     manifest.colours = info.colours;
@@ -169,34 +201,65 @@ void require_regions(const Survey& found, const Input& input, const ReconstructO
                               : "it has one label only, which has no face with --boundary open; give --boundary cap"));
 }
 
-/// Makes the folder, and a manifest that says which run it belongs to.
-void make_folder(const BlockOptions& blocks) {
+void make_folder(const fs::path& folder) {
     std::error_code error;
-    if (!fs::is_directory(blocks.folder, error)) fs::create_directory(blocks.folder, error);
-    if (error) throw Error(ErrorCode::kOutput, blocks.folder.string() + ": cannot be made: " + error.message());
-    if (!fs::is_empty(blocks.folder, error))
+    if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);
+    if (error) throw Error(ErrorCode::kOutput, folder.string() + ": cannot be made: " + error.message());
+}
+
+/// Writes a manifest that says which run the folder belongs to.
+void take_folder(const BlockOptions& blocks) {
+    // A run that was killed here has left a part of its manifest.
+    formats::remove_stale_parts(manifest_path(blocks.folder), false);
+    const std::string part = '.' + manifest_path(blocks.folder).filename().string() + ".part-";
+    for (const auto& entry : fs::directory_iterator(blocks.folder)) {
+        if (entry.path().filename().string().starts_with(part)) continue;
         throw Error(ErrorCode::kOutput, blocks.folder.string() + ": holds other files; name an empty or a new folder");
+    }
     Manifest manifest;
     manifest.identity = blocks.identity;
     write_manifest(manifest, blocks.folder, blocks.output);
 }
 
+/// Where a run goes on whose samples came in one pass: reads them once more.
+void require_same_samples(Input& input, const Manifest& there, const fs::path& folder) {
+    std::vector<InputLabel> section(std::size_t{input.file->section_width()} * input.file->section_height());
+    for (std::uint32_t n = 0; n < input.file->section_count(); ++n)
+        require_section(input.file->next(section), input.info, n);
+    if (input.samples->fingerprint() != there.samples_hash)
+        throw Error(ErrorCode::kInput, folder.string() + ": was begun with other samples than those of " +
+                                           input.info.source + "; give what it was begun with, or another folder");
+}
+
+/// Takes the folder for this run, or finds that it belongs to it. Writes nothing for an input that cannot be read.
+std::unique_ptr<FolderLock> enter_folder(const OpenSections& open, const ReconstructOptions& options,
+                                         const BlockOptions& blocks, std::optional<Input>& input) {
+    std::error_code missing;
+    if (!fs::is_directory(blocks.folder, missing)) {
+        input.emplace(open, options);
+        make_folder(blocks.folder);
+    }
+    auto lock = std::make_unique<FolderLock>(blocks.folder);
+    const auto there = read_manifest(blocks.folder);
+    const bool is_surveyed = there && there->is_surveyed;
+    if (!input && (!is_surveyed || there->samples_hash)) input.emplace(open, options);
+    if (there)
+        require_same_run(*there, blocks.identity, blocks.folder);
+    else
+        take_folder(blocks);
+    if (is_surveyed && there->samples_hash) require_same_samples(*input, *there, blocks.folder);
+    return lock;
+}
+
 }  // namespace
 
-void begin_run(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks,
-               BlockTasks& tasks, const OnBlocks& on_progress) {
+std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const ReconstructOptions& options,
+                                      const BlockOptions& blocks, BlockTasks& tasks, const OnBlocks& on_progress) {
+    std::unique_ptr<FolderLock> lock;
     std::optional<Input> input;
-    if (tasks.is_first()) {
-        const auto there = read_manifest(blocks.folder);
-        // Nothing is written for an input that cannot be read.
-        if (!there || !there->is_surveyed) input.emplace(open, options);
-        if (there)
-            require_same_run(*there, blocks.identity, blocks.folder);
-        else
-            make_folder(blocks);
-    }
+    if (tasks.is_first()) lock = enter_folder(open, options, blocks, input);
     tasks.end_phase();
-    if (read_manifest_together(blocks.folder, tasks).is_surveyed) return;
+    if (read_manifest_together(blocks.folder, tasks).is_surveyed) return lock;
     if (!input) input.emplace(open, options);
     const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
     if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
@@ -207,6 +270,7 @@ void begin_run(const OpenSections& open, const ReconstructOptions& options, cons
         note_survey(found, *input, options, blocks);
     }
     tasks.end_phase();
+    return lock;
 }
 
 Manifest read_manifest_together(const fs::path& folder, BlockTasks& tasks) {

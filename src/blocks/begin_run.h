@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
+#include "blocks/folder_lock.h"
 #include "blocks/labels_in_place.h"
 #include "blocks/manifest.h"
 #include "regionmesh/blocks.h"
@@ -19,9 +21,11 @@ inline constexpr const char* kSurveyPart = "survey-";
 
 /// Makes the folder, reads the input once and writes the manifest: labels, faces, size of the blocks. Where the folder
 /// has these already, it only looks whether they belong to the same run. All processes call it; they share the reading
-/// where any box of the input can be read. Throws like reconstruct_blocks().
-void begin_run(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks,
-               BlockTasks& tasks, const OnBlocks& on_progress);
+/// where any box of the input can be read. Returns the lock of the folder, which the first process has. Throws like
+/// reconstruct_blocks().
+[[nodiscard]] std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const ReconstructOptions& options,
+                                                    const BlockOptions& blocks, BlockTasks& tasks,
+                                                    const OnBlocks& on_progress);
 
 /// The manifest of the folder. No process goes on, to write it anew, before all have read it. All of them call it.
 Manifest read_manifest_together(const std::filesystem::path& folder, BlockTasks& tasks);

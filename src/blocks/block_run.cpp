@@ -51,7 +51,7 @@ BlockReport BlockRun::run() {
     note_memory_room(MemoryRoom::kShort);  // blocks are as large as memory has room for
     {
         const Timer timer(report_.seconds);
-        begin_run(open_, options_, blocks_, tasks_, on_progress_);
+        const auto lock = begin_run(open_, options_, blocks_, tasks_, on_progress_);
         manifest_ = read_manifest_together(folder_, tasks_);
         job_ = job_of(manifest_.identity);
         if (manifest_.is_complete) {

@@ -98,7 +98,7 @@ void require_block_memory(const std::string& source, const SourceShape& shape, s
     if (needed <= static_cast<double>(options.memory)) return;
     throw Error(
         ErrorCode::kInput,
-        fmt::format("{}: {} needs at least {} in blocks of {} cells; raise --memory to that, or give a smaller "
+        fmt::format("{}: {} needs at least {} in blocks of {} cells; raise --memory to that, or try another "
                     "--block-size in a new folder",
                     memory_limit_text(options.memory), source, megabytes(static_cast<std::uint64_t>(needed)), cells));
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/hash.h"
+#include "base/fingerprint.h"
 #include "blocks/block_grid.h"
 #include "formats/input_file.h"
 #include "formats/report/json_parts.h"
@@ -39,6 +39,8 @@ Json json_of(const Manifest& manifest) {
     json["sweep"] = manifest.sweep.axes;
     json["unsigned_labels"] = manifest.is_unsigned;
     json["labels"] = manifest.label_count;
+    if (manifest.labels_hash) json["labels_hash"] = *manifest.labels_hash;
+    if (manifest.samples_hash) json["samples_hash"] = *manifest.samples_hash;
     json["space"] = space_name(manifest.space);
     Json& names = json["names"] = Json::array();
     for (const auto& [label, name] : manifest.names) names.push_back({label, name});
@@ -99,6 +101,8 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     manifest.sweep.axes = json.at("sweep");
     manifest.is_unsigned = json.at("unsigned_labels");
     manifest.label_count = json.at("labels");
+    if (json.contains("labels_hash")) manifest.labels_hash = json["labels_hash"];
+    if (json.contains("samples_hash")) manifest.samples_hash = json["samples_hash"];
     manifest.space = space_of(json.at("space"));
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
     if (json.contains("colours"))  // added to version 1
@@ -207,17 +211,23 @@ LabelTable read_labels(const Manifest& manifest, const fs::path& folder) {
     LabelTable labels(manifest.is_unsigned);
     for (const InputLabel input : inputs) labels.dense(input);
     if (labels.size() != manifest.label_count) formats::fail(file.path(), "has a label twice; the file is damaged");
+    if (manifest.labels_hash && *manifest.labels_hash != hash_of(labels))
+        formats::fail(file.path(), "has other labels than the manifest says; the file is damaged");
     return labels;
 }
 
+std::uint64_t hash_of(const LabelTable& labels) {
+    Fingerprint fingerprint;
+    for (Label label = 0; label < labels.size(); ++label)
+        fingerprint.add(static_cast<std::uint64_t>(labels.input(label)));
+    return fingerprint.value();
+}
+
 std::uint64_t job_of(const RunIdentity& identity) {
-    std::uint64_t hash = kVersion;
-    for (const auto& [name, value] : identity)
-        for (const std::string* text : {&name, &value}) {
-            for (const char c : *text) hash = mix64(hash ^ static_cast<unsigned char>(c));
-            hash = mix64(hash);
-        }
-    return hash;
+    Fingerprint fingerprint;
+    fingerprint.add(kVersion);
+    for (const auto& [name, value] : identity) fingerprint.add(name.size()).add(name).add(value.size()).add(value);
+    return fingerprint.value();
 }
 
 }  // namespace regionmesh

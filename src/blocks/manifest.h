@@ -35,8 +35,10 @@ struct Manifest {
     Lattice lattice = {};      // of the input
     Sweep sweep = {};
     std::string source = {};
-    bool is_unsigned = false;       // labels
-    std::uint64_t label_count = 0;  // in labels.bin
+    bool is_unsigned = false;                        // labels
+    std::uint64_t label_count = 0;                   // in labels.bin
+    std::optional<std::uint64_t> labels_hash = {};   // of labels.bin; earlier versions did not write it
+    std::optional<std::uint64_t> samples_hash = {};  // of an input that is read in one pass
     Space space = Space::kUnknown;
     LabelNames names = {};
     LabelColours colours = {};
@@ -71,6 +73,8 @@ void require_same_run(const Manifest& there, const RunIdentity& identity, const 
 /// Files of 64-bit labels by dense label, in the folder.
 void write_labels(const LabelTable& labels, const std::filesystem::path& folder, const OutputOptions& options);
 LabelTable read_labels(const Manifest& manifest, const std::filesystem::path& folder);
+
+std::uint64_t hash_of(const LabelTable& labels);
 
 /// A hash of the identity: pieces of another run are not taken for those of this one.
 std::uint64_t job_of(const RunIdentity& identity);

@@ -40,6 +40,7 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
     const LabelColours& given = options.colours.empty() ? manifest.colours : options.colours;
     const std::vector<std::uint32_t> colours = colours_of(manifest, folder, labels, background, given);
     GlobalNumbers numbers(manifest, folder);
+    OutputFiles files(options.output);
     std::vector<fs::path> written;
     std::string pieces;
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
@@ -52,29 +53,27 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
         view.set_colours_of_whole(colours);
         fs::path name = path;
         name.replace_filename(fmt::format("{}-{:06}.vtp", path.stem().string(), block));
-        OutputFile file(name, options.output);
-        write_vtp_part(view, numbers.number(piece, block), file);
-        file.commit();
+        write_vtp_part(view, numbers.number(piece, block), files.add(name));
         written.push_back(name);
         pieces += fmt::format("    <Piece Source=\"{}\"/>\n", name.filename().string());
     }
     const auto label_array = [&](const char* name, const char* components) {
         return fmt::format("      <PDataArray type=\"{}\" Name=\"{}\"{}/>\n", vtk_label_type(labels), name, components);
     };
-    write_text(path,
-               "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-               "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PPolyData GhostLevel=\"0\">\n"
-               "    <PPoints>\n      <PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n    </PPoints>\n"
-               "    <PPointData GlobalIds=\"GlobalIds\">\n"
-               "      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"GlobalIds\"/>\n      <PDataArray type=\"Int8\" "
-               "Name=\"NodeType\"/>\n    </PPointData>\n"
-               "    <PCellData>\n" +
-                   label_array("BoundaryLabels", " NumberOfComponents=\"2\"") + label_array("Region", "") +
-                   label_array("Neighbour", "") +
-                   "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"
-                   "    </PCellData>\n" +
-                   pieces + "  </PPolyData>\n</VTKFile>\n",
-               options.output);
+    files.add(path).write(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <PPolyData GhostLevel=\"0\">\n"
+        "    <PPoints>\n      <PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n    </PPoints>\n"
+        "    <PPointData GlobalIds=\"GlobalIds\">\n"
+        "      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"GlobalIds\"/>\n      <PDataArray type=\"Int8\" "
+        "Name=\"NodeType\"/>\n    </PPointData>\n"
+        "    <PCellData>\n" +
+        label_array("BoundaryLabels", " NumberOfComponents=\"2\"") + label_array("Region", "") +
+        label_array("Neighbour", "") +
+        "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"
+        "    </PCellData>\n" +
+        pieces + "  </PPolyData>\n</VTKFile>\n");
+    files.commit();
     written.push_back(path);
     return written;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/fingerprint.h"
 #include "mesh/extent.h"
 
 namespace regionmesh {
@@ -35,18 +36,6 @@ std::uint16_t quantised(double value, double low, double high) {
     if (!(high > low)) return 0;
     return static_cast<std::uint16_t>(std::lround(std::clamp((value - low) / (high - low), 0.0, 1.0) * kLevels));
 }
-
-/// FNV-1a, 64 bits.
-class Fingerprint {
-public:
-    void add(std::uint64_t word) {
-        for (int byte = 0; byte < 8; ++byte) value_ = (value_ ^ (word >> 8 * byte & 0xFF)) * 0x100000001B3u;
-    }
-    std::uint64_t value() const { return value_; }
-
-private:
-    std::uint64_t value_ = 0xCBF29CE484222325u;
-};
 
 class Encoder {
 public:

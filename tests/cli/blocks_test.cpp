@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "blocks/folder_lock.h"
 #include "cli/program.h"
 #include "formats/vtk/vtk_numbers.h"
 #include "regionmesh/check.h"
@@ -136,6 +137,15 @@ TEST_F(BlockProgram, info_on_a_folder_is_that_on_the_model_in_one_file) {
     EXPECT_EQ(tables[0], tables[1]);
     EXPECT_EQ(found[0].at("regions").size(), 19u);
     expect_same(found[0], found[1], "");
+
+    const auto files = files_in("model");
+    const auto piece = std::ranges::find_if(files, [](const auto& file) { return file.first.ends_with(".piece"); });
+    std::string damaged = piece->second;
+    damaged[damaged.size() / 2] ^= 1;
+    put_text(fs::path(out("model")) / piece->first, damaged);
+    const Ran refused = run("info " + out("model"));
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.error, testing::HasSubstr(piece->first + ": the checksum does not fit"));
 }
 
 TEST_F(BlockProgram, a_folder_is_compared_piece_by_piece_or_joined_for_distances) {
@@ -268,6 +278,36 @@ TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {
     EXPECT_THAT(other.error, testing::HasSubstr("is written from a folder of pieces"));
 }
 
+TEST_F(BlockProgram, takes_a_folder_that_a_run_was_killed_in_at_once) {
+    fs::create_directory(out("model"));
+    put_text(fs::path(out("model")) / ".manifest.json.part-1", "{");
+    EXPECT_EQ(run(grains("model")).code, 0);
+    fs::create_directory(out("other"));
+    put_text(fs::path(out("other")) / "notes", "");
+    EXPECT_THAT(run(grains("other")).error, testing::HasSubstr("holds other files"));
+}
+
+TEST_F(BlockProgram, one_run_works_in_a_folder) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    {
+        const FolderLock lock(out("model"));
+        const Ran refused = run(grains("model"));
+        EXPECT_EQ(refused.code, 1);
+        EXPECT_THAT(refused.error, testing::HasSubstr("another run works in it"));
+        EXPECT_EQ(run("check " + out("model")).code, 0) << "reading it is no matter";
+    }
+    EXPECT_EQ(run(grains("model")).code, 0);
+}
+
+TEST_F(BlockProgram, damaged_labels_are_refused) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    const fs::path labels = fs::path(out("model")) / "labels.bin";
+    std::string damaged = text_of(labels);
+    damaged[11] ^= 1;
+    put_text(labels, damaged);
+    EXPECT_THAT(run("check " + out("model")).error, testing::HasSubstr("other labels than the manifest says"));
+}
+
 TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
     ASSERT_EQ(run(grains("model")).code, 0);
     const Ran other = run(grains("model") + " --min-quality 0.05");
@@ -312,9 +352,9 @@ TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
 
 TEST_F(BlockProgram, keeps_to_the_memory_or_says_that_it_cannot) {
     const std::string arguments = grains("model");
-    const Ran refused = run(arguments + " --memory 1MB");
+    const Ran refused = run(arguments + " --memory 10kB");
     EXPECT_EQ(refused.code, 1);
-    EXPECT_THAT(refused.error, testing::HasSubstr("--memory 1 MB: "));
+    EXPECT_THAT(refused.error, testing::HasSubstr("--memory 10 kB: "));
     EXPECT_THAT(refused.error, testing::HasSubstr("in blocks of 14 cells; raise --memory to that"));
     EXPECT_EQ(run(arguments + " --memory 200MB --memory-limit hard").code, 0);
 }
@@ -340,12 +380,13 @@ TEST_F(BlockProgram, refuses_an_input_without_cells_or_regions_and_leaves_nothin
 
 TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {
     for (const auto& [options, said] : {std::pair("--html page.html", "--html: is for a model in one file"),
-                                        std::pair("--preserve-volume", "--preserve-volume needs the whole surface"),
+                                        std::pair("--preserve-volume", "--preserve-volume: needs the whole surface"),
                                         std::pair("--smooth-filter taubin", "smoothed inside the lattice")}) {
         const Ran ran = run(grains("model") + ' ' + options);
         EXPECT_NE(ran.code, 0);
         EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
         EXPECT_THAT(ran.error, testing::HasSubstr(said));
+        EXPECT_EQ(fs::exists(out("model")), ran.code != 2) << "a usage error leaves no folder";
         fs::remove_all(out("model"));
     }
 }

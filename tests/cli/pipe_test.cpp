@@ -51,6 +51,17 @@ TEST_F(Pipe, makes_sound_models_in_one_pass) {
     EXPECT_LE(read_mesh(out("m.vtp")).mesh.vertex_count(), 12u * 11 * 10 * 12);
 }
 
+TEST_F(Pipe, a_folder_of_pieces_goes_on_with_the_same_samples_only) {
+    const std::string arguments = "reconstruct - --no-background --block-size 6 -o " + out("model");
+    ASSERT_EQ(run_with(npy(), arguments).code, 0) << "the folder is made";
+    std::string other = npy();
+    other.back() ^= 1;
+    const Ran refused = run_with(other, arguments);
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.error, HasSubstr("was begun with other samples than those of standard input"));
+    EXPECT_EQ(run_with(npy(), arguments).code, 0);
+}
+
 TEST_F(Pipe, without_decimation_gives_the_bytes_that_the_file_gives) {
     put_text(path("v.raw"), labels_);
     const std::string rest = " --no-decimate --sweep z -o ";
