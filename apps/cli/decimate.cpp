@@ -51,9 +51,11 @@ int run_decimate(const Settings& given) {
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
+    const BoxAxes axes(file.mesh);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     Report report = simplified(file.mesh, simplify_options(settings, file.mesh), asked.improve);
+    axes.restore(file.mesh);
     file.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     report.check = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);

@@ -137,7 +137,10 @@ void print_certificate(const Report& run) {
 void print_stop(const Settings& settings, const Report& report) {
     const char* reason = nullptr;
     if (report.stopped == "topology")
-        reason = "every further collapse would change topology, fold, cross or degrade faces, or move samples";
+        reason = settings.inputs.empty()
+                     ? "every further collapse would change topology, or fold, cross or degrade faces"
+                     : "every further collapse would change topology, fold, cross or degrade faces, "
+                       "or carry samples into other regions";
     if (report.stopped == "max_error") reason = "every further collapse would exceed --max-error";
     const ReconstructOptions& asked = settings.reconstruct;
     const bool is_missed = asked.target_faces || asked.reduce;

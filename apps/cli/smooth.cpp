@@ -51,10 +51,12 @@ int run_smooth(const Settings& given) {
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
+    const BoxAxes axes(file.mesh);
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     if (!settings.reconstruct.cap) fix_rims(file.mesh);
     Report report = smoothed(settings, file.mesh, before);
+    axes.restore(file.mesh);
     report.check = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);
     const Model model{file.mesh, file.labels, options.background, names, colours, file.space};

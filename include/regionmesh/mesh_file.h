@@ -86,7 +86,8 @@ std::string readable_extensions();
 
 /// A model from a file, with signed labels. Faces with the exterior label of the file (-1 by default) become sides of
 /// the box where all of them lie exactly in planes of the bounding box of all faces; their vertices get these sides.
-/// Otherwise (an oblique volume, a box of another program) all exterior faces get side 0 and no vertex is on a side.
+/// Otherwise (an oblique volume, a box of another program) all exterior faces get one side, and no vertex is on a
+/// plane.
 struct MeshFile {
     Mesh mesh;
     LabelTable labels;

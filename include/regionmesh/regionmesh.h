@@ -2,6 +2,7 @@
 #pragma once
 
 #include "regionmesh/array_sections.h"
+#include "regionmesh/box_axes.h"
 #include "regionmesh/census.h"
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"

@@ -224,6 +224,7 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
     Model made;
     watch.run([&] {
         made = copy_of(model);
+        const BoxAxes axes(made.mesh);
         const CheckOptions checks = check_options(made, asked.threads);
         Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
         SimplifyOptions simplify_with = simplify_options(settings, made.mesh);
@@ -247,6 +248,7 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
             report.improved = improve(made.mesh, improve_with);
             report.error_bound = report.improved->error_bound;
         }
+        axes.restore(made.mesh);
         watch.note("check", 0, std::nullopt);
         end_change(made, report, checks);
     });
@@ -258,6 +260,7 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
     Model made;
     watch.run([&] {
         made = copy_of(model);
+        const BoxAxes axes(made.mesh);
         const CheckOptions checks = check_options(made, settings.reconstruct.threads);
         const CheckReport before = check(made.mesh, checks);
         Report report = begin_change(made.mesh, before, checks);
@@ -271,6 +274,7 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
         if (settings.reconstruct.preserve_volume)
             report.preserved = preserve_volumes(made.mesh, volumes_of(before), smooth_with);
         report.stopped = "none asked";
+        axes.restore(made.mesh);
         end_change(made, report, checks);
     });
     return made;

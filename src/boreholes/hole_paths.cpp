@@ -69,12 +69,14 @@ struct Collar {
     std::uint64_t row;
 };
 
-std::map<std::string, Collar, std::less<>> read_collars(const std::filesystem::path& path) {
+using Collars = std::map<std::string, Collar, std::less<>>;
+
+Collars read_collars(const std::filesystem::path& path) {
     NamedColumns table(path);
     const std::size_t hole = table.require_hole(), x = table.require("x", {titles::kX}),
                       y = table.require("y", {titles::kY}),
                       z = table.require("the elevation", {titles::kSurface, titles::kZ});
-    std::map<std::string, Collar, std::less<>> collars;
+    Collars collars;
     while (table.next()) {
         const Collar collar{{table.number(x), table.number(y), table.number(z)}, table.rows().number()};
         const auto [known, is_new] = collars.emplace(table.text(hole), collar);
@@ -115,14 +117,21 @@ std::vector<SurveyRow> read_survey_rows(NamedColumns& table, bool& dips_are_incl
     return rows;
 }
 
-std::map<std::string, std::vector<Station>, std::less<>> read_stations(const std::filesystem::path& path) {
+using Stations = std::map<std::string, std::vector<Station>, std::less<>>;
+
+/// The stations of holes that have a collar.
+Stations read_stations(const std::filesystem::path& path, const std::filesystem::path& collars, const Collars& known) {
     NamedColumns table(path);
     bool are_inclinations = false;
     std::vector<SurveyRow> rows = read_survey_rows(table, are_inclinations);
+    for (const SurveyRow& row : rows)
+        if (!known.contains(row.hole))
+            table.rows().refuse(row.row, fmt::format("hole '{}' has a station but no collar in {}; add its row there",
+                                                     shown(row.hole), collars.string()));
     const auto negative = std::ranges::count_if(rows, [](const SurveyRow& row) { return row.dip < 0; });
     const double sign = 2 * static_cast<std::size_t>(negative) > rows.size() ? -1 : 1;
     std::ranges::stable_sort(rows, {}, &SurveyRow::depth);
-    std::map<std::string, std::vector<Station>, std::less<>> stations;
+    Stations stations;
     for (const SurveyRow& row : rows) {
         const double degree = std::numbers::pi / 180;
         const double down = are_inclinations ? (90 - row.dip) * degree : sign * row.dip * degree;
@@ -174,13 +183,9 @@ Vec3 HolePath::direction_at(double depth) const {
 }
 
 HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys) {
-    std::map<std::string, std::vector<Station>, std::less<>> stations;
-    if (!surveys.empty()) stations = read_stations(surveys);
-    const auto known = read_collars(collars);
-    for (const auto& [hole, of_hole] : stations)
-        if (!known.contains(hole))
-            fail(surveys, fmt::format("hole '{}' has stations but no collar in {}; add its row there", shown(hole),
-                                      collars.string()));
+    const Collars known = read_collars(collars);
+    Stations stations;
+    if (!surveys.empty()) stations = read_stations(surveys, collars, known);
     HolePaths paths;
     for (const auto& [hole, collar] : known) {
         const auto found = stations.find(hole);

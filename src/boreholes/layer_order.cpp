@@ -12,6 +12,7 @@
 
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -117,23 +118,23 @@ public:
         std::sort(used_.begin(), used_.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return labels.text(a) < labels.text(b); });
         used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+        for (const std::uint32_t unit : used_)
+            most_commas_ = std::max(most_commas_, std::ranges::count(labels.text(unit), ','));
     }
 
     std::vector<std::uint32_t> find(const std::string& wanted, std::span<const Hole> holes) {
         std::optional<std::size_t> place_of_rest;
         std::vector<std::uint32_t> units, others;
         for (std::string_view rest = wanted; !rest.empty();) {
-            const std::string_view word = trim(rest.substr(0, rest.find(',')));
-            rest.remove_prefix(std::min(rest.size(), rest.find(',') == rest.npos ? rest.size() : rest.find(',') + 1));
+            const std::string_view word = take_word(rest);
             if (word == "auto") {
-                if (place_of_rest) fail(path_, "--layers names auto twice; name it once");
+                if (place_of_rest) refuse_twice(word);
                 place_of_rest = units.size();
                 continue;
             }
             const bool is_left_out = word.starts_with('-') && !is_unit(word);
             const std::uint32_t unit = unit_of(is_left_out ? word.substr(1) : word);
-            if (std::ranges::count(units, unit) + std::ranges::count(others, unit) > 0)
-                fail(path_, fmt::format("--layers names '{}' twice; name it once", shown(word)));
+            if (std::ranges::count(units, unit) + std::ranges::count(others, unit) > 0) refuse_twice(word);
             (is_left_out ? others : units).push_back(unit);
         }
         std::vector<std::uint32_t> unnamed;
@@ -160,6 +161,19 @@ private:
         return std::ranges::any_of(used_, [&](std::uint32_t unit) { return labels_.text(unit) == text; });
     }
 
+    /// Takes the text up to the next comma, or up to a later one where that is a unit.
+    std::string_view take_word(std::string_view& rest) const {
+        std::size_t first = std::min(rest.find(','), rest.size()), end = first;
+        for (std::ptrdiff_t commas = 0; commas < most_commas_ && end < rest.size(); ++commas) {
+            end = std::min(rest.find(',', end + 1), rest.size());
+            const std::string_view word = trim(rest.substr(0, end));
+            if (is_unit(word) || (word.starts_with('-') && is_unit(word.substr(1)))) first = end;
+        }
+        const std::string_view word = trim(rest.substr(0, first));
+        rest.remove_prefix(std::min(first + 1, rest.size()));
+        return word;
+    }
+
     std::uint32_t unit_of(std::string_view text) const {
         for (const std::uint32_t unit : used_)
             if (labels_.text(unit) == text) return unit;
@@ -168,6 +182,11 @@ private:
             known.append(n ? ", " : "").append(shown(labels_.text(used_[n])));
         fail(path_, fmt::format("--layers: no interval has the unit '{}'; units are {}{}", shown(text), known,
                                 used_.size() > 12 ? ", ..." : ""));
+    }
+
+    [[noreturn]] void refuse_twice(std::string_view word) const {
+        throw Error(ErrorCode::kUsage,
+                    fmt::format("{}: --layers names '{}' twice; name it once", path_.string(), shown(word)));
     }
 
     void require_size(std::size_t count) const {
@@ -179,6 +198,7 @@ private:
     const std::filesystem::path& path_;
     const TableLabels& labels_;
     std::vector<std::uint32_t> used_;
+    std::ptrdiff_t most_commas_ = 0;  // in the text of a unit
 };
 
 /// Finds the bases in one hole.

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <string_view>
 
 #include "boreholes/column_titles.h"
 #include "formats/text/header_text.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -23,11 +25,15 @@ public:
 
 private:
     void take_wanted(const std::string& wanted);
+    void require_own_columns(const std::string& wanted) const;
     std::size_t wanted_column(std::string_view column);
     std::optional<std::size_t> column_like(std::string_view title, std::string (*plain)(std::string_view)) const;
     void look_for(Role role, Titles titles);
     void choose_kind();
     [[noreturn]] void refuse_without(const std::string& what) const;
+    [[noreturn]] void refuse_option(const std::string& text) const {
+        throw Error(ErrorCode::kUsage, rows_.path().string() + ": --columns" + text);
+    }
 
     std::optional<std::size_t>& place(Role role) { return found_.places[static_cast<std::size_t>(role)]; }
     bool is_number(std::size_t column) const { return parse_real(rows_.field(column)).has_value(); }
@@ -42,7 +48,7 @@ private:
 
 /// A number counts from 1; other text is a title, compared first exactly, then without regard to case.
 std::size_t ColumnFinder::wanted_column(std::string_view column) {
-    if (column.empty()) fail(rows_.path(), "--columns names an empty column; give its number");
+    if (column.empty()) refuse_option(" names an empty column; give its number");
     if (const auto number = parse_size(column)) {
         if (*number == 0 || *number > rows_.field_count())
             rows_.refuse(fmt::format("has columns 1 to {}; --columns names {}", rows_.field_count(), *number));
@@ -77,8 +83,7 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
         if (parts.back().size() == rest.size()) break;
     }
     const bool has_pairs = wanted.find('=') != std::string::npos;
-    if (!has_pairs && parts.size() != kInOrder.size())
-        fail(rows_.path(), fmt::format("--columns {}: {}", shown(wanted), kRemedy));
+    if (!has_pairs && parts.size() != kInOrder.size()) refuse_option(fmt::format(" {}: {}", shown(wanted), kRemedy));
     for (std::size_t i = 0; i < parts.size(); ++i) {
         std::size_t role = static_cast<std::size_t>(kInOrder[std::min<std::size_t>(i, 3)]);
         std::string_view column = parts[i];
@@ -87,14 +92,27 @@ void ColumnFinder::take_wanted(const std::string& wanted) {
             const std::string key = lower(trim(column.substr(0, equals)));
             role = static_cast<std::size_t>(std::find(kRoleNames.begin(), kRoleNames.end(), key) - kRoleNames.begin());
             if (equals == column.size() || role == kRoleNames.size() || found_.places[role])
-                fail(rows_.path(),
-                     fmt::format("--columns {}: '{}' {}; {}", shown(wanted), shown(column),
-                                 role < kRoleNames.size() && found_.places[role] ? "comes twice" : "is no pair",
-                                 "a pair is x, y, z, label, name, top, bottom, surface or hole, = and "
-                                 "a column"));
+                refuse_option(
+                    fmt::format(" {}: '{}' {}; {}", shown(wanted), shown(column),
+                                role < kRoleNames.size() && found_.places[role] ? "comes twice" : "is no pair",
+                                "a pair is x, y, z, label, name, top, bottom, surface or hole, = and a column"));
             column.remove_prefix(equals + 1);
         }
         found_.places[role] = wanted_column(trim(column));
+    }
+    require_own_columns(wanted);
+}
+
+/// A label may be taken from any column, a coordinate has one of its own.
+void ColumnFinder::require_own_columns(const std::string& wanted) const {
+    std::map<std::size_t, Role> roles;
+    const auto name_of = [](Role role) { return kRoleNames[static_cast<std::size_t>(role)]; };
+    for (const Role role : {Role::kX, Role::kY, Role::kZ, Role::kTop, Role::kBottom}) {
+        if (!found_.has(role)) continue;
+        const auto [first, is_new] = roles.emplace(found_.of(role), role);
+        if (!is_new)
+            refuse_option(fmt::format(" {}: column {} is both {} and {}; give each its own", shown(wanted),
+                                      first->first + 1, name_of(first->second), name_of(role)));
     }
 }
 
@@ -108,7 +126,7 @@ void ColumnFinder::look_for(Role role, Titles titles) {
 void ColumnFinder::choose_kind() {
     const bool has_interval = found_.has(Role::kTop) || found_.has(Role::kBottom);
     if (found_.has(Role::kZ) && has_interval)
-        fail(rows_.path(), "--columns names z and also top or bottom; points have a z, intervals have the others");
+        refuse_option(" names z and also top or bottom; points have a z, intervals have the others");
     if (!has_interval) look_for(Role::kZ, titles::kZ);
     if (found_.has(Role::kZ)) return;
     look_for(Role::kTop, titles::kTop);

@@ -35,7 +35,7 @@ std::string plain_column_title(std::string_view title);
 /// where `wanted` has a top or bottom, or where the header has both and no column z. It has no header where `wanted`
 /// gives x and y by number and the first row has numbers there. With
 /// `has_collars` another table has x, y and the surface: rows have hole, top, bottom and label, and neither. Throws
-/// Error(kInput) that names the missing column.
+/// Error(kInput) that names the missing column, and Error(kUsage) where `wanted` contradicts itself.
 TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars = false);
 
 }  // namespace regionmesh::formats

@@ -97,7 +97,9 @@ void Terrain::read_heights(ByteReader& file, double none) {
     heights_.reserve(count);
     while (const auto word = file.take_word()) {
         const auto height = parse_real(*word);
-        if (!height) file.fail(fmt::format("height {}: '{}' is no number; mend it", heights_.size() + 1, shown(*word)));
+        if (!height)
+            file.fail(fmt::format("row {}, column {}: '{}' is no height; mend it", heights_.size() / columns_ + 1,
+                                  heights_.size() % columns_ + 1, shown(*word)));
         if (heights_.size() == count) file.fail(fmt::format("holds more than {} heights; mend ncols or nrows", count));
         heights_.push_back(*height == none ? std::numeric_limits<double>::quiet_NaN() : *height);
     }

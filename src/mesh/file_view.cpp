@@ -48,14 +48,10 @@ std::vector<Label> FileView::ordered_labels() const {
     return order;
 }
 
-std::optional<std::vector<InputLabel>> FileView::background_labels() const {
+std::vector<InputLabel> FileView::background_labels() const {
     std::vector<InputLabel> background;
-    bool has_zero = false;
-    for (const Label label : ordered_labels()) {
+    for (const Label label : ordered_labels())
         if (is_background(label)) background.push_back(labels_.input(label));
-        has_zero = has_zero || labels_.input(label) == 0;
-    }
-    if (background.empty() && !has_zero) return {};
     return background;
 }
 

@@ -42,8 +42,8 @@ public:
     InputLabel exterior_label() const { return exterior_label_; }
     Space space() const { return space_; }
     void set_space(Space space) { space_ = space; }
-    /// The labels of background, if there is something to say: readers take 0 for background otherwise.
-    std::optional<std::vector<InputLabel>> background_labels() const;
+    /// The labels of background. Files say where there are none, too: readers take 0 for background otherwise.
+    std::vector<InputLabel> background_labels() const;
     FileFace face(FaceId f) const;
     /// Do files have the labels of the face, and hence its vertices, in the opposite order?
     bool is_turned(FaceId f) const { return rank(mesh_[f].labels[0]) > rank(mesh_[f].labels[1]); }

@@ -90,6 +90,39 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
     });
 }
 
+/// Does a label end at faces with the exterior, and has none itself? So does background on a hull that is no box.
+bool has_rims_on_hull(const MeshArrays& arrays) {
+    const auto is_outer = [&](std::size_t f) {
+        return std::ranges::count(arrays.labels[f], arrays.exterior_label) > 0;
+    };
+    std::set<InputLabel> on_hull{arrays.exterior_label};
+    for (std::size_t f = 0; f < arrays.faces.size(); ++f)
+        if (is_outer(f)) on_hull.insert(arrays.labels[f].begin(), arrays.labels[f].end());
+    const auto ends = [&](std::size_t f) {
+        return std::ranges::any_of(arrays.labels[f], [&](InputLabel label) { return !on_hull.contains(label); });
+    };
+    if (on_hull.size() < 2) return false;
+    struct Use {
+        std::uint32_t low, high, face;
+        auto operator<=>(const Use&) const = default;
+    };
+    std::vector<Use> uses;
+    uses.reserve(3 * arrays.faces.size());
+    for (std::uint32_t f = 0; f < arrays.faces.size(); ++f)
+        for (int n = 0; n < 3; ++n) {
+            const auto [low, high] = std::minmax(arrays.faces[f][n], arrays.faces[f][(n + 1) % 3]);
+            uses.push_back({low, high, f});
+        }
+    std::ranges::sort(uses);
+    for (std::size_t first = 0, end = 1; first < uses.size(); first = end++) {
+        while (end < uses.size() && uses[end].low == uses[first].low && uses[end].high == uses[first].high) ++end;
+        if (end - first != 2) continue;
+        const std::uint32_t f = uses[first].face, g = uses[first + 1].face;
+        if ((is_outer(f) && ends(g)) || (is_outer(g) && ends(f))) return true;
+    }
+    return false;
+}
+
 /// Where the regions on both sides are background, or no side is capped, an interface ends on a side of the box, in
 /// edges with one face: their ends lie on that side, too.
 void mark_open_rims(Mesh& mesh, const MeshArrays& arrays, const Box& box) {
@@ -118,6 +151,7 @@ LabelledMesh assemble(const MeshArrays& arrays) {
     for (const Vec3& point : arrays.points) mesh.add_vertex(point);
     const Box box = bounding_box(arrays);
     const bool has_sides = exterior_is_box(arrays, box);
+    const bool has_hull = !has_sides && (!arrays.node_types.empty() || has_rims_on_hull(arrays));
     for (std::size_t f = 0; f < arrays.faces.size(); ++f) {
         std::array<Label, 2> labels;
         for (int i = 0; i < 2; ++i) {
@@ -127,7 +161,9 @@ LabelledMesh assemble(const MeshArrays& arrays) {
                 continue;
             }
             if (!has_sides) {
-                labels[i] = exterior(arrays.node_types.empty() ? 0 : kHull);
+                labels[i] = exterior(has_hull ? kHull : 0);
+                if (has_hull && arrays.node_types.empty())
+                    for (const std::uint32_t v : arrays.faces[f]) mesh[VertexId{v}].sides = kOnHull;
                 continue;
             }
             const int side = *side_of_face(arrays, arrays.faces[f], box);

@@ -164,7 +164,7 @@ Rows validity_rows() {
                        .inputs = kVolumeInput | kTableInput},
                       [](Settings& s) { return &s.reconstruct.keep_samples; }),
         inverted_flag({.name = "no-intersect-check",
-                       .help = "do not test for crossing faces; faster",
+                       .help = "no tests for crossing faces while the surface is changed; faster",
                        .group = kGroup,
                        .commands = kWriters},
                       [](Settings& s) { return &s.reconstruct.intersect_check; }),

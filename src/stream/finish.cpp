@@ -45,7 +45,6 @@ void check_mesh(Reconstruction& result, std::optional<LabelOracle> oracle, const
     check_options.boundary_is_open = !options.cap;
     check_options.background = result.background;
     check_options.oracle = std::move(oracle);
-    check_options.crossing = options.intersect_check;
     check_options.threads = options.threads;
     check_options.label_text = [&](Label label) { return result.labels.text(result.labels.input(label)); };
     result.report.check = check(result.mesh, check_options);

@@ -139,7 +139,7 @@ TEST_F(InclinedHoles, errors_name_what_is_missing) {
     put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-100\n");
     EXPECT_THAT(failure(), HasSubstr("a dip of -100 degrees"));
     put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nC,0,90,-50\n");
-    EXPECT_THAT(failure(), HasSubstr("hole 'C' has stations but no collar"));
+    EXPECT_THAT(failure(), HasSubstr("row 2: hole 'C' has a station but no collar"));
     put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-50\nA,0,80,-50\n");
     EXPECT_THAT(failure(), HasSubstr("two stations at depth 0"));
     put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-50\n");

@@ -31,11 +31,12 @@ protected:
         put_text(path("holes.csv"), "hole,x,y,surface,from,to,unit\n" + rows);
         return open_layers(path("holes.csv"), {}, options, &summary_);
     }
-    std::string failure_of(const std::string& rows, const LayerOptions& options = {}) {
+    std::string failure_of(const std::string& rows, const LayerOptions& options = {},
+                           ErrorCode code = ErrorCode::kInput) {
         try {
             open(rows, options);
         } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::kInput);
+            EXPECT_EQ(error.code(), code) << error.what();
             EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
             return error.what();
         }
@@ -218,10 +219,21 @@ TEST_F(Layers, the_order_is_found_or_given) {
     EXPECT_EQ(summary_.ordered_share, 1);
     EXPECT_THAT(failure_of(rows, {.units = "auto,chalk"}),
                 HasSubstr("no interval has the unit 'chalk'; units are a, b, c"));
-    EXPECT_THAT(failure_of(rows, {.units = "a,a"}), HasSubstr("'a' twice"));
+    EXPECT_THAT(failure_of(rows, {.units = "a,a"}, ErrorCode::kUsage), HasSubstr("'a' twice"));
+    EXPECT_THAT(failure_of(rows, {.units = "auto,auto"}, ErrorCode::kUsage), HasSubstr("'auto' twice"));
     EXPECT_THAT(failure_of(rows, {.units = "a"}), HasSubstr("fewer than two units"));
     EXPECT_THAT(failure_of(rows, {.units = "b,a"}), HasSubstr("does not name the unit 'c'"));
     EXPECT_THAT(failure_of(rows, {.units = "c,a,b"}), HasSubstr("% of the logged length is in the order"));
+}
+
+TEST_F(Layers, units_may_have_commas) {
+    const std::string rows =
+        row(0, 0, 0, 10, "\"sand, fine, red\"") + row(0, 0, 10, 20, "sand") + row(9, 9, 0, 10, "\"clay, grey\"");
+    open(rows, {.units = "clay, grey , sand, fine, red,sand"});
+    EXPECT_THAT(summary_.units, ElementsAre("clay, grey", "sand, fine, red", "sand"));
+    open(rows, {.units = "sand,-clay, grey,auto"});
+    EXPECT_THAT(summary_.units, ElementsAre("sand", "sand, fine, red"));
+    EXPECT_THAT(failure_of(rows, {.units = "auto,clay"}), HasSubstr("no interval has the unit 'clay'"));
 }
 
 TEST_F(Layers, numbers_stay_labels) {
@@ -396,9 +408,9 @@ TEST_F(TerrainFile, damaged_files_are_refused) {
     EXPECT_THAT(failure_of(head + "1 2\n3 4\n"), HasSubstr("nothing thrown"));
     EXPECT_THAT(failure_of(head + "1 2\n3\n"), HasSubstr("is it cut off"));
     EXPECT_THAT(failure_of(head + "1 2\n3 4 5\n"), HasSubstr("more than 4"));
-    EXPECT_THAT(failure_of(head + "1 2\n3 x\n"), HasSubstr("'x' is no number"));
-    EXPECT_THAT(failure_of(head + "inf 2\n3 4\n"), HasSubstr("height 1: 'inf' is no number"));
-    EXPECT_THAT(failure_of(head + "NODATA_valu -1\n1 2\n3 4\n"), HasSubstr("'NODATA_valu' is no number"));
+    EXPECT_THAT(failure_of(head + "1 2\n3 x\n"), HasSubstr("row 2, column 2: 'x' is no height"));
+    EXPECT_THAT(failure_of(head + "inf 2\n3 4\n"), HasSubstr("row 1, column 1: 'inf' is no height"));
+    EXPECT_THAT(failure_of(head + "NODATA_valu -1\n1 2\n3 4\n"), HasSubstr("'NODATA_valu' is no height"));
     EXPECT_THAT(failure_of("ncols 2\nnrows 2\n1 2 3 4\n"), HasSubstr("no cellsize"));
     EXPECT_THAT(failure_of("ncols 2\nnrows many\n"), HasSubstr("'nrows' has no number"));
     EXPECT_THAT(failure_of("ncols 1\nnrows 2\ncellsize 1\n1 2\n"), HasSubstr("ncols is 1"));

@@ -26,11 +26,12 @@ protected:
         put_text(path("points.csv"), text);
         return formats::read_point_table(path("points.csv"), options);
     }
-    std::string failure_of(const std::string& text, const TetrahedraOptions& options = {}) {
+    std::string failure_of(const std::string& text, const TetrahedraOptions& options = {},
+                           ErrorCode code = ErrorCode::kInput) {
         try {
             read(text, options);
         } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::kInput);
+            EXPECT_EQ(error.code(), code) << error.what();
             const std::string what = error.what(), file = path("points.csv").string() + ": ";
             EXPECT_TRUE(what.starts_with(file)) << what;
             EXPECT_THAT(what, Not(HasSubstr("\n")));
@@ -208,15 +209,23 @@ TEST_F(PointTableFile, missing_and_double_columns_are_named) {
     EXPECT_THAT(failure("x=b"), HasSubstr("no column 'b' that --columns names, only 'a', 'y'"));
     EXPECT_THAT(failure("x=5"), HasSubstr("has columns 1 to 4; --columns names 5"));
     EXPECT_THAT(failure("x=0"), HasSubstr("--columns names 0"));
+    EXPECT_THAT(failure("x=a,top=y"), HasSubstr("no column for bottom"));
+    EXPECT_THAT(failure("x=a", "a,z,y,z,lith"), HasSubstr("columns 2 and 4 are both called 'z'"));
+    EXPECT_THAT(failure("x=b", "b,b,y,z"), HasSubstr("columns 1 and 2 are both called 'b'; choose one by number"));
+}
+
+TEST_F(PointTableFile, columns_that_contradict_themselves_are_usage_errors) {
+    const auto failure = [&](const std::string& columns) {
+        return failure_of("a,y,z,lith\n0,0,0,1\n", {.columns = columns}, ErrorCode::kUsage);
+    };
     EXPECT_THAT(failure("x="), HasSubstr("--columns names an empty column"));
     EXPECT_THAT(failure("a,y,z"), HasSubstr("--columns a,y,z: write four columns"));
     EXPECT_THAT(failure("x=a,y"), HasSubstr("'y' is no pair"));
     EXPECT_THAT(failure("x=a,w=y"), HasSubstr("'w=y' is no pair"));
     EXPECT_THAT(failure("x=a,x=y"), HasSubstr("'x=y' comes twice"));
     EXPECT_THAT(failure("x=a,z=z,top=y"), HasSubstr("--columns names z and also top or bottom"));
-    EXPECT_THAT(failure("x=a,top=y"), HasSubstr("no column for bottom"));
-    EXPECT_THAT(failure("x=a", "a,z,y,z,lith"), HasSubstr("columns 2 and 4 are both called 'z'"));
-    EXPECT_THAT(failure("x=b", "b,b,y,z"), HasSubstr("columns 1 and 2 are both called 'b'; choose one by number"));
+    EXPECT_THAT(failure("1,1,3,4"), HasSubstr("--columns 1,1,3,4: column 1 is both x and y; give each its own"));
+    EXPECT_THAT(failure("x=1,y=2,z=2,label=2"), HasSubstr("column 2 is both y and z"));
 }
 
 TEST_F(PointTableFile, intervals_become_their_middles) {

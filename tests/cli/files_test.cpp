@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <regex>
 
 #include "cli/program.h"
+#include "regionmesh/check.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/options.h"
 
@@ -56,14 +58,53 @@ TEST_F(CliFiles, the_background_is_kept_in_the_model) {
 }
 
 TEST_F(CliFiles, a_model_without_background_says_so) {
-    const std::string labels = volume();
     for (const std::string name : {"m.vtp", "m.ply", "m.obj"}) {
         SCOPED_TRACE(name);
-        expect_good("reconstruct " + labels + "-o " + out(name) + " --no-background");
+        expect_good("reconstruct " + volume() + "-o " + out(name) + " --no-background");
         EXPECT_THAT(read_mesh(out(name)).background.value(), ElementsAre());
         expect_good("convert " + out(name) + ' ' + out("m.stl"));
         EXPECT_THAT(read("m.stl"), HasSubstr("solid region_0"));
+        expect_good("reconstruct " + volume(4, 9) + "-o " + out(name) + " --no-background");
+        EXPECT_THAT(read_mesh(out(name)).background.value(), ElementsAre()) << "and no region has label 0";
     }
+}
+
+TEST_F(CliFiles, oblique_models_of_all_formats_are_closed_and_keep_their_box) {
+    const std::string labels = volume(4, 9);
+    put_text(path("v.nrrd"), std::regex_replace(text_of(path("v.nrrd")), std::regex("directions: [^\n]*"),
+                                                "directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,2)"));
+    const double whole = 13 * 13 * 26;
+    for (const std::string name : {"m.vtp", "m.ply", "m.obj", "m.stl"}) {
+        SCOPED_TRACE(name);
+        for (const std::string background : {"--background 9", "--no-background"}) {
+            expect_good("reconstruct " + labels + "-o " + out(name) + ' ' + background);
+            expect_good("check " + out(name) + ' ' + background);
+            expect_good("check " + out(name) + " --sections " + labels + background);
+            expect_good("smooth " + out(name) + " -o " + out("s.vtp") + ' ' + background);
+            expect_good("decimate " + out(name) + " --reduce 95% -o " + out("d.vtp") + ' ' + background);
+            if (background == "--background 9") continue;
+            for (const char* changed : {"s.vtp", "d.vtp"}) {
+                const MeshFile model = read_mesh(out(changed));
+                double sum = 0;
+                for (const RegionReport& region : check(model.mesh).regions) sum += region.volume;
+                EXPECT_NEAR(sum, whole, 1e-6 * whole) << changed;
+            }
+        }
+    }
+    expect_good("reconstruct " + labels + "-o " + out("m.vtp"));
+    expect_good("convert " + out("m.vtp") + ' ' + out("c.vtp"));
+    EXPECT_EQ(read("m.vtp"), read("c.vtp"));
+}
+
+TEST_F(CliFiles, faces_that_may_cross_are_found_in_the_end) {
+    const test::ArrayVolume noise = test::noise_volume({5, 4, 5}, 2, 1);
+    put_text(path("n.raw"), {noise.labels().begin(), noise.labels().end()});
+    const std::string from = path("n.raw").string() + " --type uint8 --size 5,4,5 ";
+    const Ran ran =
+        run("reconstruct " + from +
+            "--no-background --smooth off --reduce 95% --no-keep-samples --no-intersect-check -o " + out("m.vtp"));
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_THAT(ran.out, HasSubstr("crossing_faces"));
 }
 
 TEST_F(CliFiles, stl_and_back_agrees_with_the_volume) {

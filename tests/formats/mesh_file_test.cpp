@@ -348,7 +348,7 @@ TEST_F(MeshFileTest, ply_errors_name_what_is_wrong) {
     for (const char* count : {"vertex 18446744073709551615", "vertex 4000000000", "vertex 17"})
         EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", count)), HasSubstr("which promises"));
     EXPECT_THAT(failure_of_text("m.ply", changed("vertex 4", "vertex four")),
-                HasSubstr("line 4: bad number of elements 'four'"));
+                HasSubstr("line 5: bad number of elements 'four'"));
     EXPECT_THAT(failure_of_text("m.ply", good.substr(0, good.size() - 1)), HasSubstr("cut short"));
     EXPECT_THAT(failure_of_text("m.ply", good + "x"), HasSubstr("1 bytes more"));
     EXPECT_THAT(failure_of_text("m.ply", "solid"), HasSubstr("no PLY file"));

@@ -121,8 +121,8 @@ void names(const fs::path& path, Random&) {
 #if REGIONMESH_WITH_TABLES
 /// Drill holes are cut by a step that makes few points of them.
 void points(const fs::path& path, Random& random) {
-    constexpr std::array kColumns{"1,2,3,4", "x=1,y=2,label=4",         "z=1,x=4", "hole=1,top=5,bottom=6",
-                                  "name=5",  "label=lith,hole=Hole_ID", "x"};
+    constexpr std::array kColumns{"1,2,3,4", "x=1,y=2,label=4",        "z=1,x=4", "hole=1,top=5,bottom=6",
+                                  "name=5",  "label=lith,hole=Hole_ID"};
     TetrahedraOptions options;
     if (random.one_in(2)) options.columns = kColumns[random.below(kColumns.size())];
     const formats::PointTable table = formats::read_point_table(path, options);

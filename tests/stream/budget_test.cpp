@@ -206,7 +206,7 @@ TEST(Budget, a_refusal_says_when_the_memory_is_the_default) {
     EXPECT_THAT(refusal(20'000'000, demand), testing::Not(HasSubstr("default")));
     BudgetDemand large = demand;
     large.reading_bytes = std::uint64_t{3} << 30;
-    EXPECT_THAT(refusal(ReconstructOptions{}.memory, large), HasSubstr("--memory 2148 MB (the default): "));
+    EXPECT_THAT(refusal(ReconstructOptions{}.memory, large), HasSubstr("--memory 2147 MB (the default): "));
 }
 
 TEST(Memory, a_target_that_does_not_fit_is_refused_before_reading_for_the_model_begins) {

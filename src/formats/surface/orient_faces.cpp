@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "base/box.h"
 #include "formats/surface/file_surface.h"
 
 namespace regionmesh {
@@ -56,7 +60,14 @@ struct Use {
     bool is_back;  // the side traverses the edge from high to low
 };
 
-TurnGroups group_faces(const FileSurface& surface) {
+/// A side of a face.
+struct FaceSide {
+    std::uint32_t face;
+    InputLabel label;
+};
+
+/// The groups, and the sides at edges that their region ends at, such as a background without faces on the box.
+std::pair<TurnGroups, std::vector<FaceSide>> group_faces(const FileSurface& surface) {
     std::vector<Use> uses;
     uses.reserve(6 * surface.faces.size());
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
@@ -72,23 +83,35 @@ TurnGroups group_faces(const FileSurface& surface) {
     std::sort(uses.begin(), uses.end(),
               [&](const Use& a, const Use& b) { return key(a) != key(b) ? key(a) < key(b) : a.face < b.face; });
     TurnGroups groups(surface.faces.size());
+    std::vector<FaceSide> ends;
     for (std::size_t first = 0, end = 1; first < uses.size(); first = end++) {
         while (end < uses.size() && key(uses[end]) == key(uses[first])) ++end;
         if (end - first == 2)
             groups.join(uses[first].face, uses[first + 1].face, uses[first].is_back == uses[first + 1].is_back);
+        if ((end - first) % 2 == 1) ends.push_back({uses[first].face, uses[first].label});
     }
-    return groups;
+    return {std::move(groups), std::move(ends)};
 }
 
 /// A group, in the given orientation of its first face.
 struct Part {
     std::map<InputLabel, double> volumes;
-    Vec3 origin;                 // near the group, to keep rounding small
-    std::int64_t kept_more = 0;  // number of faces that keep their orientation, minus the others
+    std::set<InputLabel> open;  // their faces are not closed, so their volumes mean nothing
+    Box box;
+    Vec3 origin;                        // near the group, to keep rounding small
+    std::int64_t kept = 0, turned = 0;  // numbers of faces
 };
 
 bool must_turn(const Part& part, InputLabel exterior) {
-    if (part.volumes.size() > 2) {
+    if (part.volumes.size() > part.open.size() && !part.open.empty()) {
+        // What lies outside is open: the rest has a volume above zero.
+        std::ptrdiff_t above = 0;
+        for (const auto& [label, volume] : part.volumes)
+            if (!part.open.contains(label)) above += volume > 0 ? 1 : -1;
+        if (above != 0) return above < 0;
+    } else if (!part.open.empty() && part.turned == 0) {
+        return false;  // neighbours agree, and nothing says that they are wrong
+    } else if (part.volumes.size() > 2) {
         const auto above = std::count_if(part.volumes.begin(), part.volumes.end(),
                                          [](const auto& volume) { return volume.second > 0; });
         const auto count = static_cast<std::ptrdiff_t>(part.volumes.size());
@@ -98,32 +121,80 @@ bool must_turn(const Part& part, InputLabel exterior) {
         for (const InputLabel outside : {exterior, InputLabel{0}})
             if (const auto at = part.volumes.find(outside); at != part.volumes.end()) return at->second > 0;
     }
-    return part.kept_more < 0;
+    return part.kept < part.turned;
 }
+
+/// Decides for each part whether it turns.
+class Orientation {
+public:
+    Orientation(const std::map<std::uint32_t, Part>& parts, InputLabel exterior) : parts_(parts), exterior_(exterior) {
+        for (const auto& [root, part] : parts_)
+            for (const auto& [label, volume] : part.volumes) {
+                const Part*& largest = largest_[label];
+                if (!largest || size_of(part) > size_of(*largest)) largest = &part;
+            }
+    }
+
+    /// Two labels do not tell a cavity from an island: a part whose faces agree follows the one round it.
+    bool turns(const Part& part) const {
+        if (const Part* const outer = part_round(part)) return outer->turned == 0 && turns(*outer);
+        return must_turn(part, exterior_);
+    }
+
+private:
+    static double size_of(const Part& part) {
+        const Vec3 size = part.box.high - part.box.low;
+        return size.x * size.y * size.z;
+    }
+
+    const Part* part_round(const Part& part) const {
+        if (part.volumes.size() != 2 || part.volumes.contains(exterior_) || part.turned > 0) return nullptr;
+        for (const auto& [label, volume] : part.volumes) {
+            const Part* const outer = largest_.at(label);
+            if (outer != &part && contains(outer->box, part.box)) return outer;
+        }
+        return nullptr;
+    }
+
+    static bool contains(const Box& outer, const Box& inner) {
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(outer.low[axis] < inner.low[axis] && inner.high[axis] < outer.high[axis])) return false;
+        return true;
+    }
+
+    const std::map<std::uint32_t, Part>& parts_;
+    InputLabel exterior_;
+    std::map<InputLabel, const Part*> largest_;  // of the parts that have the label
+};
 
 }  // namespace
 
 void orient_faces(FileSurface& surface) {
-    TurnGroups groups = group_faces(surface);
+    auto [groups, ends] = group_faces(surface);
+    const auto is_turned = [&groups = groups](std::uint32_t f, std::uint32_t root) {
+        return root != f && groups.is_turned(f);
+    };
     std::map<std::uint32_t, Part> parts;
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
         const std::uint32_t root = groups.find(f);
-        const bool is_turned = root != f && groups.is_turned(f);
         const auto [at, is_new] = parts.try_emplace(root);
         Part& part = at->second;
         const auto& [a, b, c] = surface.faces[f];
         if (is_new) part.origin = surface.points[a];
+        for (const std::uint32_t v : surface.faces[f]) part.box.add(surface.points[v]);
         const Vec3 o = part.origin;
         const double cone = dot(surface.points[a] - o, cross(surface.points[b] - o, surface.points[c] - o));
-        part.volumes[surface.labels[f][0]] += is_turned ? -cone : cone;
-        part.volumes[surface.labels[f][1]] -= is_turned ? -cone : cone;
-        part.kept_more += is_turned ? -1 : 1;
+        part.volumes[surface.labels[f][0]] += is_turned(f, root) ? -cone : cone;
+        part.volumes[surface.labels[f][1]] -= is_turned(f, root) ? -cone : cone;
+        ++(is_turned(f, root) ? part.turned : part.kept);
     }
-    for (auto& [root, part] : parts) part.kept_more = must_turn(part, surface.exterior_label) ? -1 : 1;
+    for (const auto& [face, label] : ends) parts.at(groups.find(face)).open.insert(label);
+    const Orientation orientation(parts, surface.exterior_label);
+    std::map<std::uint32_t, bool> turns;
+    for (const auto& [root, part] : parts) turns.emplace(root, orientation.turns(part));
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
         const std::uint32_t root = groups.find(f);
-        const bool is_turned = root != f && groups.is_turned(f);
-        if (is_turned != (parts[root].kept_more < 0)) std::swap(surface.faces[f][1], surface.faces[f][2]);
+        if (is_turned(f, root) != turns.at(root)) std::swap(surface.faces[f][1], surface.faces[f][2]);
     }
 }
 

@@ -97,10 +97,9 @@ void write_comments(const FileView& view, const FileRegions& regions, TextWriter
     text.line("# g interface_A_B: faces whose normals point from label A to label B");
     add_space(view, text);
     text.line("# exterior_label", view.exterior_label());
-    if (const auto background = view.background_labels()) {
-        if (background->empty()) text.line("# no_background 0");
-        for (const InputLabel label : *background) text.line("# background", label);
-    }
+    const std::vector<InputLabel> background = view.background_labels();
+    if (background.empty()) text.line("# no_background 0");
+    for (const InputLabel label : background) text.line("# background", label);
     view.for_names([&](Label label, const std::string& name) {
         if (regions.number(label) > 0) text.line("# region", number_of(view, label), name);
     });

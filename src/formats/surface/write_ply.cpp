@@ -40,9 +40,10 @@ void write(const FileView& view, FaceLabels face_labels, const ColourOf& colour_
     const bool is_wide = !all_labels_fit_32_bits(view);
     std::string comments = fmt::format("comment exterior_label {}\n", view.exterior_label());
     if (view.space() != Space::kUnknown) comments += fmt::format("comment SPACE={}\n", space_name(view.space()));
-    if (const auto background = view.background_labels(); background && face_labels == FaceLabels::kBoth) {
-        if (background->empty()) comments += "comment no_background 0\n";
-        for (const InputLabel label : *background) comments += fmt::format("comment background {}\n", label);
+    if (face_labels == FaceLabels::kBoth) {
+        const std::vector<InputLabel> background = view.background_labels();
+        if (background.empty()) comments += "comment no_background 0\n";
+        for (const InputLabel label : background) comments += fmt::format("comment background {}\n", label);
     }
     view.for_names([&](Label label, const std::string& name) {
         comments += fmt::format("comment region {} {}\n", view.labels().input(label), name);

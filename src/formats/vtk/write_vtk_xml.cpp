@@ -200,7 +200,8 @@ void write_space(Space space, OutputFile& file) {
                            codes));
 }
 
-void write_background(const FileView& view, const std::vector<InputLabel>& labels, OutputFile& file) {
+void write_background(const FileView& view, OutputFile& file) {
+    const std::vector<InputLabel> labels = view.background_labels();
     std::string text;
     for (const InputLabel label : labels) text += view.labels().text(label) + ' ';
     write_label_array(view, "BackgroundLabels", labels.size(), text, file);
@@ -214,7 +215,7 @@ void write_head(const FileView& view, DataSet kind, OutputFile& file) {
                     is_grid ? "UnstructuredGrid" : "PolyData"));
     if (const InputLabel exterior = view.exterior_label(); exterior != -1)
         write_label_array(view, "ExteriorLabel", 1, view.labels().text(exterior), file);
-    if (const auto background = view.background_labels()) write_background(view, *background, file);
+    write_background(view, file);
     write_space(view.space(), file);
     write_names(view, file);
     write_given_colours(view, file);

@@ -1,0 +1,41 @@
+// Models in an oblique box, turned into the axes of the box while they are changed.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "regionmesh/mesh.h"
+#include "regionmesh/vec3.h"
+
+namespace regionmesh {
+
+/// simplify(), smooth() and improve() keep vertices on the sides of a box along the axes of coordinates. The volume of
+/// a scanner is often oblique, and so is the box of its model: this turns the mesh so that they can keep them there.
+///
+///     const BoxAxes axes(mesh);
+///     simplify(mesh, options);
+///     axes.restore(mesh);
+class BoxAxes {
+public:
+    /// Turns the mesh, where its faces with the exterior lie in the planes of one oblique box with right angles, to a
+    /// millionth of its size. Vertices on its sides get coordinates exactly on its planes, and they and the faces with
+    /// the exterior get these sides. Otherwise does nothing.
+    explicit BoxAxes(Mesh& mesh);
+    /// Turns the mesh back. Vertices that kept id and place get the position of before.
+    void restore(Mesh& mesh) const;
+
+    bool is_oblique() const { return !before_.empty(); }
+
+private:
+    bool find_axes(const Mesh& mesh);
+    Vec3 turned(Vec3 p) const;
+    void note_positions(const Mesh& mesh);
+    bool find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<int>& sides) const;
+    void put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<int>& sides);
+
+    Vec3 origin_;
+    std::array<Vec3, 3> axes_;
+    std::vector<Vec3> before_, after_;  // by vertex id
+};
+
+}  // namespace regionmesh

@@ -1,0 +1,79 @@
+// Faces are turned where neighbours disagree, and sound models stay as they are.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "formats/surface/file_surface.h"
+#include "regionmesh/mesh_arrays.h"
+#include "support/runs.h"
+
+namespace regionmesh {
+namespace {
+
+using Faces = std::vector<std::array<std::uint32_t, 3>>;
+
+FileSurface surface_of(test::ArrayVolume volume, const std::vector<InputLabel>& background) {
+    const Reconstruction made = test::run(volume, {.background = background});
+    std::vector<Label> dense;
+    for (const InputLabel label : background) dense.push_back(made.labels.find(label).value());
+    const MeshArrays arrays = export_arrays(made.mesh, made.labels, dense);
+    FileSurface surface;
+    surface.points = arrays.points;
+    surface.faces = arrays.faces;
+    surface.labels = arrays.labels;
+    surface.exterior_label = arrays.exterior_label;
+    return surface;
+}
+
+Faces oriented(FileSurface surface, const std::function<bool()>& turns) {
+    for (auto& face : surface.faces)
+        if (turns()) std::swap(face[1], face[2]);
+    orient_faces(surface);
+    return surface.faces;
+}
+
+test::ArrayVolume boxes(const test::Size& size, const std::function<InputLabel(std::array<std::uint32_t, 3>)>& label) {
+    std::vector<InputLabel> labels;
+    for (std::uint32_t z = 0; z < size[2]; ++z)
+        for (std::uint32_t y = 0; y < size[1]; ++y)
+            for (std::uint32_t x = 0; x < size[0]; ++x) labels.push_back(label({x, y, z}));
+    return {size, labels};
+}
+
+TEST(OrientFaces, regions_on_the_box_beside_a_background_are_closed_and_it_is_not) {
+    const std::vector<test::ArrayVolume> volumes{
+        boxes({6, 6, 6}, [](auto p) { return p[0] >= 3; }),
+        boxes({6, 6, 6}, [](auto p) { return p[0] == 2 || p[0] == 3; }),
+        boxes({6, 6, 6}, [](auto p) { return p[0] < 2 && p[1] < 2 && p[2] < 2; }),
+        test::grain_volume({12, 10, 11}, 6, 3),
+    };
+    std::mt19937 random(1);
+    for (const test::ArrayVolume& volume : volumes) {
+        const FileSurface sound = surface_of(volume, {0});
+        EXPECT_EQ(oriented(sound, [] { return false; }), sound.faces);
+        EXPECT_EQ(oriented(sound, [] { return true; }), sound.faces);
+        EXPECT_EQ(oriented(sound, [&] { return random() % 2 == 0; }), sound.faces);
+    }
+}
+
+TEST(OrientFaces, islands_in_noise_keep_their_orientation) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        const FileSurface sound = surface_of(test::noise_volume({5, 4, 6}, 2 + seed % 3, seed), {0});
+        EXPECT_EQ(oriented(sound, [] { return false; }), sound.faces) << seed;
+    }
+}
+
+TEST(OrientFaces, a_cavity_is_turned_as_the_surface_round_it) {
+    const FileSurface sound = surface_of(boxes({9, 9, 9},
+                                               [](auto p) {
+                                                   const auto [low, high] = std::minmax({p[0], p[1], p[2]});
+                                                   const std::uint32_t depth = std::min(low, 8 - high);
+                                                   return depth == 4 ? 2 : depth == 2 || depth == 3 ? 0 : 1;
+                                               }),
+                                         {});
+    EXPECT_EQ(oriented(sound, [] { return false; }), sound.faces);
+    EXPECT_EQ(oriented(sound, [] { return true; }), sound.faces);
+}
+
+}  // namespace
+}  // namespace regionmesh

@@ -1,0 +1,129 @@
+// Oblique models are changed in the axes of their box.
+#include "regionmesh/box_axes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "regionmesh/check.h"
+#include "regionmesh/mesh_arrays.h"
+#include "regionmesh/simplify.h"
+#include "regionmesh/smooth.h"
+#include "support/runs.h"
+#include "support/shapes.h"
+
+namespace regionmesh {
+namespace {
+
+constexpr test::Size kSize{14, 12, 13};
+constexpr double kVolume = 13. * 11 * 12;
+
+/// Turned about z, then about x.
+Lattice turned_lattice() {
+    const double a = std::cos(0.3), b = std::sin(0.3), c = std::cos(1.1), d = std::sin(1.1);
+    Lattice lattice{.size = kSize, .origin = {100, -20, 3}};
+    lattice.direction = {a, -b, 0, c * b, c * a, -d, d * b, d * a, c};
+    return lattice;
+}
+
+test::ArrayVolume turned_volume() {
+    test::ArrayVolume volume = test::grain_volume(kSize, 5, 3);
+    volume.lattice() = turned_lattice();
+    return volume;
+}
+
+Reconstruction model(CellKind cells, const std::vector<InputLabel>& background) {
+    return test::run(turned_volume(),
+                     {.cells = cells, .smooth = {.passes = 0}, .decimate = false, .background = background});
+}
+
+/// The mesh as a file has it: with types of points, without sides.
+LabelledMesh from_file(const Reconstruction& made) {
+    return import_arrays(export_arrays(made.mesh, made.labels, made.background));
+}
+
+std::vector<Label> dense(const LabelTable& labels, const std::vector<InputLabel>& background) {
+    std::vector<Label> all;
+    for (const InputLabel label : background) all.push_back(labels.find(label).value());
+    return all;
+}
+
+double volume_of(const CheckReport& report) {
+    double sum = 0;
+    for (const RegionReport& region : report.regions) sum += region.volume;
+    return sum;
+}
+
+/// Vertices on the sides lie on the planes of the lattice, the others inside.
+void expect_in_box(const Mesh& mesh) {
+    const IntoAxes into(turned_lattice());
+    test::for_vertices(mesh, [&](VertexId v) {
+        const Vec3 p = into(mesh.position(v));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double high = kSize[static_cast<std::size_t>(axis)] - 1.0;
+            EXPECT_GE(p[axis], -1e-12);
+            EXPECT_LE(p[axis], high + 1e-12);
+        }
+    });
+}
+
+CheckReport checked(const Mesh& mesh, const std::vector<Label>& background) {
+    CheckOptions options;
+    options.background = background;
+    CheckReport report = check(mesh, options);
+    test::expect_sound(report);
+    return report;
+}
+
+TEST(BoxAxes, oblique_models_keep_their_box_when_they_are_simplified_or_smoothed) {
+    for (const CellKind cells : {CellKind::kCompact, CellKind::kTetrahedra})
+        for (const std::vector<InputLabel>& background : {std::vector<InputLabel>{}, std::vector<InputLabel>{0}})
+            for (const bool is_smoothed : {false, true})
+                for (const bool is_read : {false, true}) {
+                    Reconstruction made = model(cells, background);
+                    LabelledMesh file = from_file(made);
+                    Mesh& mesh = is_read ? file.mesh : made.mesh;
+                    const std::uint32_t faces = mesh.face_count();
+                    const BoxAxes axes(mesh);
+                    EXPECT_TRUE(axes.is_oblique());
+                    if (is_smoothed)
+                        smooth(mesh, {.filter = SmoothFilter::kTaubin, .passes = 10});
+                    else
+                        simplify(mesh, {.target_faces = faces / 10});
+                    EXPECT_LE(mesh.face_count(), is_smoothed ? faces : faces / 2);
+                    axes.restore(mesh);
+                    expect_in_box(mesh);
+                    const CheckReport report = checked(mesh, dense(is_read ? file.labels : made.labels, background));
+                    if (background.empty()) {
+                        EXPECT_NEAR(volume_of(report), kVolume, 1e-9);
+                    }
+                }
+}
+
+TEST(BoxAxes, what_does_not_move_keeps_its_position_and_gets_its_sides) {
+    const Reconstruction made = model(CellKind::kCompact, {0});
+    LabelledMesh file = from_file(made);
+    const MeshArrays before = export_arrays(made.mesh, made.labels, made.background);
+    const BoxAxes axes(file.mesh);
+    axes.restore(file.mesh);
+    const MeshArrays after = export_arrays(file.mesh, file.labels, dense(file.labels, {0}));
+    EXPECT_EQ(after.points, before.points);
+    EXPECT_EQ(after.faces, before.faces);
+    EXPECT_EQ(after.node_types, before.node_types);
+}
+
+TEST(BoxAxes, other_models_are_left_alone) {
+    test::ArrayVolume volume = test::grain_volume(kSize, 5, 3);
+    Reconstruction straight = test::run(volume);
+    const MeshArrays before = export_arrays(straight.mesh, straight.labels, {});
+    EXPECT_FALSE(BoxAxes(straight.mesh).is_oblique());
+    EXPECT_EQ(export_arrays(straight.mesh, straight.labels, {}).points, before.points);
+    Mesh octahedron;
+    test::add_octahedron(octahedron, {}, {1, 1, 1}, 0, exterior(0));
+    EXPECT_FALSE(BoxAxes(octahedron).is_oblique());
+    Mesh empty;
+    EXPECT_FALSE(BoxAxes(empty).is_oblique());
+}
+
+}  // namespace
+}  // namespace regionmesh
