@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "regionmesh/box_axes.h"
 #include "regionmesh/census.h"
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"

@@ -170,6 +170,17 @@ def test_simplify_and_improve_keep_samples(grains):
     assert mesh.simplify(reduce=0.95).report["verdicts"]["samples"] > 0
 
 
+def test_an_oblique_mesh_keeps_its_box(grains):
+    turn = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
+    mesh = regionmesh.reconstruct(grains, background=None, direction=turn, smooth="off")
+    size = np.array(grains.shape[::-1]) - 1.0
+    for changed in (mesh.simplify(reduce=0.9), mesh.smooth(smooth=10, smooth_filter="taubin")):
+        assert changed.certified
+        assert np.isclose(changed.regions["volume"].sum(), np.prod(size), rtol=1e-12)
+        along = changed.points @ turn
+        assert np.allclose(along.min(axis=0), 0, atol=1e-12) and np.allclose(along.max(axis=0), size, atol=1e-12)
+
+
 def test_samples_of_turned_lattices_are_not_known(grains):
     turn = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
     mesh = regionmesh.reconstruct(grains, background=None, direction=turn)
