@@ -176,7 +176,7 @@ void make_block_folder(const Settings& settings) {
     for (const std::vector<std::string>* files : {&settings.inputs, &settings.models})
         for (const std::string& file : *files)
             if (std::error_code missing;
-                file != "-" && file.find(':') == std::string::npos && !fs::exists(file, missing))
+                !(file == "-" && is_model) && file.find(':') == std::string::npos && !fs::exists(file, missing))
                 return;  // the command says so, and leaves nothing behind
     std::error_code error;
     for (const fs::path& path : {folder, folder / "names"}) {

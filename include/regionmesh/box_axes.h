@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "regionmesh/mesh.h"
@@ -18,24 +19,27 @@ namespace regionmesh {
 class BoxAxes {
 public:
     /// Turns the mesh, where its faces with the exterior lie in the planes of one oblique box with right angles, to a
-    /// millionth of its size. Vertices on its sides get coordinates exactly on its planes, and they and the faces with
-    /// the exterior get these sides. Otherwise does nothing.
+    /// millionth of its size, and no more than four labels, sides included, meet on its edges and corners. Vertices on
+    /// its sides get coordinates exactly on its planes, and they and the faces with the exterior get these sides. Ids
+    /// are then dense, in the order of before. Does nothing to other meshes.
     explicit BoxAxes(Mesh& mesh);
-    /// Turns the mesh back. Vertices that kept id and place get the position of before.
+    /// Turns the mesh back. Vertices that did not move get the positions of before.
     void restore(Mesh& mesh) const;
 
     bool is_oblique() const { return !before_.empty(); }
 
 private:
+    struct Side;
+
     bool find_axes(const Mesh& mesh);
-    Vec3 turned(Vec3 p) const;
     void note_positions(const Mesh& mesh);
-    bool find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<int>& sides) const;
-    void put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<int>& sides);
+    bool find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const;
+    void put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<Side>& sides);
 
     Vec3 origin_;
     std::array<Vec3, 3> axes_;
-    std::vector<Vec3> before_, after_;  // by vertex id
+    std::vector<Vec3> before_, after_;   // positions; the second ones in the axes of the box
+    std::vector<std::uint32_t> sorted_;  // places in them, by the second position
 };
 
 }  // namespace regionmesh

@@ -5,20 +5,37 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "mesh/extent.h"
+#include "mesh/label_set.h"
 
 namespace regionmesh {
 namespace {
 
 constexpr double kTolerance = 1e-6;  // of the size of the box: files may be of single precision
+constexpr double kParallel = 1e-3;   // small faces of such files are farther off than that
+constexpr int kMostLabels = 4;
 constexpr SideSet kPlanes = 0b111111;
 
 template <class Visit>
-void for_outer_faces(const Mesh& mesh, Visit&& visit) {
+void for_vertices(const Mesh& mesh, Visit&& visit) {
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
+        if (mesh.is_alive(VertexId{v})) visit(VertexId{v});
+}
+
+template <class Visit>
+void for_faces(const Mesh& mesh, Visit&& visit) {
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
-        if (mesh.is_alive(FaceId{f}) && is_exterior(mesh[FaceId{f}].labels[1])) visit(FaceId{f});
+        if (mesh.is_alive(FaceId{f})) visit(FaceId{f});
+}
+
+template <class Visit>
+void for_outer_faces(const Mesh& mesh, Visit&& visit) {
+    for_faces(mesh, [&](FaceId f) {
+        if (is_exterior(mesh[f].labels[1])) visit(f);
+    });
 }
 
 Vec3 area_vector(const Mesh& mesh, FaceId f) {
@@ -38,7 +55,36 @@ SideSet sides_at(std::span<const Vec3> points, const Box& box, double tolerance)
     return sides;
 }
 
+/// The mean normal of the faces with the exterior that are parallel to the largest one, of those square to `u`.
+std::optional<Vec3> main_normal(const Mesh& mesh, std::optional<Vec3> u) {
+    Vec3 largest, sum;
+    const auto visit = [&](auto&& take) {
+        for_outer_faces(mesh, [&](FaceId f) {
+            const Vec3 area = area_vector(mesh, f);
+            if (!u || std::abs(dot(area, *u)) <= kParallel * length(area)) take(area);
+        });
+    };
+    visit([&](Vec3 area) {
+        if (length2(area) > length2(largest)) largest = area;
+    });
+    visit([&](Vec3 area) {
+        if (length(cross(area, largest)) <= kParallel * length(area) * length(largest))
+            sum += dot(area, largest) < 0 ? -area : area;
+    });
+    if (u) sum = sum - dot(sum, *u) * *u;
+    if (length2(sum) == 0) return {};
+    return sum / length(sum);
+}
+
+auto coordinates(Vec3 p) { return std::tuple(p.x, p.y, p.z); }
+
 }  // namespace
+
+/// Of a face with the exterior.
+struct BoxAxes::Side {
+    FaceId face;
+    int side;
+};
 
 BoxAxes::BoxAxes(Mesh& mesh) {
     const Box along = extent_of(mesh, 1);
@@ -47,35 +93,22 @@ BoxAxes::BoxAxes(Mesh& mesh) {
     if (is_along || !find_axes(mesh)) return;
     note_positions(mesh);
     Box box;
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
-        if (mesh.is_alive(VertexId{v})) box.add(after_[v]);
+    for_vertices(mesh, [&](VertexId v) { box.add(after_[index(v)]); });
     const Vec3 size = box.high - box.low;
     const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
-    std::vector<int> sides;
+    std::vector<Side> sides;
     if (find_sides(mesh, box, tolerance, sides))
         put_on_box(mesh, box, tolerance, sides);
     else
         before_.clear(), after_.clear();
 }
 
-/// From the largest face with the exterior, and the largest one square to it. Each axis takes the number of the
-/// coordinate that it is nearest to.
+/// Each axis takes the number of the coordinate that it is nearest to.
 bool BoxAxes::find_axes(const Mesh& mesh) {
-    const auto largest = [&](std::optional<Vec3> square_to) {
-        Vec3 best;
-        for_outer_faces(mesh, [&](FaceId f) {
-            const Vec3 area = area_vector(mesh, f);
-            if (square_to && std::abs(dot(area, *square_to)) > kTolerance * length(area)) return;
-            if (length2(area) > length2(best)) best = area;
-        });
-        return best;
-    };
-    const Vec3 first = largest({});
-    if (length2(first) == 0) return false;
-    const Vec3 u = first / length(first), second = largest(u);
-    if (length2(second) == 0) return false;
-    const Vec3 across = second - dot(second, u) * u, v = across / length(across);
-    std::vector<Vec3> left{u, v, cross(u, v)};
+    const auto u = main_normal(mesh, {});
+    const auto v = u ? main_normal(mesh, u) : std::nullopt;
+    if (!v) return false;
+    std::vector<Vec3> left{*u, *v, cross(*u, *v)};
     for (int axis = 0; axis < 3; ++axis) {
         const auto nearest = std::ranges::max_element(left, {}, [&](Vec3 a) { return std::abs(a[axis]); });
         axes_[static_cast<std::size_t>(axis)] = (*nearest)[axis] < 0 ? -*nearest : *nearest;
@@ -85,66 +118,85 @@ bool BoxAxes::find_axes(const Mesh& mesh) {
     return true;
 }
 
-Vec3 BoxAxes::turned(Vec3 p) const {
-    const Vec3 from = p - origin_;
-    return {dot(axes_[0], from), dot(axes_[1], from), dot(axes_[2], from)};
-}
-
 void BoxAxes::note_positions(const Mesh& mesh) {
     const Box extent = extent_of(mesh, 1);
     origin_ = 0.5 * (extent.low + extent.high);
     before_.resize(mesh.vertex_end());
     after_.resize(mesh.vertex_end());
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
-        if (!mesh.is_alive(VertexId{v})) continue;
-        before_[v] = mesh.position(VertexId{v});
-        after_[v] = turned(before_[v]);
-    }
+    for_vertices(mesh, [&](VertexId v) {
+        const Vec3 from = mesh.position(v) - origin_;
+        before_[index(v)] = mesh.position(v);
+        after_[index(v)] = {dot(axes_[0], from), dot(axes_[1], from), dot(axes_[2], from)};
+    });
 }
 
-/// The side of each face with the exterior; false where one has none.
-bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<int>& sides) const {
+/// Whether each face with the exterior lies on a side, and few enough labels meet where two sides do.
+bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const {
     bool is_box = true;
+    std::vector<SideSet> of_vertex(mesh.vertex_end());
     for_outer_faces(mesh, [&](FaceId f) {
         std::array<Vec3, 3> corners;
         for (std::size_t n = 0; n < 3; ++n) corners[n] = after_[index(mesh[f].vertices[n])];
         const SideSet at = sides_at(corners, box, tolerance);
         is_box = is_box && at != 0;
-        sides.push_back(std::countr_zero(at));
+        sides.push_back({f, std::countr_zero(at)});
+        for (const VertexId v : mesh[f].vertices) of_vertex[index(v)] |= static_cast<SideSet>(at & -at);
+    });
+    for_vertices(mesh, [&](VertexId v) {
+        const int count = std::popcount(of_vertex[index(v)]);
+        if (!is_box || count < 2) return;
+        LabelSet labels;
+        mesh.for_star(v, [&](FaceId f, int) {
+            for (const Label label : mesh[f].labels)
+                if (!is_exterior(label)) labels.add(label);
+        });
+        is_box = labels.size() + count <= kMostLabels;
     });
     return is_box;
 }
 
-void BoxAxes::put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<int>& sides) {
-    auto side = sides.begin();
-    for_outer_faces(mesh, [&](FaceId f) {
-        const Face face = mesh[f];
-        const auto [a, b, c] = face.vertices;
-        mesh.remove_face(f);
-        mesh.add_face(a, b, c, face.labels[0], exterior(*side++));  // in the place that became free
-        for (const VertexId v : face.vertices) mesh[v].sides |= kOnHull;
+/// Makes the mesh anew: faces keep their labels while they are in a mesh.
+void BoxAxes::put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<Side>& sides) {
+    std::vector<bool> is_outer(mesh.vertex_end());
+    for (const auto& [face, side] : sides)
+        for (const VertexId v : mesh[face].vertices) is_outer[index(v)] = true;
+    Mesh turned;
+    turned.reserve(mesh.vertex_count(), mesh.face_count());
+    std::vector<VertexId> made(mesh.vertex_end());
+    for_vertices(mesh, [&](VertexId v) {
+        const Vertex& vertex = mesh[v];
+        Vec3& p = after_[index(v)];
+        SideSet own = vertex.sides;
+        if (is_outer[index(v)] || (own & (kPlanes | kOnHull)) != 0) {
+            const SideSet at = sides_at({&p, 1}, box, tolerance);
+            if (at != 0) own = static_cast<SideSet>((own & kPinned) | at);
+            for (int plane = 0; plane < 6; ++plane)
+                if (at >> plane & 1) p[plane / 2] = (plane % 2 == 0 ? box.low : box.high)[plane / 2];
+        }
+        sorted_.push_back(index(v));
+        made[index(v)] = turned.add_vertex(p, own, vertex.is_fixed);
+        turned[made[index(v)]].set_error_bound(vertex.error_bound());
     });
-    for (std::uint32_t n = 0; n < mesh.vertex_end(); ++n) {
-        if (!mesh.is_alive(VertexId{n})) continue;
-        Vertex& vertex = mesh[VertexId{n}];
-        Vec3& p = vertex.position = after_[n];
-        if ((vertex.sides & (kPlanes | kOnHull)) == 0) continue;
-        const SideSet at = sides_at({&p, 1}, box, tolerance);
-        if (at != 0) vertex.sides = static_cast<SideSet>((vertex.sides & kPinned) | at);
-        for (int plane = 0; plane < 6; ++plane)
-            if (at >> plane & 1) p[plane / 2] = (plane % 2 == 0 ? box.low : box.high)[plane / 2];
-        after_[n] = p;
-    }
+    auto next = sides.begin();
+    for_faces(mesh, [&](FaceId f) {
+        const auto [a, b, c] = mesh[f].vertices;
+        auto [first, second] = mesh[f].labels;
+        if (next != sides.end() && next->face == f) second = exterior((next++)->side);
+        turned.add_face(made[index(a)], made[index(b)], made[index(c)], first, second);
+    });
+    mesh = std::move(turned);
+    std::ranges::sort(sorted_, {}, [&](std::uint32_t n) { return coordinates(after_[n]); });
 }
 
 void BoxAxes::restore(Mesh& mesh) const {
     if (!is_oblique()) return;
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
-        if (!mesh.is_alive(VertexId{v})) continue;
-        Vec3& p = mesh[VertexId{v}].position;
-        p = v < after_.size() && p == after_[v] ? before_[v]
-                                                : origin_ + p.x * axes_[0] + p.y * axes_[1] + p.z * axes_[2];
-    }
+    for_vertices(mesh, [&](VertexId v) {
+        Vec3& p = mesh[v].position;
+        const auto same = std::ranges::lower_bound(sorted_, coordinates(p), {},
+                                                   [&](std::uint32_t n) { return coordinates(after_[n]); });
+        p = same != sorted_.end() && after_[*same] == p ? before_[*same]
+                                                        : origin_ + p.x * axes_[0] + p.y * axes_[1] + p.z * axes_[2];
+    });
 }
 
 }  // namespace regionmesh

@@ -90,6 +90,13 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
     });
 }
 
+/// Do all points of types on the box lie in its planes? Those of an open model of an oblique volume do not.
+bool rims_are_on_box(const MeshArrays& arrays, const Box& box) {
+    for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
+        if (arrays.node_types[v] >= kFirstHullType && sides_of(arrays, {&v, 1}, box) == 0) return false;
+    return true;
+}
+
 /// Does a label end at faces with the exterior, and has none itself? So does background on a hull that is no box.
 bool has_rims_on_hull(const MeshArrays& arrays) {
     const auto is_outer = [&](std::size_t f) {
@@ -101,18 +108,20 @@ bool has_rims_on_hull(const MeshArrays& arrays) {
     const auto ends = [&](std::size_t f) {
         return std::ranges::any_of(arrays.labels[f], [&](InputLabel label) { return !on_hull.contains(label); });
     };
-    if (on_hull.size() < 2) return false;
     struct Use {
         std::uint32_t low, high, face;
         auto operator<=>(const Use&) const = default;
     };
     std::vector<Use> uses;
-    uses.reserve(3 * arrays.faces.size());
-    for (std::uint32_t f = 0; f < arrays.faces.size(); ++f)
+    bool is_any = false;
+    for (std::uint32_t f = 0; f < arrays.faces.size(); ++f) is_any = is_any || ends(f);
+    for (std::uint32_t f = 0; is_any && f < arrays.faces.size(); ++f) {
+        if (!is_outer(f) && !ends(f)) continue;
         for (int n = 0; n < 3; ++n) {
             const auto [low, high] = std::minmax(arrays.faces[f][n], arrays.faces[f][(n + 1) % 3]);
             uses.push_back({low, high, f});
         }
+    }
     std::ranges::sort(uses);
     for (std::size_t first = 0, end = 1; first < uses.size(); first = end++) {
         while (end < uses.size() && uses[end].low == uses[first].low && uses[end].high == uses[first].high) ++end;
@@ -150,7 +159,7 @@ LabelledMesh assemble(const MeshArrays& arrays) {
     mesh.reserve(arrays.points.size(), arrays.faces.size());
     for (const Vec3& point : arrays.points) mesh.add_vertex(point);
     const Box box = bounding_box(arrays);
-    const bool has_sides = exterior_is_box(arrays, box);
+    const bool has_sides = exterior_is_box(arrays, box) && rims_are_on_box(arrays, box);
     const bool has_hull = !has_sides && (!arrays.node_types.empty() || has_rims_on_hull(arrays));
     for (std::size_t f = 0; f < arrays.faces.size(); ++f) {
         std::array<Label, 2> labels;

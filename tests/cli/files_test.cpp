@@ -91,6 +91,9 @@ TEST_F(CliFiles, oblique_models_of_all_formats_are_closed_and_keep_their_box) {
             }
         }
     }
+    expect_good("reconstruct " + labels + "-o " + out("o.vtp") + " --boundary open");
+    expect_good("check " + out("o.vtp") + " --boundary open");
+    expect_good("decimate " + out("o.vtp") + " -o " + out("d.vtp") + " --boundary open --reduce 50%");
     expect_good("reconstruct " + labels + "-o " + out("m.vtp"));
     expect_good("convert " + out("m.vtp") + ' ' + out("c.vtp"));
     EXPECT_EQ(read("m.vtp"), read("c.vtp"));

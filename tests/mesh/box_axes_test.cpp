@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "regionmesh/check.h"
 #include "regionmesh/mesh_arrays.h"
@@ -110,6 +111,29 @@ TEST(BoxAxes, what_does_not_move_keeps_its_position_and_gets_its_sides) {
     EXPECT_EQ(after.points, before.points);
     EXPECT_EQ(after.faces, before.faces);
     EXPECT_EQ(after.node_types, before.node_types);
+}
+
+TEST(BoxAxes, what_stays_when_others_go_keeps_its_position) {
+    Reconstruction made = model(CellKind::kCompact, {});
+    std::set<std::array<double, 3>> before;
+    const auto key = [](Vec3 p) { return std::array{p.x, p.y, p.z}; };
+    test::for_vertices(made.mesh, [&](VertexId v) { before.insert(key(made.mesh.position(v))); });
+    const BoxAxes axes(made.mesh);
+    simplify(made.mesh, {.target_faces = made.mesh.face_count() * 9 / 10});
+    axes.restore(made.mesh);
+    std::size_t same = 0;
+    test::for_vertices(made.mesh, [&](VertexId v) { same += before.contains(key(made.mesh.position(v))); });
+    EXPECT_GT(same, made.mesh.vertex_count() * 8 / 10);
+}
+
+TEST(BoxAxes, boxes_of_single_precision_are_found) {
+    Reconstruction made = model(CellKind::kCompact, {});
+    test::for_vertices(made.mesh, [&](VertexId v) {
+        Vec3& p = made.mesh[v].position;
+        for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+    });
+    const BoxAxes axes(made.mesh);
+    EXPECT_TRUE(axes.is_oblique());
 }
 
 TEST(BoxAxes, other_models_are_left_alone) {

@@ -70,8 +70,8 @@ void join_back_to_back(FileSurface& surface);
 
 /// Orients faces consistently: where a region has two faces at an edge, they traverse it in opposite directions. The
 /// orientation of each part of the surface as a whole: with more than two labels, the one in which the volumes of all
-/// closed regions but the outer one are positive; with two, the one in which the exterior, or else label 0, is outside,
-/// but that of the part round it where its own faces agree; otherwise that of the majority of its faces.
+/// closed regions but the outer one are positive; with two, the one in which the label is outside that a larger part
+/// round it has, too, or else the exterior, or else label 0; otherwise that of the majority of its faces.
 void orient_faces(FileSurface& surface);
 
 /// Labels of faces that come in named groups. "interface_3_7" has 3 behind its faces and 7 in front of them;

@@ -1,13 +1,16 @@
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/box.h"
 #include "formats/surface/file_surface.h"
+#include "mesh/grid_tree.h"
 
 namespace regionmesh {
 namespace {
@@ -127,33 +130,46 @@ bool must_turn(const Part& part, InputLabel exterior) {
 /// Decides for each part whether it turns.
 class Orientation {
 public:
-    Orientation(const std::map<std::uint32_t, Part>& parts, InputLabel exterior) : parts_(parts), exterior_(exterior) {
-        for (const auto& [root, part] : parts_)
-            for (const auto& [label, volume] : part.volumes) {
-                const Part*& largest = largest_[label];
-                if (!largest || size_of(part) > size_of(*largest)) largest = &part;
-            }
+    Orientation(const std::vector<Part>& parts, InputLabel exterior) : parts_(parts), exterior_(exterior) {
+        Box extent;
+        for (const Part& part : parts_) extent.join(part.box);
+        boxes_.build(static_cast<std::uint32_t>(parts_.size()), extent, 1,
+                     [&](std::uint32_t n) { return parts_[n].box; });
     }
 
-    /// Two labels do not tell a cavity from an island: a part whose faces agree follows the one round it.
     bool turns(const Part& part) const {
-        if (const Part* const outer = part_round(part)) return outer->turned == 0 && turns(*outer);
-        return must_turn(part, exterior_);
+        const bool may_be_inside = part.volumes.size() == 2 && !part.volumes.contains(exterior_);
+        const Part* const outer = may_be_inside ? part_round(part) : nullptr;
+        if (!outer) return must_turn(part, exterior_);
+        // The label that the outer part has, too, is outside. It may have both: then this may be a cavity or an island,
+        // and its faces, where they agree, are as right as those round it.
+        const auto [first, second] = std::pair(part.volumes.begin(), std::next(part.volumes.begin()));
+        const bool has_first = outer->volumes.contains(first->first),
+                   has_second = outer->volumes.contains(second->first);
+        if (has_first != has_second && part.open.empty()) return (has_first ? first : second)->second > 0;
+        return part.turned == 0 && outer->turned == 0 ? turns(*outer) : must_turn(part, exterior_);
     }
 
 private:
+    /// The smallest box round that of the part, of those that have one of its labels.
+    const Part* part_round(const Part& part) const {
+        const Part* found = nullptr;
+        boxes_.search(part.box, [&](std::span<const std::uint32_t> places) {
+            for (const std::uint32_t n : places) {
+                const Part& outer = parts_[n];
+                if (!contains(outer.box, part.box) || (found && size_of(outer) >= size_of(*found))) continue;
+                if (std::ranges::any_of(part.volumes,
+                                        [&](const auto& one) { return outer.volumes.contains(one.first); }))
+                    found = &outer;
+            }
+            return true;
+        });
+        return found;
+    }
+
     static double size_of(const Part& part) {
         const Vec3 size = part.box.high - part.box.low;
         return size.x * size.y * size.z;
-    }
-
-    const Part* part_round(const Part& part) const {
-        if (part.volumes.size() != 2 || part.volumes.contains(exterior_) || part.turned > 0) return nullptr;
-        for (const auto& [label, volume] : part.volumes) {
-            const Part* const outer = largest_.at(label);
-            if (outer != &part && contains(outer->box, part.box)) return outer;
-        }
-        return nullptr;
     }
 
     static bool contains(const Box& outer, const Box& inner) {
@@ -162,40 +178,42 @@ private:
         return true;
     }
 
-    const std::map<std::uint32_t, Part>& parts_;
+    const std::vector<Part>& parts_;
     InputLabel exterior_;
-    std::map<InputLabel, const Part*> largest_;  // of the parts that have the label
+    GridTree boxes_;
 };
 
 }  // namespace
 
 void orient_faces(FileSurface& surface) {
     auto [groups, ends] = group_faces(surface);
-    const auto is_turned = [&groups = groups](std::uint32_t f, std::uint32_t root) {
-        return root != f && groups.is_turned(f);
-    };
-    std::map<std::uint32_t, Part> parts;
+    std::vector<Part> parts;
+    std::vector<std::uint32_t> part_of(surface.faces.size());
+    std::vector<bool> is_turned(surface.faces.size());
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
         const std::uint32_t root = groups.find(f);
-        const auto [at, is_new] = parts.try_emplace(root);
-        Part& part = at->second;
         const auto& [a, b, c] = surface.faces[f];
-        if (is_new) part.origin = surface.points[a];
+        if (root == f) {  // the first face of its group
+            part_of[f] = static_cast<std::uint32_t>(parts.size());
+            parts.emplace_back().origin = surface.points[a];
+        } else {
+            part_of[f] = part_of[root];
+            is_turned[f] = groups.is_turned(f);
+        }
+        Part& part = parts[part_of[f]];
         for (const std::uint32_t v : surface.faces[f]) part.box.add(surface.points[v]);
         const Vec3 o = part.origin;
         const double cone = dot(surface.points[a] - o, cross(surface.points[b] - o, surface.points[c] - o));
-        part.volumes[surface.labels[f][0]] += is_turned(f, root) ? -cone : cone;
-        part.volumes[surface.labels[f][1]] -= is_turned(f, root) ? -cone : cone;
-        ++(is_turned(f, root) ? part.turned : part.kept);
+        part.volumes[surface.labels[f][0]] += is_turned[f] ? -cone : cone;
+        part.volumes[surface.labels[f][1]] -= is_turned[f] ? -cone : cone;
+        ++(is_turned[f] ? part.turned : part.kept);
     }
-    for (const auto& [face, label] : ends) parts.at(groups.find(face)).open.insert(label);
+    for (const auto& [face, label] : ends) parts[part_of[face]].open.insert(label);
     const Orientation orientation(parts, surface.exterior_label);
-    std::map<std::uint32_t, bool> turns;
-    for (const auto& [root, part] : parts) turns.emplace(root, orientation.turns(part));
-    for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
-        const std::uint32_t root = groups.find(f);
-        if (is_turned(f, root) != turns.at(root)) std::swap(surface.faces[f][1], surface.faces[f][2]);
-    }
+    std::vector<bool> turns;
+    for (const Part& part : parts) turns.push_back(orientation.turns(part));
+    for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
+        if (is_turned[f] != turns[part_of[f]]) std::swap(surface.faces[f][1], surface.faces[f][2]);
 }
 
 }  // namespace regionmesh

@@ -75,5 +75,29 @@ TEST(OrientFaces, a_cavity_is_turned_as_the_surface_round_it) {
     EXPECT_EQ(oriented(sound, [] { return true; }), sound.faces);
 }
 
+/// A cube of 2 in the mouth of a U of 1: neither is inside the other one, though its box is.
+TEST(OrientFaces, an_island_in_a_bay_is_no_cavity) {
+    const FileSurface sound =
+        surface_of(boxes({11, 11, 11},
+                         [](auto p) {
+                             const auto [x, y, z] = p;
+                             const auto within = [](std::uint32_t n, std::uint32_t low, std::uint32_t high) {
+                                 return n >= low && n <= high;
+                             };
+                             if (x == 5 && y == 5 && z == 5) return 2;
+                             const bool is_block = within(x, 1, 8) && within(y, 1, 8) && within(z, 1, 8);
+                             return is_block && !(within(x, 3, 7) && y >= 3 && within(z, 3, 7)) ? 1 : 0;
+                         }),
+                   {0});
+    for (const InputLabel inverted : {-1, 1, 2, 3}) {
+        FileSurface surface = sound;
+        for (std::size_t f = 0; f < surface.faces.size(); ++f)
+            if (inverted == 3 || std::ranges::count(surface.labels[f], inverted) > 0)
+                std::swap(surface.faces[f][1], surface.faces[f][2]);
+        orient_faces(surface);
+        EXPECT_EQ(surface.faces, sound.faces) << inverted;
+    }
+}
+
 }  // namespace
 }  // namespace regionmesh
