@@ -104,13 +104,7 @@ void require_fit_of_blocks(const Settings& settings) {
                         fmt::format("--{}: is for a model in one file, and --output is a folder of pieces; leave it "
                                     "out, and give the folder to regionmesh convert or check",
                                     name));
-    for (const auto& [is_given, name] : {std::pair{settings.reconstruct.preserve_volume, "preserve-volume"},
-                                         std::pair{settings.reconstruct.improve, "improve"}})
-        if (is_given)
-            throw Error(ErrorCode::kUsage,
-                        fmt::format("--{}: needs the whole surface at once, which a folder of pieces has not; leave it "
-                                    "out, or name a file in --output",
-                                    name));
+    require_block_options(settings.reconstruct);
     if (settings.inputs.front() == "-" && shared_tasks && shared_tasks->processes() > 1)
         throw Error(ErrorCode::kUsage, "standard input: one process alone can read it; name a file");
     require_fit(settings, settings.inputs);

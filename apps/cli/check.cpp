@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <cctype>
-
 #include "commands.h"
 #include "input.h"
 #include "output.h"
@@ -69,10 +67,8 @@ std::optional<SampleAgreement> compare_with_sections(const Settings& settings, M
 
 /// Is the background of the volume the exterior of the model? So it is in STL files and folders of them.
 bool lacks_background(const Settings& settings, const MeshFile& file) {
-    const std::filesystem::path path = settings.models.front();
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (extension != ".stl" && !std::filesystem::is_directory(path)) return false;
+    const std::string& path = settings.models.front();
+    if (!has_extension(path, ".stl") && !std::filesystem::is_directory(path)) return false;
     if (settings.sections.empty() || !is_lattice(settings, settings.sections)) return false;
     const auto& background = settings.reconstruct.background;
     if (background.empty() || !file.background || !file.background->empty()) return false;

@@ -139,12 +139,6 @@ std::string print_input(const Settings& settings) {
     });
 }
 
-/// ".vtp" is in ".vtp .vtu .ply".
-bool has_extension(const std::string& path, const std::string& extensions) {
-    const std::string own = std::filesystem::path(path).extension().string();
-    return !own.empty() && (' ' + extensions + ' ').find(' ' + own + ' ') != std::string::npos;
-}
-
 /// An input, or a surface model: some files may be either, and a folder too.
 std::string print_anything(const Settings& settings) {
     const std::string& path = settings.inputs.front();

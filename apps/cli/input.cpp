@@ -1,5 +1,7 @@
 #include "input.h"
 
+#include <cctype>
+#include <filesystem>
 #include <mutex>
 
 #include "messages.h"
@@ -13,6 +15,12 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
     const VolumeInfo& info = reader->info();
     if (!info.warning.empty()) std::call_once(once, [&] { warn(info.source + ": " + info.warning); });
     return reader;
+}
+
+bool has_extension(const std::string& path, const std::string& extensions) {
+    std::string own = std::filesystem::path(path).extension().string();
+    for (char& c : own) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return !own.empty() && (' ' + extensions + ' ').find(' ' + own + ' ') != std::string::npos;
 }
 
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {

@@ -23,6 +23,9 @@ auto with_reader(const Settings& settings, const std::vector<std::string>& input
     return visit(*open_volume(settings, inputs));
 }
 
+/// Whether a path ends in one of ".vtp .vtu .ply", in capitals or not.
+bool has_extension(const std::string& path, const std::string& extensions);
+
 /// A surface from a file, or from a folder of pieces.
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options = {});
 

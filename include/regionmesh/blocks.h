@@ -67,11 +67,14 @@ struct BlockReport {
     double seconds = 0;
 };
 
+/// Throws Error(kUsage) for options that need the whole surface at once, which blocks do not have.
+void require_block_options(const ReconstructOptions& options);
+
 /// Reconstructs and simplifies the volume block by block, and writes the model into a folder of pieces with a manifest
 /// (docs/explanation/blocks.md). A run that was ended at any moment goes on: complete pieces are not made again. The
 /// bytes of the folder depend on the input and the options only, not on interruptions, threads or processes. Reads the
 /// input once, section by section. Throws Error(kInput) where the folder belongs to a run of another input or other
-/// options, for options that need the whole surface at once, and whatever the reader throws.
+/// options, Error(kOutput) where another run works in it, and whatever require_block_options() and the reader throw.
 BlockReport reconstruct_blocks(const std::function<std::unique_ptr<SectionReader>()>& open,
                                const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,
                                const std::function<void(const BlockProgress&)>& on_progress = {});

@@ -6,10 +6,13 @@
 
 namespace regionmesh {
 
+/// The bytes in a megabyte, or in a kilobyte where there are fewer.
+inline std::uint64_t unit_of(std::uint64_t bytes) { return bytes < 1'000'000 ? 1000 : 1'000'000; }
+
 /// "12 MB", or "12 kB" below one: rounded up.
 inline std::string megabytes(std::uint64_t bytes) {
-    if (bytes < 1'000'000) return std::to_string((bytes + 999) / 1000) + " kB";
-    return std::to_string((bytes + 999'999) / 1'000'000) + " MB";
+    const std::uint64_t unit = unit_of(bytes);
+    return std::to_string((bytes + unit - 1) / unit) + (unit == 1000 ? " kB" : " MB");
 }
 
 inline constexpr std::uint64_t kDefaultMemory = std::uint64_t{2} << 30;
@@ -17,9 +20,7 @@ inline constexpr std::uint64_t kDefaultMemory = std::uint64_t{2} << 30;
 /// "--memory 12 MB", the limit in a refusal, rounded down, so that what is needed is more; says so where it is the
 /// default.
 inline std::string memory_limit_text(std::uint64_t bytes) {
-    const std::string text =
-        bytes < 1'000'000 ? std::to_string(bytes / 1000) + " kB" : std::to_string(bytes / 1'000'000) + " MB";
-    return "--memory " + text + (bytes == kDefaultMemory ? " (the default)" : "");
+    return "--memory " + megabytes(bytes - bytes % unit_of(bytes)) + (bytes == kDefaultMemory ? " (the default)" : "");
 }
 
 }  // namespace regionmesh

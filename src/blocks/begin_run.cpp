@@ -51,19 +51,11 @@ private:
 /// Labels of the input and dense ones of two sections, and the row of a reader.
 constexpr std::uint64_t kSurveyBytesPerSample = 2 * sizeof(InputLabel) + 2 * sizeof(Label);
 
-void require_fit(const std::string& source, const ReconstructOptions& options) {
-    const auto refuse = [&](const char* what) {
-        throw Error(ErrorCode::kInput,
-                    source + ": " + what + " needs the whole surface at once, which blocks do not have; leave it out");
-    };
-    if (options.preserve_volume) refuse("--preserve-volume");
-    if (options.improve) refuse("--improve");
-}
-
 /// The volume as it is asked for, and how it is surveyed. Refuses what blocks do not have.
 struct Input {
     Input(const OpenSections& open, const ReconstructOptions& options) : file(open()) {
         require_in_range(options);
+        require_block_options(options);
         if (!file->info().can_rewind) {
             auto stream = std::make_unique<FingerprintedSections>(std::move(file));
             samples = stream.get();
@@ -73,7 +65,6 @@ struct Input {
         info = sections().info();
         require_lattice(info.source, info.lattice);
         require_cells(info);
-        require_fit(info.source, options);
         shape = section_shape(info, cell_kind(options), section_scale(info, options));
         halo_of(shape, options);  // refuses other filters
         is_in_place = can_crop(sections());
@@ -211,7 +202,7 @@ void make_folder(const fs::path& folder) {
 void take_folder(const BlockOptions& blocks) {
     // A run that was killed here has left a part of its manifest.
     formats::remove_stale_parts(manifest_path(blocks.folder), false);
-    const std::string part = '.' + manifest_path(blocks.folder).filename().string() + ".part-";
+    const std::string part = formats::part_prefix(manifest_path(blocks.folder));
     for (const auto& entry : fs::directory_iterator(blocks.folder)) {
         if (entry.path().filename().string().starts_with(part)) continue;
         throw Error(ErrorCode::kOutput, blocks.folder.string() + ": holds other files; name an empty or a new folder");
@@ -252,6 +243,16 @@ std::unique_ptr<FolderLock> enter_folder(const OpenSections& open, const Reconst
 }
 
 }  // namespace
+
+void require_block_options(const ReconstructOptions& options) {
+    for (const auto& [is_given, name] :
+         {std::pair{options.preserve_volume, "preserve-volume"}, std::pair{options.improve, "improve"}})
+        if (is_given)
+            throw Error(ErrorCode::kUsage,
+                        fmt::format("--{}: needs the whole surface at once, which a folder of pieces has not; leave it "
+                                    "out, or name a file in --output",
+                                    name));
+}
 
 std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const ReconstructOptions& options,
                                       const BlockOptions& blocks, BlockTasks& tasks, const OnBlocks& on_progress) {

@@ -67,9 +67,12 @@ bool is_locked(const fs::path& part) {
 
 }  // namespace
 
+std::string part_prefix(const fs::path& target) {
+    return "." + target.filename().string().substr(0, kLongestName) + std::string(kMark);
+}
+
 std::string part_name(const fs::path& target, int attempt) {
-    std::string name =
-        "." + target.filename().string().substr(0, kLongestName) + std::string(kMark) + std::to_string(::getpid());
+    std::string name = part_prefix(target) + std::to_string(::getpid());
     if (attempt > 0) name += "-" + std::to_string(attempt);
     return name;
 }
@@ -88,7 +91,7 @@ void forget_part(const OutputFile* output) noexcept {
 PartsHeld::PartsHeld() : lock_(parts().mutex) {}
 
 void remove_stale_parts(const fs::path& target, bool per_region) {
-    const std::string whole = "." + target.filename().string().substr(0, kLongestName) + std::string(kMark);
+    const std::string whole = part_prefix(target);
     const std::string region = "." + target.stem().string() + "-",
                       has = target.extension().string() + std::string(kMark);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");

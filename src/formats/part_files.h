@@ -11,6 +11,9 @@ class OutputFile;
 
 namespace formats {
 
+/// `.name.part-`: temporary files of a target begin so.
+std::string part_prefix(const std::filesystem::path& target);
+
 /// `.name.part-<pid>`, and `-<attempt>` from the second attempt on.
 std::string part_name(const std::filesystem::path& target, int attempt);
 

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/alive.h"
+#include "mesh/box_sides.h"
 #include "mesh/extent.h"
 #include "mesh/label_set.h"
 
@@ -16,20 +18,7 @@ namespace {
 
 constexpr double kTolerance = 1e-6;  // of the size of the box: files may be of single precision
 constexpr double kParallel = 1e-3;   // small faces of such files are farther off than that
-constexpr int kMostLabels = 4;
 constexpr SideSet kPlanes = 0b111111;
-
-template <class Visit>
-void for_vertices(const Mesh& mesh, Visit&& visit) {
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
-        if (mesh.is_alive(VertexId{v})) visit(VertexId{v});
-}
-
-template <class Visit>
-void for_faces(const Mesh& mesh, Visit&& visit) {
-    for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
-        if (mesh.is_alive(FaceId{f})) visit(FaceId{f});
-}
 
 template <class Visit>
 void for_outer_faces(const Mesh& mesh, Visit&& visit) {
@@ -41,18 +30,6 @@ void for_outer_faces(const Mesh& mesh, Visit&& visit) {
 Vec3 area_vector(const Mesh& mesh, FaceId f) {
     const auto [a, b, c] = mesh.corners(f);
     return cross(b - a, c - a);
-}
-
-/// The sides of the box whose planes contain all the points, within the tolerance.
-SideSet sides_at(std::span<const Vec3> points, const Box& box, double tolerance) {
-    SideSet sides = 0;
-    for (int side = 0; side < 6; ++side) {
-        const int axis = side / 2;
-        const double plane = (side % 2 == 0 ? box.low : box.high)[axis];
-        if (std::ranges::all_of(points, [&](Vec3 p) { return std::abs(p[axis] - plane) <= tolerance; }))
-            sides |= static_cast<SideSet>(1u << side);
-    }
-    return sides;
 }
 
 /// The mean normal of the faces with the exterior that are parallel to the largest one, of those square to `u`.
@@ -143,14 +120,13 @@ bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std
         for (const VertexId v : mesh[f].vertices) of_vertex[index(v)] |= static_cast<SideSet>(at & -at);
     });
     for_vertices(mesh, [&](VertexId v) {
-        const int count = std::popcount(of_vertex[index(v)]);
-        if (!is_box || count < 2) return;
+        if (!is_box || std::popcount(of_vertex[index(v)]) < 2) return;
         LabelSet labels;
         mesh.for_star(v, [&](FaceId f, int) {
             for (const Label label : mesh[f].labels)
                 if (!is_exterior(label)) labels.add(label);
         });
-        is_box = labels.size() + count <= kMostLabels;
+        is_box = may_meet(labels.size(), of_vertex[index(v)]);
     });
     return is_box;
 }
@@ -168,7 +144,7 @@ void BoxAxes::put_on_box(Mesh& mesh, const Box& box, double tolerance, const std
         Vec3& p = after_[index(v)];
         SideSet own = vertex.sides;
         if (is_outer[index(v)] || (own & (kPlanes | kOnHull)) != 0) {
-            const SideSet at = sides_at({&p, 1}, box, tolerance);
+            const SideSet at = sides_at(std::span(&p, 1), box, tolerance);
             if (at != 0) own = static_cast<SideSet>((own & kPinned) | at);
             for (int plane = 0; plane < 6; ++plane)
                 if (at >> plane & 1) p[plane / 2] = (plane % 2 == 0 ? box.low : box.high)[plane / 2];

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "mesh/alive.h"
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/label_table.h"
@@ -80,13 +80,11 @@ public:
 
     template <class Visit>
     void for_vertices(Visit&& visit) const {
-        for (std::uint32_t i = 0; i < mesh_.vertex_end(); ++i)
-            if (mesh_.is_alive(VertexId{i})) visit(VertexId{i});
+        regionmesh::for_vertices(mesh_, visit);
     }
     template <class Visit>
     void for_faces(Visit&& visit) const {
-        for (std::uint32_t i = 0; i < mesh_.face_end(); ++i)
-            if (mesh_.is_alive(FaceId{i})) visit(FaceId{i});
+        regionmesh::for_faces(mesh_, visit);
     }
 
 private:

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 #include <string>
 
 #include "mesh/assemble.h"
+#include "mesh/box_sides.h"
 #include "mesh/file_view.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
@@ -50,14 +52,7 @@ Box bounding_box(const MeshArrays& arrays) {
 
 /// The sides of the box whose planes contain all the points, exactly.
 SideSet sides_of(const MeshArrays& arrays, std::span<const std::uint32_t> points, const Box& box) {
-    SideSet sides = 0;
-    for (int side = 0; side < 6; ++side) {
-        const int axis = side / 2;
-        const double plane = (side % 2 == 0 ? box.low : box.high)[axis];
-        if (std::ranges::all_of(points, [&](std::uint32_t v) { return arrays.points[v][axis] == plane; }))
-            sides |= static_cast<SideSet>(1u << side);
-    }
-    return sides;
+    return sides_at(points | std::views::transform([&](std::uint32_t v) { return arrays.points[v]; }), box, 0);
 }
 
 std::optional<int> side_of_face(const MeshArrays& arrays, const Corners& face, const Box& box) {
@@ -76,7 +71,6 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
         for (const std::uint32_t v : arrays.faces[f]) sides[v] |= static_cast<SideSet>(1u << *side);
     }
     // Vertices on edges of the box are few, so a map is cheap.
-    constexpr int kMostLabels = 4;
     std::map<std::uint32_t, std::set<InputLabel>> labels_of;
     for (std::uint32_t v = 0; v < sides.size(); ++v)
         if (std::popcount(sides[v]) > 1) labels_of[v];
@@ -85,9 +79,8 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
             if (std::popcount(sides[v]) > 1)
                 for (const InputLabel label : arrays.labels[f])
                     if (label != arrays.exterior_label) labels_of[v].insert(label);
-    return std::ranges::all_of(labels_of, [&](const auto& item) {
-        return static_cast<int>(item.second.size()) + std::popcount(sides[item.first]) <= kMostLabels;
-    });
+    return std::ranges::all_of(
+        labels_of, [&](const auto& item) { return may_meet(static_cast<int>(item.second.size()), sides[item.first]); });
 }
 
 /// Do all points of types on the box lie in its planes? Those of an open model of an oblique volume do not.
@@ -112,10 +105,10 @@ bool has_rims_on_hull(const MeshArrays& arrays) {
         std::uint32_t low, high, face;
         auto operator<=>(const Use&) const = default;
     };
+    const auto all = std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(arrays.faces.size()));
+    if (std::ranges::none_of(all, ends)) return false;
     std::vector<Use> uses;
-    bool is_any = false;
-    for (std::uint32_t f = 0; f < arrays.faces.size(); ++f) is_any = is_any || ends(f);
-    for (std::uint32_t f = 0; is_any && f < arrays.faces.size(); ++f) {
+    for (const std::uint32_t f : all) {
         if (!is_outer(f) && !ends(f)) continue;
         for (int n = 0; n < 3; ++n) {
             const auto [low, high] = std::minmax(arrays.faces[f][n], arrays.faces[f][(n + 1) % 3]);

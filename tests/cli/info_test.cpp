@@ -68,6 +68,8 @@ TEST_F(Info, knows_models_with_their_names) {
     EXPECT_EQ(info["regions"][1]["name"], "tibia");
     EXPECT_GT(info["regions"][1]["volume"], 0);
     EXPECT_EQ(info["box"]["low"][0], 0);
+    std::filesystem::rename(out("m.vtp"), out("M.VTP"));
+    EXPECT_EQ(json(out("M.VTP"))["regions"], info["regions"]);
 }
 
 TEST_F(Info, of_a_file_that_is_neither_says_what_is_wrong_with_it) {

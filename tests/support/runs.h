@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/alive.h"
 #include "regionmesh/reconstruct.h"
 #include "support/meshes.h"
 #include "support/volumes.h"
@@ -41,16 +42,7 @@ inline Reconstruction run(ArrayMesh mesh, ReconstructOptions options = plain()) 
     return reconstruct(mesh, options);
 }
 
-/// The faces and vertices that are there, in order.
-template <class Visit>
-void for_faces(const Mesh& mesh, Visit&& visit) {
-    for (std::uint32_t f = 0; f < mesh.face_end(); ++f)
-        if (mesh.is_alive(FaceId{f})) visit(FaceId{f});
-}
-template <class Visit>
-void for_vertices(const Mesh& mesh, Visit&& visit) {
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
-        if (mesh.is_alive(VertexId{v})) visit(VertexId{v});
-}
+using regionmesh::for_faces;
+using regionmesh::for_vertices;
 
 }  // namespace regionmesh::test
