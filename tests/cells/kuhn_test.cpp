@@ -6,10 +6,12 @@
 #include <cmath>
 #include <set>
 
+#include "support/nodes.h"
+
 namespace regionmesh {
 namespace {
 
-Vec3 node(Step step) { return {double(step & 1), double(step >> 1 & 1), double(step >> 2 & 1)}; }
+using test::node;
 
 TEST(Kuhn, kinds_are_a_node_7_edges_12_triangles_and_6_tetrahedra) {
     std::array<int, 5> count{};

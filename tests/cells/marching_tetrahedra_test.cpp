@@ -7,11 +7,12 @@
 #include <set>
 
 #include "base/triangle.h"
+#include "support/nodes.h"
 
 namespace regionmesh {
 namespace {
 
-Vec3 node(Step step) { return {double(step & 1), double(step >> 1 & 1), double(step >> 2 & 1)}; }
+using test::node;
 
 Vec3 centroid_of(CornerSet set, const Step* corners) {
     Vec3 sum;

@@ -40,7 +40,7 @@ Meshed meshed(ArrayMesh mesh, const StripOptions& options = {}) {
     return {std::move(labels), mesher.strip(), mesher.finalized(), mesher.oracle(), mesher.hull_is_box()};
 }
 
-std::string refusal(ArrayMesh mesh) {
+std::string meshing_refusal(ArrayMesh mesh) {
     try {
         meshed(std::move(mesh));
     } catch (const Error& error) {
@@ -84,9 +84,11 @@ double volume_of(const CheckReport& report) {
     return sum;
 }
 
-const std::vector<Vec3> kCorners{{0.1, 0, 0}, {1, 0.2, 0}, {0, 1, 0.3}, {0.2, 0.1, 1}};
+const std::vector<Vec3> kSkewCorners{{0.1, 0, 0}, {1, 0.2, 0}, {0, 1, 0.3}, {0.2, 0.1, 1}};
 double corner_volume() {
-    return dot(cross(kCorners[1] - kCorners[0], kCorners[2] - kCorners[0]), kCorners[3] - kCorners[0]) / 6;
+    return dot(cross(kSkewCorners[1] - kSkewCorners[0], kSkewCorners[2] - kSkewCorners[0]),
+               kSkewCorners[3] - kSkewCorners[0]) /
+           6;
 }
 
 std::vector<std::vector<InputLabel>> all_labels_of_four() {
@@ -197,7 +199,7 @@ ArrayMesh part_of(const ArrayMesh& mesh, std::uint64_t seed) {
 TEST(TetrahedronMesher, one_tetrahedron_has_0_1_2_5_12_faces_inside) {
     for (const std::vector<InputLabel>& labels : all_labels_of_four())
         for (const std::array<std::uint32_t, 4>& corners : {std::array{0u, 1u, 2u, 3u}, std::array{1u, 0u, 2u, 3u}}) {
-            const Meshed made = meshed({{kCorners, labels}, {{corners}}}, {.cap = false});
+            const Meshed made = meshed({{kSkewCorners, labels}, {{corners}}}, {.cap = false});
             const std::size_t count = std::set(labels.begin(), labels.end()).size();
             const bool is_two_against_two = count == 2 && std::ranges::count(labels, labels[0]) == 2;
             const std::array<std::size_t, 5> faces{0, 0, is_two_against_two ? 2u : 1u, 5, 12};
@@ -209,7 +211,7 @@ TEST(TetrahedronMesher, one_tetrahedron_with_caps_is_closed_round_each_label) {
     for (const std::vector<InputLabel>& labels : all_labels_of_four())
         for (bool mirrors : {false, true}) {
             SCOPED_TRACE(testing::PrintToString(labels));
-            std::vector<Vec3> points = kCorners;
+            std::vector<Vec3> points = kSkewCorners;
             if (mirrors)
                 for (Vec3& p : points) p.x = -p.x;
             const Meshed made = meshed({{points, labels}, {{{0, 1, 2, 3}}}});
@@ -223,7 +225,7 @@ TEST(TetrahedronMesher, one_tetrahedron_with_caps_is_closed_round_each_label) {
 }
 
 TEST(TetrahedronMesher, vertices_lie_at_centroids_far_from_the_origin_too) {
-    std::vector<Vec3> points = kCorners;
+    std::vector<Vec3> points = kSkewCorners;
     const Vec3 far{1 << 20, -(1 << 21), 1 << 22};
     for (Vec3& p : points) p = Vec3{std::round(p.x), std::round(p.y), std::round(p.z)} + far;
     const Meshed made = meshed({{points, {0, 1, 1, 1}}, {{{0, 1, 2, 3}}}}, {.cap = false});
@@ -343,7 +345,8 @@ TEST(TetrahedronMesher, every_vertex_ends_once_and_knows_whether_it_is_on_the_hu
 TEST(TetrahedronMesher, three_tetrahedra_at_a_triangle_are_refused) {
     std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {0.1, 0.1, 2}};
     for (const std::vector<InputLabel>& labels : {std::vector<InputLabel>(6, 1), {}}) {
-        const std::string said = refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{0, 1, 2, 4}, 2}, {{0, 1, 2, 5}, 3}}});
+        const std::string said =
+            meshing_refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{0, 1, 2, 4}, 2}, {{0, 1, 2, 5}, 3}}});
         for (const char* part : {"mesh: three tetrahedra", "node 0", "node 1", "node 2", "mend the mesh"})
             EXPECT_THAT(said, HasSubstr(part));
     }
@@ -352,10 +355,10 @@ TEST(TetrahedronMesher, three_tetrahedra_at_a_triangle_are_refused) {
 TEST(TetrahedronMesher, two_tetrahedra_on_one_side_of_a_triangle_are_refused) {
     std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0.1, 2}};
     for (const std::vector<InputLabel>& labels : {std::vector<InputLabel>(5, 1), {}}) {
-        const std::string said = refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{2, 1, 4, 0}, 1}}});
+        const std::string said = meshing_refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{2, 1, 4, 0}, 1}}});
         for (const char* part : {"mesh: two tetrahedra", "same side", "node 0", "node 1", "node 2"})
             EXPECT_THAT(said, HasSubstr(part));
-        EXPECT_THAT(refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{3, 1, 2, 0}, 1}}}), HasSubstr("same side"))
+        EXPECT_THAT(meshing_refusal({{points, labels}, {{{0, 1, 2, 3}, 1}, {{3, 1, 2, 0}, 1}}}), HasSubstr("same side"))
             << "the same one twice";
     }
 }

@@ -341,7 +341,7 @@ TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
     refused(header + last + out("header"), "was begun with samples 1 grains.raw 64000 bytes");
 
     const fs::path store = path("s.zarr");
-    fs::copy(test::data_folder() + std::string("/chunked/zarr2/type_uint8.zarr"), store, fs::copy_options::recursive);
+    fs::copy(data("chunked/zarr2/type_uint8.zarr"), store, fs::copy_options::recursive);
     const std::string zarr = "reconstruct " + store.string();
     ASSERT_EQ(run(zarr + last + out("zarr")).code, 0);
     EXPECT_EQ(run(zarr + last + out("zarr")).code, 0);

@@ -20,8 +20,6 @@ using testing::Not;
 
 using Ran = Program::Ran;
 
-std::string data(const std::string& name) { return test::data_folder() + "/" + name; }
-
 class Cli : public Program {
 protected:
     void SetUp() override {

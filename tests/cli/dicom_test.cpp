@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 class CliDicom : public Program {
 protected:
-    static std::string file(const std::string& name) { return "'" + test::data_folder() + "/dicom/" + name + "' "; }
+    static std::string file(const std::string& name) { return "'" + data("dicom/" + name) + "' "; }
     void make(const std::string& input, const std::string& model) const {
         const Ran ran = run("reconstruct " + input + "-o " + out(model));
         EXPECT_EQ(ran.code, 0) << ran.error;
@@ -48,7 +48,7 @@ TEST_F(CliDicom, an_overlap_is_one_warning) {
 
 TEST_F(CliDicom, a_folder_of_images_is_one_line) {
     std::filesystem::create_directory(path("series"));
-    std::filesystem::copy_file(test::data_folder() + "/dicom/bad/image.dcm", path("series/IM0001"));
+    std::filesystem::copy_file(data("dicom/bad/image.dcm"), path("series/IM0001"));
     expect_refusal("reconstruct " + path("series").string() + " -o " + out("m.vtp"), 1, "segment the series of images");
 }
 

@@ -25,6 +25,9 @@ public:
 protected:
     void SetUp() override { std::filesystem::create_directory(path("out")); }
 
+    /// A file of tests/data.
+    static std::string data(const std::string& name) { return test::data_folder() + "/" + name; }
+
     /// `before` is put before the command: variables.
     Ran run(const std::string& arguments, const std::string& before = "") const {
         const std::string command = before + " '" + test::program() + "' " + arguments + " >'" +

@@ -18,7 +18,6 @@ using Ran = Program::Ran;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string data(const std::string& name) { return test::data_folder() + "/" + name; }
 std::string numbers(Vec3 p) { return std::to_string(p.x) + "," + std::to_string(p.y) + "," + std::to_string(p.z); }
 
 class CliTetrahedra : public Program {

@@ -61,7 +61,7 @@ DividedMesh::PartOf slabs(double width) {
 /// Parts that lie anywhere, all in the same box.
 std::uint32_t scattered(Vec3 p) { return static_cast<std::uint32_t>(std::floor(97 * (p.x + 3 * p.y + 7 * p.z))) % 5; }
 
-const CompareOptions kFew{.samples = 20000, .background = {}, .threads = 1};
+const CompareOptions kFewSamples{.samples = 20000, .background = {}, .threads = 1};
 
 Reconstruction grains(double reduce) {
     return test::run(test::grain_volume({14, 13, 12}, 12, 5), test::reduced(reduce));
@@ -107,12 +107,12 @@ void expect_same_from_a(const CompareReport& found, const CompareReport& expecte
 TEST(CompareParts, distances_to_a_divided_model_are_those_to_the_whole) {
     const Reconstruction full = grains(0), model = grains(0.8);
     const ComparedMesh a{full.mesh, full.labels}, b{model.mesh, model.labels};
-    const CompareReport whole = compare(a, b, kFew);
+    const CompareReport whole = compare(a, b, kFewSamples);
     EXPECT_GT(whole.distance.a_to_b->rms, 0.01);
     EXPECT_GT(whole.lines.size(), 20u);
     for (const DividedMesh& divided :
          {DividedMesh(model.mesh, model.labels, 5, slabs(3)), DividedMesh(model.mesh, model.labels, 5, scattered)}) {
-        const CompareReport parts = compare(a, divided, kFew);
+        const CompareReport parts = compare(a, divided, kFewSamples);
         expect_same_from_a(parts, whole);
         EXPECT_NEAR(parts.distance.b_to_a->rms, whole.distance.b_to_a->rms, 0.03 * whole.distance.b_to_a->rms);
         EXPECT_NEAR(parts.distance.b_to_a->mean, whole.distance.b_to_a->mean, 0.03 * whole.distance.b_to_a->mean);
@@ -123,7 +123,7 @@ TEST(CompareParts, samples_of_a_divided_model_are_spread_over_all_of_it) {
     const Reconstruction full = grains(0), model = grains(0.8);
     const ComparedMesh a{full.mesh, full.labels};
     const DividedMesh divided(model.mesh, model.labels, 5, slabs(3));
-    const CompareReport itself = compare(divided, ComparedMesh(model.mesh, model.labels), kFew);
+    const CompareReport itself = compare(divided, ComparedMesh(model.mesh, model.labels), kFewSamples);
     EXPECT_EQ(itself.distance.both->max, 0);
     for (const auto& line : itself.lines) EXPECT_EQ(line.distance.both->max, 0);
     // Far from a model at one end, samples are at the distance that they have along x.
@@ -131,8 +131,8 @@ TEST(CompareParts, samples_of_a_divided_model_are_spread_over_all_of_it) {
     for (const Vec3 p : {Vec3{-1, -1e6, -1e6}, Vec3{-1, 1e6, -1e6}, Vec3{-1, 0, 2e6}}) wall.add_vertex(p);
     wall.add_face(VertexId{0}, VertexId{1}, VertexId{2}, 0, 1);
     const ComparedMesh end{wall, full.labels};
-    const CompareReport from_whole = compare(ComparedMesh(model.mesh, model.labels), end, kFew),
-                        from_parts = compare(divided, end, kFew);
+    const CompareReport from_whole = compare(ComparedMesh(model.mesh, model.labels), end, kFewSamples),
+                        from_parts = compare(divided, end, kFewSamples);
     expect_near(from_parts.distance.a_to_b, from_whole.distance.a_to_b, 0.01);
 }
 
@@ -154,14 +154,14 @@ TEST(CompareParts, a_region_is_found_in_a_part_far_away) {
     const Mesh a = two_squares(10, 0, 1), b = two_squares(10, 1, 2);
     const ComparedMesh from{a, labels};
     const DividedMesh to(b, labels, 12, slabs(1.5));
-    const CompareReport report = compare(from, to, kFew);
+    const CompareReport report = compare(from, to, kFewSamples);
     ASSERT_EQ(report.regions.size(), 3u);
     EXPECT_EQ(report.distance.a_to_b->max, 0);
     EXPECT_FALSE(report.regions[0].distance.both) << "only A has it";
     EXPECT_FALSE(report.regions[2].distance.both) << "only B has it";
     EXPECT_NEAR(report.regions[1].distance.a_to_b->max, 10, 0.01);
     EXPECT_NEAR(report.regions[1].distance.a_to_b->mean, 9.5, 0.01);
-    expect_same_from_a(report, compare(from, ComparedMesh(b, labels), kFew));
+    expect_same_from_a(report, compare(from, ComparedMesh(b, labels), kFewSamples));
 }
 
 TEST(CompareParts, a_part_that_no_sample_needs_is_not_searched) {
@@ -172,7 +172,7 @@ TEST(CompareParts, a_part_that_no_sample_needs_is_not_searched) {
     const Mesh both = two_squares(100, 0, 0);
     const auto reads_of_far_part = [&](const Mesh& a) {
         const DividedMesh b(both, labels, 3, slabs(50));
-        const CompareReport report = compare(ComparedMesh(a, labels), b, kFew);
+        const CompareReport report = compare(ComparedMesh(a, labels), b, kFewSamples);
         EXPECT_EQ(report.distance.a_to_b->max, 0);
         return b.reads()[2];
     };

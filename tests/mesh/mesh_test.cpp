@@ -53,7 +53,7 @@ void expect_stars_of_faces(const Mesh& mesh) {
     EXPECT_EQ(vertices, mesh.vertex_count());
 }
 
-Mesh grains() { return test::run(test::grain_volume({7, 7, 7}, 6, 1)).mesh; }
+Mesh grain_mesh() { return test::run(test::grain_volume({7, 7, 7}, 6, 1)).mesh; }
 
 TEST(Mesh, the_smaller_label_comes_first_and_the_face_is_turned) {
     Mesh mesh = test::shape(test::kTetrahedronCorners, {});
@@ -82,7 +82,7 @@ TEST(Mesh, freed_places_are_used_again) {
 }
 
 TEST(Mesh, removed_faces_leave_the_stars) {
-    Mesh mesh = grains();
+    Mesh mesh = grain_mesh();
     for (std::uint32_t f = 0; f < mesh.face_end(); f += 3) mesh.remove_face(FaceId{f});
     expect_stars_of_faces(mesh);
 }
@@ -116,7 +116,7 @@ TEST(Mesh, move_star_of_an_unused_vertex_only_removes_it) {
 }
 
 TEST(Mesh, sort_spatially_keeps_the_surface_and_names_the_new_ids) {
-    Mesh mesh = grains();
+    Mesh mesh = grain_mesh();
     for (std::uint32_t f = 0; f < mesh.face_end(); f += 5) mesh.remove_face(FaceId{f});
     std::vector<VertexId> unused;
     test::for_vertices(mesh, [&](VertexId v) {
@@ -153,7 +153,7 @@ TEST(Mesh, sort_spatially_puts_near_vertices_near_in_memory) {
 }
 
 TEST(Mesh, sort_spatially_does_not_depend_on_the_order_before) {
-    Mesh mesh = grains();
+    Mesh mesh = grain_mesh();
     mesh.sort_spatially();
     const std::uint64_t once = test::digest(mesh);
     mesh.sort_spatially();
@@ -191,7 +191,7 @@ TEST(Mesh, sort_spatially_gives_the_same_mesh_on_several_threads) {
 }
 
 TEST(Mesh, compact_faces_keeps_order_and_surface) {
-    Mesh mesh = grains();
+    Mesh mesh = grain_mesh();
     for (std::uint32_t f = 0; f < mesh.face_end(); f += 2) mesh.remove_face(FaceId{f});
     std::vector<std::array<VertexId, 3>> expected, found;
     test::for_faces(mesh, [&](FaceId f) { expected.push_back(mesh[f].vertices); });
@@ -205,7 +205,7 @@ TEST(Mesh, compact_faces_keeps_order_and_surface) {
 }
 
 TEST(Mesh, compact_keeps_order_and_surface) {
-    Mesh mesh = grains();
+    Mesh mesh = grain_mesh();
     for (std::uint32_t f = 0; f < mesh.face_end(); f += 2) mesh.remove_face(FaceId{f});
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
         if (mesh[VertexId{v}].star == kNoCorner) mesh.remove_vertex(VertexId{v});
@@ -227,7 +227,7 @@ TEST(Mesh, compact_keeps_order_and_surface) {
 }
 
 TEST(Mesh, flip_faces_turns_every_face_and_nothing_else) {
-    Mesh mesh = grains();
+    Mesh mesh = grain_mesh();
     const std::uint64_t before = test::surface_digest(mesh);
     std::vector<Vec3> normals;
     const auto normal = [&](FaceId f) {
@@ -244,7 +244,7 @@ TEST(Mesh, flip_faces_turns_every_face_and_nothing_else) {
 }
 
 TEST(Mesh, random_changes_leave_consistent_stars) {
-    Mesh mesh = grains();
+    Mesh mesh = grain_mesh();
     std::uint64_t state = 12;
     SCOPED_TRACE("seed 12");
     const auto below = [&](std::uint32_t end) { return static_cast<std::uint32_t>((state = mix64(state)) % end); };

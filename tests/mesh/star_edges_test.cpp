@@ -12,7 +12,7 @@
 namespace regionmesh {
 namespace {
 
-std::set<Label> labels_of(const LabelSet& set) { return {set.begin(), set.end()}; }
+std::set<Label> set_of(const LabelSet& set) { return {set.begin(), set.end()}; }
 
 void expect_edges_of_all_stars(const Mesh& mesh) {
     StarEdges edges;
@@ -25,7 +25,7 @@ void expect_edges_of_all_stars(const Mesh& mesh) {
         ASSERT_EQ(edges.labels().size(), around.size());
         for (std::size_t n = 0; n < edges.ends().size(); ++n) {
             EXPECT_EQ(around.count(edges.ends()[n]), 1u);
-            EXPECT_EQ(labels_of(edges.labels()[n]), labels_of(edge_labels(mesh, v, edges.ends()[n])));
+            EXPECT_EQ(set_of(edges.labels()[n]), set_of(edge_labels(mesh, v, edges.ends()[n])));
         }
     });
 }

@@ -17,9 +17,8 @@
 namespace regionmesh {
 namespace {
 
+using test::kVertexFilters;
 using test::run;
-
-constexpr SmoothFilter kFilters[] = {SmoothFilter::kTaubin, SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
 
 Mesh grains() { return run(test::grain_volume({12, 12, 12}, 8, 5)).mesh; }
 Mesh noise(std::uint32_t labels = 4) { return run(test::noise_volume({7, 7, 7}, labels, 5)).mesh; }
@@ -42,7 +41,7 @@ TEST(Smooth, takes_a_model_without_faces) {
     Mesh mesh;
     EXPECT_EQ(smooth(mesh, {}).vertices, 0u);
     mesh.add_vertex({1, 2, 3});
-    for (SmoothFilter filter : kFilters) EXPECT_EQ(smooth(mesh, {.filter = filter}).vertices, 1u);
+    for (SmoothFilter filter : kVertexFilters) EXPECT_EQ(smooth(mesh, {.filter = filter}).vertices, 1u);
     EXPECT_EQ(mesh.position(VertexId{0}), (Vec3{1, 2, 3}));
 }
 
@@ -76,7 +75,7 @@ TEST(Smooth, taubin_keeps_the_volume_of_a_ball_and_laplacian_shrinks_it) {
 }
 
 TEST(Smooth, moves_vertices_and_nothing_else) {
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         const Mesh before = noise();
         Mesh mesh = test::copy_of(before);
         smooth(mesh, {.filter = filter});
@@ -110,7 +109,7 @@ TEST(Smooth, a_model_with_free_places_keeps_its_ids) {
 
 TEST(Smooth, keeps_the_sampled_box_to_the_bit) {
     const Vec3 high{5 * 0.1, 6 * 0.7, 7 * (1.0 / 3)};
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         Mesh mesh = run(test::noise_volume({6, 7, 8}, 3, 9).spaced({0.1, 0.7, 1.0 / 3})).mesh;
         int edges = 0, corners = 0;
         smooth(mesh, {.filter = filter, .scale = 0.3});
@@ -151,7 +150,7 @@ TEST(Smooth, the_rim_of_an_open_surface_stays) {
     ReconstructOptions open = test::plain();
     open.cap = false;
     const Mesh before = run(test::grain_volume({10, 10, 10}, 6, 4), open).mesh;
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         Mesh mesh = test::copy_of(before);
         smooth(mesh, {.filter = filter});
         CheckOptions options;
@@ -196,7 +195,7 @@ TEST(Smooth, the_numbers_of_vertices_and_faces_do_not_matter) {
 }
 
 TEST(Smooth, threads_do_not_matter) {
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         const std::uint32_t side = filter == SmoothFilter::kNifpms ? 6 : 12;
         Mesh one = run(test::noise_volume({side, side, side}, 3, 1)).mesh, many = test::copy_of(one);
         const SmoothReport by_one = smooth(one, {.filter = filter, .threads = 1}),
@@ -209,7 +208,7 @@ TEST(Smooth, threads_do_not_matter) {
 }
 
 TEST(Smooth, the_unit_of_length_changes_nothing) {
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         Mesh small = run(test::noise_volume({5, 5, 5}, 3, 1)).mesh,
              large = run(test::noise_volume({5, 5, 5}, 3, 1).spaced({1024, 1024, 1024})).mesh;
         smooth(small, {.filter = filter});

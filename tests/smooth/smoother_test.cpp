@@ -18,9 +18,8 @@
 namespace regionmesh {
 namespace {
 
+using test::kVertexFilters;
 using test::run;
-
-constexpr SmoothFilter kFilters[] = {SmoothFilter::kTaubin, SmoothFilter::kLaplacian, SmoothFilter::kNifpms};
 
 std::string name_of(const SmoothOptions& options) {
     const char* names[] = {"auto", "lattice", "taubin", "laplacian", "nifpms"};
@@ -67,7 +66,7 @@ test::ArrayVolume beads(std::uint32_t count) {
 // Equivalence.
 
 TEST(Equivalence, smoothed_strips_do_not_depend_on_how_many_come_at_once) {
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         test::ArrayVolume volume = test::grain_volume({10, 9, 14}, 6, 1);
         ReconstructOptions options = smoothed({.filter = filter});
         const std::uint64_t one = test::digest(run(volume, options).mesh);
@@ -120,13 +119,13 @@ TEST(Equivalence, smoothing_on_the_fly_is_smoothing_in_core_at_any_spacing) {
 
 TEST(Equivalence, strips_without_faces_are_passed_through) {
     test::ArrayVolume volume = beads(2);
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         ReconstructOptions options = smoothed({.filter = filter});
         options.background = {0};
         expect_smoothed_as_in_core(volume, options);
         EXPECT_GT(run(volume, options).report.smoothing.rms_displacement, 0.01);
     }
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         const Reconstruction nothing = run(test::solid_volume({4, 4, 9}, 0), {.smooth = {.filter = filter}});
         EXPECT_EQ(nothing.mesh.face_count(), 0u);
         EXPECT_EQ(nothing.report.smoothing.vertices, 0u);
@@ -134,7 +133,7 @@ TEST(Equivalence, strips_without_faces_are_passed_through) {
 }
 
 TEST(Equivalence, a_volume_of_two_sections_is_smoothed_too) {
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         const Reconstruction made = run(test::noise_volume({8, 8, 2}, 3, 1), smoothed({.filter = filter}));
         test::expect_sound(made.report.check);
         EXPECT_GT(made.report.smoothing.rms_displacement, 0.01);
@@ -167,7 +166,7 @@ void for_chunks(test::ArrayVolume& volume, Smoother& smoother, Visit&& visit) {
 }
 
 TEST(Smoother, chunks_come_out_as_they_went_in_except_for_positions) {
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         test::ArrayVolume volume = test::noise_volume({5, 5, 12}, 3, 4);
         Smoother smoother({.filter = filter, .passes = 4}, {.thickness = 1});
         Mesh mesh;
@@ -198,7 +197,7 @@ TEST(Smoother, strips_come_out_while_others_go_in) {
 }
 
 TEST(Smoother, the_safe_interval_ends_before_all_surface_not_handed_out) {
-    for (SmoothFilter filter : kFilters)
+    for (SmoothFilter filter : kVertexFilters)
         for (const Sweep& sweep : {kSweepX, kSweepZ}) {
             const bool is_local = filter != SmoothFilter::kNifpms;
             test::ArrayVolume volume =
@@ -292,7 +291,7 @@ TEST(Memory, more_passes_hold_as_many_more_strips) {
 
 TEST(SampledBox, keeps_its_sides_to_the_bit_through_smoothing_and_decimation) {
     const Vec3 spacing{0.1, 0.7, 1.0 / 3};
-    for (SmoothFilter filter : kFilters)
+    for (SmoothFilter filter : kVertexFilters)
         for (double share : {0.0, 0.8}) {
             ReconstructOptions options = test::reduced(share);
             options.smooth = {.filter = filter};
@@ -315,7 +314,7 @@ TEST(SampledBox, keeps_its_sides_to_the_bit_through_smoothing_and_decimation) {
 // Oracle: what comes out is what the labels say, whatever the filter.
 
 TEST(Oracle, smoothed_noise_is_sound) {
-    for (SmoothFilter filter : kFilters)
+    for (SmoothFilter filter : kVertexFilters)
         for (std::uint32_t passes : {20u, 100u})
             for (std::uint32_t labels : {2, 4, 60}) {
                 if (filter == SmoothFilter::kNifpms && passes == 100) continue;  // it makes one pass only
@@ -330,7 +329,7 @@ TEST(Oracle, smoothed_noise_is_sound) {
 }
 
 TEST(Oracle, smoothed_grains_are_sound) {
-    for (SmoothFilter filter : kFilters)
+    for (SmoothFilter filter : kVertexFilters)
         for (std::uint32_t passes : {20u, 100u}) {
             if (filter == SmoothFilter::kNifpms && passes == 100) continue;
             SCOPED_TRACE(name_of({.filter = filter, .passes = passes}));
@@ -342,7 +341,7 @@ TEST(Oracle, smoothed_grains_are_sound) {
 }
 
 TEST(Oracle, smoothed_and_decimated_is_sound) {
-    for (SmoothFilter filter : kFilters) {
+    for (SmoothFilter filter : kVertexFilters) {
         SCOPED_TRACE(name_of({.filter = filter}));
         ReconstructOptions options = test::reduced(0.9);
         options.smooth = {.filter = filter};
@@ -358,7 +357,7 @@ TEST(Oracle, smoothed_and_decimated_is_sound) {
 }
 
 TEST(OnTheFly, smoothing_within_a_budget_that_binds_stays_sound) {
-    for (SmoothFilter filter : kFilters)
+    for (SmoothFilter filter : kVertexFilters)
         for (const Sweep& sweep : {kSweepX, kSweepZ}) {
             if (filter == SmoothFilter::kNifpms && sweep.axes == kSweepX.axes) continue;  // slow
             SCOPED_TRACE(name_of({.filter = filter}));
@@ -385,7 +384,7 @@ TEST(OnTheFly, smoothed_noise_within_a_budget_stays_sound) {
 
 TEST(Anisotropy, smoothing_at_any_spacing_is_sound) {
     for (const Vec3 spacing : {Vec3{1, 2, 5}, Vec3{5, 2, 1}, Vec3{1, 1, 0.2}, Vec3{1e-3, 2e-3, 5e-3}})
-        for (SmoothFilter filter : kFilters) {
+        for (SmoothFilter filter : kVertexFilters) {
             SCOPED_TRACE(name_of({.filter = filter}) + ", spacing " + std::to_string(spacing.x) + " " +
                          std::to_string(spacing.z));
             for (std::uint32_t passes : {20u, 100u}) {

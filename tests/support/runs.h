@@ -42,6 +42,10 @@ inline Reconstruction run(ArrayMesh mesh, ReconstructOptions options = plain()) 
     return reconstruct(mesh, options);
 }
 
+/// The filters that move vertices by their neighbours; the lattice filter moves them within their cells.
+inline constexpr SmoothFilter kVertexFilters[] = {SmoothFilter::kTaubin, SmoothFilter::kLaplacian,
+                                                  SmoothFilter::kNifpms};
+
 using regionmesh::for_faces;
 using regionmesh::for_vertices;
 

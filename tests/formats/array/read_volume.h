@@ -20,6 +20,13 @@ using Paths = std::vector<std::filesystem::path>;
 
 inline std::filesystem::path data(const std::string& name) { return std::filesystem::path(test::data_folder()) / name; }
 
+/// The dataset of an HDF5 file of tests/data/chunked, as an input names it.
+inline std::filesystem::path inside(const std::string& file, const std::string& dataset) {
+    return data("chunked/" + file).string() + ":" + dataset;
+}
+
+constexpr std::array kSweeps{SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
+
 struct Volume {
     VolumeInfo info;
     std::vector<InputLabel> labels;  // x fastest, then y, whatever the sweep
@@ -129,7 +136,6 @@ inline void expect_as_named(const std::filesystem::path& file, const std::string
     EXPECT_EQ(volume.info.type, type);
     EXPECT_EQ(volume.info.lattice.size, (std::array<std::uint32_t, 3>{5, 4, 3}));
     EXPECT_EQ(volume.labels, expected(type));
-    constexpr std::array kSweeps{SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (volume.info.can_sweep[axis]) {
             EXPECT_EQ(read_volume({file}, swept(kSweeps[axis])).labels, volume.labels) << "xyz"[axis];

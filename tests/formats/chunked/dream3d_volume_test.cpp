@@ -10,12 +10,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using Dream3dVolumeTest = TemporaryFolder;
 
-constexpr SweepChoice kSweeps[] = {SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
-
-std::filesystem::path inside(const std::string& file, const std::string& dataset) {
-    return data("chunked/" + file).string() + ":" + dataset;
-}
-
 TEST_F(Dream3dVolumeTest, regions_and_geometry_are_found_in_files_of_versions_7_and_8) {
     for (const char* name : {"version7.dream3d", "version8.dream3d", "flat.dream3d"}) {
         for (const SweepChoice sweep : kSweeps) {

@@ -13,12 +13,6 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using ReadHdf5Test = TemporaryFolder;
 
-constexpr SweepChoice kSweeps[] = {SweepChoice::kAuto, SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
-
-std::filesystem::path inside(const std::string& file, const std::string& dataset) {
-    return data("chunked/" + file).string() + ":" + dataset;
-}
-
 SampleType stored_type(const std::string& name) {
     return name == "bool" ? SampleType::kI8 : *parse_sample_type(name);  // h5py makes an enumeration of bytes
 }
@@ -26,7 +20,7 @@ SampleType stored_type(const std::string& name) {
 TEST_F(ReadHdf5Test, every_type_byte_order_and_sweep_comes_back_label_for_label) {
     for (const char* name : {"bool", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64"}) {
         for (const char* place : {"/contiguous/", "/big/gzip_"}) {
-            for (const SweepChoice sweep : kSweeps) {
+            for (const SweepChoice sweep : {SweepChoice::kAuto, SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ}) {
                 const Volume volume = read_volume({inside("types.h5", place + std::string(name))}, swept(sweep));
                 EXPECT_EQ(volume.info.format, "hdf5");
                 EXPECT_EQ(volume.info.type, stored_type(name)) << name;
@@ -40,7 +34,7 @@ TEST_F(ReadHdf5Test, every_type_byte_order_and_sweep_comes_back_label_for_label)
 
 TEST_F(ReadHdf5Test, filters_of_the_library_are_undone) {
     for (const char* name : {"plain", "shuffle", "sums", "offset", "deep"}) {
-        for (const SweepChoice sweep : kSweeps) {
+        for (const SweepChoice sweep : {SweepChoice::kAuto, SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ}) {
             const std::string dataset = "/packed/" + std::string(name) + "_uint16";
             EXPECT_EQ(read_volume({inside("types.h5", dataset)}, swept(sweep)).labels, expected(SampleType::kU16));
         }

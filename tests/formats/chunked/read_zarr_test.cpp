@@ -14,8 +14,6 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr SweepChoice kSweeps[] = {SweepChoice::kX, SweepChoice::kY, SweepChoice::kZ};
-
 class ReadZarrTest : public TemporaryFolder {
 protected:
     /// A copy of a store of tests/data/chunked, with `from` replaced by `to` in one of its files.

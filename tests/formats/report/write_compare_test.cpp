@@ -1,21 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "regionmesh/write_report.h"
+#include "support/json_keys.h"
 
 namespace regionmesh {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using test::Json;
+using test::keys_of;
 using testing::ElementsAre;
-
-std::vector<std::string> keys_of(const Json& json) {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : json.items()) keys.push_back(key);
-    return keys;
-}
 
 /// Region 5 in both models, 9 in A only; they meet in A.
 CompareReport example() {

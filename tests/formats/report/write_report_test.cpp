@@ -3,22 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "formats/temporary_folder.h"
 #include "regionmesh/error.h"
+#include "support/json_keys.h"
 
 namespace regionmesh {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using test::Json;
+using test::keys_of;
 using WriteReport = TemporaryFolder;
-
-std::vector<std::string> keys_of(const Json& json) {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : json.items()) keys.push_back(key);
-    return keys;
-}
 
 CheckReport two_regions() {
     CheckReport report;

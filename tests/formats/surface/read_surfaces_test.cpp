@@ -11,7 +11,7 @@
 namespace regionmesh {
 namespace {
 
-std::filesystem::path data(const std::string& name) {
+std::filesystem::path surface_file(const std::string& name) {
     return std::filesystem::path(test::data_folder()) / "surfaces" / name;
 }
 
@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(, LabelledSurfaces,
                          });
 
 TEST_P(LabelledSurfaces, two_boxes_come_back_sound_with_their_labels) {
-    const MeshFile file = read_mesh(data(GetParam()));
+    const MeshFile file = read_mesh(surface_file(GetParam()));
     EXPECT_EQ(file.mesh.face_count(), 22u);
     EXPECT_EQ(file.mesh.vertex_count(), 12u);
     EXPECT_DOUBLE_EQ(volume_of(file, 3), 1);
@@ -50,7 +50,7 @@ TEST_P(LabelledSurfaces, quads_and_triangles_are_the_same_surface) {
         for (const FaceWords& face : faces_of(file)) count += face.second[1] == "exterior";
         return count;
     };
-    EXPECT_EQ(outer(read_mesh(data(GetParam()))), 20);
+    EXPECT_EQ(outer(read_mesh(surface_file(GetParam()))), 20);
 }
 
 class PlainSurfaces : public testing::TestWithParam<const char*> {};
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(, PlainSurfaces,
                          });
 
 TEST_P(PlainSurfaces, surface_without_labels_is_one_region_that_looks_outward) {
-    const MeshFile file = read_mesh(data(GetParam()));
+    const MeshFile file = read_mesh(surface_file(GetParam()));
     EXPECT_EQ(file.mesh.face_count(), 12u);
     EXPECT_DOUBLE_EQ(volume_of(file, 1), 1);
     const CheckReport report = check(file.mesh);

@@ -16,7 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using Pair = std::array<InputLabel, 2>;
+using LabelPair = std::array<InputLabel, 2>;
 
 /// A tetrahedron with its right angles at `at`, and one leg of `size` along x; outward.
 std::vector<std::array<Vec3, 3>> tetrahedron(Vec3 at, double size) {
@@ -180,12 +180,12 @@ TEST_F(TextSurfaces, ply_labels_have_many_names) {
     const std::string list = "property list uchar int vertex_index\r\n";
     const FileSurface two = labels("property int label0\r\n" + list + "property short label1\r\n", "7 4 0 1 2 3 -1");
     EXPECT_EQ(two.points[3], (Vec3{0, 2, 0}));
-    EXPECT_THAT(two.labels, ElementsAre(Pair{7, -1}, Pair{7, -1}));
+    EXPECT_THAT(two.labels, ElementsAre(LabelPair{7, -1}, LabelPair{7, -1}));
     EXPECT_THAT(two.faces, ElementsAre(std::array{0u, 1u, 2u}, std::array{0u, 2u, 3u}));
     EXPECT_THAT(labels(list + "property int label_1\r\nproperty int label_2\r\n", "3 0 1 2 5 6").labels,
-                ElementsAre(Pair{5, 6}));
-    EXPECT_THAT(labels(list + "property double region\r\n", "3 0 1 2 9").labels, ElementsAre(Pair{9, -1}));
-    EXPECT_THAT(labels(list, "3 0 1 2").labels, ElementsAre(Pair{1, -1}));
+                ElementsAre(LabelPair{5, 6}));
+    EXPECT_THAT(labels(list + "property double region\r\n", "3 0 1 2 9").labels, ElementsAre(LabelPair{9, -1}));
+    EXPECT_THAT(labels(list, "3 0 1 2").labels, ElementsAre(LabelPair{1, -1}));
     EXPECT_THAT(failure_of("m.ply", text(list + "property float label\r\n", "3 0 1 2 0.5")),
                 HasSubstr("face 0 has a label that is no integer"));
     EXPECT_THAT(failure_of("m.ply", text(list, "3 0 1 4")), HasSubstr("face 0 names vertex 4 of 4"));
