@@ -25,10 +25,16 @@ void print_volumes(const PreserveReport& preserved) {
 }
 
 /// The faces that topology or --max-error leave are not known before the work.
-void print_memory(const ReconstructOptions& options, std::uint64_t peak_bytes) {
-    if (options.face_budget || peak_bytes <= options.memory + options.memory / 10) return;
-    say("used more than --memory, {} MB: the faces left by topology or --max-error are not known before the work",
-        grouped(options.memory / 1000000));
+void print_memory(const ReconstructOptions& options, const Report& report) {
+    const auto is_far_above = [](std::uint64_t used, std::uint64_t limit) { return used > limit + limit / 10; };
+    if (options.face_budget) {
+        if (is_far_above(report.peak_faces, *options.face_budget))
+            say("held {} faces, more than --face-budget {}: it is below what the target, topology or --max-error leave",
+                grouped(report.peak_faces), grouped(*options.face_budget));
+    } else if (is_far_above(report.peak_bytes, options.memory)) {
+        say("used more than --memory, {} MB: the faces left by topology or --max-error are not known before the work",
+            grouped(options.memory / 1000000));
+    }
 }
 
 /// For --verbose and the log.
@@ -74,7 +80,7 @@ void print_summary(const Settings& settings, const Report& report) {
     print_improved(report);
     print_stop(settings, report);
     print_volumes(report.preserved);
-    print_memory(settings.reconstruct, report.peak_bytes);
+    print_memory(settings.reconstruct, report);
     print_violations(check, 0);
     if (report.samples_in_room > 0)
         say("{} changed the label within --room", counted(report.samples_in_room, "sample"));

@@ -71,6 +71,15 @@ TEST_F(Cli, open_box_is_refused_where_volumes_are_needed) {
     expect_refusal("reconstruct " + volume() + "-o " + out("m.smesh") + " --boundary open", 1, "--boundary open");
 }
 
+TEST_F(Cli, a_face_budget_that_cannot_be_kept_is_said) {
+    const auto said = [&](const std::string& budget) {
+        return run("reconstruct " + volume() + "--target-faces 100 --face-budget " + budget + " -o " + out("m.vtp"))
+            .out;
+    };
+    EXPECT_THAT(said("20"), HasSubstr("more than --face-budget 20: "));
+    EXPECT_THAT(said("100000"), Not(HasSubstr("--face-budget")));
+}
+
 TEST_F(Cli, quiet_says_nothing) {
     const Ran ran = run("reconstruct " + volume() + "-o " + out("m.ply") + " --quiet");
     EXPECT_EQ(ran.code, 0);
