@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "page_output.h"
 #include "printable.h"
 #include "regionmesh/blocks.h"
@@ -213,6 +214,11 @@ int run_compare(const Settings& given) {
     const bool needs_b = !given.html.empty(), needs_a = needs_b || !given.distance.empty();
     const auto inputs = std::array{open_model(given.models[0], needs_a), open_model(given.models[1], needs_b)};
     const MeshFile &a = inputs[0]->file, &b = inputs[1]->file;
+    if (a.space != b.space && a.space != Space::kUnknown && b.space != Space::kUnknown)
+        warn(
+            fmt::format("{} is in {} and {} in {}: they are compared as they are; turn one of them with regionmesh "
+                        "convert --space",
+                        given.models[0], space_name(a.space), given.models[1], space_name(b.space)));
     const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
     const CompareReport report = compare(*inputs[0]->model, *inputs[1]->model,
                                          {.samples = settings.samples,

@@ -1,6 +1,9 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "blocks.h"
@@ -22,6 +25,11 @@ void require_fit_of_output(const Settings& settings) {
             throw Error(ErrorCode::kUsage, "--" + name + ": is for an output such as model.precomputed");
 }
 
+/// Options that need the whole model, or change it.
+constexpr std::array<std::string_view, 10> kOfWholeModels{"regions",    "interfaces",    "lines", "per-region",
+                                                          "background", "no-background", "weld",  "orient",
+                                                          "space",      "boundary"};
+
 /// From a folder of pieces, without the whole model in memory. Whether the output is of such a format.
 bool convert_pieces(const Settings& settings) {
     const std::string& folder = settings.models.front();
@@ -29,6 +37,11 @@ bool convert_pieces(const Settings& settings) {
     if (!is_block_folder(folder))
         throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
                                            " is none; name a model such as model.vtp");
+    for (const auto& [name, text] : settings.given)
+        if (std::ranges::find(kOfWholeModels, name) != kOfWholeModels.end())
+            throw Error(ErrorCode::kUsage, "--" + name + ": is not for " + settings.output +
+                                               ", which is written piece by piece; leave it out, or name a model such "
+                                               "as model.vtp");
     auto [names, colours] = describe(settings, {}, {});
     if (settings.output.ends_with(".pvtp")) {
         const VtpPiecesOptions options{

@@ -17,6 +17,18 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
     return reader;
 }
 
+namespace {
+
+/// Half a turn about z leads from RAS to LPS and back.
+void turn(MeshFile& file, Space space) {
+    if (space == Space::kUnknown || space == file.space) return;
+    for (std::uint32_t n = 0; n < file.mesh.vertex_end() && file.space != Space::kUnknown; ++n)
+        if (Vec3& p = file.mesh[VertexId{n}].position; file.mesh.is_alive(VertexId{n})) p = {-p.x, -p.y, p.z};
+    file.space = space;
+}
+
+}  // namespace
+
 bool has_extension(const std::string& path, const std::string& extensions) {
     std::string own = std::filesystem::path(path).extension().string();
     for (char& c : own) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -24,7 +36,12 @@ bool has_extension(const std::string& path, const std::string& extensions) {
 }
 
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {
-    return is_block_folder(path) ? read_block_folder(path) : read_mesh(path, options);
+    if (!is_block_folder(path)) return read_mesh(path, options);
+    if (options.weld)
+        throw Error(ErrorCode::kUsage, "--weld: the pieces of " + path + " share their points already; leave it out");
+    MeshFile file = read_block_folder(path);
+    turn(file, options.space);
+    return file;
 }
 
 CensusOptions census_options(const Settings& settings) {

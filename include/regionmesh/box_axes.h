@@ -12,16 +12,17 @@ namespace regionmesh {
 
 /// simplify(), smooth() and improve() keep vertices on the sides of a box along the axes of coordinates. The volume of
 /// a scanner is often oblique, and so is the box of its model: this turns the mesh so that they can keep them there.
+/// The box may be sheared, as that of a tilted gantry: lengths are then those along its edges.
 ///
 ///     const BoxAxes axes(mesh);
 ///     simplify(mesh, options);
 ///     axes.restore(mesh);
 class BoxAxes {
 public:
-    /// Turns the mesh, where its faces with the exterior lie in the planes of one oblique box with right angles, to a
-    /// millionth of its size, and no more than four labels, sides included, meet on its edges and corners. Vertices on
-    /// its sides get coordinates exactly on its planes, and they and the faces with the exterior get these sides. Ids
-    /// are then dense, in the order of before. Does nothing to other meshes.
+    /// Turns the mesh, where its faces with the exterior lie in the planes of one oblique box, to a millionth of its
+    /// size, and no more than four labels, sides included, meet on its edges and corners. Vertices on its sides get
+    /// coordinates exactly on its planes, and they and the faces with the exterior get these sides. Ids are then dense,
+    /// in the order of before. Does nothing to other meshes.
     explicit BoxAxes(Mesh& mesh);
     /// Turns the mesh back. Vertices that did not move get the positions of before.
     void restore(Mesh& mesh) const;
@@ -31,13 +32,13 @@ public:
 private:
     struct Side;
 
-    bool find_axes(const Mesh& mesh);
+    void set_axes(const std::array<Vec3, 3>& normals);
     void note_positions(const Mesh& mesh);
     bool find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const;
     void put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<Side>& sides);
 
     Vec3 origin_;
-    std::array<Vec3, 3> axes_;
+    std::array<Vec3, 3> axes_, across_;  // along the edges, of length 1; their products are 1 in pairs, else 0
     std::vector<Vec3> before_, after_;   // positions; the second ones in the axes of the box
     std::vector<std::uint32_t> sorted_;  // places in them, by the second position
 };

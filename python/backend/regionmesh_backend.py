@@ -32,7 +32,7 @@ _PACKAGE = _ROOT / "python" / "regionmesh"
 _OF_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so")
 _SOURCES = (
     "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "pyproject.toml",
-    "apps", "cmake", "include", "src", "python", "script",
+    "apps", "cmake", "docs", "examples", "include", "src", "python", "script", "viewer/dist/page.html",
 )  # fmt: skip
 
 

@@ -241,6 +241,8 @@ def opened(labels, sections=None):
     """An input that is no path, with its place: `data` is an array, or the calls for its sections."""
     own = placed(labels)
     data = own.data
+    if sections is not None and (hasattr(data, "shape") or hasattr(data, "__array__")):
+        raise ValueError("sections: is for iterators; leave it out, an array has a number of sections")
     if _is_sliced(data):
         data = _calls_of(data)
     elif not isinstance(data, np.ndarray) and hasattr(data, "__array__"):

@@ -110,6 +110,7 @@ def test_an_archive_of_sources_holds_what_a_build_needs(tmp_path):
     name = regionmesh_backend.build_sdist(tmp_path)
     listed = run("tar", "-tzf", tmp_path / name).stdout.split()
     base = name.removesuffix(".tar.gz")
-    for path in ("CMakeLists.txt", "pyproject.toml", "python/CMakeLists.txt", "src/base/stop.cpp", "PKG-INFO"):
+    for path in ("CMakeLists.txt", "pyproject.toml", "python/CMakeLists.txt", "src/base/stop.cpp", "PKG-INFO",
+                 "viewer/dist/page.html", "docs/files.md", "examples/CMakeLists.txt"):
         assert f"{base}/{path}" in listed
     assert not [path for path in listed if "__pycache__" in path]

@@ -7,10 +7,13 @@
 #include <mutex>
 #include <utility>
 
+#include "base/task_order.h"
+
 namespace regionmesh {
 namespace {
 
 thread_local bool is_apart = false;
+TaskOrder all_are_made;  // C++ guarantees it, but the thread sanitizer does not see it in this file
 
 }  // namespace
 
@@ -22,7 +25,12 @@ oneapi::tbb::task_arena& arena_of(std::uint32_t threads) {
         std::mutex mutex;
         std::map<std::pair<bool, std::uint32_t>, oneapi::tbb::task_arena> by_kind;
     };
-    static Arenas* const all = new Arenas;  // never destroyed: other threads may outlive main()
+    static Arenas* const all = [] {
+        auto* const made = new Arenas;  // never destroyed: other threads may outlive main()
+        all_are_made.happened();
+        return made;
+    }();
+    all_are_made.comes_first();
     const auto cores = static_cast<std::uint32_t>(oneapi::tbb::info::default_concurrency());
     const std::uint32_t count = threads == 0 ? cores : std::min(threads, cores);
     const std::lock_guard lock(all->mutex);

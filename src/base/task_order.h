@@ -8,7 +8,7 @@
 namespace regionmesh {
 
 /// Everything before happened() on one thread comes before everything after a later comes_first() on another. To be
-/// used only where oneTBB guarantees that: a wrong declaration hides a race.
+/// used only where oneTBB or C++ guarantees that: a wrong declaration hides a race.
 class TaskOrder {
 public:
 #ifdef REGIONMESH_DECLARE_TASK_ORDER

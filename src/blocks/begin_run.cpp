@@ -54,6 +54,7 @@ constexpr std::uint64_t kSurveyBytesPerSample = 2 * sizeof(InputLabel) + 2 * siz
 /// The volume as it is asked for, and how it is surveyed. Refuses what blocks do not have.
 struct Input {
     Input(const OpenSections& open, const ReconstructOptions& options) : file(open()) {
+        if (!file) throw Error(ErrorCode::kUsage, "the function that opens the volume gives no reader");
         require_in_range(options);
         require_block_options(options);
         if (!file->info().can_rewind) {

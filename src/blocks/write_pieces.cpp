@@ -5,6 +5,7 @@
 #include "blocks/join.h"
 #include "blocks/piece_mesh.h"
 #include "formats/surface/mesh_formats.h"
+#include "formats/text/xml_text.h"
 #include "mesh/region_colours.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/census.h"
@@ -55,7 +56,7 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
         name.replace_filename(fmt::format("{}-{:06}.vtp", path.stem().string(), block));
         write_vtp_part(view, numbers.number(piece, block), files.add(name));
         written.push_back(name);
-        pieces += fmt::format("    <Piece Source=\"{}\"/>\n", name.filename().string());
+        pieces += fmt::format("    <Piece Source=\"{}\"/>\n", formats::xml_attribute(name.filename().string()));
     }
     const auto label_array = [&](const char* name, const char* components) {
         return fmt::format("      <PDataArray type=\"{}\" Name=\"{}\"{}/>\n", vtk_label_type(labels), name, components);
@@ -67,7 +68,7 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
         "    <PPointData GlobalIds=\"GlobalIds\">\n"
         "      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"GlobalIds\"/>\n      <PDataArray type=\"Int8\" "
         "Name=\"NodeType\"/>\n    </PPointData>\n"
-        "    <PCellData>\n" +
+        "    <PCellData Scalars=\"Region\">\n" +
         label_array("BoundaryLabels", " NumberOfComponents=\"2\"") + label_array("Region", "") +
         label_array("Neighbour", "") +
         "      <PDataArray type=\"UInt8\" Name=\"RGB\" NumberOfComponents=\"3\"/>\n"

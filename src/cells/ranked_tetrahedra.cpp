@@ -40,6 +40,21 @@ double points_across(const Box& box, const Sweep& sweep, double points) {
     return length > 0 ? std::min(points * apart / length, points) : points;
 }
 
+/// A reader may be one of the user.
+void require_points(const TetrahedronReader& reader, const LabelledPoints& given) {
+    const double scale_z = reader.info().scale_z;
+    if (!(scale_z > 0) || !std::isfinite(scale_z))
+        fail(reader, "scale_z is " + std::to_string(scale_z) + "; give a number above 0");
+    const bool needs_labels = !reader.info().has_cell_labels || !given.labels.empty();
+    if (needs_labels && given.labels.size() != given.positions.size())
+        fail(reader, std::to_string(given.labels.size()) + " labels for " + std::to_string(given.positions.size()) +
+                         " points; give one for each");
+    for (std::size_t n = 0; n < given.positions.size(); ++n)
+        if (const Vec3 p = given.positions[n]; std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z))
+            fail(reader, reader.name_of_point(static_cast<std::uint32_t>(n)) +
+                             " has a coordinate that is not a number; mend the points");
+}
+
 void require_memory(const TetrahedronReader& reader, std::uint64_t points, double across, std::uint64_t memory) {
     const auto count = static_cast<double>(points);
     const double meshing = kMeshingBytesPerPoint * count + kActiveBytes * across;
@@ -154,6 +169,7 @@ double RankedTetrahedra::spacing() const { return std::cbrt(six_volumes / static
 RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, const RankOptions& options) {
     RankedTetrahedra ranked{.points = {}, .sorted = ExternalSort<RankedTetrahedron>(options.sort_bytes)};
     LabelledPoints given = reader.take_points();
+    require_points(reader, given);
     Box all;
     for (Vec3& p : given.positions) {
         p += Vec3{0, 0, 0};  // -0 becomes 0
@@ -166,9 +182,11 @@ RankedTetrahedra rank_tetrahedra(TetrahedronReader& reader, LabelTable& labels, 
     const std::vector<std::uint32_t> rank_of = rank_points(std::move(given), labels, ranked.points);
     Ranker ranker(reader, labels, rank_of, ranked);
     std::vector<LabelledTetrahedron> piece(kPiece);
-    while (const std::size_t got = reader.next(piece))
+    while (const std::size_t got = reader.next(piece)) {
+        if (got > piece.size()) fail(reader, "gives more tetrahedra than there is room for; mend the reader");
         for (std::size_t n = 0; n < got; ++n)
             ranker.add(piece[n], reader.info().has_cell_labels ? labels.dense(piece[n].label) : 0);
+    }
     if (labels.size() > kMostLabels) fail(reader, "more than 2^31 labels");
     if (ranked.sorted.size() == 0) fail(reader, "has no tetrahedra");
     const Vec3 size = ranked.points.box.high - ranked.points.box.low;

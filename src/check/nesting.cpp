@@ -15,6 +15,11 @@ struct Part {
     VertexId farthest = kNoVertex;  // along the ray
     NestedVolumes volumes;
     bool touches_box = false;
+    bool has_outer = false, has_inner = false;  // faces with the exterior, and others
+
+    /// A surface of nothing but faces with the exterior is closed: its outermost region is known, as that of a surface
+    /// without such faces. Others may end at the exterior.
+    bool has_outermost() const { return !touches_box && !(has_outer && has_inner); }
 };
 
 /// By the smallest vertex of each part.
@@ -32,7 +37,7 @@ public:
         measure_parts();
         std::vector<const Part*> inner;
         for (const auto& [root, part] : parts_)
-            if (!part.touches_box) inner.push_back(&part);
+            if (part.has_outermost()) inner.push_back(&part);
         if (inner.empty()) return;
         const Box extent = extent_of(mesh_, options_.threads);
         reach_ = 2 * length(extent.high - extent.low);
@@ -93,22 +98,27 @@ private:
                 const FaceId f{n};
                 if (!mesh_.is_alive(f)) continue;
                 const std::uint32_t root = joined_.find(index(mesh_[f].vertices[0]));
-                if (!last || last->first != root) last = &*parts.try_emplace(root, parts_.at(root)).first;
+                if (!last || last->first != root) {
+                    const Part& known = parts_.at(root);
+                    last = &*parts.try_emplace(root, Part{known.farthest, {}, known.touches_box}).first;
+                }
                 add(f, last->second);
             }
             return parts;
         };
         for_chunks(mesh_.face_end(), kCheckChunk, options_.threads, find, [&](const Parts& parts) {
             for (const auto& [root, part] : parts) {
-                parts_[root].touches_box |= part.touches_box;
-                for (const auto& [label, volume] : part.volumes) parts_[root].volumes[label] += volume;
+                Part& whole = parts_[root];
+                whole.has_outer |= part.has_outer;
+                whole.has_inner |= part.has_inner;
+                for (const auto& [label, volume] : part.volumes) whole.volumes[label] += volume;
             }
         });
     }
 
     void add(FaceId f, Part& part) const {
-        part.touches_box |= is_exterior(mesh_[f].labels[1]);
-        if (!part.touches_box) add_volume(part.volumes, mesh_, f, mesh_.position(part.farthest));
+        (is_exterior(mesh_[f].labels[1]) ? part.has_outer : part.has_inner) = true;
+        if (part.has_outermost()) add_volume(part.volumes, mesh_, f, mesh_.position(part.farthest));
     }
 
     void look_at(const Part& part, Findings& findings) {

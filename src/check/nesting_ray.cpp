@@ -25,7 +25,8 @@ NestingHit nesting_hit(const Mesh& mesh, FaceId f, Vec3 from) {
 }
 
 bool is_nested(const CheckOptions& options, Label outermost, const NestingHit& nearest) {
-    if (nearest.distance < HUGE_VAL) return nearest.label == outermost;
+    if (nearest.distance < HUGE_VAL)
+        return nearest.label == outermost || (is_exterior(nearest.label) && is_exterior(outermost));
     return options.boundary_is_open || options.is_background(outermost) || is_exterior(outermost);
 }
 

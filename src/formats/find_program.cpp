@@ -60,9 +60,9 @@ fs::path find_program(const HelperProgram& program, const fs::path& given) {
     const fs::path here = folder_of_this_program();
     for (const fs::path& folder : folders_to_search(here))
         if (is_program(folder / program.name)) return folder / program.name;
-    throw Error(ErrorCode::kInput, std::string(program.name) + ": not found beside " +
-                                       (here.empty() ? "this program" : here.string()) +
-                                       ", in the install prefix or on PATH; set " + program.variable);
+    throw Error(ErrorCode::kInput,
+                std::string(program.name) + ": not found beside " + (here.empty() ? "this program" : here.string()) +
+                    ", in the install prefix " REGIONMESH_INSTALL_PREFIX " or on PATH; set " + program.variable);
 }
 
 std::vector<fs::path> places_of_program(const HelperProgram& program, const fs::path& given) {

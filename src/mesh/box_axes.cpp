@@ -32,13 +32,14 @@ Vec3 area_vector(const Mesh& mesh, FaceId f) {
     return cross(b - a, c - a);
 }
 
-/// The mean normal of the faces with the exterior that are parallel to the largest one, of those square to `u`.
-std::optional<Vec3> main_normal(const Mesh& mesh, std::optional<Vec3> u) {
+/// The mean normal of the faces with the exterior that are parallel to the largest one, of those taken.
+template <class IsTaken>
+std::optional<Vec3> main_normal(const Mesh& mesh, IsTaken&& is_taken) {
     Vec3 largest, sum;
     const auto visit = [&](auto&& take) {
         for_outer_faces(mesh, [&](FaceId f) {
             const Vec3 area = area_vector(mesh, f);
-            if (!u || std::abs(dot(area, *u)) <= kParallel * length(area)) take(area);
+            if (is_taken(area)) take(area);
         });
     };
     visit([&](Vec3 area) {
@@ -48,9 +49,34 @@ std::optional<Vec3> main_normal(const Mesh& mesh, std::optional<Vec3> u) {
         if (length(cross(area, largest)) <= kParallel * length(area) * length(largest))
             sum += dot(area, largest) < 0 ? -area : area;
     });
-    if (u) sum = sum - dot(sum, *u) * *u;
     if (length2(sum) == 0) return {};
     return sum / length(sum);
+}
+
+/// The normals of the sides of a box with right angles.
+std::optional<std::array<Vec3, 3>> square_normals(const Mesh& mesh) {
+    const auto u = main_normal(mesh, [](Vec3) { return true; });
+    if (!u) return {};
+    auto v = main_normal(mesh, [&](Vec3 area) { return std::abs(dot(area, *u)) <= kParallel * length(area); });
+    if (!v) return {};
+    v = *v - dot(*v, *u) * *u;
+    v = *v / length(*v);
+    return std::array{*u, *v, cross(*u, *v)};
+}
+
+/// Those of any box with parallel sides: the largest faces of three directions.
+std::optional<std::array<Vec3, 3>> any_normals(const Mesh& mesh) {
+    std::array<Vec3, 3> normals;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const auto found = main_normal(mesh, [&](Vec3 area) {
+            return std::all_of(normals.begin(), normals.begin() + static_cast<std::ptrdiff_t>(n),
+                               [&](Vec3 known) { return length(cross(area, known)) > kParallel * length(area); });
+        });
+        if (!found) return {};
+        normals[n] = *found;
+    }
+    if (std::abs(dot(cross(normals[0], normals[1]), normals[2])) < kParallel) return {};
+    return normals;
 }
 
 auto coordinates(Vec3 p) { return std::tuple(p.x, p.y, p.z); }
@@ -67,32 +93,43 @@ BoxAxes::BoxAxes(Mesh& mesh) {
     const Box along = extent_of(mesh, 1);
     bool is_along = true;
     for_outer_faces(mesh, [&](FaceId f) { is_along = is_along && sides_at(mesh.corners(f), along, 0) != 0; });
-    if (is_along || !find_axes(mesh)) return;
-    note_positions(mesh);
-    Box box;
-    for_vertices(mesh, [&](VertexId v) { box.add(after_[index(v)]); });
-    const Vec3 size = box.high - box.low;
-    const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
-    std::vector<Side> sides;
-    if (find_sides(mesh, box, tolerance, sides))
+    if (is_along) return;
+    for (const auto& find_normals : {square_normals, any_normals}) {
+        const auto normals = find_normals(mesh);
+        if (!normals) return;
+        set_axes(*normals);
+        note_positions(mesh);
+        Box box;
+        for_vertices(mesh, [&](VertexId v) { box.add(after_[index(v)]); });
+        const Vec3 size = box.high - box.low;
+        const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
+        std::vector<Side> sides;
+        if (!find_sides(mesh, box, tolerance, sides)) continue;
         put_on_box(mesh, box, tolerance, sides);
-    else
-        before_.clear(), after_.clear();
+        return;
+    }
+    before_.clear(), after_.clear();
 }
 
-/// Each axis takes the number of the coordinate that it is nearest to.
-bool BoxAxes::find_axes(const Mesh& mesh) {
-    const auto u = main_normal(mesh, {});
-    const auto v = u ? main_normal(mesh, u) : std::nullopt;
-    if (!v) return false;
-    std::vector<Vec3> left{*u, *v, cross(*u, *v)};
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto nearest = std::ranges::max_element(left, {}, [&](Vec3 a) { return std::abs(a[axis]); });
-        axes_[static_cast<std::size_t>(axis)] = (*nearest)[axis] < 0 ? -*nearest : *nearest;
+/// Each axis lies along an edge of the box, and takes the number of the coordinate that it is nearest to.
+void BoxAxes::set_axes(const std::array<Vec3, 3>& normals) {
+    struct Axis {
+        Vec3 along, normal;
+    };
+    std::vector<Axis> left;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const Vec3 edge = cross(normals[(n + 1) % 3], normals[(n + 2) % 3]);
+        left.push_back({edge / length(edge), normals[n]});
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto along = [&](const Axis& a) { return a.along[static_cast<int>(axis)]; };
+        const auto nearest = std::ranges::max_element(left, {}, [&](const Axis& a) { return std::abs(along(a)); });
+        axes_[axis] = along(*nearest) < 0 ? -nearest->along : nearest->along;
+        across_[axis] = nearest->normal;
         left.erase(nearest);
     }
     if (dot(cross(axes_[0], axes_[1]), axes_[2]) < 0) axes_[2] = -axes_[2];
-    return true;
+    for (std::size_t axis = 0; axis < 3; ++axis) across_[axis] = across_[axis] / dot(across_[axis], axes_[axis]);
 }
 
 void BoxAxes::note_positions(const Mesh& mesh) {
@@ -103,7 +140,7 @@ void BoxAxes::note_positions(const Mesh& mesh) {
     for_vertices(mesh, [&](VertexId v) {
         const Vec3 from = mesh.position(v) - origin_;
         before_[index(v)] = mesh.position(v);
-        after_[index(v)] = {dot(axes_[0], from), dot(axes_[1], from), dot(axes_[2], from)};
+        after_[index(v)] = {dot(across_[0], from), dot(across_[1], from), dot(across_[2], from)};
     });
 }
 

@@ -50,7 +50,7 @@ _regionmesh() {
         text += fmt::format("            {}) words=\"{}\" ;;\n", command.name, flags_of(command));
     return text + R"(        esac
     fi
-    if [ -n "$words" ]; then COMPREPLY=($(compgen -W "$words" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi
+    if [ -n "$words" ]; then COMPREPLY=($(compgen -W "$words" -- "$word")); else mapfile -t COMPREPLY < <(compgen -f -- "$word"); fi
 }
 complete -o filenames -F _regionmesh regionmesh
 )";

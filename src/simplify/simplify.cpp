@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "mesh/extent.h"
+#include "regionmesh/error.h"
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
@@ -63,6 +65,8 @@ void simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
 }  // namespace
 
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
+    if (!(options.max_error >= 0))
+        throw Error(ErrorCode::kUsage, "max_error: " + std::to_string(options.max_error) + "; give 0 or more");
     SimplifyResult result;
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].set_error_bound(0);
     if (mesh.face_count() > options.target_faces) simplify_by_tiles(mesh, options, result);

@@ -188,6 +188,7 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,
                            const OnModel& on_model) {
     require_in_range(given);
+    require_sweep(reader.info());
     require_lattice(reader.info().source, reader.info().lattice);
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
     if (options.room == 0) return reconstruct_sections(reader, options, on_progress, on_model);

@@ -29,6 +29,7 @@ void require_in_range(const ReconstructOptions& options) {
     if (options.reduce) require("reduce", *options.reduce, 1, "0 to 1");
     if (options.max_error) require("max_error", *options.max_error, HUGE_VAL, "0 or more");
     require_room(options.room);
+    if (options.strips_per_chunk == 0) throw Error(ErrorCode::kUsage, "strips_per_chunk: 0; give at least 1");
     require("min_quality", options.min_quality, kBestQuality, "0 to 0.26");
     require("perturbation", options.perturbation, kMost, "0 or more");
     require("smooth.lambda", options.smooth.lambda, 1, "0 to 1");
@@ -69,7 +70,7 @@ double section_scale(const VolumeInfo& volume, const ReconstructOptions& options
     }
     if (options.scale_z >= kLeastLength && options.scale_z <= 1 / kLeastLength)
         return nearest_power_of_two(options.scale_z);
-    throw Error(ErrorCode::kInput,
+    throw Error(ErrorCode::kUsage,
                 volume.source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
 }
 

@@ -99,25 +99,25 @@ const InputLabel* RoomReader::neighbour(std::int32_t i, std::int32_t j, const Of
 std::uint64_t RoomReader::clean_row(std::uint32_t row, std::span<InputLabel> out) const {
     const InputLabel* own = &held_[section_ - first_held_][std::size_t{row} * section_width()];
     std::uint64_t changed = 0;
+    Weights weights;
     for (std::uint32_t i = 0; i < out.size(); ++i) {
         const auto is_other = [&](const Offset& offset) {
             const InputLabel* label = neighbour(i, row, offset);
             return label && *label != own[i];
         };
-        out[i] = std::any_of(near_.begin(), near_.end(), is_other) ? cleaned(i, row) : own[i];
+        out[i] = std::any_of(near_.begin(), near_.end(), is_other) ? cleaned(i, row, weights) : own[i];
         changed += out[i] != own[i];
     }
     return changed;
 }
 
 /// The label with most weight.
-InputLabel RoomReader::cleaned(std::int32_t i, std::int32_t j) const {
-    thread_local std::vector<std::pair<InputLabel, float>> weights;
+InputLabel RoomReader::cleaned(std::int32_t i, std::int32_t j, Weights& weights) const {
     weights.clear();
     for (const Offset& offset : kernel_) {
         const InputLabel* label = neighbour(i, j, offset);
         if (!label) continue;
-        const auto known = std::ranges::find(weights, *label, &std::pair<InputLabel, float>::first);
+        const auto known = std::ranges::find(weights, *label, &Weights::value_type::first);
         if (known == weights.end())
             weights.emplace_back(*label, offset.weight);
         else

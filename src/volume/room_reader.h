@@ -37,10 +37,12 @@ private:
         float weight;
     };
 
+    using Weights = std::vector<std::pair<InputLabel, float>>;  // by label, in the order in which they are met
+
     void make_offsets(double room);
     void read_ahead();
     std::uint64_t clean_row(std::uint32_t row, std::span<InputLabel> out) const;
-    InputLabel cleaned(std::int32_t i, std::int32_t j) const;
+    InputLabel cleaned(std::int32_t i, std::int32_t j, Weights& weights) const;
     const InputLabel* neighbour(std::int32_t i, std::int32_t j, const Offset& offset) const;
 
     std::unique_ptr<SectionReader> own_ = {};

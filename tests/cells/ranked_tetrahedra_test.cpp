@@ -204,6 +204,18 @@ TEST(RankedTetrahedra, what_is_no_tetrahedron_is_named) {
     EXPECT_EQ(said({1, 4, 3, 2}), "nothing thrown");
 }
 
+TEST(RankedTetrahedra, points_without_labels_or_places_are_refused) {
+    const std::vector<LabelledTetrahedron> one{{{0, 1, 2, 3}}};
+    EXPECT_THAT(refusal({{kCorners, {1, 1, 1}}, one}), HasSubstr("3 labels for 4 points"));
+    for (const int axis : {0, 1, 2}) {
+        std::vector<Vec3> points = kCorners;
+        points[2][axis] = std::nan("");
+        EXPECT_THAT(refusal({{points, {1, 1, 1, 1}}, one}), HasSubstr("node 2 has a coordinate that is not a number"));
+    }
+    for (const double scale_z : {0.0, -2.0, HUGE_VAL})
+        EXPECT_THAT(refusal(ArrayMesh({kCorners, {1, 1, 1, 1}}, one).scaled(scale_z)), HasSubstr("scale_z is"));
+}
+
 TEST(RankedTetrahedra, the_thinnest_tetrahedron_is_not_flat) {
     std::vector<Vec3> points = kCorners;
     points[3] = {0.3, 0.3, std::ldexp(1, -1000)};

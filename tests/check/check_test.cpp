@@ -16,6 +16,7 @@ namespace {
 
 using test::octahedron;
 using test::shape;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -195,6 +196,20 @@ TEST(Check, nesting) {
     EXPECT_THAT(found_in(island({0.1, 0.2, 0.3}, 1), kIslands), ElementsAre("nesting"));
     EXPECT_THAT(found_in(island({5, 0.2, 0.3}, 0), kIslands), ElementsAre("nesting"));
     EXPECT_THAT(found_in(island({-5, 0.2, 0.3}, 0), kIslands), ElementsAre("nesting"));
+}
+
+TEST(Check, nesting_of_bodies_in_the_exterior) {
+    const auto bodies = [](Vec3 middle, double size, Label inner, Label outer) {
+        Mesh mesh;
+        test::add_octahedron(mesh, {}, {3, 3, 3}, 0, exterior(0));
+        test::add_octahedron(mesh, middle, {size, size, size}, inner, outer);
+        return mesh;
+    };
+    EXPECT_THAT(found_in(bodies({5, 0.2, 0.3}, 0.5, 1, exterior(0))), ElementsAre()) << "beside it";
+    EXPECT_THAT(found_in(bodies({-5, 0.2, 0.3}, 0.5, 1, exterior(0))), ElementsAre()) << "with the other beyond";
+    EXPECT_THAT(found_in(bodies({0.1, 0.2, 0.3}, 0.5, 1, exterior(0))), ElementsAre("nesting")) << "inside it";
+    EXPECT_THAT(found_in(bodies({0.1, 0.2, 0.3}, 0.5, exterior(0), 0)), ElementsAre()) << "a hollow in it";
+    EXPECT_THAT(found_in(bodies({5, 0.2, 0.3}, 0.5, exterior(0), 0)), Contains("nesting")) << "a hollow beside it";
 }
 
 TEST(Check, nesting_finds_an_island_moved_into_the_wrong_region) {

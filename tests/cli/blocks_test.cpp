@@ -246,6 +246,22 @@ std::vector<T> numbers_in(std::string_view text) {
     return numbers;
 }
 
+TEST_F(BlockProgram, options_of_whole_models_are_refused_for_pieces) {
+    ASSERT_EQ(run(grains("model")).code, 0);
+    const auto refused = [&](const std::string& output, const std::string& said) {
+        const Ran ran = run("convert " + out("model") + ' ' + out(output));
+        EXPECT_EQ(ran.code, 2) << output;
+        EXPECT_THAT(ran.error, testing::HasSubstr(said));
+        EXPECT_EQ(files_left(), 1) << "the folder alone";
+    };
+    for (const std::string option : {"--regions r.csv", "--interfaces r.csv", "--lines r.csv", "--per-region",
+                                     "--background 3", "--no-background", "--orient", "--space ras"})
+        refused("m.pvtp " + option, option.substr(0, option.find(' ')) + ": is not for ");
+    refused("m.vtp --weld 0.1", "--weld: the pieces of ");
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("'a&b.pvtp'")).code, 0);
+    EXPECT_THAT(text_of(out("a&b.pvtp")), testing::HasSubstr("<Piece Source=\"a&amp;b-"));
+}
+
 TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {
     ASSERT_EQ(run(grains("model")).code, 0);
     const Ran ran = run("convert " + out("model") + ' ' + out("m.precomputed") + " --units um --precomputed legacy");

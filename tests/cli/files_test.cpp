@@ -146,6 +146,13 @@ TEST_F(CliFiles, models_say_their_space_as_slicer_reads_it) {
         EXPECT_EQ(q, (Vec3{-p.x, -p.y, p.z}));
         if (name != "m.stl") expect_good("check " + out("turned.ply") + " --sections " + labels);
     }
+    expect_good("reconstruct " + labels + "--block-size 9 -o " + out("pieces"));
+    expect_good("convert " + out("pieces") + " --space lps " + out("turned.ply"));
+    const MeshFile pieces = read_block_folder(out("pieces")), turned = read_mesh(out("turned.ply"));
+    EXPECT_EQ(turned.space, Space::kLps);
+    const Vec3 p = pieces.mesh.position(VertexId{0});
+    EXPECT_EQ(turned.mesh.position(VertexId{0}), (Vec3{-p.x, -p.y, p.z}));
+    EXPECT_THAT(run("compare " + out("pieces") + ' ' + out("turned.ply")).error, HasSubstr("is in RAS and "));
     expect_good("reconstruct " + labels + "-o " + out("lps.ply") + " --space lps");
     expect_good("check " + out("lps.ply") + " --sections " + labels);
     expect_good("reconstruct " + volume(4, 0, "left-posterior-superior") + "-o " + out("other.ply"));
@@ -276,9 +283,14 @@ TEST_F(CliFiles, the_manual_page_and_completions_have_every_option) {
     put_text(path("c.bash"), all[0] +
                                  "COMP_WORDS=(regionmesh check --quie)\nCOMP_CWORD=2\n_regionmesh\n"
                                  "echo \"${COMPREPLY[*]}\"\nCOMP_WORDS=(regionmesh comp)\nCOMP_CWORD=1\n_regionmesh\n"
-                                 "echo \"${COMPREPLY[*]}\"\n");
-    ASSERT_EQ(std::system(("bash '" + path("c.bash").string() + "' >'" + path("words").string() + "'").c_str()), 0);
-    EXPECT_EQ(text_of(path("words")), "--quiet\ncompare\n");
+                                 "echo \"${COMPREPLY[*]}\"\ntouch 'a file.nii'\n"
+                                 "COMP_WORDS=(regionmesh info a)\nCOMP_CWORD=2\n_regionmesh\n"
+                                 "printf '<%s>\\n' \"${COMPREPLY[@]}\"\n");
+    ASSERT_EQ(std::system(("mkdir '" + path("here").string() + "' && cd '" + path("here").string() + "' && bash '" +
+                           path("c.bash").string() + "' >'" + path("words").string() + "'")
+                              .c_str()),
+              0);
+    EXPECT_EQ(text_of(path("words")), "--quiet\ncompare\n<a file.nii>\n");
     EXPECT_EQ(run("--completion csh").code, 2);
 }
 

@@ -52,8 +52,9 @@ TEST_F(FindProgram, option_comes_before_variable_before_search) {
 }
 
 TEST_F(FindProgram, if_there_is_none_the_error_says_where_it_was_looked_for) {
-    EXPECT_THAT(problem({}), AllOf(HasSubstr("regionmesh-delaunay: not found beside /"),
-                                   HasSubstr(", in the install prefix or on PATH; set REGIONMESH_DELAUNAY")));
+    EXPECT_THAT(problem({}),
+                AllOf(HasSubstr("regionmesh-delaunay: not found beside /"), HasSubstr(", in the install prefix /"),
+                      HasSubstr(" or on PATH; set REGIONMESH_DELAUNAY")));
 }
 
 TEST_F(FindProgram, what_is_given_and_no_program_is_refused) {

@@ -19,22 +19,25 @@ namespace {
 constexpr test::Size kSize{14, 12, 13};
 constexpr double kVolume = 13. * 11 * 12;
 
-/// Turned about z, then about x.
-Lattice turned_lattice() {
+/// Turned about z, then about x. Sheared as by a tilted gantry, the third axis leans toward the first.
+Lattice turned_lattice(bool is_sheared) {
     const double a = std::cos(0.3), b = std::sin(0.3), c = std::cos(1.1), d = std::sin(1.1);
     Lattice lattice{.size = kSize, .origin = {100, -20, 3}};
     lattice.direction = {a, -b, 0, c * b, c * a, -d, d * b, d * a, c};
+    if (is_sheared)
+        for (std::size_t row = 0; row < 9; row += 3)
+            lattice.direction[row + 2] = 0.8 * lattice.direction[row + 2] + 0.6 * lattice.direction[row];
     return lattice;
 }
 
-test::ArrayVolume turned_volume() {
+test::ArrayVolume turned_volume(bool is_sheared) {
     test::ArrayVolume volume = test::grain_volume(kSize, 5, 3);
-    volume.lattice() = turned_lattice();
+    volume.lattice() = turned_lattice(is_sheared);
     return volume;
 }
 
-Reconstruction model(CellKind cells, const std::vector<InputLabel>& background) {
-    return test::run(turned_volume(),
+Reconstruction model(CellKind cells, const std::vector<InputLabel>& background, bool is_sheared = false) {
+    return test::run(turned_volume(is_sheared),
                      {.cells = cells, .smooth = {.passes = 0}, .decimate = false, .background = background});
 }
 
@@ -56,8 +59,8 @@ double volume_of(const CheckReport& report) {
 }
 
 /// Vertices on the sides lie on the planes of the lattice, the others inside.
-void expect_in_box(const Mesh& mesh) {
-    const IntoAxes into(turned_lattice());
+void expect_in_box(const Mesh& mesh, bool is_sheared) {
+    const IntoAxes into(turned_lattice(is_sheared));
     test::for_vertices(mesh, [&](VertexId v) {
         const Vec3 p = into(mesh.position(v));
         for (int axis = 0; axis < 3; ++axis) {
@@ -76,41 +79,48 @@ CheckReport checked(const Mesh& mesh, const std::vector<Label>& background) {
     return report;
 }
 
+void expect_box_kept(CellKind cells, const std::vector<InputLabel>& background, bool is_smoothed, bool is_read,
+                     bool is_sheared) {
+    Reconstruction made = model(cells, background, is_sheared);
+    LabelledMesh file = from_file(made);
+    Mesh& mesh = is_read ? file.mesh : made.mesh;
+    const std::uint32_t faces = mesh.face_count();
+    const BoxAxes axes(mesh);
+    EXPECT_TRUE(axes.is_oblique());
+    if (is_smoothed)
+        smooth(mesh, {.filter = SmoothFilter::kTaubin, .passes = 10});
+    else
+        simplify(mesh, {.target_faces = faces / 10});
+    EXPECT_LE(mesh.face_count(), is_smoothed ? faces : faces / 2);
+    axes.restore(mesh);
+    expect_in_box(mesh, is_sheared);
+    const CheckReport report = checked(mesh, dense(is_read ? file.labels : made.labels, background));
+    if (background.empty()) {
+        EXPECT_NEAR(volume_of(report), kVolume * (is_sheared ? 0.8 : 1), 1e-9);
+    }
+}
+
 TEST(BoxAxes, oblique_models_keep_their_box_when_they_are_simplified_or_smoothed) {
     for (const CellKind cells : {CellKind::kCompact, CellKind::kTetrahedra})
         for (const std::vector<InputLabel>& background : {std::vector<InputLabel>{}, std::vector<InputLabel>{0}})
             for (const bool is_smoothed : {false, true})
-                for (const bool is_read : {false, true}) {
-                    Reconstruction made = model(cells, background);
-                    LabelledMesh file = from_file(made);
-                    Mesh& mesh = is_read ? file.mesh : made.mesh;
-                    const std::uint32_t faces = mesh.face_count();
-                    const BoxAxes axes(mesh);
-                    EXPECT_TRUE(axes.is_oblique());
-                    if (is_smoothed)
-                        smooth(mesh, {.filter = SmoothFilter::kTaubin, .passes = 10});
-                    else
-                        simplify(mesh, {.target_faces = faces / 10});
-                    EXPECT_LE(mesh.face_count(), is_smoothed ? faces : faces / 2);
-                    axes.restore(mesh);
-                    expect_in_box(mesh);
-                    const CheckReport report = checked(mesh, dense(is_read ? file.labels : made.labels, background));
-                    if (background.empty()) {
-                        EXPECT_NEAR(volume_of(report), kVolume, 1e-9);
-                    }
-                }
+                for (const bool is_read : {false, true})
+                    for (const bool is_sheared : {false, true})
+                        expect_box_kept(cells, background, is_smoothed, is_read, is_sheared);
 }
 
 TEST(BoxAxes, what_does_not_move_keeps_its_position_and_gets_its_sides) {
-    const Reconstruction made = model(CellKind::kCompact, {0});
-    LabelledMesh file = from_file(made);
-    const MeshArrays before = export_arrays(made.mesh, made.labels, made.background);
-    const BoxAxes axes(file.mesh);
-    axes.restore(file.mesh);
-    const MeshArrays after = export_arrays(file.mesh, file.labels, dense(file.labels, {0}));
-    EXPECT_EQ(after.points, before.points);
-    EXPECT_EQ(after.faces, before.faces);
-    EXPECT_EQ(after.node_types, before.node_types);
+    for (const bool is_sheared : {false, true}) {
+        const Reconstruction made = model(CellKind::kCompact, {0}, is_sheared);
+        LabelledMesh file = from_file(made);
+        const MeshArrays before = export_arrays(made.mesh, made.labels, made.background);
+        const BoxAxes axes(file.mesh);
+        axes.restore(file.mesh);
+        const MeshArrays after = export_arrays(file.mesh, file.labels, dense(file.labels, {0}));
+        EXPECT_EQ(after.points, before.points);
+        EXPECT_EQ(after.faces, before.faces);
+        EXPECT_EQ(after.node_types, before.node_types);
+    }
 }
 
 TEST(BoxAxes, what_stays_when_others_go_keeps_its_position) {
@@ -127,13 +137,15 @@ TEST(BoxAxes, what_stays_when_others_go_keeps_its_position) {
 }
 
 TEST(BoxAxes, boxes_of_single_precision_are_found) {
-    Reconstruction made = model(CellKind::kCompact, {});
-    test::for_vertices(made.mesh, [&](VertexId v) {
-        Vec3& p = made.mesh[v].position;
-        for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
-    });
-    const BoxAxes axes(made.mesh);
-    EXPECT_TRUE(axes.is_oblique());
+    for (const bool is_sheared : {false, true}) {
+        Reconstruction made = model(CellKind::kCompact, {}, is_sheared);
+        test::for_vertices(made.mesh, [&](VertexId v) {
+            Vec3& p = made.mesh[v].position;
+            for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+        });
+        const BoxAxes axes(made.mesh);
+        EXPECT_TRUE(axes.is_oblique());
+    }
 }
 
 TEST(BoxAxes, other_models_are_left_alone) {

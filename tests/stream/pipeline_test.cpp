@@ -102,6 +102,10 @@ TEST(Reconstruct, options_out_of_range_are_refused) {
     }
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.max_error = std::nan(""); }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.reach = 3; }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.strips_per_chunk = 0; }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.scale_z = std::nan(""); }));
+    Mesh mesh = run(test::ball_volume({9, 9, 9}, 3)).mesh;
+    for (const double bad : {std::nan(""), -1.0}) EXPECT_THROW(simplify(mesh, {.max_error = bad}), Error) << bad;
 }
 
 TEST(Reconstruct, grains_go_down_by_90_percent) {

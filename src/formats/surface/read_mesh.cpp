@@ -63,6 +63,9 @@ FileSurface read_surface(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, error)) return read_folder(path);
     if (const Format* format = formats::find_format(path); format && format->holds_surface)
         formats::require_readable(path, format);
+    if (!path.has_extension() && !std::filesystem::exists(path, error))
+        formats::fail(path,
+                      fmt::format("no such file or folder: use one of {}, or a folder of them", readable_extensions()));
     formats::fail(path, fmt::format("no model format that can be read has the extension '{}': use one of {}",
                                     path.extension().string(), readable_extensions()));
 }

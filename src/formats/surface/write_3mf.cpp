@@ -13,6 +13,7 @@
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/surface/zip_file_3mf.h"
+#include "formats/text/xml_text.h"
 #include "mesh/region_colours.h"
 
 namespace regionmesh {
@@ -38,28 +39,6 @@ std::pair<const char*, double> unit_of(std::optional<double> metres) {
     if (*metres >= 1) return {"meter", *metres};
     if (*metres >= 1e-3) return {"millimeter", *metres / 1e-3};
     return {"micron", *metres / 1e-6};
-}
-
-/// Text for an attribute in XML 1.0, which has no control characters.
-std::string escaped(std::string_view text) {
-    std::string all;
-    for (const char letter : text) switch (letter) {
-            case '&':
-                all += "&amp;";
-                break;
-            case '<':
-                all += "&lt;";
-                break;
-            case '>':
-                all += "&gt;";
-                break;
-            case '"':
-                all += "&quot;";
-                break;
-            default:
-                all += static_cast<unsigned char>(letter) < ' ' ? ' ' : letter;
-        }
-    return all;
 }
 
 /// Each region is a closed object with its own copy of the faces that it shares.
@@ -106,7 +85,7 @@ private:
         put("<resources>\n<basematerials id=\"{}\">\n", kMaterials);
         const std::vector<std::uint32_t> colours = region_colours(view_);
         for (const FileRegion& region : regions_.all())
-            put("<base name=\"{}\" displaycolor=\"#{:06X}FF\"/>\n", escaped(title_of(region)),
+            put("<base name=\"{}\" displaycolor=\"#{:06X}FF\"/>\n", formats::xml_attribute(title_of(region)),
                 colours[view_.rank(region.label)]);
         put("</basematerials>\n");
         for (std::size_t n = 0; n < regions_.all().size(); ++n) write_object(n);
@@ -131,8 +110,8 @@ private:
         const auto number = [&](VertexId v) { return std::ranges::lower_bound(vertices, v) - vertices.begin(); };
         put("<object id=\"{}\" type=\"model\" name=\"{}\" partnumber=\"{}\" pid=\"{}\" pindex=\"{}\">\n<mesh>\n"
             "<vertices>\n",
-            kFirstObject + n, escaped(title_of(regions_.all()[n])), view_.label_text(regions_.all()[n].label),
-            kMaterials, n);
+            kFirstObject + n, formats::xml_attribute(title_of(regions_.all()[n])),
+            view_.label_text(regions_.all()[n].label), kMaterials, n);
         for (const VertexId v : vertices) {
             const Vec3 p = view_.mesh().position(v) * scale_;
             put("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", p.x, p.y, p.z);
