@@ -98,12 +98,9 @@ RunIdentity identity_of(const Settings& settings) {
 }
 
 void require_fit_of_blocks(const Settings& settings) {
-    for (const auto& [name, text] : settings.given)
-        if (std::ranges::find(kOneFile, name) != kOneFile.end())
-            throw Error(ErrorCode::kUsage,
-                        fmt::format("--{}: is for a model in one file, and --output is a folder of pieces; leave it "
-                                    "out, and give the folder to regionmesh convert or check",
-                                    name));
+    refuse_options(settings, kOneFile,
+                   "is for a model in one file, and --output is a folder of pieces; leave it out, and give the folder "
+                   "to regionmesh convert or check");
     require_block_options(settings.reconstruct);
     if (settings.inputs.front() == "-" && shared_tasks && shared_tasks->processes() > 1)
         throw Error(ErrorCode::kUsage, "standard input: one process alone can read it; name a file");

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string_view>
@@ -16,19 +15,18 @@ namespace regionmesh::cli {
 
 namespace {
 
+constexpr std::array<std::string_view, 3> kOfPrecomputed{"precomputed", "levels", "sharded"};
+
+/// Options that need the whole model, or change it.
+constexpr std::array<std::string_view, 9> kOfWholeModels{
+    "regions", "interfaces", "lines", "per-region", "background", "no-background", "weld", "orient", "space"};
+
 /// Throws Error(kUsage) for options of a folder .precomputed with another output. A model that is missing is said
 /// first.
 void require_fit_of_output(const Settings& settings) {
     if (is_precomputed(settings.output) || !std::filesystem::exists(settings.models.front())) return;
-    for (const auto& [name, text] : settings.given)
-        if (name == "precomputed" || name == "levels" || name == "sharded")
-            throw Error(ErrorCode::kUsage, "--" + name + ": is for an output such as model.precomputed");
+    refuse_options(settings, kOfPrecomputed, "is for an output such as model.precomputed");
 }
-
-/// Options that need the whole model, or change it.
-constexpr std::array<std::string_view, 10> kOfWholeModels{"regions",    "interfaces",    "lines", "per-region",
-                                                          "background", "no-background", "weld",  "orient",
-                                                          "space",      "boundary"};
 
 /// From a folder of pieces, without the whole model in memory. Whether the output is of such a format.
 bool convert_pieces(const Settings& settings) {
@@ -37,11 +35,9 @@ bool convert_pieces(const Settings& settings) {
     if (!is_block_folder(folder))
         throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
                                            " is none; name a model such as model.vtp");
-    for (const auto& [name, text] : settings.given)
-        if (std::ranges::find(kOfWholeModels, name) != kOfWholeModels.end())
-            throw Error(ErrorCode::kUsage, "--" + name + ": is not for " + settings.output +
-                                               ", which is written piece by piece; leave it out, or name a model such "
-                                               "as model.vtp");
+    refuse_options(settings, kOfWholeModels,
+                   "is not for " + settings.output +
+                       ", which is written piece by piece; leave it out, or name a model such as model.vtp");
     auto [names, colours] = describe(settings, {}, {});
     if (settings.output.ends_with(".pvtp")) {
         const VtpPiecesOptions options{

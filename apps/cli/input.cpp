@@ -1,5 +1,6 @@
 #include "input.h"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <mutex>
@@ -9,6 +10,21 @@
 
 namespace regionmesh::cli {
 
+namespace {
+
+/// Half a turn about z leads from RAS to LPS and back. Requires a mesh without free places.
+void turn(MeshFile& file, Space space) {
+    if (space == Space::kUnknown || space == file.space) return;
+    if (file.space != Space::kUnknown)
+        for (std::uint32_t n = 0; n < file.mesh.vertex_end(); ++n) {
+            Vec3& p = file.mesh[VertexId{n}].position;
+            p = {-p.x, -p.y, p.z};
+        }
+    file.space = space;
+}
+
+}  // namespace
+
 std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::vector<std::string>& inputs) {
     static std::once_flag once;
     auto reader = open_lattice(settings, inputs);
@@ -17,22 +33,15 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
     return reader;
 }
 
-namespace {
-
-/// Half a turn about z leads from RAS to LPS and back.
-void turn(MeshFile& file, Space space) {
-    if (space == Space::kUnknown || space == file.space) return;
-    for (std::uint32_t n = 0; n < file.mesh.vertex_end() && file.space != Space::kUnknown; ++n)
-        if (Vec3& p = file.mesh[VertexId{n}].position; file.mesh.is_alive(VertexId{n})) p = {-p.x, -p.y, p.z};
-    file.space = space;
-}
-
-}  // namespace
-
 bool has_extension(const std::string& path, const std::string& extensions) {
     std::string own = std::filesystem::path(path).extension().string();
     for (char& c : own) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return !own.empty() && (' ' + extensions + ' ').find(' ' + own + ' ') != std::string::npos;
+}
+
+void refuse_options(const Settings& settings, std::span<const std::string_view> names, const std::string& why) {
+    for (const auto& [name, text] : settings.given)
+        if (std::ranges::find(names, name) != names.end()) throw Error(ErrorCode::kUsage, "--" + name + ": " + why);
 }
 
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "regionmesh/formats.h"
@@ -25,6 +27,9 @@ auto with_reader(const Settings& settings, const std::vector<std::string>& input
 
 /// Whether a path ends in one of ".vtp .vtu .ply", in capitals or not.
 bool has_extension(const std::string& path, const std::string& extensions);
+
+/// Throws Error(kUsage), "--name: why", where one of these options was given.
+void refuse_options(const Settings& settings, std::span<const std::string_view> names, const std::string& why);
 
 /// A surface from a file, or from a folder of pieces.
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options = {});

@@ -9,7 +9,7 @@
 
 namespace regionmesh {
 
-/// Throws Error(kInput) for a volume of one sample along an axis.
+/// Throws Error(kInput) for a volume of one sample along an axis, and what require_sweep() throws.
 void require_cells(const VolumeInfo& info);
 
 /// Throws Error(kInput) if the axes are in none of the three orders of a sweep.
