@@ -12,11 +12,13 @@
 namespace regionmesh::formats {
 namespace {
 
-// Most bytes and sections that are read together across the order of the file, and most bytes in that order.
+// Most bytes and sections that are read together across the order of the file, but small sections up to so many bytes;
+// and most bytes in that order.
 constexpr std::uint64_t kBlockBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kBlockSections = 64;
+constexpr std::uint64_t kSmallBlockBytes = std::uint64_t{4} << 20;
 constexpr std::uint64_t kStraightBlockBytes = std::uint64_t{1} << 20;
-constexpr std::uint64_t kChunkBytes = std::uint64_t{4} << 20;
+constexpr std::uint64_t kChunkBytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t kFarPitch = std::uint64_t{64} << 10;  // runs with a larger pitch are read one by one
 
 /// A block is some consecutive sections in the file's own order of axes: runs of bytes.
@@ -51,7 +53,8 @@ private:
     void plan_blocks() override {
         block_count_ = 0;
         const std::uint64_t budget = is_straight() ? kStraightBlockBytes : kBlockBytes;
-        const std::uint64_t most = std::min<std::uint64_t>(kBlockSections, section_count());
+        const std::uint64_t most =
+            std::min<std::uint64_t>(std::max(kBlockSections, kSmallBlockBytes / section_bytes()), section_count());
         block_sections_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(budget / section_bytes(), 1, most));
         info_.held_bytes = block_sections_ * section_bytes() + (is_straight() ? 0 : kChunkBytes);
     }
@@ -112,11 +115,11 @@ private:
             return out;
         }
         const std::uint64_t runs_per_chunk = kChunkBytes / pitch;
-        std::vector<std::byte> chunk(std::min(runs_per_chunk, run_count) * pitch);
+        chunk_.resize(std::max<std::size_t>(chunk_.size(), std::min(runs_per_chunk, run_count) * pitch));
         for (std::uint64_t i = 0; i < run_count; i += runs_per_chunk) {
             const std::uint64_t runs = std::min(runs_per_chunk, run_count - i);
-            read(start + i * pitch, std::span(chunk).first((runs - 1) * pitch + run));
-            for (std::uint64_t j = 0; j < runs; ++j, out += run) std::memcpy(out, chunk.data() + j * pitch, run);
+            read(start + i * pitch, std::span(chunk_).first((runs - 1) * pitch + run));
+            for (std::uint64_t j = 0; j < runs; ++j, out += run) std::memcpy(out, chunk_.data() + j * pitch, run);
         }
         return out;
     }
@@ -132,6 +135,7 @@ private:
     std::array<std::uint32_t, 3> file_size_;
     std::uint32_t block_sections_ = 1;
     std::vector<std::byte> block_;
+    std::vector<std::byte> chunk_;  // of the file, with gaps between the runs
     std::uint32_t block_first_ = 0;
     std::uint32_t block_count_ = 0;
 };

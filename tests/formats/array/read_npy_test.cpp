@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <string>
+
 #include "formats/array/read_volume.h"
 #include "formats/temporary_folder.h"
 
@@ -10,6 +13,11 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 using ReadNpyTest = TemporaryFolder;
+
+/// A file with the header `text`.
+std::string npy_with_header(const std::string& text, const std::string& samples = "12345678") {
+    return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(text.size()) + '\0' + text + samples;
+}
 
 TEST_F(ReadNpyTest, numpy_arrays_of_every_type_order_and_version_come_back_label_for_label) {
     for (const auto& file : files_in("npy")) {
@@ -27,6 +35,19 @@ TEST_F(ReadNpyTest, numpy_arrays_of_every_type_order_and_version_come_back_label
 
 TEST_F(ReadNpyTest, auto_sweeps_the_axis_with_the_smallest_section) {
     EXPECT_EQ(open_sections({data("npy/uint8.npy")})->info().sweep.axes, kSweepX.axes);
+}
+
+TEST_F(ReadNpyTest, sections_across_the_order_of_the_file_are_read_in_blocks) {
+    std::string samples(std::size_t{1200} * 5 * 1000, '\0');  // more than one block, each of several parts with gaps
+    for (std::size_t n = 0; n < samples.size(); ++n) samples[n] = static_cast<char>(n * 2654435761u >> 24);
+    put_text(path("wide.npy"),
+             npy_with_header("{'descr': '|u1', 'fortran_order': False, 'shape': (1000, 5, 1200), }", samples));
+    for (const SweepChoice sweep : kSweeps) {
+        const Volume volume = read_volume({path("wide.npy")}, swept(sweep));
+        EXPECT_TRUE(std::ranges::equal(volume.labels, samples, [](InputLabel label, char sample) {
+            return label == static_cast<unsigned char>(sample);
+        }));
+    }
 }
 
 TEST_F(ReadNpyTest, array_with_two_axes_is_one_section) {
@@ -68,11 +89,6 @@ TEST_F(ReadNpyTest, header_cut_anywhere_is_refused) {
         put_text(path("cut.npy"), whole.substr(0, length));
         EXPECT_THAT(refusal({path("cut.npy")}), StartsWith(path("cut.npy").string())) << length;
     }
-}
-
-// A file with the header `text` and a few bytes of samples.
-std::string npy_with_header(const std::string& text) {
-    return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(text.size()) + '\0' + text + "12345678";
 }
 
 TEST_F(ReadNpyTest, damaged_headers_are_refused) {
