@@ -1,6 +1,7 @@
 #include "simplify/tiles.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simplify/collapse_edges.h"
 
@@ -25,13 +26,23 @@ TileGrid grid_of(const TilePlan& plan, SafeInterval safe) {
     return grid;
 }
 
+/// Side of a tile. Where sections are thin it is as much larger as gives a tile the cells of a cube, but there are at
+/// least kFewestAlong tiles along either of the other axes.
+std::uint32_t tile_side(const Lattice& lattice, Sweep sweep) {
+    const auto cells = [&](int n) { return std::max(lattice.size[sweep.axes[n]], 2u) - 1; };
+    const std::uint32_t thin = std::min({cells(0), cells(1), kTileCells});
+    const auto wide = static_cast<std::uint32_t>(kTileCells * std::sqrt(double{kTileCells} / thin));
+    return std::max(std::min({wide, std::max(cells(0), cells(1)) / kFewestAlong, cells(2) / kFewestAlong}), kTileCells);
+}
+
 }  // namespace
 
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep) {
     const std::uint64_t section = std::uint64_t{lattice.size[sweep.axes[0]]} * lattice.size[sweep.axes[1]];
+    const std::uint32_t side = tile_side(lattice, sweep);
     const auto strips =
-        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kSamplesPerRun / section, kShortestRun, kTileCells));
-    return {lattice, sweep, strips, kTileCells};
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kSamplesPerRun / section, kShortestRun, side));
+    return {lattice, sweep, strips, side};
 }
 
 VerdictCounts simplify_run(Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe, const TilePlan& plan,

@@ -319,6 +319,22 @@ TEST(TilePlan, comes_from_the_size_alone) {
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 24u);
     lattice.size = {5000, 5000, 64};
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 8u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 24u);
+}
+
+TEST(TilePlan, tiles_of_thin_volumes_are_wider) {
+    Lattice lattice;
+    lattice.size = {5, 1303, 1740};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 58u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 58u);
+    lattice.size = {5, 1303, 321};  // at least eight runs
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 40u);
+    lattice.size = {201, 3, 900};  // at least eight tiles
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 25u);
+    lattice.size = {3, 20, 900};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 24u);
+    lattice.size = {1, 900, 900};
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 112u);
 }
 
 }  // namespace
