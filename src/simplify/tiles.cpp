@@ -26,8 +26,8 @@ TileGrid grid_of(const TilePlan& plan, SafeInterval safe) {
     return grid;
 }
 
-/// Side of a tile. Where sections are thin it is as much larger as gives a tile the cells of a cube, but there are at
-/// least kFewestAlong tiles along either of the other axes.
+/// Side of a tile. Where sections are thin, tiles are wider and have about as many cells as a cube; at least
+/// kFewestAlong of them lie along each of the other axes.
 std::uint32_t tile_side(const Lattice& lattice, Sweep sweep) {
     const auto cells = [&](int n) { return std::max(lattice.size[sweep.axes[n]], 2u) - 1; };
     const std::uint32_t thin = std::min({cells(0), cells(1), kTileCells});

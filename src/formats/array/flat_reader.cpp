@@ -6,17 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "base/reused_vector.h"
 #include "formats/array/numbered_sections.h"
 #include "formats/array/volume_size.h"
 
 namespace regionmesh::formats {
 namespace {
 
-// Most bytes and sections that are read together across the order of the file, but small sections up to so many bytes;
-// and most bytes in that order.
-constexpr std::uint64_t kBlockBytes = std::uint64_t{64} << 20;
+// What is read together across the order of the file: so many sections, but at least and at most so many bytes. In that
+// order it is kStraightBlockBytes.
 constexpr std::uint64_t kBlockSections = 64;
-constexpr std::uint64_t kSmallBlockBytes = std::uint64_t{4} << 20;
+constexpr std::uint64_t kLeastBlockBytes = std::uint64_t{4} << 20, kMostBlockBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kStraightBlockBytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t kChunkBytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t kFarPitch = std::uint64_t{64} << 10;  // runs with a larger pitch are read one by one
@@ -52,10 +52,11 @@ private:
 
     void plan_blocks() override {
         block_count_ = 0;
-        const std::uint64_t budget = is_straight() ? kStraightBlockBytes : kBlockBytes;
-        const std::uint64_t most =
-            std::min<std::uint64_t>(std::max(kBlockSections, kSmallBlockBytes / section_bytes()), section_count());
-        block_sections_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(budget / section_bytes(), 1, most));
+        const std::uint64_t budget =
+            is_straight() ? kStraightBlockBytes
+                          : std::clamp(kBlockSections * section_bytes(), kLeastBlockBytes, kMostBlockBytes);
+        block_sections_ =
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(budget / section_bytes(), 1, section_count()));
         info_.held_bytes = block_sections_ * section_bytes() + (is_straight() ? 0 : kChunkBytes);
     }
 
@@ -115,7 +116,7 @@ private:
             return out;
         }
         const std::uint64_t runs_per_chunk = kChunkBytes / pitch;
-        chunk_.resize(std::max<std::size_t>(chunk_.size(), std::min(runs_per_chunk, run_count) * pitch));
+        resize_reused(chunk_, std::min(runs_per_chunk, run_count) * pitch);
         for (std::uint64_t i = 0; i < run_count; i += runs_per_chunk) {
             const std::uint64_t runs = std::min(runs_per_chunk, run_count - i);
             read(start + i * pitch, std::span(chunk_).first((runs - 1) * pitch + run));
