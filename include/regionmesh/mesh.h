@@ -37,6 +37,12 @@ struct Face {
     bool has_labels(const std::array<Label, 2>& others) const {
         return labels[0] == others[0] && labels[1] == others[1];
     }
+
+    /// In no star yet. The normal of a, b, c points from region `first` to region `second`.
+    static Face between(VertexId a, VertexId b, VertexId c, Label first, Label second) {
+        if (first > second) return between(a, c, b, second, first);
+        return {.vertices = {a, b, c}, .next = {kNoCorner, kNoCorner, kNoCorner}, .labels = {first, second}};
+    }
 };
 static_assert(sizeof(Face) == 32);
 
@@ -71,7 +77,16 @@ static_assert(sizeof(Vertex) == 32);
 /// renumbered. To visit all, iterate over [0, vertex_end()) or [0, face_end()) and skip those that are not alive.
 class Mesh {
 public:
+    struct Arrays {
+        FlatArray<Vertex> vertices;
+        FlatArray<Face> faces;
+    };
+
     Mesh() = default;
+    /// Of arrays without free places. Makes the stars, whatever they are.
+    explicit Mesh(Arrays arrays);
+    /// The same, sorted; sets `new_ids` to what sort_spatially() returns.
+    static Mesh sorted(Arrays arrays, std::uint32_t threads = 1, std::vector<VertexId>* new_ids = nullptr);
     /// Leave the other mesh empty.
     Mesh(Mesh&& other) noexcept { swap(other); }
     Mesh& operator=(Mesh&& other) noexcept {
@@ -131,10 +146,6 @@ public:
     void compact_faces();
 
     /// The arrays, with free places in between. Empties the mesh.
-    struct Arrays {
-        FlatArray<Vertex> vertices;
-        FlatArray<Face> faces;
-    };
     Arrays release();
 
     /// Reverses the orientation of all faces; labels stay. For a map of the positions that mirrors.
@@ -156,6 +167,8 @@ private:
     }
     void unlink(VertexId v, Corner corner);
     void link(FaceId f);
+    void take(Arrays arrays);
+    void link_all();
     std::vector<KeyedIndex> vertices_along_curve(std::uint32_t threads) const;
     std::vector<KeyedIndex> faces_along_curve(std::uint32_t threads) const;
 

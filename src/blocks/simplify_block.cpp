@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "regionmesh/limits.h"
 #include "simplify/collapse_edges.h"
@@ -73,9 +74,7 @@ TileGrid threshold_grid(const BlockChunk& block, std::uint32_t faces) {
 
 /// The block as one mesh, with one heap.
 CollapseResult collapse_whole(BlockChunk& block, const SimplifyOptions& options, bool refresh) {
-    Mesh mesh = mesh_of(block.chunk);
-    block.chunk.clear();
-    mesh.sort_spatially();
+    Mesh mesh = sorted_mesh_of(std::exchange(block.chunk, {}));
     const CollapseResult done = collapse_edges(mesh, options, {.limits = limits_of(block), .refresh = refresh});
     block.chunk = take_chunk(mesh);
     return done;

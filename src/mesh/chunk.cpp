@@ -1,5 +1,7 @@
 #include "mesh/chunk.h"
 
+#include <algorithm>
+
 namespace regionmesh {
 
 void Chunk::append(const Chunk& next) {
@@ -12,6 +14,11 @@ void Chunk::append(const Chunk& next) {
     const auto here = [&](std::uint32_t local) {
         return local < next.carried ? joint[local] : first_new + local - next.carried;
     };
+    if (!next.carried_bounds.empty()) carried_bounds.resize(carried);
+    for (std::size_t n = 0; n < next.carried_bounds.size(); ++n) {
+        float& bound = joint[n] < carried ? carried_bounds[joint[n]] : vertices[joint[n] - carried].error_bound;
+        bound = std::max(bound, next.carried_bounds[n]);
+    }
     vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
     for (const ChunkFace& face : next.faces)
         faces.push_back({{here(face.vertices[0]), here(face.vertices[1]), here(face.vertices[2])}, face.labels});

@@ -52,6 +52,26 @@ void sort_by_key(std::vector<KeyedIndex>& items, std::uint32_t threads, Rank&& r
 
 }  // namespace
 
+Mesh::Mesh(Arrays arrays) {
+    take(std::move(arrays));
+    link_all();
+}
+
+Mesh Mesh::sorted(Arrays arrays, std::uint32_t threads, std::vector<VertexId>* new_ids) {
+    Mesh mesh;
+    mesh.take(std::move(arrays));
+    std::vector<VertexId> ids = mesh.sort_spatially(threads);
+    if (new_ids) *new_ids = std::move(ids);
+    return mesh;
+}
+
+void Mesh::take(Arrays arrays) {
+    vertices_ = std::move(arrays.vertices);
+    faces_ = std::move(arrays.faces);
+    vertex_count_ = vertices_.size();
+    face_count_ = faces_.size();
+}
+
 VertexId Mesh::add_vertex(Vec3 position, SideSet sides, bool is_fixed) {
     const Vertex vertex{.position = position, .star = kNoCorner, .sides = sides, .is_fixed = is_fixed};
     if (free_vertex_ != kNoCorner) {
@@ -68,10 +88,6 @@ VertexId Mesh::add_vertex(Vec3 position, SideSet sides, bool is_fixed) {
 }
 
 FaceId Mesh::add_face(VertexId a, VertexId b, VertexId c, Label first, Label second) {
-    if (first > second) {
-        std::swap(first, second);
-        std::swap(b, c);
-    }
     FaceId f{free_face_};
     if (free_face_ != kNoCorner) {
         free_face_ = faces_[index(f)].next[0];
@@ -80,9 +96,7 @@ FaceId Mesh::add_face(VertexId a, VertexId b, VertexId c, Label first, Label sec
         faces_.push_back({});
         f = FaceId{faces_.size() - 1};
     }
-    Face& face = faces_[index(f)];
-    face.vertices = {a, b, c};
-    face.labels = {first, second};
+    faces_[index(f)] = Face::between(a, b, c, first, second);
     link(f);
     ++face_count_;
     return f;
@@ -95,6 +109,12 @@ void Mesh::link(FaceId f) {
         face.next[place] = vertex.star;
         vertex.star = index(f) << 2 | static_cast<Corner>(place);
     }
+}
+
+void Mesh::link_all() {
+    for (Vertex& vertex : vertices_)
+        if (vertex.is_alive) vertex.star = kNoCorner;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) link(FaceId{f});
 }
 
 void Mesh::unlink(VertexId v, Corner corner) {
@@ -206,7 +226,6 @@ std::vector<VertexId> Mesh::sort_spatially(std::uint32_t threads) {
         for_each_index(vertex_count_, kChunk, threads, [&](std::uint32_t n) {
             renumbered[order[n].index] = VertexId{n};
             sorted[n] = vertices_[order[n].index];
-            sorted[n].star = kNoCorner;
         });
         vertices_ = std::move(sorted);
         free_vertex_ = kNoCorner;
@@ -222,7 +241,7 @@ std::vector<VertexId> Mesh::sort_spatially(std::uint32_t threads) {
     for_each_index(face_count_, kChunk, threads, [&](std::uint32_t n) { sorted[n] = faces_[order[n].index]; });
     faces_ = std::move(sorted);
     free_face_ = kNoCorner;
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) link(FaceId{f});
+    link_all();
     return renumbered;
 }
 
@@ -251,9 +270,7 @@ void Mesh::compact_faces() {
         if (face.vertices[0] != kNoVertex) faces_[kept++] = face;
     faces_.resize(kept);
     free_face_ = kNoCorner;
-    for (Vertex& vertex : vertices_)
-        if (vertex.is_alive) vertex.star = kNoCorner;
-    for (std::uint32_t f = 0; f < kept; ++f) link(FaceId{f});
+    link_all();
 }
 
 void Mesh::reserve(std::size_t vertices, std::size_t faces) {

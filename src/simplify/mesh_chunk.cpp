@@ -1,5 +1,11 @@
 #include "simplify/mesh_chunk.h"
 
+#include <cassert>
+#include <utility>
+
+#include "base/parallel_for.h"
+#include "regionmesh/limits.h"
+
 namespace regionmesh {
 
 Chunk take_chunk(Mesh& mesh, std::span<const VertexId> active) {
@@ -32,15 +38,66 @@ Chunk take_chunk(Mesh& mesh) {
     return take_chunk(mesh, fixed);
 }
 
-Mesh mesh_of(const Chunk& chunk) {
-    Mesh mesh;
-    mesh.reserve(chunk.vertices.size(), chunk.faces.size());
-    for (const ChunkVertex& vertex : chunk.vertices)
-        mesh[mesh.add_vertex(vertex.position, vertex.sides)].set_error_bound(vertex.error_bound);
-    for (const auto& [corners, labels] : chunk.faces)
-        mesh.add_face(VertexId{corners[0]}, VertexId{corners[1]}, VertexId{corners[2]}, labels[0], labels[1]);
-    for (std::uint32_t v : chunk.active) mesh[VertexId{v}].is_fixed = true;
-    return mesh;
+JoinedChunks join(std::vector<Chunk> chunks, std::uint32_t threads) {
+    constexpr std::uint32_t kItems = 1u << 14;  // of a task
+    std::size_t vertex_count = 0, face_count = 0;
+    for (const Chunk& chunk : chunks) {
+        vertex_count += chunk.vertices.size();
+        face_count += chunk.faces.size();
+    }
+    require_mesh_size("mesh", vertex_count, face_count);
+    JoinedChunks joined;
+    auto& [vertices, faces] = joined.arrays;
+    vertices.reserve(vertex_count);
+    faces.reserve(face_count);
+    const auto is_pinned = [](SideSet sides) { return (sides & kPinned) != 0; };
+    for (Chunk& next : chunks) {
+        const Chunk chunk = std::exchange(next, {});
+        const std::vector<VertexId> carried = std::exchange(joined.active, {});
+        assert(chunk.carried == carried.size());
+        for (std::size_t n = 0; n < chunk.carried_bounds.size(); ++n) {
+            Vertex& vertex = vertices[index(carried[n])];
+            vertex.set_error_bound(std::max(vertex.error_bound(), chunk.carried_bounds[n]));
+        }
+        for (VertexId v : carried) vertices[index(v)].is_fixed = is_pinned(vertices[index(v)].sides);
+
+        const std::uint32_t first_vertex = vertices.size(), first_face = faces.size();
+        const auto id_of = [&](std::uint32_t local) {
+            return local < chunk.carried ? carried[local] : VertexId{first_vertex + local - chunk.carried};
+        };
+        const auto new_vertices = static_cast<std::uint32_t>(chunk.vertices.size()),
+                   new_faces = static_cast<std::uint32_t>(chunk.faces.size());
+        vertices.resize_for_overwrite(first_vertex + new_vertices);
+        for_each_index(new_vertices, kItems, threads, [&](std::uint32_t n) {
+            const auto& [position, sides, error_bound] = chunk.vertices[n];
+            Vertex vertex{.position = position, .sides = sides, .is_fixed = is_pinned(sides)};
+            vertex.set_error_bound(error_bound);
+            vertices[first_vertex + n] = vertex;
+        });
+        faces.resize_for_overwrite(first_face + new_faces);
+        for_each_index(new_faces, kItems, threads, [&](std::uint32_t n) {
+            const auto& [corners, labels] = chunk.faces[n];
+            const auto [a, b, c] = corners;
+            faces[first_face + n] = Face::between(id_of(a), id_of(b), id_of(c), labels[0], labels[1]);
+        });
+        for (std::uint32_t local : chunk.active) joined.active.push_back(id_of(local));
+    }
+    for (VertexId v : joined.active) vertices[index(v)].is_fixed = true;
+    return joined;
 }
+
+namespace {
+
+JoinedChunks alone(Chunk chunk) {
+    std::vector<Chunk> chunks;
+    chunks.push_back(std::move(chunk));
+    return join(std::move(chunks), 1);
+}
+
+}  // namespace
+
+Mesh mesh_of(Chunk chunk) { return Mesh(alone(std::move(chunk)).arrays); }
+
+Mesh sorted_mesh_of(Chunk chunk) { return Mesh::sorted(alone(std::move(chunk)).arrays); }
 
 }  // namespace regionmesh

@@ -1,9 +1,11 @@
-// A mesh as one chunk, for the tiles, and back.
+// A mesh as one chunk, for the tiles, and the mesh of chunks.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "mesh/chunk.h"
 #include "regionmesh/mesh.h"
@@ -21,7 +23,19 @@ constexpr std::size_t take_chunk_bytes(std::size_t vertices, std::size_t faces) 
            std::max(vertices * sizeof(Vertex), faces * sizeof(ChunkFace));
 }
 
-/// The mesh of a chunk that carries nothing; its active vertices are fixed.
-Mesh mesh_of(const Chunk& chunk);
+/// Vertices and faces of chunks, numbered in the order of the chunks, without stars; and the vertices that the last
+/// chunk leaves active. These and pinned ones are fixed.
+struct JoinedChunks {
+    Mesh::Arrays arrays;
+    std::vector<VertexId> active;
+};
+/// Requires that the first chunk carries nothing. Releases each chunk before it copies the next, so that at most one is
+/// held twice. On at most `threads` threads (0: one per core). Throws Error(kInput) beyond the limits of limits.h.
+JoinedChunks join(std::vector<Chunk> chunks, std::uint32_t threads);
+
+/// The mesh of a chunk that carries nothing, numbered as the chunk is; its active vertices are fixed.
+Mesh mesh_of(Chunk chunk);
+/// The same, sorted (Mesh::sort_spatially).
+Mesh sorted_mesh_of(Chunk chunk);
 
 }  // namespace regionmesh

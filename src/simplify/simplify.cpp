@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "mesh/extent.h"
 #include "regionmesh/error.h"
@@ -58,8 +59,9 @@ void simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
     const PassResult done = simplify_in_passes(chunk, plan, passes);
     add(result.verdicts, done.verdicts);
     result.tile_passes += done.passes;
-    mesh = mesh_of(chunk);
-    result.bytes = std::max({result.bytes, before + bytes_of(chunk), bytes_of(chunk) + mesh.bytes()});
+    const std::size_t after = bytes_of(chunk);
+    mesh = mesh_of(std::move(chunk));
+    result.bytes = std::max({result.bytes, before + after, after + mesh.bytes()});
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
-// Merges chunks into the mesh, and knows which vertices are active.
+// Merges chunks into the model, and knows which vertices are active.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "mesh/chunk.h"
@@ -8,31 +10,40 @@
 
 namespace regionmesh {
 
-/// Active vertices may still receive faces and are fixed in the mesh; the others are finalized (P 3.3, 3.4). A chunk
-/// names its carried vertices by their order among the active ones, so that merging is a look-up, never a distance
-/// test.
+/// Active vertices may still receive faces; the others are finalized (P 3.3, 3.4). A chunk names its carried vertices by
+/// their order among the active ones, so that merging is a look-up, never a distance test. Chunks stay as they came
+/// until all are there, or the model has to shrink: nothing asks for the stars of vertices before, and a chunk has 36
+/// bytes a face, a mesh 48.
 class Merger {
 public:
-    explicit Merger(Mesh& mesh) : mesh_(mesh) {}
+    /// Requires chunks in the order in which they were made, the first of which carries nothing. Throws Error(kInput)
+    /// beyond the limits of limits.h.
+    void add(Chunk chunk);
 
-    /// Requires chunks in the order in which they were made, and that no active vertex was removed from the mesh.
-    void add(const Chunk& chunk);
+    std::uint64_t face_count() const { return face_count_; }
+    std::uint32_t active_count() const;
+    /// Bytes of vertices and faces.
+    std::size_t bytes() const;
 
-    std::uint32_t active_count() const { return static_cast<std::uint32_t>(active_.size()); }
-
-    /// The whole mesh as one chunk, which may be added again. Empties the mesh.
-    Chunk take_apart();
-
-    /// The vertices of the mesh have new ids (Mesh::sort_spatially).
-    void renumber(const std::vector<VertexId>& new_ids);
-
-    /// Unpins all vertices, after the last chunk. Returns how many were pinned.
-    std::uint64_t release_all();
+    /// The model as one chunk, which may be added again. Empties the merger.
+    Chunk take_chunk();
+    /// The model as a mesh, whose active vertices are fixed. Empties the merger.
+    Mesh take_mesh();
+    /// The same, sorted (Mesh::sort_spatially). It may be put back.
+    Mesh take_sorted_mesh(std::uint32_t threads);
+    /// Requires that no active vertex was removed. Empties the mesh.
+    void put_back(Mesh& mesh);
 
 private:
-    Mesh& mesh_;
-    std::vector<VertexId> active_;
-    std::vector<VertexId> ids_;  // mesh ids of the vertices of a chunk
+    std::vector<Chunk> take_chunks();
+
+    std::vector<Chunk> chunks_;
+    std::uint64_t vertex_count_ = 0;
+    std::uint64_t face_count_ = 0;
+    std::vector<VertexId> active_;  // of the mesh that may be put back
 };
+
+/// Unpins all vertices, after the last chunk. Returns how many were pinned.
+std::uint64_t release_all(Mesh& mesh);
 
 }  // namespace regionmesh

@@ -128,7 +128,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     restore_volumes(result, options, shape.scale, log);
     log.advance(WorkStage::kVolumes, 1);
     give_back_freed_memory();
-    result.report.pinned_vertices = simplify.release_all();
+    result.report.pinned_vertices = release_all(result.mesh);
     source.place(result.mesh);
     SmoothReport& smoothing = result.report.smoothing;
     for (std::vector<double>* volumes :

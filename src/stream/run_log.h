@@ -79,6 +79,11 @@ public:
         report_progress(stage);
     }
 
+    void note_faces_held(std::uint64_t faces) {
+        const std::scoped_lock lock(mutex_);
+        progress_.faces_held = faces;
+    }
+
     void note_strip_count(std::uint32_t strips) { progress_.strip_count = strips; }
 
     /// Notes a strip that was meshed, before smoothing.
@@ -114,7 +119,7 @@ public:
             const std::scoped_lock lock(mutex_);
             progress_.stage = stage;
             progress_.share = shares_.share();
-            // While tiles are at work the mesh is taken apart, and has none.
+            // There is no mesh while the model is in chunks.
             if (result_.mesh.face_count() > 0) progress_.faces_held = result_.mesh.face_count();
             progress = progress_;
         }

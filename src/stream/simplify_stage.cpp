@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
-#include "simplify/mesh_chunk.h"
 #include "simplify/threshold_passes.h"
 #include "stream/footprint.h"
 #include "stream/stage_options.h"
@@ -17,43 +17,40 @@ SimplifyStage::SimplifyStage(Mesh& mesh, const Plan& plan, const ReconstructOpti
                              RunLog& log)
     : mesh_(mesh), plan_(plan), options_(options), shape_(shape), log_(log), budget_(plan.budget) {}
 
-bool SimplifyStage::has_room_ahead() const { return budget_.has_room_ahead(merged_chunks_, mesh_.face_count()); }
+bool SimplifyStage::has_room_ahead() const { return budget_.has_room_ahead(merged_chunks_, merger_.face_count()); }
 
 void SimplifyStage::merge(Chunk& chunk, std::uint64_t initial_faces) {
-    {
-        const StageTimer timer = log_.time("reconstruct");
-        merger_.add(chunk);
-    }
     ++merged_chunks_;
     initial_faces_ += initial_faces;
     chunk_faces_ = chunk.faces.size();
-    chunk = {};
+    merger_.add(std::exchange(chunk, {}));
     give_back_freed_memory();
-    log_.note_bytes(mesh_.face_count(), mesh_.bytes());
+    log_.note_faces_held(merger_.face_count());
+    log_.note_bytes(merger_.face_count(), merger_.bytes());
 }
 
 void SimplifyStage::keep_within_budget(double safe_high) {
     const std::uint32_t next = merged_chunks_;
     const std::uint64_t face_budget = budget_.face_budget(next),
                         room = budget_.room_before(next, budget_.expected_faces(next, chunk_faces_));
-    if (!plan_.is_decimating || mesh_.face_count() <= room) return;
+    if (!plan_.is_decimating || merger_.face_count() <= room) return;
     const std::uint64_t goal =
         std::max(plan_.target.so_far(initial_faces_), std::min(room, face_budget * stream::kGoalTenths / 10));
-    if (mesh_.face_count() <= goal) return;
+    if (merger_.face_count() <= goal) return;
     raise_threshold(goal, safe_high);
     stopped_ = StopReason::kTarget;
-    if (mesh_.face_count() > room) {
-        merger_.renumber(mesh_.sort_spatially(options_.threads));
-        give_back_freed_memory();
+    if (merger_.face_count() > room) {
+        take_mesh();
         trim(goal, safe_high, false);
+        merger_.put_back(mesh_);
         give_back_freed_memory();
     }
     // Where topology or the largest error forbid more, the mesh may grow.
-    if (stopped_ == StopReason::kTarget || mesh_.face_count() <= room) return;
-    budget_.asked_budget = std::uint64_t{mesh_.face_count()} * stream::kGrowthHalves / 2;
+    if (stopped_ == StopReason::kTarget || merger_.face_count() <= room) return;
+    budget_.asked_budget = std::uint64_t{merger_.face_count()} * stream::kGrowthHalves / 2;
     const auto merged = static_cast<double>(std::max<std::uint64_t>(initial_faces_, 1));
     const double total = std::max(static_cast<double>(plan_.target.total.value_or(0)), merged);
-    warn_of_memory(static_cast<double>(mesh_.face_count()) * (total / merged), "reconstruct");
+    warn_of_memory(static_cast<double>(merger_.face_count()) * (total / merged), "reconstruct");
 }
 
 /// Says that the model will not fit, where it decimates so many faces in the end. Nobody can know before the work.
@@ -63,24 +60,31 @@ void SimplifyStage::warn_of_memory(double faces, const char* stage) {
     log_.note_bytes_needed(static_cast<std::uint64_t>(bytes), stage);
 }
 
+void SimplifyStage::take_mesh() {
+    const StageTimer timer = log_.time("reconstruct");
+    mesh_ = plan_.is_decimating ? merger_.take_sorted_mesh(options_.threads) : merger_.take_mesh();
+    give_back_freed_memory();
+}
+
 void SimplifyStage::bring_to_target() {
     if (!plan_.is_decimating) {
+        take_mesh();
         log_.report().stopped = "none asked";
         return;
     }
     strips_are_done_ = true;
     log_.report_progress("decimate");
-    warn_of_memory(mesh_.face_count(), "decimate");
+    warn_of_memory(static_cast<double>(merger_.face_count()), "decimate");
     const std::uint64_t goal = plan_.target.of(log_.report().initial_faces);
     raise_threshold(goal, HUGE_VAL);
     log_.advance(WorkStage::kPasses, 1);
-    mesh_.sort_spatially(options_.threads);
+    take_mesh();
     trim(goal, HUGE_VAL, true);
     log_.report().stopped = to_string(stopped_);
     log_.report().error_bound = largest_error_bound(mesh_);
 }
 
-/// Brings the mesh near the goal, tile by tile: mesh -> chunk -> tiles -> chunk -> mesh.
+/// Brings the model near the goal, tile by tile.
 void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
     const StageTimer timer = log_.time("raise level");
     // The number of passes is not known: each is taken for half of what was left.
@@ -99,12 +103,11 @@ void SimplifyStage::raise_threshold(std::uint64_t goal, double safe_high) {
                                    .simplify = simplify_options(options_, shape_),
                                    .on_share = on_share};
     const PassOptions passes{.target_faces = goal, .safe = {.high = safe_high}, .tiles = tile_options};
-    if (!is_worth_pass(mesh_.face_count(), passes)) return;
-    log_.note_bytes(mesh_.face_count(), take_chunk_bytes(mesh_.vertex_end(), mesh_.face_end()));
-    Chunk whole = merger_.take_apart();
+    if (!is_worth_pass(merger_.face_count(), passes)) return;
+    Chunk whole = merger_.take_chunk();
     give_back_freed_memory();
     log_.add(simplify_in_passes(whole, plan_.tiles, passes).verdicts);
-    merger_.add(whole);
+    merger_.add(std::move(whole));
     give_back_freed_memory();
 }
 

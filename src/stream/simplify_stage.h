@@ -1,4 +1,4 @@
-// Merges the chunks into the mesh, keeps it within the budget and brings it to the target (docs/tiles.md, "The second
+// Merges the chunks into the model, keeps it within the budget and brings it to the target (docs/tiles.md, "The second
 // stage").
 #pragma once
 
@@ -20,14 +20,13 @@ public:
     void merge(Chunk& chunk, std::uint64_t initial_faces);
     /// Makes room for the next chunk. Faces to come lie at `safe_high` or beyond along the sweep.
     void keep_within_budget(double safe_high);
-    /// When all chunks are merged.
+    /// When all chunks are merged. Makes the mesh.
     void bring_to_target();
-    /// Unpins all vertices, and returns how many were pinned.
-    std::uint64_t release_all() { return merger_.release_all(); }
 
 private:
     void raise_threshold(std::uint64_t goal, double safe_high);
     void warn_of_memory(double faces, const char* stage);
+    void take_mesh();
     void trim(std::uint64_t goal, double safe_high, bool is_last);
 
     Mesh& mesh_;
@@ -35,7 +34,7 @@ private:
     const ReconstructOptions& options_;
     const SourceShape& shape_;
     RunLog& log_;
-    Merger merger_{mesh_};
+    Merger merger_;
     Budget budget_;
     std::uint32_t merged_chunks_ = 0;
     std::uint64_t initial_faces_ = 0;  // of the merged chunks, before any simplification

@@ -36,7 +36,7 @@ Coarsened coarsened(test::ArrayVolume volume, std::uint32_t chunk_strips, const 
     StripMesher mesher(lattice, sweep, strips);
     LabelCensus census(lattice, sweep, strips);
     Coarsened made;
-    Merger merger(made.mesh);
+    Merger merger;
     Chunk chunk;
     std::vector<ChunkVertex> carried;
     for (std::uint32_t strip = 1; window.advance(); ++strip) {
@@ -55,6 +55,7 @@ Coarsened coarsened(test::ArrayVolume volume, std::uint32_t chunk_strips, const 
         chunk = {};
         chunk.carried = static_cast<std::uint32_t>(carried.size());
     }
+    made.mesh = merger.take_mesh();
     made.oracle = census.oracle();
     return made;
 }

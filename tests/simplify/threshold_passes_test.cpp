@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "stream/merger.h"
+#include "simplify/mesh_chunk.h"
 #include "support/digest.h"
 #include "support/runs.h"
 
@@ -14,12 +14,7 @@ namespace {
 /// The unsimplified model as one batch.
 Chunk whole(test::ArrayVolume& volume) {
     Reconstruction made = test::run(volume);
-    return Merger(made.mesh).take_apart();
-}
-Mesh mesh_of(const Chunk& batch) {
-    Mesh mesh;
-    Merger(mesh).add(batch);
-    return mesh;
+    return take_chunk(made.mesh);
 }
 TilePlan plan_of(const test::ArrayVolume& volume) { return {volume.info().lattice, kSweepZ, 8, 8}; }
 PassOptions to(std::uint64_t faces) {

@@ -44,9 +44,9 @@ struct Batch {
         oracle = census.oracle();
     }
     Mesh mesh() const {
-        Mesh made;
-        Merger(made).add(whole);
-        return made;
+        Merger merger;
+        merger.add(whole);
+        return merger.take_mesh();
     }
 
     Lattice lattice;
@@ -272,8 +272,7 @@ TEST(Tiles, leave_carried_and_active_vertices_as_they_are) {
     LabelTable labels;
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, kSweepZ, {});
-    Mesh mesh;
-    Merger merger(mesh);
+    Merger merger;
     Chunk run;
     std::vector<ChunkVertex> carried;
     const TilePlan plan{volume.info().lattice, kSweepZ, 3, 8};
@@ -297,7 +296,7 @@ TEST(Tiles, leave_carried_and_active_vertices_as_they_are) {
         carried = std::move(active);
         run.clear();
     }
-    test::expect_sound(check(mesh));
+    test::expect_sound(check(merger.take_mesh()));
 }
 
 TEST(Determinism, any_number_of_threads_gives_the_same_bytes) {

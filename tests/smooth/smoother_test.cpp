@@ -169,8 +169,7 @@ TEST(Smoother, chunks_come_out_as_they_went_in_except_for_positions) {
     for (SmoothFilter filter : kVertexFilters) {
         test::ArrayVolume volume = test::noise_volume({5, 5, 12}, 3, 4);
         Smoother smoother({.filter = filter, .passes = 4}, {.thickness = 1});
-        Mesh mesh;
-        Merger merger(mesh);
+        Merger merger;
         for_chunks(volume, smoother, [&](const Chunk& in, const Chunk& out) {
             EXPECT_EQ(out.carried, in.carried);
             EXPECT_EQ(out.active, in.active);
@@ -183,7 +182,7 @@ TEST(Smoother, chunks_come_out_as_they_went_in_except_for_positions) {
             }
             merger.add(out);
         });
-        test::expect_sound(check(mesh));
+        test::expect_sound(check(merger.take_mesh()));
     }
 }
 

@@ -42,11 +42,11 @@ std::vector<Chunk> read_all(SpilledStrips& strips, const std::vector<StripRange>
 }
 
 Mesh merged(const std::vector<Chunk>& chunks) {
-    Mesh mesh;
-    Merger merger(mesh);
+    Merger merger;
     for (const Chunk& chunk : chunks) merger.add(chunk);
     EXPECT_EQ(merger.active_count(), 0u) << "no vertex is active at the end";
-    merger.release_all();
+    Mesh mesh = merger.take_mesh();
+    release_all(mesh);
     return mesh;
 }
 
