@@ -38,11 +38,11 @@ enum class MemoryRoom { kShort, kSome, kAmple };
 
 /// For the whole process; kAmple at first. With more room there are fewer page faults, each of which takes
 /// microseconds: freed memory is kept for the next arrays, and large arrays are put on huge pages, which may waste 2
-/// MiB each. No result depends on it.
+/// MiB each. No result depends on it. Returns freed memory to the system.
 void note_memory_room(MemoryRoom room);
 
 /// Returns freed memory to the system, which the C library would keep; unless memory is short, only where the process
-/// has become larger since the last time. Call after large arrays were freed.
+/// has become larger than it was each time that this was done in this room. Call after large arrays were freed.
 void give_back_freed_memory();
 
 /// Makes the C library return the memory of large arrays as soon as they are freed, since memory fragments otherwise,

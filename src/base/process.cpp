@@ -1,5 +1,6 @@
 #include "regionmesh/process.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -29,9 +30,17 @@ constexpr std::array kSpending{
 };
 
 std::atomic<MemoryRoom> room{MemoryRoom::kAmple};
-std::atomic<bool> may_set_heap{false};  // only programs do
+std::atomic<bool> may_set_heap{false};    // only programs do
+std::atomic<std::uint64_t> most_left{0};  // in this room: resident after freed memory was given back
 
 const Spending& spending() { return kSpending[static_cast<std::size_t>(room.load())]; }
+
+void give_back() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+    most_left = std::max(most_left.load(), resident_bytes().now);
+#endif
+}
 
 void set_heap() {
 #ifdef __GLIBC__
@@ -44,6 +53,8 @@ void set_heap() {
 void note_memory_room(MemoryRoom now) {
     room = now;
     set_heap();
+    most_left = 0;
+    give_back();
 }
 
 void prefer_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
@@ -58,16 +69,8 @@ void prefer_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_
 }
 
 void give_back_freed_memory() {
-#ifdef __GLIBC__
-    static std::atomic<std::uint64_t> held{0};  // resident after memory was given back, or less
-    const std::uint64_t now = resident_bytes().now, before = held;
-    if (room != MemoryRoom::kShort && now < before + before / spending().parts_kept) {
-        if (now < before) held = now;
-        return;
-    }
-    malloc_trim(0);
-    held = resident_bytes().now;
-#endif
+    const std::uint64_t before = most_left;
+    if (room == MemoryRoom::kShort || resident_bytes().now >= before + before / spending().parts_kept) give_back();
 }
 
 void keep_large_arrays_apart() {

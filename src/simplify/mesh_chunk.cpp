@@ -1,5 +1,6 @@
 #include "simplify/mesh_chunk.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -88,16 +89,18 @@ JoinedChunks join(std::vector<Chunk> chunks, std::uint32_t threads) {
 
 namespace {
 
-JoinedChunks alone(Chunk chunk) {
+Mesh::Arrays arrays_of(Chunk chunk, std::uint32_t threads) {
     std::vector<Chunk> chunks;
     chunks.push_back(std::move(chunk));
-    return join(std::move(chunks), 1);
+    return join(std::move(chunks), threads).arrays;
 }
 
 }  // namespace
 
-Mesh mesh_of(Chunk chunk) { return Mesh(alone(std::move(chunk)).arrays); }
+Mesh mesh_of(Chunk chunk) { return Mesh(arrays_of(std::move(chunk), 1)); }
 
-Mesh sorted_mesh_of(Chunk chunk) { return Mesh::sorted(alone(std::move(chunk)).arrays); }
+Mesh sorted_mesh_of(Chunk chunk, std::uint32_t threads) {
+    return Mesh::sorted(arrays_of(std::move(chunk), threads), threads);
+}
 
 }  // namespace regionmesh

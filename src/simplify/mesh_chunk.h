@@ -1,8 +1,6 @@
 // A mesh as one chunk, for the tiles, and the mesh of chunks.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,13 +13,6 @@ namespace regionmesh {
 /// The whole mesh as a chunk with these active vertices, or the fixed ones. Empties the mesh.
 Chunk take_chunk(Mesh& mesh, std::span<const VertexId> active);
 Chunk take_chunk(Mesh& mesh);
-
-/// Bytes that a mesh and its chunk take at most while the one becomes the other: first there are all vertices twice,
-/// then all faces.
-constexpr std::size_t take_chunk_bytes(std::size_t vertices, std::size_t faces) {
-    return vertices * (sizeof(ChunkVertex) + sizeof(std::uint32_t)) + faces * sizeof(Face) +
-           std::max(vertices * sizeof(Vertex), faces * sizeof(ChunkFace));
-}
 
 /// Vertices and faces of chunks, numbered in the order of the chunks, without stars; and the vertices that the last
 /// chunk leaves active. These and pinned ones are fixed.
@@ -36,6 +27,6 @@ JoinedChunks join(std::vector<Chunk> chunks, std::uint32_t threads);
 /// The mesh of a chunk that carries nothing, numbered as the chunk is; its active vertices are fixed.
 Mesh mesh_of(Chunk chunk);
 /// The same, sorted (Mesh::sort_spatially).
-Mesh sorted_mesh_of(Chunk chunk);
+Mesh sorted_mesh_of(Chunk chunk, std::uint32_t threads = 1);
 
 }  // namespace regionmesh

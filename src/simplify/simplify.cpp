@@ -33,9 +33,10 @@ std::size_t bytes_of(const Chunk& chunk) {
     return chunk.vertices.size() * sizeof(ChunkVertex) + chunk.faces.size() * sizeof(ChunkFace);
 }
 
-/// Large meshes: in tiles, near the target. `before` and `after` are both held.
-void simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResult& result) {
-    if (mesh.face_count() < kFewestTiles * kTileFaces) return;
+/// Large meshes: in tiles, near the target. `before` and `after` are both held. False if it did nothing; otherwise the
+/// mesh is sorted.
+bool simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResult& result) {
+    if (mesh.face_count() <= options.target_faces || mesh.face_count() < kFewestTiles * kTileFaces) return false;
     const double edge = typical_edge(mesh);
     const TilePlan plan = plan_of(mesh, edge, options.threads);
     result.bytes = mesh.bytes();
@@ -60,8 +61,9 @@ void simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
     add(result.verdicts, done.verdicts);
     result.tile_passes += done.passes;
     const std::size_t after = bytes_of(chunk);
-    mesh = mesh_of(std::move(chunk));
+    mesh = sorted_mesh_of(std::move(chunk), options.threads);
     result.bytes = std::max({result.bytes, before + after, after + mesh.bytes()});
+    return true;
 }
 
 }  // namespace
@@ -71,8 +73,7 @@ SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
         throw Error(ErrorCode::kUsage, "max_error: " + std::to_string(options.max_error) + "; give 0 or more");
     SimplifyResult result;
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].set_error_bound(0);
-    if (mesh.face_count() > options.target_faces) simplify_by_tiles(mesh, options, result);
-    mesh.sort_spatially(options.threads);
+    if (!simplify_by_tiles(mesh, options, result)) mesh.sort_spatially(options.threads);
     const std::size_t mesh_bytes = mesh.bytes();
     const CollapseResult done = collapse_edges(mesh, options, {.threads = options.threads});
     add(result.verdicts, done.verdicts);

@@ -1,6 +1,7 @@
 #include "simplify/tile.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace regionmesh {
 namespace {
@@ -46,16 +47,18 @@ void NumberTable::grow() {
 void Tile::take_out(TiledFaces& faces, std::uint32_t tile) {
     const auto own = faces.faces_of(tile);
     const auto halo = faces.halo_of(tile);
-    mesh_.reserve((own.size() + halo.size()) * 5 / 8, own.size() + halo.size());
+    Mesh::Arrays arrays;
+    arrays.vertices.reserve((own.size() + halo.size()) * 5 / 8);
+    arrays.faces.reserve(own.size() + halo.size());
     inside_count_ = 0;
     locals_.clear();
     locked_.clear();
-    for (std::uint32_t f : own) put_in(faces, f);
-    for (const KeyedIndex& face : halo) put_in(faces, face.index);
-    sorted_ = mesh_.sort_spatially();
+    for (std::uint32_t f : own) put_in(faces, f, arrays);
+    for (const KeyedIndex& face : halo) put_in(faces, face.index, arrays);
+    mesh_ = Mesh::sorted(std::move(arrays), 1, &sorted_);
 }
 
-void Tile::put_in(TiledFaces& faces, std::uint32_t f) {
+void Tile::put_in(TiledFaces& faces, std::uint32_t f, Mesh::Arrays& arrays) {
     const ChunkFace& face = faces.chunk().faces[f];
     std::array<VertexId, 3> corner;
     for (int c = 0; c < 3; ++c) {
@@ -64,14 +67,16 @@ void Tile::put_in(TiledFaces& faces, std::uint32_t f) {
         std::uint32_t& place = is_locked ? locked_[local] : faces.place(local);
         if (place == kNone) {
             const ChunkVertex& vertex = faces.vertex(local);
-            place = index(mesh_.add_vertex(vertex.position, vertex.sides, is_locked));
-            mesh_[VertexId{place}].set_error_bound(vertex.error_bound);
+            place = arrays.vertices.size();
+            Vertex made{.position = vertex.position, .sides = vertex.sides, .is_fixed = is_locked};
+            made.set_error_bound(vertex.error_bound);
+            arrays.vertices.push_back(made);
             locals_.push_back(local);
             inside_count_ += !is_locked;
         }
         corner[c] = VertexId{place};
     }
-    mesh_.add_face(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]);
+    arrays.faces.push_back(Face::between(corner[0], corner[1], corner[2], face.labels[0], face.labels[1]));
 }
 
 /// A face with three locked vertices has not changed, and may be in several tiles: the one that it belongs to keeps it.

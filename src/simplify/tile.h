@@ -43,7 +43,7 @@ public:
     std::size_t left_inside() const { return left_vertices_.size(); }
 
 private:
-    void put_in(TiledFaces& faces, std::uint32_t f);
+    void put_in(TiledFaces& faces, std::uint32_t f, Mesh::Arrays& arrays);
 
     Mesh mesh_;
     std::size_t inside_count_ = 0;

@@ -45,13 +45,11 @@ TilePlan plan_tiles(const Lattice& lattice, Sweep sweep) {
     return {lattice, sweep, strips, side};
 }
 
-VerdictCounts simplify_run(Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe, const TilePlan& plan,
-                           const TileOptions& options) {
+TileResult simplify_run(const Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe,
+                        const TilePlan& plan, const TileOptions& options) {
     const TileGrid grid = grid_of(plan, safe);
     TiledFaces faces(chunk, carried, grid, options.threads);
-    TileResult result = simplify_tiles(faces, options);
-    chunk = std::move(result.left);
-    return result.verdicts;
+    return simplify_tiles(faces, options);
 }
 
 }  // namespace regionmesh

@@ -208,7 +208,10 @@ void LatticeSmoother::move_vertices(std::uint32_t chunk, Chunk& moved) {
     const LatticeFrame& frame = order_.frame;
     chunks_.unpack(chunk, parts_);
     moved.clear();
-    std::vector<Vec3> before = std::move(carried_before_), after = std::move(carried_);
+    clear_reused(before_);
+    clear_reused(after_);
+    before_.insert(before_.end(), carried_before_.begin(), carried_before_.end());
+    after_.insert(after_.end(), carried_after_.begin(), carried_after_.end());
     std::uint32_t weight = first_weight_[chunk], node = lines_.first_of(chunk);
     for (const auto& [simplex, sides] : parts_.vertices) {
         const Vec3 origin = centroid_in(simplex, frame);
@@ -219,19 +222,19 @@ void LatticeSmoother::move_vertices(std::uint32_t chunk, Chunk& moved) {
             const std::uint32_t second = weights_[weight++];
             if (second > 0) at = position_in(simplex, FixedWeights{second, 0, 0}, frame);
         }
-        before.push_back(origin);
-        after.push_back(at);
+        before_.push_back(origin);
+        after_.push_back(at);
         moved.vertices.push_back({at, sides});
     }
     moved.carried = parts_.carried;
-    moved.faces = parts_.faces;
-    moved.active = parts_.active;
-    note_chunk({parts_.carried, before, after, parts_.faces}, report_);
+    std::swap(moved.faces, parts_.faces);
+    std::swap(moved.active, parts_.active);
+    note_chunk({moved.carried, before_, after_, moved.faces}, report_);
     carried_before_.clear();
-    carried_.clear();
-    for (const std::uint32_t local : parts_.active) {
-        carried_before_.push_back(before[local]);
-        carried_.push_back(after[local]);
+    carried_after_.clear();
+    for (const std::uint32_t local : moved.active) {
+        carried_before_.push_back(before_[local]);
+        carried_after_.push_back(after_[local]);
     }
 }
 

@@ -57,11 +57,12 @@ private:
     LatticeLines lines_;
     // Of placed vertices that are not in lines_ the weight of the second node, in order.
     SlidingPages<std::uint32_t> weights_;
-    SlidingArray<std::uint32_t> first_weight_;    // by chunk, and one more
-    std::vector<Vec3> carried_before_, carried_;  // positions of the vertices carried to the chunk that is next out
-    PackedChunks::Parts parts_;                   // of the chunk in hand
-    SlidingArray<double> next_low_;               // by chunk
-    SlidingArray<std::int64_t> last_layer_;       // by chunk: of the finest level
+    SlidingArray<std::uint32_t> first_weight_;          // by chunk, and one more
+    std::vector<Vec3> before_, after_;                  // positions of the vertices of the chunk that is moved
+    std::vector<Vec3> carried_before_, carried_after_;  // and of those carried to the chunk that is next out
+    PackedChunks::Parts parts_;                         // of the chunk in hand
+    SlidingArray<double> next_low_;                     // by chunk
+    SlidingArray<std::int64_t> last_layer_;             // by chunk: of the finest level
     bool is_last_ = false;
     std::uint32_t added_sites_ = 0;  // to the levels
     std::uint32_t made_ = 0, averaged_[LatticeSites::kNormalPasses] = {}, added_ = 0, placed_ = 0, linked_ = 0,

@@ -73,7 +73,7 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
         const std::uint64_t window_after = window_at(demand, faces, end), chunk = own * per_face;
         budget.chunks.push_back({before, own, reading + window + chunk, chunk, reading + window_after});
         const std::uint64_t kept = share_of(before, demand.target_share), left = share_of(own, demand.tile_share);
-        note({reading, window, chunk, kept * kMeshBytesPerFace});
+        note({reading, window, chunk, kept * kChunkBytesPerFace});
         note({reading, window_after, 0, (kept + left) * working});
     }
     const std::uint64_t last =
@@ -92,14 +92,14 @@ std::uint64_t Budget::face_budget(std::size_t chunk) const {
 std::uint64_t Budget::room_before(std::size_t chunk, std::uint64_t chunk_faces) const {
     const std::uint64_t after = face_budget(chunk), room = after - std::min(after, chunk_faces);
     if (asked_budget) return room;
-    return std::min(room, (memory - std::min(memory, chunks[chunk].gathering)) / kMeshBytesPerFace);
+    return std::min(room, (memory - std::min(memory, chunks[chunk].gathering)) / kChunkBytesPerFace);
 }
 
-bool Budget::has_room_ahead(std::size_t chunk, std::uint64_t mesh_faces) const {
+bool Budget::has_room_ahead(std::size_t chunk, std::uint64_t model_faces) const {
     if (asked_budget || chunk + 1 >= chunks.size()) return false;
     const ChunkMemory &now = chunks[chunk], &next = chunks[chunk + 1];
     const std::uint64_t reading_and_window = std::max(now.gathering - now.tiles, next.gathering - next.tiles);
-    return mesh_faces * kMeshBytesPerFace + reading_and_window + now.tiles + next.faces * kChunkBytesPerFace <= memory;
+    return reading_and_window + now.tiles + (model_faces + next.faces) * kChunkBytesPerFace <= memory;
 }
 
 std::uint64_t Budget::expected_faces(std::size_t chunk, std::uint64_t chunk_faces) const {

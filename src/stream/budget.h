@@ -66,8 +66,9 @@ struct Budget {
     std::uint64_t face_budget(std::size_t chunk) const;
     /// Faces that the mesh may have while a chunk is gathered that will bring `chunk_faces`.
     std::uint64_t room_before(std::size_t chunk, std::uint64_t chunk_faces) const;
-    /// True if the next chunk can be gathered while the tiles of this one are decimated and the mesh has `mesh_faces`.
-    bool has_room_ahead(std::size_t chunk, std::uint64_t mesh_faces) const;
+    /// True if the next chunk can be gathered while the tiles of this one are decimated, beside a model of
+    /// `model_faces`.
+    bool has_room_ahead(std::size_t chunk, std::uint64_t model_faces) const;
     /// Faces that a chunk will bring if the one before it brought `chunk_faces`.
     std::uint64_t expected_faces(std::size_t chunk, std::uint64_t chunk_faces) const;
 };

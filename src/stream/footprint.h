@@ -36,7 +36,8 @@ static_assert(kBytesPerFace == 85, "docs/memory.md has this number");
 inline constexpr std::uint64_t kWorkBytesPerFace = 100;
 static_assert(kWorkBytesPerFace >= 93 && kWorkBytesPerFace >= kBytesPerFace);
 
-/// A chunk, with its list of active vertices and room at the ends of its arrays.
+/// A chunk, with its list of active vertices and room at the ends of its arrays. The model is made of them until it is
+/// decimated as a whole.
 inline constexpr std::uint64_t kChunkBytesPerFace = per_face(sizeof(ChunkFace), sizeof(ChunkVertex)) + 4;
 static_assert(kChunkBytesPerFace == 40);
 

@@ -9,9 +9,10 @@ bool Gatherer::next(GatheredStrips& made) {
     const std::uint32_t first = strips_.count();
     Chunk& chunk = made.chunk;
     chunk.clear();
-    // Room that is never written costs no memory, and growth would hold two copies.
-    chunk.vertices.reserve(most_vertices_ + most_vertices_ / 4);
-    chunk.faces.reserve(most_faces_ + most_faces_ / 4);
+    // Room that is never written costs no memory, and growth would hold two copies. Arrays of an earlier chunk are used
+    // again.
+    if (chunk.vertices.capacity() < most_vertices_) chunk.vertices.reserve(most_vertices_ + most_vertices_ / 4);
+    if (chunk.faces.capacity() < most_faces_) chunk.faces.reserve(most_faces_ + most_faces_ / 4);
     while (strips_.count() - first < chunk_strips_ && strips_.next(strip_)) {
         const StageTimer timer = log_.time("reconstruct");
         chunk.append(strip_);

@@ -10,9 +10,9 @@
 
 namespace regionmesh {
 
-/// Active vertices may still receive faces; the others are finalized (P 3.3, 3.4). A chunk names its carried vertices by
-/// their order among the active ones, so that merging is a look-up, never a distance test. Chunks stay as they came
-/// until all are there, or the model has to shrink: nothing asks for the stars of vertices before, and a chunk has 36
+/// Active vertices may still receive faces; the others are finalized (P 3.3, 3.4). A chunk names its carried vertices
+/// by their order among the active ones, so that merging is a look-up, never a distance test. Chunks stay as they came
+/// until all are there, or the model has to shrink: nothing reads the stars of vertices before, and a chunk has 36
 /// bytes a face, a mesh 48.
 class Merger {
 public:

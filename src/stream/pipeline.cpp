@@ -57,12 +57,14 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
             give_back_freed_memory();  // smoothing leaves it in pieces, which tiles would make resident again
         };
         const bool is_ahead = may_gather_ahead && simplify.has_room_ahead();
+        Chunk left;
+        const auto simplify_tiles = [&] { left = tiles.run(now); };
         if (is_ahead)
-            parallel_invoke(
-                options.threads, [&] { tiles.run(now); }, gather);
+            parallel_invoke(options.threads, simplify_tiles, gather);
         else
-            tiles.run(now);
-        simplify.merge(now.chunk, initial_faces);
+            simplify_tiles();
+        if (plan.budget.is_short() || strips.is_smoothing()) now.chunk = {};
+        simplify.merge(std::move(left), initial_faces);
         if (!now.is_last) simplify.keep_within_budget(now.safe_high);
         if (!is_ahead) gather();
     }

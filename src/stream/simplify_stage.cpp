@@ -19,11 +19,11 @@ SimplifyStage::SimplifyStage(Mesh& mesh, const Plan& plan, const ReconstructOpti
 
 bool SimplifyStage::has_room_ahead() const { return budget_.has_room_ahead(merged_chunks_, merger_.face_count()); }
 
-void SimplifyStage::merge(Chunk& chunk, std::uint64_t initial_faces) {
+void SimplifyStage::merge(Chunk chunk, std::uint64_t initial_faces) {
     ++merged_chunks_;
     initial_faces_ += initial_faces;
     chunk_faces_ = chunk.faces.size();
-    merger_.add(std::exchange(chunk, {}));
+    merger_.add(std::move(chunk));
     give_back_freed_memory();
     log_.note_faces_held(merger_.face_count());
     log_.note_bytes(merger_.face_count(), merger_.bytes());

@@ -16,8 +16,8 @@ public:
 
     /// True if memory has room for one more chunk while the tiles of the chunk to be merged next are decimated.
     bool has_room_ahead() const;
-    /// Merges a chunk and empties it. It had `initial_faces` faces before its tiles were decimated.
-    void merge(Chunk& chunk, std::uint64_t initial_faces);
+    /// Merges a chunk, which had `initial_faces` faces before its tiles were decimated.
+    void merge(Chunk chunk, std::uint64_t initial_faces);
     /// Makes room for the next chunk. Faces to come lie at `safe_high` or beyond along the sweep.
     void keep_within_budget(double safe_high);
     /// When all chunks are merged. Makes the mesh.

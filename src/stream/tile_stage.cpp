@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simplify/coarsen_caps.h"
 #include "simplify/tuning.h"
@@ -28,25 +29,29 @@ TileStage::TileStage(const Plan& plan, const ReconstructOptions& options, const 
                      .simplify = simplify_options(options, shape)};
 }
 
-void TileStage::run(GatheredStrips& gathered) {
-    if (!is_on_) return;
+Chunk TileStage::run(GatheredStrips& gathered) {
+    if (!is_on_) return std::move(gathered.chunk);
     TileOptions options = tile_options_;
     const StageTimer timer = log_.time("decimate tiles");
     if (coarsens_caps_ && !gathered.chunk.faces.empty()) coarsen_caps(gathered, options);
-    if (had_few_free_ && options.keep_share >= kNearShare)
-        return log_.note_strips_through(WorkStage::kTiles, gathered.end);
+    if (had_few_free_ && options.keep_share >= kNearShare) {
+        log_.note_strips_through(WorkStage::kTiles, gathered.end);
+        return std::move(gathered.chunk);
+    }
     options.on_share = [&](double share) {
         log_.note_strips_through(WorkStage::kTiles, strips_done_ + share * (gathered.end - strips_done_));
     };
     options.faces_in_flight = static_cast<std::uint64_t>(
         std::ceil(plan_.budget.share_in_flight * static_cast<double>(gathered.chunk.faces.size())));
     const std::size_t given = gathered.chunk.faces.size();
-    log_.add(simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, options));
+    TileResult done = simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, options);
+    log_.add(done.verdicts);
     strips_done_ = gathered.end;
-    if (given < kFreeTrialFaces) return;
-    const double left = static_cast<double>(gathered.chunk.faces.size()) / static_cast<double>(given);
+    if (given < kFreeTrialFaces) return std::move(done.left);
+    const double left = static_cast<double>(done.left.faces.size()) / static_cast<double>(given);
     // If half of the faces that free collapses may remove are gone, more collapses may be free.
     had_few_free_ = left > std::max(options.keep_share - kLeastFreeGain, (options.keep_share + options.free_share) / 2);
+    return std::move(done.left);
 }
 
 /// What the target leaves is a share of the faces before.

@@ -62,6 +62,13 @@ TilePlan plan_of(const Batch& batch, std::uint32_t cells) {
 /// One run of all sections: nothing comes before or after.
 SafeInterval extent_of(const Batch& batch) { return {0, (batch.lattice.size[2] - 1) * batch.lattice.spacing.z}; }
 
+/// In tiles of so many cells.
+VerdictCounts simplify(Batch& batch, std::uint32_t cells, const TileOptions& options) {
+    TileResult done = simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, cells), options);
+    batch.whole = std::move(done.left);
+    return done.verdicts;
+}
+
 TEST(Chunk, appended_strips_make_the_model_of_strips_welded_one_by_one) {
     test::ArrayVolume volume = test::noise_volume({6, 5, 7}, 4, 1);
     const Batch batch(volume);
@@ -73,8 +80,8 @@ TEST(Tiles, remove_faces_and_keep_what_the_labels_say) {
     test::ArrayVolume volume = test::grain_volume({33, 26, 9}, 9, 3);
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    const VerdictCounts verdicts = simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
-                                                {.threshold = 1e-3, .keep_share = 0, .threads = 1, .simplify = {}});
+    const VerdictCounts verdicts =
+        simplify(batch, 8, {.threshold = 1e-3, .keep_share = 0, .threads = 1, .simplify = {}});
     EXPECT_LT(batch.whole.faces.size(), faces * 7 / 10);
     EXPECT_GT(verdicts[static_cast<int>(Verdict::kAccepted)], 0u);
     CheckOptions options;
@@ -86,8 +93,7 @@ TEST(Tiles, stay_in_their_boxes) {
     test::ArrayVolume volume = test::ball_volume({21, 21, 21}, 7);
     Batch batch(volume);
     Mesh before = batch.mesh();
-    simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 5),
-                 {.threshold = 1, .keep_share = 0, .threads = 1, .simplify = {}});
+    simplify(batch, 5, {.threshold = 1, .keep_share = 0, .threads = 1, .simplify = {}});
     // A face that reaches across x = 5, 10, 15 would lie in two tiles.
     for (const ChunkFace& face : batch.whole.faces)
         for (double wall : {5.0, 10.0, 15.0}) {
@@ -116,8 +122,7 @@ TEST(Tiles, leave_faces_that_reach_out_of_them_and_do_not_run_into_them) {
         }
         EXPECT_GT(reaching, 100u) << "this test needs faces across walls";
         const std::size_t faces = batch.whole.faces.size();
-        simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 6),
-                     {.threshold = 1, .keep_share = 0, .threads = 1, .simplify = {}});
+        simplify(batch, 6, {.threshold = 1, .keep_share = 0, .threads = 1, .simplify = {}});
         EXPECT_LT(batch.whole.faces.size(), faces * 9 / 10);
         CheckOptions options;
         options.oracle = batch.oracle;
@@ -129,8 +134,7 @@ TEST(Tiles, keep_the_share_they_are_told_to) {
     test::ArrayVolume volume = test::solid_volume({17, 17, 5});
     Batch batch(volume);
     const std::size_t faces = batch.whole.faces.size();
-    simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, 8),
-                 {.threshold = 1e-3, .keep_share = 0.5, .threads = 1, .simplify = {}});
+    simplify(batch, 8, {.threshold = 1e-3, .keep_share = 0.5, .threads = 1, .simplify = {}});
     EXPECT_GE(batch.whole.faces.size(), faces / 2 - 16);
     EXPECT_LE(batch.whole.faces.size(), faces / 2 + 16);
 }
@@ -183,9 +187,8 @@ TEST(Tiles, in_flight_do_not_change_the_result) {
     for (std::uint64_t most : {std::uint64_t{0}, std::uint64_t{9000}, kMostFaces})
         for (std::uint32_t threads : {1u, 2u}) {
             Batch batch = crowded();
-            simplify_run(
-                batch.whole, {}, extent_of(batch), plan_of(batch, 6),
-                {.threshold = 1, .keep_share = 0.3, .threads = threads, .faces_in_flight = most, .simplify = {}});
+            simplify(batch, 6,
+                     {.threshold = 1, .keep_share = 0.3, .threads = threads, .faces_in_flight = most, .simplify = {}});
             digests.insert(test::digest(batch.mesh()));
         }
     EXPECT_EQ(digests.size(), 1u);
@@ -284,8 +287,9 @@ TEST(Tiles, leave_carried_and_active_vertices_as_they_are) {
         std::vector<ChunkVertex> active;
         for (std::uint32_t v : run.active)
             active.push_back(v < run.carried ? carried[v] : run.vertices[v - run.carried]);
-        simplify_run(run, carried, {strip - 2.0, strip + 1.0}, plan,
-                     {.threshold = 1e-2, .keep_share = 0, .threads = 1, .simplify = {}});
+        run = simplify_run(run, carried, {strip - 2.0, strip + 1.0}, plan,
+                           {.threshold = 1e-2, .keep_share = 0, .threads = 1, .simplify = {}})
+                  .left;
         ASSERT_EQ(run.active.size(), active.size());
         for (std::size_t n = 0; n < active.size(); ++n) {
             const std::uint32_t v = run.active[n];

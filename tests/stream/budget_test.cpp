@@ -137,7 +137,7 @@ TEST(Budget, the_next_chunk_is_gathered_ahead_only_where_both_fit) {
     ASSERT_GE(budget.chunks.size(), 3u);
     EXPECT_TRUE(budget.has_room_ahead(0, 1000));
     EXPECT_FALSE(budget.has_room_ahead(budget.chunks.size() - 1, 1000));  // nothing comes after it
-    budget.memory = 1000 * kMeshBytesPerFace + budget.chunks[0].gathering + 32 * 1000 * kChunkBytesPerFace;
+    budget.memory = budget.chunks[0].gathering + (1000 + 32 * 1000) * kChunkBytesPerFace;
     EXPECT_TRUE(budget.has_room_ahead(0, 1000));
     EXPECT_FALSE(budget.has_room_ahead(0, 1001));
 }
@@ -150,8 +150,7 @@ TEST(Budget, gathering_ahead_has_the_larger_window_of_both_chunks) {
     Budget budget = plan_budget(kPlenty, demand);
     const ChunkMemory &now = budget.chunks[0], &next = budget.chunks[1];
     ASSERT_GT(next.gathering - next.tiles, now.gathering - now.tiles);
-    budget.memory =
-        1000 * kMeshBytesPerFace + next.gathering - next.tiles + now.tiles + next.faces * kChunkBytesPerFace;
+    budget.memory = next.gathering - next.tiles + now.tiles + (1000 + next.faces) * kChunkBytesPerFace;
     EXPECT_TRUE(budget.has_room_ahead(0, 1000));
     EXPECT_FALSE(budget.has_room_ahead(0, 1001));
 }
