@@ -77,15 +77,16 @@ static_assert(sizeof(Vertex) == 32);
 /// renumbered. To visit all, iterate over [0, vertex_end()) or [0, face_end()) and skip those that are not alive.
 class Mesh {
 public:
+    /// Vertices and faces, by id.
     struct Arrays {
         FlatArray<Vertex> vertices;
         FlatArray<Face> faces;
     };
 
     Mesh() = default;
-    /// Of arrays without free places. Makes the stars, whatever they are.
+    /// Requires arrays without free places. Makes all stars anew: those of the arrays need no value.
     explicit Mesh(Arrays arrays);
-    /// The same, sorted; sets `new_ids` to what sort_spatially() returns.
+    /// The same, sorted; `new_ids` becomes what sort_spatially() returns.
     static Mesh sorted(Arrays arrays, std::uint32_t threads = 1, std::vector<VertexId>* new_ids = nullptr);
     /// Leave the other mesh empty.
     Mesh(Mesh&& other) noexcept { swap(other); }

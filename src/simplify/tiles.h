@@ -22,8 +22,8 @@ struct TilePlan {
 };
 TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
 
-/// Simplifies the chunk of a whole run, tile by tile, up to the threshold of the options. Locked vertices and
-/// faces outside the safe interval stay as they are (TiledFaces); a tile's merged vertices stay strictly inside it, so
+/// Simplifies the chunk of a whole run, tile by tile, up to the threshold of the options. Locked vertices and faces
+/// outside the safe interval stay as they are (TiledFaces); a tile's merged vertices stay strictly inside it, so
 /// that the changes of two tiles cannot meet. `carried` are the chunk's carried vertices. The order of tiles, vertices
 /// and faces depends on the chunk only.
 TileResult simplify_run(const Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe,
