@@ -38,9 +38,9 @@ std::optional<FaceCount> count_faces(FaceSource& source, RunLog& log) {
     return counted;
 }
 
-/// One pass over the input for the model. Strips are smoothed some strips behind; chunks of several strips are decimated
-/// in tiles up to a low cost and merged into the model, which is kept within its budget (P 3.1-3.5). Returns the strip
-/// at which smoothing was stuck, if it was.
+/// One pass over the input for the model. Strips are smoothed some strips behind; chunks of several strips are
+/// decimated in tiles up to a low cost and merged into the model, which is kept within its budget (P 3.1-3.5). Returns
+/// the strip at which smoothing was stuck, if it was.
 std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, const Plan& plan,
                                    const ReconstructOptions& options, RunLog& log) {
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
