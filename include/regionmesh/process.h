@@ -41,8 +41,9 @@ enum class MemoryRoom { kShort, kSome, kAmple };
 /// MiB each. No result depends on it. Returns freed memory to the system.
 void note_memory_room(MemoryRoom room);
 
-/// Returns freed memory to the system, which the C library would keep; unless memory is short, only where the process
-/// has become larger than it was each time that this was done in this room. Call after large arrays were freed.
+/// Returns freed memory to the system, which the C library would keep. Unless memory is short, it does so only where
+/// the process has grown beyond its largest size after an earlier call in the same room. Call after large arrays were
+/// freed.
 void give_back_freed_memory();
 
 /// Makes the C library return the memory of large arrays as soon as they are freed, since memory fragments otherwise,

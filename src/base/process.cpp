@@ -31,7 +31,7 @@ constexpr std::array kSpending{
 
 std::atomic<MemoryRoom> room{MemoryRoom::kAmple};
 std::atomic<bool> may_set_heap{false};    // only programs do
-std::atomic<std::uint64_t> most_left{0};  // in this room: resident after freed memory was given back
+std::atomic<std::uint64_t> most_left{0};  // resident after freed memory was given back in this room
 
 const Spending& spending() { return kSpending[static_cast<std::size_t>(room.load())]; }
 

@@ -145,8 +145,8 @@ void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, co
 }
 
 bool simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options) {
-    Mesh mesh = mesh_of(block.chunk);
-    const std::vector<VertexId> ids = mesh.sort_spatially();
+    std::vector<VertexId> ids;
+    Mesh mesh = sorted_mesh_of(block.chunk, 1, &ids);
     CollapseLog log;
     const bool is_last = threshold == HUGE_VAL;
     collapse_edges(mesh, up_to(threshold, options), {.limits = limits_of(block), .refresh = is_last, .log = &log});

@@ -14,16 +14,18 @@ void Chunk::append(const Chunk& next) {
     const auto here = [&](std::uint32_t local) {
         return local < next.carried ? joint[local] : first_new + local - next.carried;
     };
-    if (!next.carried_bounds.empty()) carried_bounds.resize(carried);
-    for (std::size_t n = 0; n < next.carried_bounds.size(); ++n) {
-        float& bound = joint[n] < carried ? carried_bounds[joint[n]] : vertices[joint[n] - carried].error_bound;
-        bound = std::max(bound, next.carried_bounds[n]);
-    }
+    for (std::size_t n = 0; n < next.carried_bounds.size(); ++n) raise_bound(joint[n], next.carried_bounds[n]);
     vertices.insert(vertices.end(), next.vertices.begin(), next.vertices.end());
     for (const ChunkFace& face : next.faces)
         faces.push_back({{here(face.vertices[0]), here(face.vertices[1]), here(face.vertices[2])}, face.labels});
     active.clear();
     for (std::uint32_t local : next.active) active.push_back(here(local));
+}
+
+void Chunk::raise_bound(std::uint32_t local, float bound) {
+    if (local < carried) carried_bounds.resize(carried);
+    float& raised = local < carried ? carried_bounds[local] : vertices[local - carried].error_bound;
+    raised = std::max(raised, bound);
 }
 
 std::vector<ChunkVertex> active_vertices(const Chunk& chunk, std::span<const ChunkVertex> carried) {

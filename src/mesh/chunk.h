@@ -38,6 +38,9 @@ struct Chunk {
     /// Appends the chunk that follows: its carried vertices are the active ones of this chunk.
     void append(const Chunk& next);
 
+    /// The error bound of a vertex becomes at least this one.
+    void raise_bound(std::uint32_t local, float bound);
+
     void clear() {
         carried = 0;
         clear_reused(vertices);

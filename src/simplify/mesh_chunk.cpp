@@ -39,68 +39,65 @@ Chunk take_chunk(Mesh& mesh) {
     return take_chunk(mesh, fixed);
 }
 
-JoinedChunks join(std::vector<Chunk> chunks, std::uint32_t threads) {
-    constexpr std::uint32_t kItems = 1u << 14;  // of a task
-    std::size_t vertex_count = 0, face_count = 0;
+ChunkCounts count(std::span<const Chunk> chunks) {
+    ChunkCounts sums;
     for (const Chunk& chunk : chunks) {
-        vertex_count += chunk.vertices.size();
-        face_count += chunk.faces.size();
+        sums.vertices += chunk.vertices.size();
+        sums.faces += chunk.faces.size();
     }
-    require_mesh_size("mesh", vertex_count, face_count);
-    JoinedChunks joined;
-    auto& [vertices, faces] = joined.arrays;
-    vertices.reserve(vertex_count);
-    faces.reserve(face_count);
-    const auto is_pinned = [](SideSet sides) { return (sides & kPinned) != 0; };
-    for (Chunk& next : chunks) {
-        const Chunk chunk = std::exchange(next, {});
-        const std::vector<VertexId> carried = std::exchange(joined.active, {});
-        assert(chunk.carried == carried.size());
-        for (std::size_t n = 0; n < chunk.carried_bounds.size(); ++n) {
-            Vertex& vertex = vertices[index(carried[n])];
-            vertex.set_error_bound(std::max(vertex.error_bound(), chunk.carried_bounds[n]));
-        }
-        for (VertexId v : carried) vertices[index(v)].is_fixed = is_pinned(vertices[index(v)].sides);
-
-        const std::uint32_t first_vertex = vertices.size(), first_face = faces.size();
-        const auto id_of = [&](std::uint32_t local) {
-            return local < chunk.carried ? carried[local] : VertexId{first_vertex + local - chunk.carried};
-        };
-        const auto new_vertices = static_cast<std::uint32_t>(chunk.vertices.size()),
-                   new_faces = static_cast<std::uint32_t>(chunk.faces.size());
-        vertices.resize_for_overwrite(first_vertex + new_vertices);
-        for_each_index(new_vertices, kItems, threads, [&](std::uint32_t n) {
-            const auto& [position, sides, error_bound] = chunk.vertices[n];
-            Vertex vertex{.position = position, .sides = sides, .is_fixed = is_pinned(sides)};
-            vertex.set_error_bound(error_bound);
-            vertices[first_vertex + n] = vertex;
-        });
-        faces.resize_for_overwrite(first_face + new_faces);
-        for_each_index(new_faces, kItems, threads, [&](std::uint32_t n) {
-            const auto& [corners, labels] = chunk.faces[n];
-            const auto [a, b, c] = corners;
-            faces[first_face + n] = Face::between(id_of(a), id_of(b), id_of(c), labels[0], labels[1]);
-        });
-        for (std::uint32_t local : chunk.active) joined.active.push_back(id_of(local));
-    }
-    for (VertexId v : joined.active) vertices[index(v)].is_fixed = true;
-    return joined;
+    return sums;
 }
 
 namespace {
 
-Mesh::Arrays arrays_of(Chunk chunk, std::uint32_t threads) {
-    std::vector<Chunk> chunks;
-    chunks.push_back(std::move(chunk));
-    return join(std::move(chunks), threads).arrays;
+void append(JoinedChunks& joined, const Chunk& chunk, std::uint32_t threads) {
+    constexpr std::uint32_t kItems = 1u << 14;  // of a task
+    auto& [vertices, faces] = joined.arrays;
+    const auto is_pinned = [](SideSet sides) { return (sides & kPinned) != 0; };
+    const std::vector<VertexId> carried = std::exchange(joined.active, {});
+    assert(chunk.carried == carried.size());
+    for (std::size_t n = 0; n < chunk.carried_bounds.size(); ++n) {
+        Vertex& vertex = vertices[index(carried[n])];
+        vertex.set_error_bound(std::max(vertex.error_bound(), chunk.carried_bounds[n]));
+    }
+    for (VertexId v : carried) vertices[index(v)].is_fixed = is_pinned(vertices[index(v)].sides);
+
+    const std::uint32_t first_vertex = vertices.size(), first_face = faces.size();
+    const auto new_vertices = static_cast<std::uint32_t>(chunk.vertices.size()),
+               new_faces = static_cast<std::uint32_t>(chunk.faces.size());
+    const auto id_of = [&](std::uint32_t local) {
+        return local < chunk.carried ? carried[local] : VertexId{first_vertex + local - chunk.carried};
+    };
+    vertices.resize_for_overwrite(first_vertex + new_vertices);
+    for_each_index(new_vertices, kItems, threads, [&](std::uint32_t n) {
+        vertices[first_vertex + n] = mesh_vertex(chunk.vertices[n], is_pinned(chunk.vertices[n].sides));
+    });
+    faces.resize_for_overwrite(first_face + new_faces);
+    for_each_index(new_faces, kItems, threads, [&](std::uint32_t n) {
+        const auto& [corners, labels] = chunk.faces[n];
+        const auto [a, b, c] = corners;
+        faces[first_face + n] = Face::between(id_of(a), id_of(b), id_of(c), labels[0], labels[1]);
+    });
+    for (std::uint32_t local : chunk.active) joined.active.push_back(id_of(local));
+    for (VertexId v : joined.active) vertices[index(v)].is_fixed = true;
 }
 
 }  // namespace
 
-Mesh mesh_of(Chunk chunk) { return Mesh(arrays_of(std::move(chunk), 1)); }
+JoinedChunks join(std::vector<Chunk> chunks, std::uint32_t threads) {
+    const ChunkCounts counts = count(chunks);
+    require_mesh_size("mesh", counts.vertices, counts.faces);
+    JoinedChunks joined;
+    joined.arrays.vertices.reserve(counts.vertices);
+    joined.arrays.faces.reserve(counts.faces);
+    for (Chunk& chunk : chunks) append(joined, std::exchange(chunk, {}), threads);
+    return joined;
+}
 
-Mesh sorted_mesh_of(Chunk chunk, std::uint32_t threads) {
-    return Mesh::sorted(arrays_of(std::move(chunk), threads), threads);
+Mesh sorted_mesh_of(Chunk chunk, std::uint32_t threads, std::vector<VertexId>* new_ids) {
+    std::vector<Chunk> chunks;
+    chunks.push_back(std::move(chunk));
+    return Mesh::sorted(join(std::move(chunks), threads).arrays, threads, new_ids);
 }
 
 }  // namespace regionmesh

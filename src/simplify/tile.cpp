@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "simplify/mesh_chunk.h"
+
 namespace regionmesh {
 namespace {
 
@@ -66,11 +68,8 @@ void Tile::put_in(TiledFaces& faces, std::uint32_t f, Mesh::Arrays& arrays) {
         const bool is_locked = faces.is_locked(local);
         std::uint32_t& place = is_locked ? locked_[local] : faces.place(local);
         if (place == kNone) {
-            const ChunkVertex& vertex = faces.vertex(local);
             place = arrays.vertices.size();
-            Vertex made{.position = vertex.position, .sides = vertex.sides, .is_fixed = is_locked};
-            made.set_error_bound(vertex.error_bound);
-            arrays.vertices.push_back(made);
+            arrays.vertices.push_back(mesh_vertex(faces.vertex(local), is_locked));
             locals_.push_back(local);
             inside_count_ += !is_locked;
         }
@@ -123,12 +122,7 @@ void Tile::note_left(TiledFaces& faces, std::uint32_t tile) {
 }
 
 void Tile::put_back(Chunk& made) const {
-    for (const auto& [number, bound] : left_bounds_) {
-        if (number < made.carried) made.carried_bounds.resize(made.carried);
-        float& all =
-            number < made.carried ? made.carried_bounds[number] : made.vertices[number - made.carried].error_bound;
-        all = std::max(all, bound);
-    }
+    for (const auto& [number, bound] : left_bounds_) made.raise_bound(number, bound);
     const std::uint32_t first = made.carried + static_cast<std::uint32_t>(made.vertices.size());
     made.vertices.insert(made.vertices.end(), left_vertices_.begin(), left_vertices_.end());
     for (const ChunkFace& left : left_faces_) {

@@ -3,43 +3,39 @@
 #include <utility>
 
 #include "regionmesh/limits.h"
-#include "simplify/mesh_chunk.h"
 
 namespace regionmesh {
 
 void Merger::add(Chunk chunk) {
-    vertex_count_ += chunk.vertices.size();
-    face_count_ += chunk.faces.size();
-    require_mesh_size("mesh", vertex_count_, face_count_);
     chunks_.push_back(std::move(chunk));
+    const ChunkCounts counts = count(chunks_);
+    require_mesh_size("mesh", counts.vertices, counts.faces);
 }
 
 std::uint32_t Merger::active_count() const {
     return chunks_.empty() ? 0 : static_cast<std::uint32_t>(chunks_.back().active.size());
 }
 
-std::size_t Merger::bytes() const { return vertex_count_ * sizeof(ChunkVertex) + face_count_ * sizeof(ChunkFace); }
-
-std::vector<Chunk> Merger::take_chunks() {
-    vertex_count_ = face_count_ = 0;
-    return std::exchange(chunks_, {});
+std::size_t Merger::bytes() const {
+    const ChunkCounts counts = count(chunks_);
+    return counts.vertices * sizeof(ChunkVertex) + counts.faces * sizeof(ChunkFace);
 }
 
 Chunk Merger::take_chunk() {
-    const std::uint64_t vertex_count = vertex_count_, face_count = face_count_;
-    std::vector<Chunk> chunks = take_chunks();
+    std::vector<Chunk> chunks = std::exchange(chunks_, {});
     if (chunks.size() == 1) return std::move(chunks.front());
+    const ChunkCounts counts = count(chunks);
     Chunk whole;
-    whole.vertices.reserve(vertex_count);
-    whole.faces.reserve(face_count);
+    whole.vertices.reserve(counts.vertices);
+    whole.faces.reserve(counts.faces);
     for (Chunk& chunk : chunks) whole.append(std::exchange(chunk, {}));
     return whole;
 }
 
-Mesh Merger::take_mesh() { return Mesh(join(take_chunks(), 1).arrays); }
+Mesh Merger::take_mesh() { return Mesh(join(std::exchange(chunks_, {}), 1).arrays); }
 
 Mesh Merger::take_sorted_mesh(std::uint32_t threads) {
-    auto [arrays, active] = join(take_chunks(), threads);
+    auto [arrays, active] = join(std::exchange(chunks_, {}), threads);
     std::vector<VertexId> new_ids;
     Mesh mesh = Mesh::sorted(std::move(arrays), threads, &new_ids);
     active_.clear();

@@ -7,6 +7,7 @@
 
 #include "mesh/chunk.h"
 #include "regionmesh/mesh.h"
+#include "simplify/mesh_chunk.h"
 
 namespace regionmesh {
 
@@ -20,7 +21,7 @@ public:
     /// beyond the limits of limits.h.
     void add(Chunk chunk);
 
-    std::uint64_t face_count() const { return face_count_; }
+    std::uint64_t face_count() const { return count(chunks_).faces; }
     std::uint32_t active_count() const;
     /// Bytes of vertices and faces.
     std::size_t bytes() const;
@@ -35,11 +36,7 @@ public:
     void put_back(Mesh& mesh);
 
 private:
-    std::vector<Chunk> take_chunks();
-
     std::vector<Chunk> chunks_;
-    std::uint64_t vertex_count_ = 0;
-    std::uint64_t face_count_ = 0;
     std::vector<VertexId> active_;  // of the mesh that may be put back
 };
 

@@ -63,7 +63,7 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
             parallel_invoke(options.threads, simplify_tiles, gather);
         else
             simplify_tiles();
-        // Otherwise its arrays are used again; with smoothing, the peak would rise.
+        // The next chunk is gathered in the same arrays, unless that would raise the peak.
         if (plan.budget.is_short() || strips.is_smoothing()) now.chunk = {};
         simplify.merge(std::move(left), initial_faces);
         if (!now.is_last) simplify.keep_within_budget(now.safe_high);

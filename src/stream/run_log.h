@@ -79,6 +79,7 @@ public:
         report_progress(stage);
     }
 
+    /// Of the model while it is in chunks.
     void note_faces_held(std::uint64_t faces) {
         const std::scoped_lock lock(mutex_);
         progress_.faces_held = faces;

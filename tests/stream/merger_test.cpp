@@ -89,7 +89,7 @@ TEST(Merger, merges_into_a_mesh_that_was_decimated_up_to_its_active_vertices) {
     EXPECT_LT(mesh.face_count(), merged_grains().face_count() / 2);
 }
 
-/// Two faces one after the other at an edge; the second chunk raises the error bound of a vertex that it carries.
+/// Three chunks of one face each. The second and the third raise error bounds of vertices that they carry.
 std::array<Chunk, 3> strip_of_faces() {
     const auto vertex = [](double x, double y, float bound) { return ChunkVertex{{x, y, 0}, 0, bound}; };
     return {Chunk{.vertices = {vertex(0, 0, 0), vertex(1, 0, 0), vertex(0, 1, 2)},
