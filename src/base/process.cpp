@@ -31,7 +31,8 @@ constexpr std::array kSpending{
 
 std::atomic<MemoryRoom> room{MemoryRoom::kAmple};
 std::atomic<bool> may_set_heap{false};    // only programs do
-std::atomic<std::uint64_t> most_left{0};  // resident after freed memory was given back in this room
+std::atomic<std::uint64_t> held_later{0};  // bytes, whatever is given back now
+std::atomic<std::uint64_t> most_left{0};   // resident after freed memory was given back in this room
 
 const Spending& spending() { return kSpending[static_cast<std::size_t>(room.load())]; }
 
@@ -50,11 +51,12 @@ void set_heap() {
 
 }  // namespace
 
-void note_memory_room(MemoryRoom now) {
+void note_memory_room(MemoryRoom now, std::uint64_t later) {
     room = now;
+    held_later = later;
     set_heap();
     most_left = 0;
-    give_back();
+    give_back_freed_memory();
 }
 
 void prefer_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) {
@@ -69,8 +71,8 @@ void prefer_huge_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_
 }
 
 void give_back_freed_memory() {
-    const std::uint64_t before = most_left;
-    if (room == MemoryRoom::kShort || resident_bytes().now >= before + before / spending().parts_kept) give_back();
+    const std::uint64_t before = most_left, grown = before + before / spending().parts_kept;
+    if (room == MemoryRoom::kShort || resident_bytes().now >= std::max(grown, held_later.load())) give_back();
 }
 
 void keep_large_arrays_apart() {

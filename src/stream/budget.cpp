@@ -57,13 +57,17 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
                   .share_in_flight = share_in_flight(demand, in_flight),
                   .chunks = {},
                   .least = {},
+                  .in_the_end = {},
+                  .is_largest_in_the_end = {},
                   .asked_budget = demand.asked_budget};
     const StripSums faces(demand.strip_faces);
     const std::uint64_t reading = demand.reading_bytes, per_face = chunk_bytes_per_face(demand, in_flight);
     const std::uint64_t working = demand.is_decimating ? kWorkBytesPerFace : kMeshBytesPerFace;
     const auto note = [&](const MemoryNeed& need) {
         if (need.sum() > budget.least.sum()) budget.least = need;
+        return need.sum();
     };
+    std::uint64_t most_gathering = 0, last_merged = 0;
     for (std::uint64_t first = 0; first < faces.size(); first += chunk_strips) {
         const std::uint64_t end = std::min(first + chunk_strips, faces.size());
         const std::uint64_t before = faces(0, first), own = faces(first, end);
@@ -73,12 +77,15 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
         const std::uint64_t window_after = window_at(demand, faces, end), chunk = own * per_face;
         budget.chunks.push_back({before, own, reading + window + chunk, chunk, reading + window_after});
         const std::uint64_t kept = share_of(before, demand.target_share), left = share_of(own, demand.tile_share);
-        note({reading, window, chunk, kept * kChunkBytesPerFace});
-        note({reading, window_after, 0, (kept + left) * working});
+        most_gathering = std::max(most_gathering, note({reading, window, chunk, kept * kChunkBytesPerFace}));
+        last_merged = note({reading, window_after, 0, (kept + left) * working});
     }
     const std::uint64_t last =
         kMeshBytesPerFace + std::max(kCheckBytesPerFace, demand.preserves_volume ? kPreserveBytesPerFace : 0);
-    note({kProcessBytes, 0, 0, share_of(faces(0, faces.size()), demand.target_share) * last});
+    const std::uint64_t left = share_of(faces(0, faces.size()), demand.target_share);
+    budget.in_the_end = note({kProcessBytes, 0, 0, left * last});
+    if (demand.target_share < 1) budget.in_the_end = kProcessBytes + left * std::max(last, kBytesPerFace);
+    budget.is_largest_in_the_end = most_gathering <= last_merged;
     return budget;
 }
 

@@ -57,6 +57,8 @@ struct Budget {
     double share_in_flight = 1;      // of the faces of a chunk that these tiles may hold
     std::vector<ChunkMemory> chunks;
     MemoryNeed least;                                // the least memory that is enough
+    std::uint64_t in_the_end = 0;                    // bytes of the process with the model, which it holds in any case
+    bool is_largest_in_the_end = false;              // no chunk needs more while it is gathered
     std::optional<std::uint64_t> asked_budget = {};  // as demanded
 
     bool holds() const { return asked_budget || least.sum() <= memory; }

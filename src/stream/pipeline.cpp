@@ -41,7 +41,7 @@ std::optional<FaceCount> count_faces(FaceSource& source, RunLog& log) {
 /// One pass over the input for the model. Strips are smoothed some strips behind; chunks of several strips are
 /// decimated in tiles up to a low cost and merged into the model, which is kept within its budget (P 3.1-3.5). Returns
 /// the strip at which smoothing was stuck, if it was.
-std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, const Plan& plan,
+std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, const Plan& plan, MemoryRoom room,
                                    const ReconstructOptions& options, RunLog& log) {
     Gatherer gatherer(strips, plan.budget.chunk_strips, log);
     TileStage tiles(plan, options, strips.source().shape(), log);
@@ -64,7 +64,7 @@ std::optional<std::uint32_t> build(Strips& strips, SimplifyStage& simplify, cons
         else
             simplify_tiles();
         // The next chunk is gathered in the same arrays, unless that would raise the peak.
-        if (plan.budget.is_short() || strips.is_smoothing()) now.chunk = {};
+        if (room != MemoryRoom::kAmple) now.chunk = {};
         simplify.merge(std::move(left), initial_faces);
         if (!now.is_last) simplify.keep_within_budget(now.safe_high);
         if (!is_ahead) gather();
@@ -92,6 +92,12 @@ bool has_room_to_write(const Mesh& mesh, const ReconstructOptions& options) {
     return kProcessBytes + mesh.face_count() * kBytes <= options.memory;
 }
 
+/// How freely memory may be spent while strips are gathered. The window of smoothing leaves less.
+MemoryRoom room_while_gathering(const Budget& budget, bool is_smoothing) {
+    if (budget.is_short()) return MemoryRoom::kShort;
+    return is_smoothing && !budget.is_largest_in_the_end ? MemoryRoom::kSome : MemoryRoom::kAmple;
+}
+
 /// The result of a run, or the strip at which smoothing was stuck.
 struct Attempt {
     Reconstruction result;
@@ -109,17 +115,17 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     const SmoothOptions smooth = smooth_options(options, shape.scale);
     const ChunkOrder order = strip_order(shape, extra);
     Plan plan = make_plan(shape, std::move(counted), window_strips(smooth, order), options);
-    const bool is_short = plan.budget.is_short();
-    note_memory_room(is_short ? MemoryRoom::kShort : smooth.passes > 0 ? MemoryRoom::kSome : MemoryRoom::kAmple);
+    const MemoryRoom room = room_while_gathering(plan.budget, smooth.passes > 0);
+    note_memory_room(room, plan.budget.in_the_end);
 
     plan_progress(log, plan, options, source.can_compare());
     SimplifyStage simplify(result.mesh, plan, options, shape, log);
     {
         Strips strips(source, smooth, order, log);
-        run.stuck_strip = build(strips, simplify, plan, options, log);
+        run.stuck_strip = build(strips, simplify, plan, room, options, log);
     }
     if (run.stuck_strip) return run;
-    if (!is_short) note_memory_room(MemoryRoom::kAmple);  // the window of smoothing is gone
+    if (room != MemoryRoom::kShort) note_memory_room(MemoryRoom::kAmple, plan.budget.in_the_end);
     result.labels = source.labels();
     result.background = source.background();
     if (!plan.oracle) plan.oracle = source.oracle();

@@ -15,7 +15,6 @@ namespace {
 
 using cell_table::AnyPosition;
 using cell_table::CellFace;
-using cell_table::Triangle;
 using Edge = std::pair<NodeSet, NodeSet>;
 
 constexpr std::string_view kTable =

@@ -108,6 +108,22 @@ TEST(Budget, the_window_counts_the_strips_that_it_will_hold) {
     EXPECT_EQ(b.window, (20u * 5000 + 12 * 1000) * 100);
 }
 
+TEST(Budget, a_run_is_largest_in_the_end_where_its_model_outgrows_its_window) {
+    BudgetDemand demand = even_demand(100, 20000);  // a window of 64 MB
+    const Budget small = plan_budget(kPlenty, demand);
+    EXPECT_FALSE(small.is_largest_in_the_end);
+    EXPECT_EQ(small.in_the_end, kProcessBytes + 200'000 * kBytesPerFace);
+    demand.target_share = 0.9;
+    demand.tile_share = 1;
+    const Budget large = plan_budget(kPlenty, demand);
+    EXPECT_TRUE(large.is_largest_in_the_end);
+    EXPECT_EQ(large.in_the_end, kProcessBytes + 1'800'000 * kBytesPerFace);
+    EXPECT_LT(large.in_the_end, large.least.sum());
+    demand.target_share = 0;  // an error is bounded, so that nothing is known of the model
+    EXPECT_FALSE(plan_budget(kPlenty, demand).is_largest_in_the_end);
+    EXPECT_EQ(plan_budget(kPlenty, demand).in_the_end, kProcessBytes);
+}
+
 TEST(Budget, what_is_not_taken_otherwise_is_the_models) {
     const BudgetDemand demand = even_demand(64);
     const Budget small = plan_budget(200'000'000, demand), large = plan_budget(300'000'000, demand);

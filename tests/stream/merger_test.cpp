@@ -32,13 +32,13 @@ Mesh merged(test::ArrayVolume volume, Visit&& visit) {
     return merger.take_mesh();
 }
 
-test::ArrayVolume grains() { return test::grain_volume({8, 8, 8}, 6, 2); }
+test::ArrayVolume few_grains() { return test::grain_volume({8, 8, 8}, 6, 2); }
 Mesh merged_grains() {
-    return merged(grains(), [](const Merger&, double) {});
+    return merged(few_grains(), [](const Merger&, double) {});
 }
 
 TEST(Merger, active_vertices_lie_on_the_last_section_and_are_fixed) {
-    merged(grains(), [](Merger& merger, double z) {
+    merged(few_grains(), [](Merger& merger, double z) {
         Mesh mesh = merger.take_sorted_mesh(1);
         std::uint32_t active = 0;
         test::for_vertices(mesh, [&](VertexId v) {
@@ -55,7 +55,7 @@ TEST(Merger, active_vertices_lie_on_the_last_section_and_are_fixed) {
 TEST(Merger, makes_no_vertex_twice) { test::expect_sound(check(merged_grains())); }
 
 TEST(Merger, a_sorted_mesh_may_be_put_back) {
-    const Mesh again = merged(grains(), [](Merger& merger, double) {
+    const Mesh again = merged(few_grains(), [](Merger& merger, double) {
         Mesh mesh = merger.take_sorted_mesh(2);
         EXPECT_EQ(merger.face_count(), 0u);
         merger.put_back(mesh);
@@ -66,7 +66,7 @@ TEST(Merger, a_sorted_mesh_may_be_put_back) {
 }
 
 TEST(Merger, puts_together_what_it_took_apart) {
-    const Mesh again = merged(grains(), [](Merger& merger, double z) {
+    const Mesh again = merged(few_grains(), [](Merger& merger, double z) {
         if (static_cast<int>(z) % 3 != 0) return;
         const std::uint32_t active = merger.active_count();
         const std::uint64_t faces = merger.face_count();
@@ -80,7 +80,7 @@ TEST(Merger, puts_together_what_it_took_apart) {
 }
 
 TEST(Merger, merges_into_a_mesh_that_was_decimated_up_to_its_active_vertices) {
-    const Mesh mesh = merged(grains(), [](Merger& merger, double z) {
+    const Mesh mesh = merged(few_grains(), [](Merger& merger, double z) {
         Mesh part = merger.take_sorted_mesh(1);
         collapse_edges(part, {}, {.limits = box_of({.high = z}, 2)});
         merger.put_back(part);
