@@ -39,12 +39,13 @@ enum class MemoryRoom { kShort, kSome, kAmple };
 /// For the whole process; kAmple at first. With more room there are fewer page faults, each of which takes
 /// microseconds: freed memory is kept for the next arrays, and large arrays are put on huge pages, which may waste 2
 /// MiB each. `later`: bytes that the process will hold at some time in any case; returning freed memory while it holds
-/// less would not lower its peak. No result depends on either. Returns freed memory to the system, as the next function.
+/// less would not lower its peak. No result depends on either. Returns freed memory to the system, as the next
+/// function.
 void note_memory_room(MemoryRoom room, std::uint64_t later = 0);
 
 /// Returns freed memory to the system, which the C library would keep. Unless memory is short, it does so only where
-/// the process holds what it will hold later in any case, and has grown beyond its largest size after an earlier call in
-/// the same room. Call after large arrays were freed.
+/// the process holds what it will hold later in any case, and has grown beyond its largest size after an earlier call
+/// in the same room. Call after large arrays were freed.
 void give_back_freed_memory();
 
 /// Makes the C library return the memory of large arrays as soon as they are freed, since memory fragments otherwise,
