@@ -27,7 +27,7 @@ public:
     /// Turns the mesh back. Vertices that did not move get the positions of before.
     void restore(Mesh& mesh) const;
 
-    bool is_oblique() const { return !before_.empty(); }
+    bool is_oblique() const { return !sorted_.empty(); }
 
 private:
     struct Side;

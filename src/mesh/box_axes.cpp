@@ -96,7 +96,7 @@ BoxAxes::BoxAxes(Mesh& mesh) {
     if (is_along) return;
     for (const auto& find_normals : {square_normals, any_normals}) {
         const auto normals = find_normals(mesh);
-        if (!normals) return;
+        if (!normals) continue;
         set_axes(*normals);
         note_positions(mesh);
         Box box;

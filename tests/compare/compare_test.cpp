@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "regionmesh/write_report.h"
+#include "support/labels.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -14,12 +15,6 @@ namespace regionmesh {
 namespace {
 
 using testing::ElementsAre;
-
-LabelTable labels_of(std::initializer_list<InputLabel> values) {
-    LabelTable labels;
-    for (const InputLabel value : values) labels.dense(value);
-    return labels;
-}
 
 /// All labels are regions; few samples.
 const CompareOptions kFew{.samples = 20000, .background = {}, .threads = 1};
@@ -75,7 +70,7 @@ Mesh ball(Vec3 middle, int cuts) {
 }
 
 CompareReport compared(const Mesh& a, const Mesh& b, const CompareOptions& options = kFew) {
-    const LabelTable labels = labels_of({1, 2});
+    const LabelTable labels = test::labels_from({1, 2});
     return compare({a, labels}, {b, labels}, options);
 }
 
@@ -230,7 +225,8 @@ TEST(Compare, what_only_one_model_has_is_there_without_distance) {
 
 TEST(Compare, labels_match_as_the_input_has_them) {
     const Mesh straight = stack(1, 0, 1), crossed = stack(1.25, 1, 0);
-    const CompareReport report = compare({straight, labels_of({40, -3})}, {crossed, labels_of({-3, 40, 7})}, kFew);
+    const CompareReport report =
+        compare({straight, test::labels_from({40, -3})}, {crossed, test::labels_from({-3, 40, 7})}, kFew);
     EXPECT_EQ(report.labels.size(), 3u);
     EXPECT_EQ(report.labels.input(0), -3) << "as numbers ascending";
     ASSERT_EQ(report.regions.size(), 2u);

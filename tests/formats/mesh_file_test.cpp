@@ -11,18 +11,13 @@
 #include "formats/surface/surfaces.h"
 #include "formats/temporary_folder.h"
 #include "regionmesh/error.h"
+#include "support/labels.h"
 #include "support/paths.h"
 
 namespace regionmesh {
 namespace {
 
 using testing::HasSubstr;
-
-LabelTable labels_of(std::initializer_list<InputLabel> values, bool is_unsigned = false) {
-    LabelTable labels(is_unsigned);
-    for (const InputLabel value : values) labels.dense(value);
-    return labels;
-}
 
 void add_face(Mesh& mesh, std::array<std::uint32_t, 3> v, Label first, Label second) {
     mesh.add_face(VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}, first, second);
@@ -122,18 +117,18 @@ INSTANTIATE_TEST_SUITE_P(, BothFormats, testing::Values(".vtp", ".ply"),
                          [](const auto& tested) { return std::string(tested.param + 1); });
 
 TEST_P(BothFormats, tetrahedron_comes_back_to_the_bit) {
-    const LabelTable labels = labels_of({5, 7});
+    const LabelTable labels = test::labels_from({5, 7});
     const Mesh mesh = tetrahedron(0, 1);
     expect_same(round_trip(mesh, labels, GetParam()), mesh, labels);
 }
 
 TEST_P(BothFormats, capped_boxes_come_back_with_their_sides) {
-    const LabelTable labels = labels_of({3, 5});
+    const LabelTable labels = test::labels_from({3, 5});
     expect_same(round_trip(two_boxes(), labels, GetParam()), two_boxes(), labels);
 }
 
 TEST_P(BothFormats, what_was_removed_is_not_written) {
-    const LabelTable labels = labels_of({5, 7});
+    const LabelTable labels = test::labels_from({5, 7});
     Mesh mesh = tetrahedron(0, 1);
     const VertexId first{0};
     const VertexId copy = mesh.add_vertex(mesh.position(first));
@@ -147,7 +142,7 @@ TEST_P(BothFormats, what_was_removed_is_not_written) {
 }
 
 TEST_P(BothFormats, smaller_label_comes_first_and_the_face_is_turned) {
-    const LabelTable labels = labels_of({7, 5});
+    const LabelTable labels = test::labels_from({7, 5});
     expect_same(round_trip(tetrahedron(0, 1), labels, GetParam()), tetrahedron(0, 1), labels);
     const FileSurface surface = surface_of(tetrahedron(0, 1), labels, GetParam());
     EXPECT_THAT(surface.labels, testing::Each(std::array<InputLabel, 2>{5, 7}));
@@ -156,7 +151,7 @@ TEST_P(BothFormats, smaller_label_comes_first_and_the_face_is_turned) {
 
 TEST_P(BothFormats, unsigned_labels_are_ordered_as_such_and_keep_their_bits) {
     const InputLabel large = static_cast<InputLabel>(0xFFFFFFFFFFFFFFF0u);
-    const LabelTable labels = labels_of({large, 3}, true);
+    const LabelTable labels = test::labels_from({large, 3}, true);
     expect_same(round_trip(tetrahedron(0, 1), labels, GetParam()), tetrahedron(0, 1), labels);
     EXPECT_THAT(surface_of(tetrahedron(0, 1), labels, GetParam()).labels,
                 testing::Each(std::array<InputLabel, 2>{3, large}));
@@ -164,7 +159,7 @@ TEST_P(BothFormats, unsigned_labels_are_ordered_as_such_and_keep_their_bits) {
 
 TEST_F(MeshFileTest, vtk_says_that_large_labels_are_unsigned) {
     const InputLabel large = std::numeric_limits<InputLabel>::min();  // the bits of 2^63
-    const LabelTable labels = labels_of({large, 3}, true);
+    const LabelTable labels = test::labels_from({large, 3}, true);
     for (const char* extension : {".vtp", ".vtu"}) {
         const MeshFile file =
             round_trip(two_boxes(), labels, extension,
@@ -174,13 +169,13 @@ TEST_F(MeshFileTest, vtk_says_that_large_labels_are_unsigned) {
         EXPECT_EQ(file.background, (std::vector<InputLabel>{large}));
         EXPECT_EQ(file.names, (LabelNames{{large, "rest"}}));
         EXPECT_EQ(file.colours, (LabelColours{{large, 0xFF8000}}));
-        const LabelTable small = labels_of({7, 3}, true);
+        const LabelTable small = test::labels_from({7, 3}, true);
         EXPECT_FALSE(round_trip(two_boxes(), small, extension).labels.is_unsigned()) << "written as Int64";
     }
 }
 
 TEST_P(BothFormats, background_comes_second_even_where_it_is_smaller) {
-    const LabelTable labels = labels_of({0, 5});
+    const LabelTable labels = test::labels_from({0, 5});
     const FileSurface surface = surface_of(tetrahedron(1, 0), labels, GetParam(), {.background = {0}});
     EXPECT_THAT(surface.labels, testing::Each(std::array<InputLabel, 2>{5, 0}));
     EXPECT_EQ(surface.faces[0], (std::array{0u, 2u, 1u}));
@@ -188,7 +183,7 @@ TEST_P(BothFormats, background_comes_second_even_where_it_is_smaller) {
 
 TEST_P(BothFormats, exterior_comes_behind_all_others) {
     for (const WriteOptions& options : {WriteOptions{}, WriteOptions{.background = {0, 1}}}) {
-        const FileSurface surface = surface_of(two_boxes(), labels_of({3, 5}), GetParam(), options);
+        const FileSurface surface = surface_of(two_boxes(), test::labels_from({3, 5}), GetParam(), options);
         EXPECT_THAT(surface.labels,
                     testing::Each(testing::AnyOf(std::array<InputLabel, 2>{3, -1}, std::array<InputLabel, 2>{5, -1},
                                                  std::array<InputLabel, 2>{3, 5})));
@@ -199,13 +194,13 @@ TEST_P(BothFormats, exterior_comes_behind_all_others) {
 TEST_P(BothFormats, labels_of_64_bits_come_back) {
     constexpr InputLabel kLowest = std::numeric_limits<InputLabel>::min(),
                          kHighest = std::numeric_limits<InputLabel>::max();
-    for (const LabelTable& labels :
-         {labels_of({kLowest, kHighest}), labels_of({-1, std::int64_t{1} << 40}), labels_of({kLowest, -1})})
+    for (const LabelTable& labels : {test::labels_from({kLowest, kHighest}),
+                                     test::labels_from({-1, std::int64_t{1} << 40}), test::labels_from({kLowest, -1})})
         expect_same(round_trip(two_boxes(), labels, GetParam()), two_boxes(), labels);
 }
 
 TEST_P(BothFormats, exterior_gives_way_to_negative_labels) {
-    const LabelTable labels = labels_of({-4, -1});
+    const LabelTable labels = test::labels_from({-4, -1});
     expect_same(round_trip(two_boxes(), labels, GetParam()), two_boxes(), labels);
     EXPECT_EQ(surface_of(two_boxes(), labels, GetParam()).exterior_label, -5);
 }
@@ -213,7 +208,7 @@ TEST_P(BothFormats, exterior_gives_way_to_negative_labels) {
 TEST_P(BothFormats, exterior_beside_the_planes_of_the_box_is_one_hull) {
     Mesh mesh = two_boxes();
     mesh[VertexId{0}].position.x = -1;
-    const LabelTable labels = labels_of({3, 5});
+    const LabelTable labels = test::labels_from({3, 5});
     const MeshFile file = round_trip(mesh, labels, GetParam());
     EXPECT_EQ(file.labels.size(), 2u);
     for (std::uint32_t v = 0; v < file.mesh.vertex_end(); ++v) EXPECT_EQ(file.mesh[VertexId{v}].sides, kOnHull);
@@ -234,7 +229,7 @@ TEST_P(BothFormats, arrays_of_several_blocks_come_back) {
     mesh.add_vertex({0, 0, 0});
     for (std::uint32_t i = 1; i <= kCount; ++i) mesh.add_vertex({0.001 * i, 1.0 / i, 0.5 * (i % 7)});
     for (std::uint32_t i = 1; i < kCount; ++i) add_face(mesh, {0, i, i + 1}, i % 10, 10 + i % 3);
-    const LabelTable labels = labels_of({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+    const LabelTable labels = test::labels_from({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
     expect_same(round_trip(mesh, labels, GetParam()), mesh, labels);
 }
 
@@ -242,19 +237,19 @@ TEST_P(BothFormats, full_disk_is_an_output_error_and_leaves_nothing) {
     const auto link = path(std::string("m") + GetParam());
     std::filesystem::create_symlink("/dev/full", link);
     try {
-        write_mesh(two_boxes(), labels_of({3, 5}), link);
+        write_mesh(two_boxes(), test::labels_from({3, 5}), link);
         ADD_FAILURE() << "nothing thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::kOutput);
         EXPECT_THAT(error.what(), HasSubstr("No space left on device"));
     }
     EXPECT_EQ(file_count(), 1);
-    EXPECT_THROW(write_mesh(two_boxes(), labels_of({3, 5}), path("none") / link.filename()), Error);
+    EXPECT_THROW(write_mesh(two_boxes(), test::labels_from({3, 5}), path("none") / link.filename()), Error);
 }
 
 TEST_P(BothFormats, damaged_files_are_refused_or_read_but_never_crash) {
     const std::string name = std::string("m") + GetParam();
-    write_mesh(two_boxes(), labels_of({3, 5}), path(name));
+    write_mesh(two_boxes(), test::labels_from({3, 5}), path(name));
     const std::string good = text_of(path(name));
     const auto try_text = [&](const std::string& text) {
         put_text(path(name), text);
@@ -275,7 +270,7 @@ TEST_P(BothFormats, damaged_files_are_refused_or_read_but_never_crash) {
 }
 
 TEST_F(MeshFileTest, extension_is_matched_in_any_case_and_others_are_refused) {
-    const LabelTable labels = labels_of({3, 5});
+    const LabelTable labels = test::labels_from({3, 5});
     expect_same(round_trip(two_boxes(), labels, ".VTP"), two_boxes(), labels);
     try {
         write_mesh(two_boxes(), labels, path("m.xyz"));
@@ -295,15 +290,17 @@ TEST_F(MeshFileTest, point_arrays_stand_in_vtp_files_and_nowhere_else) {
     std::vector<double> values(13);
     for (int n = 0; n < 13; ++n) values[n] = n / 3.0;
     const WriteOptions options{.point_arrays = {{"Distance", values}}};
-    write_mesh(mesh, labels_of({1, 2}), path("m.vtp"), options);
+    write_mesh(mesh, test::labels_from({1, 2}), path("m.vtp"), options);
     EXPECT_THAT(text_of(path("m.vtp")), HasSubstr("Name=\"Distance\""));
     const MeshFile file = read_mesh(path("m.vtp"));
-    EXPECT_EQ(faces_of(file.mesh, file.labels), faces_of(mesh, labels_of({1, 2})));
-    EXPECT_THROW(write_mesh(mesh, labels_of({1, 2}), path("m.ply"), options), Error);
+    EXPECT_EQ(faces_of(file.mesh, file.labels), faces_of(mesh, test::labels_from({1, 2})));
+    EXPECT_THROW(write_mesh(mesh, test::labels_from({1, 2}), path("m.ply"), options), Error);
     EXPECT_THROW(require_writable_mesh(path("m.ply"), {}, true), Error);
     const std::span<const double> few = std::span(values).first(12);
-    EXPECT_THROW(write_mesh(mesh, labels_of({1, 2}), path("m.vtp"), {.point_arrays = {{"Distance", few}}}), Error);
-    EXPECT_THROW(write_mesh(mesh, labels_of({1, 2}), path("m.vtp"), {.point_arrays = {{"a b<", values}}}), Error);
+    EXPECT_THROW(write_mesh(mesh, test::labels_from({1, 2}), path("m.vtp"), {.point_arrays = {{"Distance", few}}}),
+                 Error);
+    EXPECT_THROW(write_mesh(mesh, test::labels_from({1, 2}), path("m.vtp"), {.point_arrays = {{"a b<", values}}}),
+                 Error);
     EXPECT_EQ(file_count(), 1);
 }
 
@@ -319,7 +316,7 @@ TEST_F(MeshFileTest, missing_files_and_folders_are_input_errors) {
 }
 
 TEST_F(MeshFileTest, every_encoding_of_the_vtk_writer_is_read) {
-    const LabelTable labels = labels_of({3, 5});
+    const LabelTable labels = test::labels_from({3, 5});
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(test::data_folder())) {
         if (!entry.path().filename().string().starts_with("vtp_")) continue;
@@ -331,7 +328,7 @@ TEST_F(MeshFileTest, every_encoding_of_the_vtk_writer_is_read) {
 }
 
 TEST_F(MeshFileTest, ply_errors_name_what_is_wrong) {
-    write_mesh(tetrahedron(0, 1), labels_of({5, 7}), path("m.ply"));
+    write_mesh(tetrahedron(0, 1), test::labels_from({5, 7}), path("m.ply"));
     const std::string good = text_of(path("m.ply"));
     const auto changed = [&](const std::string& from, const std::string& to) {
         std::string text = good;
@@ -358,7 +355,7 @@ TEST_F(MeshFileTest, ply_errors_name_what_is_wrong) {
 
 TEST(FileView, node_type_counts_labels_and_sides) {
     Mesh mesh = two_boxes();
-    const LabelTable labels = labels_of({3, 5});
+    const LabelTable labels = test::labels_from({3, 5});
     const FileView view(mesh, labels, {});
     EXPECT_EQ(view.node_type(VertexId{0}), 14);  // a corner of the box
     EXPECT_EQ(view.node_type(VertexId{4}), 14);  // two regions on an edge of the box

@@ -39,7 +39,7 @@ Swept sweep(Mesh& mesh, int sweeps, double max_cost = 1e-3, const SimplifyOption
     return done;
 }
 
-Mesh grains() { return run(test::grain_volume({14, 14, 14}, 9, 5)).mesh; }
+Mesh many_grains() { return run(test::grain_volume({14, 14, 14}, 9, 5)).mesh; }
 Mesh ball() { return run(test::ball_volume({16, 16, 16}, 6)).mesh; }
 
 TEST(Prepass, takes_most_of_what_is_flat) {
@@ -53,7 +53,7 @@ TEST(Prepass, takes_most_of_what_is_flat) {
 }
 
 TEST(Prepass, keeps_all_strata_and_meets_nothing) {
-    for (auto* make : {grains, ball}) {
+    for (auto* make : {many_grains, ball}) {
         Mesh mesh = make();
         const test::StrataList strata = test::list_strata(mesh);
         EXPECT_GT(sweep(mesh, 8, 1).removed, 0u);
@@ -71,7 +71,7 @@ TEST(Prepass, holds_tangled_surfaces_apart) {
 }
 
 TEST(Prepass, without_the_intersection_test_still_keeps_faces_from_closing) {
-    Mesh mesh = grains();
+    Mesh mesh = many_grains();
     const Swept done = sweep(mesh, 8, 1, {.intersect_check = false});
     EXPECT_GT(done.removed, 0u);
     EXPECT_EQ(done.verdicts[static_cast<int>(Verdict::kIntersect)], 0u);
@@ -113,7 +113,7 @@ TEST(Prepass, costs_no_more_than_the_threshold) {
 }
 
 TEST(Prepass, depends_on_the_model_alone) {
-    Mesh first = grains(), second = grains();
+    Mesh first = many_grains(), second = many_grains();
     sweep(first, 5);
     sweep(second, 5);
     EXPECT_EQ(test::digest(first), test::digest(second));

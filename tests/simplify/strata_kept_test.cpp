@@ -8,20 +8,20 @@
 namespace regionmesh {
 namespace {
 
-struct Case {
+struct Input {
     const char* name;
     test::ArrayVolume volume;
     ReconstructOptions options = test::plain();
 };
 
-std::vector<Case> cases() {
-    std::vector<Case> all{{"solid", test::solid_volume({5, 5, 5})},
-                          {"ball", test::ball_volume({9, 9, 9}, 3)},
-                          {"two labels", test::noise_volume({7, 7, 7}, 2, 1)},
-                          {"four labels", test::noise_volume({7, 7, 7}, 4, 2)},
-                          {"many labels", test::noise_volume({6, 6, 6}, 100, 3)},
-                          {"grains", test::grain_volume({12, 12, 12}, 9, 4)},
-                          {"flat grains", test::grain_volume({9, 9, 9}, 9, 5).spaced({1, 2, 5})}};
+std::vector<Input> inputs() {
+    std::vector<Input> all{{"solid", test::solid_volume({5, 5, 5})},
+                           {"ball", test::ball_volume({9, 9, 9}, 3)},
+                           {"two labels", test::noise_volume({7, 7, 7}, 2, 1)},
+                           {"four labels", test::noise_volume({7, 7, 7}, 4, 2)},
+                           {"many labels", test::noise_volume({6, 6, 6}, 100, 3)},
+                           {"grains", test::grain_volume({12, 12, 12}, 9, 4)},
+                           {"flat grains", test::grain_volume({9, 9, 9}, 9, 5).spaced({1, 2, 5})}};
     all.push_back({"background", test::noise_volume({7, 7, 7}, 3, 6), {.decimate = false, .background = {0}}});
     all.push_back(
         {"grains and background", test::grain_volume({12, 12, 12}, 9, 7), {.decimate = false, .background = {0, 3}}});
@@ -30,9 +30,9 @@ std::vector<Case> cases() {
 }
 
 TEST(StrataKept, when_decimated_as_far_as_topology_allows) {
-    for (Case& c : cases()) {
-        SCOPED_TRACE(c.name);
-        Mesh mesh = test::run(c.volume, c.options).mesh;
+    for (Input& input : inputs()) {
+        SCOPED_TRACE(input.name);
+        Mesh mesh = test::run(input.volume, input.options).mesh;
         const test::StrataList before = test::list_strata(mesh);
         simplify(mesh, {});
         test::expect_same_strata(test::list_strata(mesh), before);
@@ -40,9 +40,9 @@ TEST(StrataKept, when_decimated_as_far_as_topology_allows) {
 }
 
 TEST(StrataKept, with_neither_quality_nor_intersect_verdicts) {
-    for (Case& c : cases()) {
-        SCOPED_TRACE(c.name);
-        Mesh mesh = test::run(c.volume, c.options).mesh;
+    for (Input& input : inputs()) {
+        SCOPED_TRACE(input.name);
+        Mesh mesh = test::run(input.volume, input.options).mesh;
         const test::StrataList before = test::list_strata(mesh);
         simplify(mesh, {.min_quality = 0, .perturbation = 1e-3, .intersect_check = false});
         test::expect_same_strata(test::list_strata(mesh), before);
@@ -50,10 +50,10 @@ TEST(StrataKept, with_neither_quality_nor_intersect_verdicts) {
 }
 
 TEST(StrataKept, and_every_vertex_stays_generic) {
-    for (Case& c : cases()) {
-        if (!c.options.cap || !c.options.background.empty()) continue;
-        SCOPED_TRACE(c.name);
-        Mesh mesh = test::run(c.volume, c.options).mesh;
+    for (Input& input : inputs()) {
+        if (!input.options.cap || !input.options.background.empty()) continue;
+        SCOPED_TRACE(input.name);
+        Mesh mesh = test::run(input.volume, input.options).mesh;
         simplify(mesh, {});
         test::expect_generic(mesh);
     }

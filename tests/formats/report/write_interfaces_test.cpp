@@ -107,12 +107,12 @@ TEST(LineTable, of_a_model_with_holes_leaves_angles_out) {
     for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{0, 0, 2}, Vec3{1, 0, 0}, Vec3{-1, 1, 0}, Vec3{-1, -1, 0}})
         mesh.add_vertex(p);
     for (std::uint32_t n = 0; n < 3; ++n) mesh.add_face(VertexId{0}, VertexId{1}, VertexId{2 + n}, n, (n + 1) % 3);
-    const auto whole = table_of(lines_csv(mesh, labels_from({1, 2, 3}), {}));
+    const auto whole = table_of(lines_csv(mesh, test::labels_from({1, 2, 3}), {}));
     ASSERT_EQ(whole.size(), 1u);
     EXPECT_EQ(whole[0].at("labels"), "1 2 3");
     EXPECT_EQ(number_in(whole[0], "length"), 2);
     mesh.add_face(VertexId{1}, VertexId{0}, VertexId{2}, 0, 3);
-    const auto more = table_of(lines_csv(mesh, labels_from({1, 2, 3, 4}), {}));
+    const auto more = table_of(lines_csv(mesh, test::labels_from({1, 2, 3, 4}), {}));
     ASSERT_EQ(more.size(), 2u);
     EXPECT_EQ(more[0].at("labels"), "1 2 3 4");
     EXPECT_THAT(more[0].at("angles"), testing::StartsWith("- ")) << "label 1 has three faces there";

@@ -6,6 +6,7 @@
 #include "formats/temporary_folder.h"
 #include "regionmesh/error.h"
 #include "support/json_keys.h"
+#include "support/labels.h"
 
 namespace regionmesh {
 namespace {
@@ -25,17 +26,11 @@ CheckReport two_regions() {
     return report;
 }
 
-LabelTable labels_of(std::initializer_list<InputLabel> values, bool is_unsigned = false) {
-    LabelTable labels(is_unsigned);
-    for (const InputLabel value : values) labels.dense(value);
-    return labels;
-}
-
 TEST(ReportJson, has_all_keys_and_no_others) {
     Report report;
     report.check = two_regions();
     report.seconds = {{"mesh", 1.0}, {"total", 1.5}};
-    const Json json = Json::parse(report_json(report, labels_of({7, 3})));
+    const Json json = Json::parse(report_json(report, test::labels_from({7, 3})));
     EXPECT_THAT(keys_of(json), testing::UnorderedElementsAre(
                                    "initial_faces", "initial_vertices", "final_faces", "final_vertices", "error_bound",
                                    "seconds", "stage_bytes", "peak_bytes", "peak_faces", "bytes_per_face", "verdicts",
@@ -60,7 +55,7 @@ TEST(ReportJson, says_what_the_report_says) {
     report.stage_bytes = {{"smooth", 2'000'000}};
     report.verdicts[static_cast<int>(Verdict::kPinch)] = 4;
     report.stopped = "target";
-    const Json json = Json::parse(report_json(report, labels_of({7, 3})));
+    const Json json = Json::parse(report_json(report, test::labels_from({7, 3})));
     EXPECT_EQ(json["initial_faces"], 100);
     EXPECT_EQ(json["final_vertices"], 7);
     EXPECT_EQ(json["seconds"]["total"], 1.5);
@@ -77,7 +72,7 @@ TEST(ReportJson, says_what_the_report_says) {
 }
 
 TEST(CheckJson, regions_stand_in_order_of_their_labels) {
-    const Json json = Json::parse(check_json(two_regions(), labels_of({7, -3})));
+    const Json json = Json::parse(check_json(two_regions(), test::labels_from({7, -3})));
     EXPECT_EQ(json["regions"][0]["label"], -3);
     EXPECT_EQ(json["regions"][0]["volume"], 0.1);
     EXPECT_EQ(json["regions"][1]["label"], 7);
@@ -86,7 +81,7 @@ TEST(CheckJson, regions_stand_in_order_of_their_labels) {
 }
 
 TEST(CheckJson, unsigned_labels_keep_their_sign) {
-    const Json json = Json::parse(check_json(two_regions(), labels_of({-1, 3}, true)));
+    const Json json = Json::parse(check_json(two_regions(), test::labels_from({-1, 3}, true)));
     EXPECT_EQ(json["regions"][1]["label"], 0xFFFFFFFFFFFFFFFFu);
     EXPECT_EQ(json["regions"][0]["label"], 3);
 }

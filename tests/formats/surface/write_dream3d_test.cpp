@@ -48,7 +48,7 @@ TEST_F(WriterTest, dream3d_file_has_the_same_bytes_a_second_later) {
 TEST_F(WriterTest, dream3d_refuses_labels_that_it_cannot_hold) {
     for (const InputLabel label : {std::int64_t{1} << 31, std::int64_t{-2}}) {
         try {
-            write_mesh(test::octahedron(), labels_from({label, 0}), path("m.dream3d"));
+            write_mesh(test::octahedron(), test::labels_from({label, 0}), path("m.dream3d"));
             ADD_FAILURE() << "nothing thrown";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::kOutput);

@@ -77,7 +77,7 @@ TEST_F(WriterTest, glb_has_a_closed_mesh_for_each_region) {
 TEST_F(WriterTest, glb_points_are_relative_to_the_middle_which_the_root_restores) {
     Mesh mesh;
     test::add_octahedron(mesh, {1e7, 2e7, 3e7}, {1, 1, 1});
-    const Glb glb(written(mesh, labels_from({1, 0}), "m.glb", {.background = {1}}));
+    const Glb glb(written(mesh, test::labels_from({1, 0}), "m.glb", {.background = {1}}));
     EXPECT_EQ(glb.json["accessors"][0]["max"], (Json{1.0, 1.0, 1.0}));
     EXPECT_EQ(glb.json["nodes"][0]["translation"], (Json{1e7, 3e7, -2e7})) << "z is up in volumes, y in glTF";
 }

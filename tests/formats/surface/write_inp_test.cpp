@@ -19,14 +19,15 @@ TEST_F(WriterTest, inp_has_sets_of_interfaces_and_surfaces_that_look_out_of_regi
 TEST_F(WriterTest, inp_reals_have_twenty_letters_at_most) {
     Mesh mesh;
     test::add_octahedron(mesh, {-1.2345678901234567e-5, 1.0 / 3, -1.2345678901234567e-300}, {0.1, 0.1, 0.1});
-    const auto rows = rows_of(written(mesh, labels_from({1, 0}), "m.inp", {.background = {1}}));
+    const auto rows = rows_of(written(mesh, test::labels_from({1, 0}), "m.inp", {.background = {1}}));
     int reals = 0;
     for (const auto& row : rows) {
         if (row.size() != 4 || row[0] == "*ELEMENT,") continue;
         for (std::size_t n = 1; n < 4; ++n, ++reals) EXPECT_LE(row[n].size() - row[n].ends_with(','), 20u) << row[n];
     }
     EXPECT_GE(reals, 18);
-    EXPECT_THAT(written(mesh, labels_from({1, 0}), "m.inp", {.background = {1}}), HasSubstr("0.3333333333333333,"));
+    EXPECT_THAT(written(mesh, test::labels_from({1, 0}), "m.inp", {.background = {1}}),
+                HasSubstr("0.3333333333333333,"));
 }
 
 TEST_F(WriterTest, inp_lists_the_vertices_of_each_side_of_the_box) {

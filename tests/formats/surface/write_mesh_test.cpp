@@ -129,7 +129,7 @@ TEST_F(WriterTest, open_region_is_refused_by_formats_for_volume_meshers) {
     mesh.remove_face(FaceId{3});
     for (const char* name : {"m.msh", "m.smesh", "m.poly"}) {
         try {
-            write_mesh(mesh, labels_from({3, 0}), path(name), {.background = {1}});
+            write_mesh(mesh, test::labels_from({3, 0}), path(name), {.background = {1}});
             ADD_FAILURE() << "nothing thrown";
         } catch (const Error& error) {
             EXPECT_THAT(error.what(), HasSubstr("region 3 is not closed"));

@@ -22,7 +22,7 @@ TEST_F(WriterTest, obj_has_an_object_for_each_region_even_where_its_label_is_nev
     Mesh mesh;
     for (const Label inner : {1, 2, 3}) test::add_octahedron(mesh, {4.0 * inner, 0, 0}, {1, 1, 1}, inner, 0);
     test::add_octahedron(mesh, {8, 0, 0}, {20, 20, 20}, 0, exterior(0));
-    const std::string text = written(mesh, labels_from({1, 2, 3, 4}), "m.obj");
+    const std::string text = written(mesh, test::labels_from({1, 2, 3, 4}), "m.obj");
     for (const char* region : {"region_1", "region_2", "region_3", "region_4"})
         EXPECT_EQ(count_of(text, std::string("\no ") + region + "\n"), 1u) << region;
     EXPECT_EQ(count_of(text, "\ng "), 4u);
@@ -61,7 +61,7 @@ TEST_F(WriterTest, obj_files_of_regions_share_one_file_of_materials) {
 TEST_F(WriterTest, obj_holds_doubles_to_the_last_bit_and_the_exterior_as_its_number) {
     Mesh mesh;
     test::add_octahedron(mesh, {1.0 / 3, 0, 0}, {1, 1, 1}, 0, exterior(0));
-    const std::string text = written(mesh, labels_from({-4}), "m.obj");
+    const std::string text = written(mesh, test::labels_from({-4}), "m.obj");
     EXPECT_THAT(text, HasSubstr("v 1.3333333333333333 0 0\n"));
     EXPECT_THAT(text, HasSubstr("# exterior_label -5\n"));
     EXPECT_THAT(text, HasSubstr("\ng interface_-4_-5\n"));

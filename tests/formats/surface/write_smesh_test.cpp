@@ -63,7 +63,8 @@ TEST_F(WriterTest, faces_that_are_nearly_flat_have_different_markers_and_flat_on
         const Mesh mesh = test::shape(
             {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -height}},
             {{{0, 1, 4}}, {{1, 2, 4}}, {{2, 3, 4}}, {{3, 0, 4}}, {{1, 0, 5}}, {{2, 1, 5}}, {{3, 2, 5}}, {{0, 3, 5}}});
-        const auto faces = parts_of(rows_of(written(mesh, labels_from({1, 0}), "m.smesh", {.background = {1}})))[1];
+        const auto faces =
+            parts_of(rows_of(written(mesh, test::labels_from({1, 0}), "m.smesh", {.background = {1}})))[1];
         for (std::size_t n = 4; n < 8; ++n) {
             const bool is_marked_apart = faces[n].back() != faces[4 + (n + 1) % 4].back();
             EXPECT_EQ(is_marked_apart, height == 1e-4) << height;

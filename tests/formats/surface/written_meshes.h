@@ -7,16 +7,11 @@
 
 #include "formats/temporary_folder.h"
 #include "regionmesh/mesh_file.h"
+#include "support/labels.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
 namespace regionmesh {
-
-inline LabelTable labels_from(std::initializer_list<InputLabel> values, bool is_unsigned = false) {
-    LabelTable labels(is_unsigned);
-    for (const InputLabel value : values) labels.dense(value);
-    return labels;
-}
 
 /// Grains in a box, smoothed and decimated.
 inline const Reconstruction& grains() {
@@ -36,7 +31,7 @@ inline Mesh nested() {
     test::add_octahedron(mesh, {8, 0, 0}, {1, 1, 1}, 0, 2);
     return mesh;
 }
-inline LabelTable nested_labels() { return labels_from({5, 7, 0}); }
+inline LabelTable nested_labels() { return test::labels_from({5, 7, 0}); }
 
 class WriterTest : public TemporaryFolder {
 protected:
