@@ -1,5 +1,6 @@
 #include "blocks.h"
 
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 #include <sys/stat.h>
 
@@ -34,6 +35,10 @@ constexpr std::array<std::string_view, 13> kFree{"input",   "output",     "threa
 constexpr std::array<std::string_view, 9> kOneFile{"report",     "html",        "regions", "interfaces",   "lines",
                                                    "per-region", "face-budget", "units",   "preview-faces"};
 
+/// Options of convert that need the whole model, or change it.
+constexpr std::array<std::string_view, 9> kOfWholeModels{
+    "regions", "interfaces", "lines", "per-region", "background", "no-background", "weld", "orient", "space"};
+
 /// The folder that --output names, without a / at its end.
 fs::path folder_of(const std::string& output) {
     const fs::path path = output;
@@ -47,12 +52,12 @@ std::uint64_t hash_of(std::string_view text) {
     return hash;
 }
 
-/// "82,131 bytes, changed at 1700000000.5": a file that differs is another input.
+/// "82131 bytes, changed 2023-11-14 22:13:20.500000000 UTC": a file that differs is another input.
 std::string state_of(const fs::path& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return "missing";
     if (!S_ISDIR(status.st_mode))
-        return fmt::format("{} bytes, changed at {}.{:09}", status.st_size, status.st_mtim.tv_sec,
+        return fmt::format("{} bytes, changed {:%F %T}.{:09} UTC", status.st_size, fmt::gmtime(status.st_mtim.tv_sec),
                            status.st_mtim.tv_nsec);
     std::uint64_t files = 0, bytes = 0, states = 0;
     std::error_code ignored;
@@ -79,7 +84,7 @@ std::vector<fs::path> files_of_samples(const Settings& settings) {
 RunIdentity identity_of(const Settings& settings) {
     RunIdentity identity{{"version", REGIONMESH_VERSION}};
     const auto add = [&](const std::string& name, const fs::path& path, const std::string& inside = "") {
-        identity.emplace_back(fmt::format("{} {}{}", name, path.filename().string(), inside), state_of(path));
+        identity.emplace_back(name, fmt::format("{}{}, {}", path.filename().string(), inside, state_of(path)));
     };
     for (std::size_t n = 0; n < settings.inputs.size(); ++n) {
         const fs::path file = file_of_input(settings.inputs[n]);
@@ -157,6 +162,16 @@ bool is_written_in_pieces(const std::string& output) {
 
 bool is_precomputed(const std::string& output) { return folder_of(output).extension() == ".precomputed"; }
 
+void require_fit_of_pieces(const Settings& settings) {
+    const std::string& folder = settings.models.front();
+    if (!is_block_folder(folder))
+        throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
+                                           " is none; name a model such as model.vtp");
+    refuse_options(settings, kOfWholeModels,
+                   "is not for " + settings.output +
+                       ", which is written piece by piece; leave it out, or name a model such as model.vtp");
+}
+
 void make_block_folder(const Settings& settings) {
     if (settings.output.empty()) return;
     const fs::path folder = folder_of(settings.output);
@@ -169,6 +184,7 @@ void make_block_folder(const Settings& settings) {
             if (std::error_code missing;
                 !(file == "-" && is_model) && file.find(':') == std::string::npos && !fs::exists(file, missing))
                 return;  // the command says so, and leaves nothing behind
+    if (is_for_viewer) require_fit_of_pieces(settings);
     std::error_code error;
     for (const fs::path& path : {folder, folder / "names"}) {
         if (path != folder && !is_for_viewer) continue;

@@ -15,6 +15,9 @@ bool is_written_in_pieces(const std::string& output);
 /// A folder for Neuroglancer.
 bool is_precomputed(const std::string& output);
 
+/// Throws Error(kUsage) where such an output is not made from a folder of pieces, or options do not fit it.
+void require_fit_of_pieces(const Settings& settings);
+
 /// Makes the folder of pieces, or one .precomputed, if the command writes one: a confined process cannot. Throws
 /// Error(kOutput) where it cannot be made.
 void make_block_folder(const Settings& settings);

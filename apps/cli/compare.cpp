@@ -161,6 +161,22 @@ void print_report(const Settings& settings, const CompareReport& report, const L
     print_quality(report.quality);
 }
 
+/// Equal labels are taken for one region. Two programs, or two runs, may have numbered the same names differently.
+void warn_of_other_names(const LabelNames& a, const LabelNames& b) {
+    std::size_t count = 0;
+    std::string first;
+    for (const auto& [label, name] : a) {
+        const auto other = b.find(label);
+        if (other == b.end() || other->second == name) continue;
+        if (count++ == 0) first = fmt::format("{} is {} in A and {} in B", label, name, other->second);
+    }
+    if (count > 0)
+        warn(
+            fmt::format("{} under other names in A and B ({}): regions are compared by label, and shown with the "
+                        "names of A; give the same region the same label in both, with --merge when you reconstruct",
+                        counted(count, "label"), first));
+}
+
 /// The dense labels of the background that the model has.
 std::vector<Label> background_of(const Settings& settings, const LabelTable& labels) {
     const std::vector<InputLabel>& background = settings.reconstruct.background;
@@ -230,6 +246,7 @@ int run_compare(const Settings& given) {
                     fmt::format("{}, {}: one of them has no face of positive area, except faces between background and "
                                 "exterior: there is nothing to compare; see --no-background",
                                 settings.models[0], settings.models[1]));
+    warn_of_other_names(a.names, b.names);
     LabelNames names = a.names;
     names.insert(b.names.begin(), b.names.end());
     OutputFiles files(settings.writing);

@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kOfPrecomputed{"precomputed", "levels", "sharded"};
 
-/// Options that need the whole model, or change it.
-constexpr std::array<std::string_view, 9> kOfWholeModels{
-    "regions", "interfaces", "lines", "per-region", "background", "no-background", "weld", "orient", "space"};
-
 /// Throws Error(kUsage) for options of a folder .precomputed with another output. A model that is missing is said
 /// first.
 void require_fit_of_output(const Settings& settings) {
@@ -32,12 +28,7 @@ void require_fit_of_output(const Settings& settings) {
 bool convert_pieces(const Settings& settings) {
     const std::string& folder = settings.models.front();
     if (!is_written_in_pieces(settings.output)) return false;
-    if (!is_block_folder(folder))
-        throw Error(ErrorCode::kUsage, settings.output + ": is written from a folder of pieces, and " + folder +
-                                           " is none; name a model such as model.vtp");
-    refuse_options(settings, kOfWholeModels,
-                   "is not for " + settings.output +
-                       ", which is written piece by piece; leave it out, or name a model such as model.vtp");
+    require_fit_of_pieces(settings);
     auto [names, colours] = describe(settings, {}, {});
     if (settings.output.ends_with(".pvtp")) {
         const VtpPiecesOptions options{

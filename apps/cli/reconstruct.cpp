@@ -24,7 +24,7 @@ void print_volumes(const PreserveReport& preserved) {
         say("{} with a volume error above {:.0e}", counted(preserved.regions_off, "region"), kVolumeTolerance);
 }
 
-/// The faces that topology or --max-error leave are not known before the work.
+/// The faces that topology or --max-error leave are not known before the work, nor are those of standard input.
 void print_memory(const ReconstructOptions& options, const Report& report) {
     const auto is_far_above = [](std::uint64_t used, std::uint64_t limit) { return used > limit + limit / 10; };
     if (options.face_budget) {
@@ -32,8 +32,10 @@ void print_memory(const ReconstructOptions& options, const Report& report) {
             say("held {} faces, more than --face-budget {}: it is below what the target, topology or --max-error leave",
                 grouped(report.peak_faces), grouped(*options.face_budget));
     } else if (is_far_above(report.peak_bytes, options.memory)) {
-        say("used more than --memory, {} MB: the faces left by topology or --max-error are not known before the work",
-            grouped(options.memory / 1000000));
+        const bool is_at_target = report.stopped == to_string(StopReason::kTarget);
+        say("used more than --memory, {} MB: {}", grouped(options.memory / 1000000),
+            is_at_target ? "this surface takes more than the plan counts for one of so many faces"
+                         : "the faces left by topology or --max-error are not known before the work");
     }
 }
 
@@ -68,7 +70,8 @@ void print_details(const Report& report) {
 std::string files_text(const Settings& settings) {
     std::string text = printable(settings.output) + (settings.per_region ? " (one file a region)" : "");
     if (!settings.report.empty()) text += ", report " + printable(settings.report);
-    if (!settings.regions.empty()) text += ", table " + printable(settings.regions);
+    for (const std::string* table : {&settings.regions, &settings.interfaces, &settings.lines})
+        if (!table->empty()) text += ", table " + printable(*table);
     if (!settings.html.empty()) text += ", page " + printable(settings.html);
     return text;
 }
@@ -101,8 +104,8 @@ public:
         if (is_shown_ || settings_.memory_is_hard || progress.bytes_needed == 0) return;
         is_shown_ = true;
         warn(fmt::format(
-            "topology or --max-error leave more faces than --memory {} MB has room for: the run may need {} MB; "
-            "raise --memory, or end such runs with --memory-limit hard",
+            "topology, --max-error or an input that is read only once leave more faces than --memory {} MB has room "
+            "for: the run may need {} MB; raise --memory, or end such runs with --memory-limit hard",
             grouped(settings_.reconstruct.memory / 1000000), grouped(progress.bytes_needed / 1000000)));
     }
 

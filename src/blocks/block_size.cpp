@@ -53,9 +53,10 @@ public:
                 sections = std::min(with_halo, kWindowSections);
         }
         constexpr double kPerSample = 2 * sizeof(Label) + static_cast<double>(StripMesher::kBytesPerSample);
+        const std::uint64_t window = faces_per_cell_ > smoothing::kDenseFaces ? smoothing::kDenseLatticeBytesPerFace
+                                                                              : smoothing::kLatticeBytesPerFace;
         return static_cast<double>(kProcessBytes) + section * kPerSample +
-               faces_per_cell_ * (section * sections * smoothing::kLatticeBytesPerFace + layer * kChunkBytesPerFace +
-                                  one * kTilesBytesPerFace);
+               faces_per_cell_ * (section * sections * window + layer * kChunkBytesPerFace + one * kTilesBytesPerFace);
     }
 
 private:

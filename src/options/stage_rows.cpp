@@ -181,7 +181,7 @@ Rows comparison_rows() {
              .commands = kCompare},
             [](Settings& s) { return &s.samples; }, kSampleCounts),
         file_option({.name = "distance",
-                     .help = ".vtp to write: A with the distance of each vertex to B, point array Distance",
+                     .help = ".vtp or .vtu to write: A with the distance of each vertex to B, point array Distance",
                      .group = kGroup,
                      .commands = kCompare,
                      .is_output = true},

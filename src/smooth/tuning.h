@@ -30,8 +30,10 @@ inline constexpr double kTaubinPassesPerUnit = 20, kLaplacianPassesPerUnit = 10;
 inline constexpr double kLatticeMargin = 0.01;
 /// Bytes of its window per face: packed chunks, sites, estimates, and samples of the levels. Measured: 40 for the aal
 /// atlas (45 with a background, 46 with sections five times as far apart), 33 and 40 for foams, 57 for an atlas of
-/// smaller regions; 100 for noise of 256 labels, where most vertices are on lines.
-inline constexpr std::uint64_t kLatticeBytesPerFace = 64;
+/// smaller regions. Of dense surfaces, with more faces a sample than kDenseFaces, most vertices are on lines: 98 to 112
+/// for noise and checkers, and 143 with what else smoothing holds (11 to 52 faces a sample; other volumes have at most
+/// 1.5).
+inline constexpr std::uint64_t kLatticeBytesPerFace = 64, kDenseLatticeBytesPerFace = 144, kDenseFaces = 4;
 /// Sizes of blocks in finest spacings. Terraces are as many samples wide as sections are far apart, for the same slope,
 /// so anisotropic lattices start one scale coarser.
 inline constexpr double kSmallestBlock = 2, kLargestBlock = 8, kLargestBlockAnisotropic = 16;

@@ -11,11 +11,11 @@
 namespace regionmesh {
 namespace {
 
-/// Faces of the strips from `first` to before `end`, for all windows of strips.
+/// Sums of a number of each strip, over the strips from `first` to before `end`.
 class StripSums {
 public:
-    explicit StripSums(const std::vector<std::uint64_t>& faces) : sums_(1, 0) {
-        for (std::uint64_t count : faces) sums_.push_back(sums_.back() + count);
+    explicit StripSums(const std::vector<std::uint64_t>& numbers) : sums_(1, 0) {
+        for (std::uint64_t number : numbers) sums_.push_back(sums_.back() + number);
     }
     std::uint64_t size() const { return sums_.size() - 1; }
     std::uint64_t operator()(std::uint64_t first, std::uint64_t end) const {
@@ -44,9 +44,13 @@ std::uint64_t chunk_bytes_per_face(const BudgetDemand& demand, std::uint32_t til
                                       share_in_flight(demand, tiles_in_flight));
 }
 
-/// Bytes of the window when all strips before this one have left it.
-std::uint64_t window_at(const BudgetDemand& demand, const StripSums& faces, std::uint64_t strip) {
-    return faces(strip, strip + demand.window_strips) * demand.window_bytes_per_face;
+/// Bytes of each strip in the window of smoothing.
+std::vector<std::uint64_t> window_bytes(const BudgetDemand& demand) {
+    std::vector<std::uint64_t> bytes;
+    for (const std::uint64_t faces : demand.strip_faces)
+        bytes.push_back(
+            faces * (faces > demand.dense_faces ? demand.dense_window_bytes_per_face : demand.window_bytes_per_face));
+    return bytes;
 }
 
 Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32_t chunk_strips,
@@ -60,7 +64,9 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
                   .in_the_end = {},
                   .is_largest_in_the_end = {},
                   .asked_budget = demand.asked_budget};
-    const StripSums faces(demand.strip_faces);
+    const StripSums faces(demand.strip_faces), window_of(window_bytes(demand));
+    // When all strips before this one have left the window.
+    const auto window_at = [&](std::uint64_t strip) { return window_of(strip, strip + demand.window_strips); };
     const std::uint64_t reading = demand.reading_bytes, per_face = chunk_bytes_per_face(demand, in_flight);
     const std::uint64_t working = demand.is_decimating ? kWorkBytesPerFace : kMeshBytesPerFace;
     const auto note = [&](const MemoryNeed& need) {
@@ -72,9 +78,8 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
         const std::uint64_t end = std::min(first + chunk_strips, faces.size());
         const std::uint64_t before = faces(0, first), own = faces(first, end);
         std::uint64_t window = 0;
-        for (std::uint64_t strip = first; strip < end; ++strip)
-            window = std::max(window, window_at(demand, faces, strip));
-        const std::uint64_t window_after = window_at(demand, faces, end), chunk = own * per_face;
+        for (std::uint64_t strip = first; strip < end; ++strip) window = std::max(window, window_at(strip));
+        const std::uint64_t window_after = window_at(end), chunk = own * per_face;
         budget.chunks.push_back({before, own, reading + window + chunk, chunk, reading + window_after});
         const std::uint64_t kept = share_of(before, demand.target_share), left = share_of(own, demand.tile_share);
         most_gathering = std::max(most_gathering, note({reading, window, chunk, kept * kChunkBytesPerFace}));

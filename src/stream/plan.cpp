@@ -4,6 +4,7 @@
 
 #include "simplify/simplify_tiles.h"
 #include "smooth/filter.h"
+#include "smooth/tuning.h"
 #include "stream/footprint.h"
 #include "stream/tuning.h"
 
@@ -35,6 +36,12 @@ BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vect
                         .tiles_in_flight = kTilesInFlight};
     demand.fewest_chunk_strips = demand.chunk_strips;
     demand.window_bytes_per_face = window_bytes_per_face(options.smooth.filter, kWindowBytesPerFace);
+    if (options.smooth.filter == SmoothFilter::kLattice) {
+        const auto& axes = shape.sweep.axes;
+        const std::uint64_t samples = std::uint64_t{shape.lattice.size[axes[0]]} * shape.lattice.size[axes[1]];
+        demand.dense_faces = smoothing::kDenseFaces * samples;
+        demand.dense_window_bytes_per_face = smoothing::kDenseLatticeBytesPerFace;
+    }
     demand.is_decimating = is_decimating(options);
     demand.preserves_volume = options.preserve_volume;
     demand.asked_budget = options.face_budget;

@@ -292,6 +292,7 @@ TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {
     const Ran other = run("convert " + out("m.precomputed") + ' ' + out("again.precomputed"));
     EXPECT_EQ(other.code, 2);
     EXPECT_THAT(other.error, testing::HasSubstr("is written from a folder of pieces"));
+    EXPECT_FALSE(fs::exists(out("again.precomputed")));
 }
 
 TEST_F(BlockProgram, takes_a_folder_that_a_run_was_killed_in_at_once) {
@@ -333,7 +334,8 @@ TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
     put_text(path("grains.raw"), std::string(64000, 'x'));
     const Ran changed = run(grains("model"));
     EXPECT_EQ(changed.code, 1);
-    EXPECT_THAT(changed.error, testing::HasSubstr("was begun with input 1 grains.raw 64000 bytes"));
+    EXPECT_THAT(changed.error, testing::HasSubstr("was begun with input 1 grains.raw, 64000 bytes, changed 2"));
+    EXPECT_THAT(changed.error, testing::HasSubstr("UTC, and this run has grains.raw, 64000 bytes, changed 2"));
 }
 
 TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
@@ -351,10 +353,10 @@ TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
                       merged = header + " --merge " + path("m.csv").string();
     ASSERT_EQ(run(merged + last + out("merged")).code, 0);
     put_text(path("m.csv"), "1,3\n");
-    refused(merged + last + out("merged"), "was begun with --merge m.csv 4 bytes");
+    refused(merged + last + out("merged"), "was begun with --merge m.csv, 4 bytes");
     ASSERT_EQ(run(header + last + out("header")).code, 0);
     put_text(path("grains.raw"), std::string(64000, 'x'));
-    refused(header + last + out("header"), "was begun with samples 1 grains.raw 64000 bytes");
+    refused(header + last + out("header"), "was begun with samples 1 grains.raw, 64000 bytes");
 
     const fs::path store = path("s.zarr");
     fs::copy(data("chunked/zarr2/type_uint8.zarr"), store, fs::copy_options::recursive);

@@ -8,6 +8,7 @@
 #include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
 #include "support/digest.h"
+#include "support/labels.h"
 #include "support/paths.h"
 #include "support/runs.h"
 #include "support/shapes.h"
@@ -398,6 +399,21 @@ TEST_F(Cli, compare_prints_a_table_and_writes_all_figures) {
     EXPECT_EQ(quiet.code, 0);
     EXPECT_EQ(quiet.out + quiet.error, "");
     EXPECT_EQ(text_of(out("e.json")), text_of(out("c.json")));
+}
+
+TEST_F(Cli, compare_warns_where_models_name_a_label_differently) {
+    const LabelTable labels = test::labels_from({5, 7});
+    const auto write = [&](const char* name, const LabelNames& names) {
+        write_mesh(test::octahedron(), labels, path(name), {.names = names});
+        return " " + path(name).string();
+    };
+    const std::string soil = write("soil.vtp", {{5, "soil"}, {7, "sand"}}), chalk = write("chalk.vtp", {{5, "chalk"}}),
+                      bare = write("bare.vtp", {});
+    const Ran other = run("compare" + soil + chalk);
+    EXPECT_EQ(other.code, 0);
+    EXPECT_THAT(other.error, HasSubstr("1 label under other names in A and B (5 is soil in A and chalk in B)"));
+    EXPECT_EQ(run("compare" + soil + soil).error, "");
+    EXPECT_EQ(run("compare" + soil + bare).error, "");
 }
 
 TEST_F(Cli, compare_refuses_what_it_cannot_use) {

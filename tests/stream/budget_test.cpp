@@ -108,6 +108,16 @@ TEST(Budget, the_window_counts_the_strips_that_it_will_hold) {
     EXPECT_EQ(b.window, (20u * 5000 + 12 * 1000) * 100);
 }
 
+TEST(Budget, dense_strips_take_more_in_the_window) {
+    BudgetDemand demand = even_demand(100);
+    demand.target_share = 0;
+    demand.dense_faces = 4000;
+    demand.dense_window_bytes_per_face = 150;
+    EXPECT_EQ(plan_budget(kPlenty, demand).least.window, 32u * 1000 * 100);
+    std::fill(demand.strip_faces.begin() + 40, demand.strip_faces.begin() + 60, 5000);
+    EXPECT_EQ(plan_budget(kPlenty, demand).least.window, 20u * 5000 * 150 + 12 * 1000 * 100);
+}
+
 TEST(Budget, a_run_is_largest_in_the_end_where_its_model_outgrows_its_window) {
     BudgetDemand demand = even_demand(100, 20000);  // a window of 64 MB
     const Budget small = plan_budget(kPlenty, demand);
