@@ -31,7 +31,7 @@ constexpr std::array kSpending{
 
 std::atomic<MemoryRoom> room{MemoryRoom::kAmple};
 std::atomic<bool> may_set_heap{false};     // only programs do
-std::atomic<std::uint64_t> held_later{0};  // bytes, whatever is given back now
+std::atomic<std::uint64_t> held_later{0};  // bytes that the process will hold at some time in any case
 std::atomic<std::uint64_t> most_left{0};   // resident after freed memory was given back in this room
 
 const Spending& spending() { return kSpending[static_cast<std::size_t>(room.load())]; }

@@ -125,6 +125,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
         run.stuck_strip = build(strips, simplify, plan, room, options, log);
     }
     if (run.stuck_strip) return run;
+    // The window of smoothing is gone.
     if (room != MemoryRoom::kShort) note_memory_room(MemoryRoom::kAmple, plan.budget.in_the_end);
     result.labels = source.labels();
     result.background = source.background();

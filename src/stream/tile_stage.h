@@ -18,8 +18,8 @@ public:
     bool is_on() const { return is_on_; }
     /// Coarsens the caps of the chunk, and decimates it up to a fixed cost; never below what the target leaves. If
     /// the target is near, and the chunk before had few free collapses, only coarsens the caps: the second stage takes
-    /// less time for the other collapses. Returns the chunk that is left. If its faces were decimated, the
-    /// gathered chunk keeps its arrays.
+    /// less time for the other collapses. Returns the chunk that is left. If its faces were decimated, the gathered
+    /// chunk keeps its arrays.
     Chunk run(GatheredStrips& gathered);
 
 private:

@@ -174,8 +174,7 @@ TEST_F(Cli, smooth_may_write_over_what_it_read) {
 TEST_F(Cli, smooth_of_a_broken_model_is_exit_3) {
     Mesh mesh = test::octahedron();
     mesh.remove_face(FaceId{0});
-    LabelTable labels;
-    for (InputLabel label : {5, 7}) labels.dense(label);
+    const LabelTable labels = test::labels_from({5, 7});
     write_mesh(mesh, labels, path("broken.vtp"), {});
     const Ran ran = run("smooth " + path("broken.vtp").string() + " -o " + out("m.vtp"));
     EXPECT_EQ(ran.code, 3);
@@ -193,8 +192,7 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     expect_refusal("smooth " + path("nothing.vtp").string() + " " + to, 1, "nothing.vtp");
     expect_refusal("smooth " + path("volume.raw").string() + " " + to, 1, "volume.raw");
     expect_refusal("smooth " + path("nothing.vtp").string(), 2, "--output");
-    LabelTable labels;
-    for (InputLabel label : {5, 7}) labels.dense(label);
+    const LabelTable labels = test::labels_from({5, 7});
     write_mesh(test::octahedron(), labels, path("good.vtp"), {});
     expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.xyz");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 2, "--smooth-lambda");
@@ -296,8 +294,7 @@ TEST_F(Cli, a_file_size_limit_is_one_line_and_leaves_nothing) {
 TEST_F(Cli, check_of_a_broken_model_is_exit_3) {
     Mesh mesh = test::octahedron();
     mesh.remove_face(FaceId{0});
-    LabelTable labels;
-    for (InputLabel label : {5, 7}) labels.dense(label);
+    const LabelTable labels = test::labels_from({5, 7});
     write_mesh(mesh, labels, path("broken.vtp"), {});
     const Ran ran = run("check " + path("broken.vtp").string() + " --json " + path("c.json").string());
     EXPECT_EQ(ran.code, 3);
@@ -309,8 +306,7 @@ TEST_F(Cli, check_of_a_broken_model_is_exit_3) {
 }
 
 TEST_F(Cli, check_of_a_good_model_is_exit_0) {
-    LabelTable labels;
-    for (InputLabel label : {5, 7}) labels.dense(label);
+    const LabelTable labels = test::labels_from({5, 7});
     write_mesh(test::octahedron(), labels, path("good.ply"), {});
     EXPECT_EQ(run("check " + path("good.ply").string()).code, 0);
 }
@@ -417,8 +413,7 @@ TEST_F(Cli, compare_warns_where_models_name_a_label_differently) {
 }
 
 TEST_F(Cli, compare_refuses_what_it_cannot_use) {
-    LabelTable labels;
-    for (InputLabel label : {5, 7}) labels.dense(label);
+    const LabelTable labels = test::labels_from({5, 7});
     write_mesh(test::octahedron(), labels, path("good.vtp"), {});
     write_mesh(Mesh(), labels, path("empty.vtp"), {});
     const std::string good = path("good.vtp").string();

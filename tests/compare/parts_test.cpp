@@ -7,6 +7,7 @@
 #include "mesh/mesh_part.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/write_report.h"
+#include "support/labels.h"
 #include "support/runs.h"
 
 namespace regionmesh {
@@ -149,8 +150,7 @@ Mesh two_squares(double apart, Label first, Label second) {
 }
 
 TEST(CompareParts, a_region_is_found_in_a_part_far_away) {
-    LabelTable labels;
-    for (const InputLabel label : {1, 2, 3}) labels.dense(label);
+    const LabelTable labels = test::labels_from({1, 2, 3});
     const Mesh a = two_squares(10, 0, 1), b = two_squares(10, 1, 2);
     const ComparedMesh from{a, labels};
     const DividedMesh to(b, labels, 12, slabs(1.5));
@@ -165,8 +165,7 @@ TEST(CompareParts, a_region_is_found_in_a_part_far_away) {
 }
 
 TEST(CompareParts, a_part_that_no_sample_needs_is_not_searched) {
-    LabelTable labels;
-    for (const InputLabel label : {1, 2}) labels.dense(label);
+    const LabelTable labels = test::labels_from({1, 2});
     Mesh one = two_squares(100, 0, 0);
     for (std::uint32_t f = 2; f < 4; ++f) one.remove_face(FaceId{f});
     const Mesh both = two_squares(100, 0, 0);

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "support/labels.h"
 #include "support/shapes.h"
 
 namespace regionmesh {
@@ -17,11 +18,7 @@ Mesh two_squares() {
         {{{0, 1, 2}}, {{0, 2, 3}}, {{4, 5, 6}, 0, 2}, {{4, 6, 7}, 0, 2}, {{4, 4, 5}, 1, 2}, {{4, 5, 5}, 1, 2}});
 }
 
-LabelTable labels() {
-    LabelTable table;
-    for (InputLabel label : {0, 1, 2}) table.dense(label);
-    return table;
-}
+LabelTable labels() { return test::labels_from({0, 1, 2}); }
 
 SortedStrata strata_of(const Mesh& mesh) {
     const LabelTable table = labels();

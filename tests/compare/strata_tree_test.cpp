@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compare/distance.h"
+#include "support/labels.h"
 
 namespace regionmesh {
 namespace {
@@ -115,8 +116,7 @@ TEST(StrataTree, finds_nothing_where_there_is_nothing) {
 
 TEST(SortedStrata, hold_every_face_once_under_its_labels) {
     const Mesh mesh = scattered_faces(500, 5);
-    LabelTable other;
-    for (InputLabel label : {5, 3, 9, 1, 0, 2, 4}) other.dense(label);
+    const LabelTable other = test::labels_from({5, 3, 9, 1, 0, 2, 4});
     const LabelTable table = labels_up_to(6);
     const CommonLabels labels(other, table);
     const SortedStrata sorted = interfaces_of({mesh, labels, 1, {}}, 2);

@@ -9,6 +9,7 @@
 #include "regionmesh/error.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
+#include "support/labels.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -103,8 +104,7 @@ TEST(MeshArrays, simplify_without_a_file) {
 
 TEST(MeshArrays, count_living_vertices_and_faces_only) {
     Mesh mesh = test::octahedron();
-    LabelTable labels;
-    for (const InputLabel label : {5, 7}) labels.dense(label);
+    const LabelTable labels = test::labels_from({5, 7});
     mesh.remove_vertex(mesh.add_vertex({9, 9, 9}));
     mesh.add_vertex({8, 8, 8});
     mesh.remove_face(FaceId{0});
@@ -136,9 +136,8 @@ TEST(MeshArrays, keep_negative_labels_and_find_another_exterior) {
 TEST(MeshArrays, keep_labels_of_64_bits) {
     constexpr auto kHighest = std::numeric_limits<std::int64_t>::max();
     for (const bool is_unsigned : {false, true}) {
-        LabelTable labels(is_unsigned);
         // As unsigned numbers -2 is the greater one.
-        for (const InputLabel label : {InputLabel{-2}, kHighest}) labels.dense(label);
+        const LabelTable labels = test::labels_from({InputLabel{-2}, kHighest}, is_unsigned);
         const MeshArrays arrays = export_arrays(test::octahedron(), labels);
         if (is_unsigned)
             EXPECT_THAT(arrays.labels, Each(ElementsAre(kHighest, -2)));
