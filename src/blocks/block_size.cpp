@@ -10,7 +10,7 @@
 #include "blocks/own_faces.h"
 #include "cells/strip_mesher.h"
 #include "regionmesh/error.h"
-#include "smooth/tuning.h"
+#include "smooth/filter.h"
 #include "stream/footprint.h"
 
 namespace regionmesh {
@@ -35,6 +35,8 @@ public:
         : shape_(shape), halo_(halo_of(shape, options)) {
         const auto& size = shape.lattice.size;
         faces_per_cell_ = uneven * static_cast<double>(faces) / (static_cast<double>(size[0]) * size[1] * size[2]);
+        window_bytes_ =
+            static_cast<double>(window_bytes_per_face(options.smooth.filter, faces_per_cell_, kWindowBytesPerFace));
     }
 
     /// Of a box of `cells` cells, in blocks of `block`: it holds the window of smoothing, one layer of blocks along the
@@ -53,16 +55,15 @@ public:
                 sections = std::min(with_halo, kWindowSections);
         }
         constexpr double kPerSample = 2 * sizeof(Label) + static_cast<double>(StripMesher::kBytesPerSample);
-        const std::uint64_t window = faces_per_cell_ > smoothing::kDenseFaces ? smoothing::kDenseLatticeBytesPerFace
-                                                                              : smoothing::kLatticeBytesPerFace;
         return static_cast<double>(kProcessBytes) + section * kPerSample +
-               faces_per_cell_ * (section * sections * window + layer * kChunkBytesPerFace + one * kTilesBytesPerFace);
+               faces_per_cell_ *
+                   (section * sections * window_bytes_ + layer * kChunkBytesPerFace + one * kTilesBytesPerFace);
     }
 
 private:
     const SourceShape& shape_;
     std::array<std::uint32_t, 3> halo_;
-    double faces_per_cell_;
+    double faces_per_cell_, window_bytes_;
 };
 
 /// Boxes of `side` blocks, the last along each axis cut by the volume.

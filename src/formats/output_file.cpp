@@ -196,7 +196,8 @@ void OutputFile::remove_temporary() {
 }
 
 void OutputFile::fail(int error_number) const {
-    fail("cannot be written: " + std::generic_category().message(error_number));
+    const char* advice = error_number == ENOENT ? "; make its folder first" : "";
+    fail("cannot be written: " + std::generic_category().message(error_number) + advice);
 }
 
 void OutputFile::fail(const std::string& reason) const {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "formats/array/read_pipe.h"
 #include "formats/array/volume_formats.h"
 #include "formats/input_file.h"
@@ -89,6 +91,8 @@ void require_work(const SectionReader& reader, std::uint64_t most) {
 std::unique_ptr<SectionReader> open_inputs(const std::vector<fs::path>& inputs, const ReadOptions& options) {
     if (inputs.size() == 1 && inputs.front() == "-") return formats::open_pipe(options);
     if (inputs.size() == 1) return open_one(inputs.front(), options);
+    if (std::ranges::find(inputs, fs::path("-")) != inputs.end())
+        throw Error(ErrorCode::kUsage, "standard input: is one of several inputs; give it alone, or name files");
     if (options.raw_size || options.raw_type) {
         formats::fail(inputs.front(), "--size and --type are for one raw file, and " + std::to_string(inputs.size()) +
                                           " are given; give one");

@@ -121,10 +121,10 @@ std::optional<Node> CapSide::node_at(Vec3 p) const {
     std::array<std::uint32_t, 2> found{};
     for (int n = 0; n < 2; ++n) {
         const int axis = n == 0 ? u_axis_ : v_axis_;
-        const double index = std::round((p[axis] - lattice_.origin[axis]) / lattice_.spacing[axis]);
-        if (!(index >= 0 && index < 0x1p31) || lattice_.origin[axis] + index * lattice_.spacing[axis] != p[axis])
-            return {};
+        const double index = (p[axis] - lattice_.origin[axis]) / lattice_.spacing[axis] + 0.5;
+        if (!(index >= 0 && index < 0x1p31)) return {};
         found[n] = static_cast<std::uint32_t>(index);
+        if (lattice_.origin[axis] + found[n] * lattice_.spacing[axis] != p[axis]) return {};
     }
     return Node{found[0], found[1]};
 }

@@ -8,6 +8,7 @@
 #include "mesh/strata.h"
 #include "simplify/bytes.h"
 #include "simplify/candidates.h"
+#include "simplify/flat_vertices.h"
 #include "simplify/half_candidates.h"
 #include "simplify/prepass.h"
 #include "simplify/tuning.h"
@@ -52,10 +53,11 @@ public:
           is_refreshing_(bounds.refresh),
           threads_(bounds.threads),
           histogram_(bounds.histogram),
+          outside_(mesh, bounds.limits),
+          flat_(remove_flat(mesh, options, bounds)),
           tree_(tree_of(mesh, options, bounds)),
           rising_(rising_of(mesh, options)),
-          outside_(mesh, bounds.limits),
-          placement_((count_labels(mesh, bounds.threads), make_placement(mesh, options, bounds.threads))),
+          placement_(make_placement(mesh, options, bounds.threads)),
           candidates_(mesh, *placement_, options, bounds.is_large ? EdgeOrder::kInSweeps : EdgeOrder::kByCost),
           halves_(mesh.vertex_count() / 2),
           collapse_{.mesh = mesh,
@@ -68,7 +70,8 @@ public:
                     .log = bounds.log} {}
 
     CollapseResult run() {
-        const std::uint32_t faces = mesh_.face_count(), vertices = mesh_.vertex_count();
+        const std::uint32_t faces = mesh_.face_count() + 2 * flat_, vertices = mesh_.vertex_count() + flat_;
+        result_.verdicts[static_cast<int>(Verdict::kAccepted)] += flat_;
         sweep();
         if (histogram_) {
             histogram_->removed.assign(histogram_->costs.size() + 1, {});
@@ -97,6 +100,18 @@ public:
     }
 
 private:
+    /// Returns the number of vertices that went.
+    static std::uint32_t remove_flat(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds) {
+        count_labels(mesh, bounds.threads);
+        Collapse collapse{.mesh = mesh,
+                          .bounds = {.min_quality = options.min_quality},
+                          .max_error = options.max_error,
+                          .log = bounds.log};
+        const std::uint32_t removed = remove_flat_vertices(mesh, collapse, options.target_faces);
+        if (removed > 0) mesh.compact_faces();
+        return removed;
+    }
+
     static std::optional<FaceTree> tree_of(const Mesh& mesh, const SimplifyOptions& options,
                                            const CollapseBounds& bounds) {
         if (!options.intersect_check) return {};
@@ -225,9 +240,10 @@ private:
     bool is_refreshing_;
     std::uint32_t threads_;
     CostHistogram* histogram_;
+    FixedOutside outside_;
+    std::uint32_t flat_;  // vertices that went before all else
     std::optional<FaceTree> tree_;
     std::optional<RisingFaces> rising_;
-    FixedOutside outside_;
     std::unique_ptr<Placement> placement_;
     Candidates candidates_;
     HalfCandidates halves_;

@@ -67,7 +67,8 @@ public:
 
 std::unique_ptr<Filter> make_filter(const FilterInput& input);
 
-/// Bytes per face of the window of a filter; `shared` are those that all filters with passes keep.
-std::uint64_t window_bytes_per_face(SmoothFilter filter, std::uint64_t shared);
+/// Bytes per face of the window of a filter, of a volume or a strip with so many faces a sample; `shared` are those
+/// that all filters with passes keep.
+std::uint64_t window_bytes_per_face(SmoothFilter filter, double faces_per_sample, std::uint64_t shared);
 
 }  // namespace regionmesh

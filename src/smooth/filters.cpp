@@ -38,8 +38,10 @@ const FilterRow& row_of(SmoothFilter filter) {
 
 std::unique_ptr<Filter> make_filter(const FilterInput& input) { return row_of(input.options.filter).make(input); }
 
-std::uint64_t window_bytes_per_face(SmoothFilter filter, std::uint64_t shared) {
-    return filter == SmoothFilter::kLattice ? smoothing::kLatticeBytesPerFace : shared + row_of(filter).bytes_per_face;
+std::uint64_t window_bytes_per_face(SmoothFilter filter, double faces_per_sample, std::uint64_t shared) {
+    if (filter != SmoothFilter::kLattice) return shared + row_of(filter).bytes_per_face;
+    return faces_per_sample > smoothing::kDenseFaces ? smoothing::kDenseLatticeBytesPerFace
+                                                     : smoothing::kLatticeBytesPerFace;
 }
 
 }  // namespace regionmesh

@@ -33,7 +33,8 @@ inline constexpr double kLatticeMargin = 0.01;
 /// smaller regions. Of dense surfaces, with more faces a sample than kDenseFaces, most vertices are on lines: 98 to 112
 /// for noise and checkers, and 143 with what else smoothing holds (11 to 52 faces a sample; other volumes have at most
 /// 1.5).
-inline constexpr std::uint64_t kLatticeBytesPerFace = 64, kDenseLatticeBytesPerFace = 144, kDenseFaces = 4;
+inline constexpr std::uint64_t kLatticeBytesPerFace = 64, kDenseLatticeBytesPerFace = 144;
+inline constexpr double kDenseFaces = 4;
 /// Sizes of blocks in finest spacings. Terraces are as many samples wide as sections are far apart, for the same slope,
 /// so anisotropic lattices start one scale coarser.
 inline constexpr double kSmallestBlock = 2, kLargestBlock = 8, kLargestBlockAnisotropic = 16;

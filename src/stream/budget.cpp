@@ -44,15 +44,6 @@ std::uint64_t chunk_bytes_per_face(const BudgetDemand& demand, std::uint32_t til
                                       share_in_flight(demand, tiles_in_flight));
 }
 
-/// Bytes of each strip in the window of smoothing.
-std::vector<std::uint64_t> window_bytes(const BudgetDemand& demand) {
-    std::vector<std::uint64_t> bytes;
-    for (const std::uint64_t faces : demand.strip_faces)
-        bytes.push_back(
-            faces * (faces > demand.dense_faces ? demand.dense_window_bytes_per_face : demand.window_bytes_per_face));
-    return bytes;
-}
-
 Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32_t chunk_strips,
                    std::uint32_t in_flight) {
     Budget budget{.memory = memory,
@@ -64,7 +55,7 @@ Budget plan_chunks(std::uint64_t memory, const BudgetDemand& demand, std::uint32
                   .in_the_end = {},
                   .is_largest_in_the_end = {},
                   .asked_budget = demand.asked_budget};
-    const StripSums faces(demand.strip_faces), window_of(window_bytes(demand));
+    const StripSums faces(demand.strip_faces), window_of(demand.window_bytes);
     // When all strips before this one have left the window.
     const auto window_at = [&](std::uint64_t strip) { return window_of(strip, strip + demand.window_strips); };
     const std::uint64_t reading = demand.reading_bytes, per_face = chunk_bytes_per_face(demand, in_flight);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,16 +16,14 @@ struct BudgetDemand {
     std::string source;                       // for messages
     std::uint64_t reading_bytes = 0;          // of the process, reading and meshing
     std::vector<std::uint64_t> strip_faces;   // of each strip before simplification: counted, or a guess
+    std::vector<std::uint64_t> window_bytes;  // of each strip while smoothing holds it
     std::uint32_t window_strips = 0;          // that smoothing holds at most; 0 without smoothing
-    std::uint64_t window_bytes_per_face = 0;  // of the faces of these strips
-    std::uint64_t dense_faces = std::numeric_limits<std::uint64_t>::max();  // of a strip; if it has more,
-    std::uint64_t dense_window_bytes_per_face = 0;                          // this takes its place
-    std::uint32_t chunk_strips = 1;         // strips gathered before they are merged, if memory allows
-    std::uint32_t fewest_chunk_strips = 1;  // and if it does not
-    std::uint32_t tiles = 1;                // tiles of a chunk
-    std::uint32_t tiles_in_flight = 16;     // worked on at a time, if memory allows
-    double target_share = 1;                // of all faces, that the mesh keeps
-    double tile_share = 1;                  // of the faces of a chunk that its tiles may leave; 1: no tiles
+    std::uint32_t chunk_strips = 1;           // strips gathered before they are merged, if memory allows
+    std::uint32_t fewest_chunk_strips = 1;    // and if it does not
+    std::uint32_t tiles = 1;                  // tiles of a chunk
+    std::uint32_t tiles_in_flight = 16;       // worked on at a time, if memory allows
+    double target_share = 1;                  // of all faces, that the mesh keeps
+    double tile_share = 1;                    // of the faces of a chunk that its tiles may leave; 1: no tiles
     bool is_decimating = false;
     bool preserves_volume = false;
     std::optional<std::uint64_t> asked_budget = {};  // most faces held at once, whatever memory says

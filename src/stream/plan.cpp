@@ -4,7 +4,6 @@
 
 #include "simplify/simplify_tiles.h"
 #include "smooth/filter.h"
-#include "smooth/tuning.h"
 #include "stream/footprint.h"
 #include "stream/tuning.h"
 
@@ -19,6 +18,10 @@ std::uint32_t tile_count(const TilePlan& tiles) {
     return count;
 }
 
+std::uint64_t samples_of_section(const Lattice& lattice, const Sweep& sweep) {
+    return std::uint64_t{lattice.size[sweep.axes[0]]} * lattice.size[sweep.axes[1]];
+}
+
 /// Strips of a chunk where memory does not limit them: as many as make a tile, or as asked for without tiles.
 std::uint32_t strips_per_chunk(const SourceShape& shape, const TilePlan& tiles, const ReconstructOptions& options) {
     if (!is_decimating(options)) return options.strips_per_chunk;
@@ -26,27 +29,33 @@ std::uint32_t strips_per_chunk(const SourceShape& shape, const TilePlan& tiles, 
     return std::max(static_cast<std::uint32_t>(std::uint64_t{tiles.run_strips} * shape.strip_count / cells), 1u);
 }
 
+/// Bytes of each strip in the window of smoothing.
+std::vector<std::uint64_t> window_bytes(const std::vector<std::uint64_t>& strip_faces, const SourceShape& shape,
+                                        SmoothFilter filter) {
+    const double samples = static_cast<double>(samples_of_section(shape.lattice, shape.sweep));
+    std::vector<std::uint64_t> bytes;
+    for (const std::uint64_t faces : strip_faces)
+        bytes.push_back(faces *
+                        window_bytes_per_face(filter, static_cast<double>(faces) / samples, kWindowBytesPerFace));
+    return bytes;
+}
+
 BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vector<std::uint64_t> strip_faces,
                        const TilePlan& tiles, const ReconstructOptions& options) {
     BudgetDemand demand{.source = shape.name,
                         .reading_bytes = shape.reading_bytes,
                         .strip_faces = std::move(strip_faces),
+                        .window_bytes = {},
                         .chunk_strips = strips_per_chunk(shape, tiles, options),
                         .tiles = tile_count(tiles),
                         .tiles_in_flight = kTilesInFlight};
     demand.fewest_chunk_strips = demand.chunk_strips;
-    demand.window_bytes_per_face = window_bytes_per_face(options.smooth.filter, kWindowBytesPerFace);
-    if (options.smooth.filter == SmoothFilter::kLattice) {
-        const auto& axes = shape.sweep.axes;
-        const std::uint64_t samples = std::uint64_t{shape.lattice.size[axes[0]]} * shape.lattice.size[axes[1]];
-        demand.dense_faces = smoothing::kDenseFaces * samples;
-        demand.dense_window_bytes_per_face = smoothing::kDenseLatticeBytesPerFace;
-    }
     demand.is_decimating = is_decimating(options);
     demand.preserves_volume = options.preserve_volume;
     demand.asked_budget = options.face_budget;
     const bool is_counted = !demand.strip_faces.empty();
     if (!is_counted) demand.strip_faces = guessed_strip_faces(shape.lattice, shape.sweep);
+    demand.window_bytes = window_bytes(demand.strip_faces, shape, options.smooth.filter);
     if (!demand.is_decimating) {
         // The size of the mesh is not taken from a guess, which may be far too high.
         demand.target_share = is_counted ? 1 : 0;
@@ -66,10 +75,8 @@ bool is_decimating(const ReconstructOptions& options) {
 }
 
 std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep sweep) {
-    const auto& size = lattice.size;
-    const auto& axes = sweep.axes;
-    const std::uint64_t strips = std::max(size[axes[2]], 1u) - 1;
-    return std::vector<std::uint64_t>(strips, std::uint64_t{size[axes[0]]} * size[axes[1]]);
+    const std::uint64_t strips = std::max(lattice.size[sweep.axes[2]], 1u) - 1;
+    return std::vector<std::uint64_t>(strips, samples_of_section(lattice, sweep));
 }
 
 Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::uint32_t window_strips,

@@ -85,6 +85,7 @@ TEST_F(Pipe, that_is_too_short_or_too_long_or_no_array_is_refused) {
     EXPECT_THAT(said(npy().substr(0, 50), "-"), HasSubstr("ends before"));
     EXPECT_THAT(said(npy("True"), "-"), HasSubstr("is in Fortran order"));
     EXPECT_THAT(said(labels_, raw_ + "--sweep x"), HasSubstr("cannot be read along x"));
+    expect_refusal("reconstruct - -" + rest, 2, "standard input: is one of several inputs");
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ TEST_F(OutputFileTest, failed_write_removes_the_temporary_file) {
 
 TEST_F(OutputFileTest, missing_folder_and_folder_as_target_are_output_errors) {
     EXPECT_THAT(failure_of([&] { OutputFile file(path("none/a.txt")); }),
-                testing::HasSubstr("No such file or directory"));
+                testing::HasSubstr("No such file or directory; make its folder first"));
     std::filesystem::create_directory(path("folder"));
     EXPECT_THAT(failure_of([&] { OutputFile file(path("folder")); }), testing::HasSubstr("Is a directory"));
 }

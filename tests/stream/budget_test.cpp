@@ -26,8 +26,8 @@ BudgetDemand even_demand(std::uint32_t strips, std::uint64_t faces = 1000) {
     return {.source = volume.source,
             .reading_bytes = reading_bytes(volume),
             .strip_faces = std::vector<std::uint64_t>(strips, faces),
+            .window_bytes = std::vector<std::uint64_t>(strips, 100 * faces),
             .window_strips = 32,
-            .window_bytes_per_face = 100,
             .chunk_strips = 32,
             .fewest_chunk_strips = 4,
             .tiles = 25,
@@ -102,20 +102,10 @@ TEST(Budget, more_sections_need_no_more) {
 TEST(Budget, the_window_counts_the_strips_that_it_will_hold) {
     BudgetDemand even = even_demand(100), uneven = even;
     even.target_share = uneven.target_share = 0;
-    std::fill(uneven.strip_faces.begin() + 40, uneven.strip_faces.begin() + 60, 5000);
+    std::fill(uneven.window_bytes.begin() + 40, uneven.window_bytes.begin() + 60, 5000 * 100);
     const MemoryNeed a = plan_budget(kPlenty, even).least, b = plan_budget(kPlenty, uneven).least;
     EXPECT_EQ(a.window, 32u * 1000 * 100);
     EXPECT_EQ(b.window, (20u * 5000 + 12 * 1000) * 100);
-}
-
-TEST(Budget, dense_strips_take_more_in_the_window) {
-    BudgetDemand demand = even_demand(100);
-    demand.target_share = 0;
-    demand.dense_faces = 4000;
-    demand.dense_window_bytes_per_face = 150;
-    EXPECT_EQ(plan_budget(kPlenty, demand).least.window, 32u * 1000 * 100);
-    std::fill(demand.strip_faces.begin() + 40, demand.strip_faces.begin() + 60, 5000);
-    EXPECT_EQ(plan_budget(kPlenty, demand).least.window, 20u * 5000 * 150 + 12 * 1000 * 100);
 }
 
 TEST(Budget, a_run_is_largest_in_the_end_where_its_model_outgrows_its_window) {
@@ -171,8 +161,8 @@ TEST(Budget, the_next_chunk_is_gathered_ahead_only_where_both_fit) {
 TEST(Budget, gathering_ahead_has_the_larger_window_of_both_chunks) {
     BudgetDemand demand = even_demand(100);
     demand.window_strips = 4;
-    demand.window_bytes_per_face = 64;
     std::fill(demand.strip_faces.begin() + 32, demand.strip_faces.end(), 3000);
+    std::fill(demand.window_bytes.begin() + 32, demand.window_bytes.end(), 3000 * 64);
     Budget budget = plan_budget(kPlenty, demand);
     const ChunkMemory &now = budget.chunks[0], &next = budget.chunks[1];
     ASSERT_GT(next.gathering - next.tiles, now.gathering - now.tiles);
