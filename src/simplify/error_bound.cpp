@@ -100,6 +100,7 @@ bool ErrorBound::stays_flat(const Mesh& mesh, const EdgeStar& star) const {
 
 double ErrorBound::of_interface(const Mesh& mesh, const EdgeStar& star, Vec3 position) {
     const double far = far_bound(star, position);
+    if (far <= bound_) return far;  // another interface demands as much
     const std::size_t demands = demands_.size();
     if (is_vertical(mesh, star, position) && needed_ < far) return needed_;
     demands_.resize(demands);
