@@ -115,14 +115,36 @@ def get_requires_for_build_wheel(config_settings=None):
     return []
 
 
+def _tag():
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+
+
+def _info():
+    """What the folder .dist-info holds beside its record, by file."""
+    return {
+        "METADATA": _metadata().encode(),
+        "WHEEL": f"Wheel-Version: 1.0\nGenerator: regionmesh\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode(),
+        "entry_points.txt": b"[console_scripts]\nregionmesh = regionmesh.__main__:main\n",
+        "LICENSE": (_ROOT / "LICENSE").read_bytes(),
+    }
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Write the folder .dist-info and return its name; without this pip builds the wheel to learn its metadata."""
+    info = Path(metadata_directory) / f"regionmesh-{_version()}.dist-info"
+    info.mkdir()
+    for name, data in _info().items():
+        (info / name).write_bytes(data)
+    return info.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Build the wheel and return its name."""
     folder = _build(config_settings or {})
     (module,) = (folder / "python" / "regionmesh").glob("_core.*.so")
     programs = [path for path in (folder / "regionmesh", folder / "regionmesh-hdf5", folder / "regionmesh-dicom") if path.exists()]
-    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    tag = f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
-    name = f"regionmesh-{_version()}-{tag}.whl"
+    name = f"regionmesh-{_version()}-{_tag()}.whl"
     wheel = _Wheel(Path(wheel_directory) / name)
     for path in sorted(_PACKAGE.iterdir()):
         if path.suffix in (".py", ".pyi", ".html") or path.name == "py.typed":
@@ -133,10 +155,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     for library, path in sorted(_shared_libraries([module, *programs]).items()):
         wheel.add(f"regionmesh/lib/{library}", path.read_bytes(), 0o755)
     info = f"regionmesh-{_version()}.dist-info"
-    wheel.add(f"{info}/METADATA", _metadata().encode())
-    wheel.add(f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: regionmesh\nRoot-Is-Purelib: false\nTag: {tag}\n".encode())
-    wheel.add(f"{info}/entry_points.txt", b"[console_scripts]\nregionmesh = regionmesh.__main__:main\n")
-    wheel.add(f"{info}/LICENSE", (_ROOT / "LICENSE").read_bytes())
+    for file, data in _info().items():
+        wheel.add(f"{info}/{file}", data)
     wheel.close(info)
     return name
 

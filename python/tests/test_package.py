@@ -101,13 +101,28 @@ def test_the_files_of_a_wheel_have_no_time_of_the_build(wheel):
         assert {info.date_time for info in archive.infolist()} == {(2000, 1, 1, 0, 0, 0)}
 
 
-def test_an_archive_of_sources_holds_what_a_build_needs(tmp_path):
+@pytest.fixture
+def backend():
+    """The module with the hooks that pip calls."""
     sys.path.insert(0, str(ROOT / "python/backend"))
     try:
         import regionmesh_backend
     finally:
         sys.path.pop(0)
-    name = regionmesh_backend.build_sdist(tmp_path)
+    return regionmesh_backend
+
+
+def test_metadata_is_that_of_the_wheel_without_a_build(backend, wheel, tmp_path):
+    folder = backend.prepare_metadata_for_build_wheel(tmp_path)
+    with zipfile.ZipFile(wheel) as archive:
+        held = {name for name in archive.namelist() if name.startswith(f"{folder}/")}
+        assert held == {f"{folder}/{path.name}" for path in (tmp_path / folder).iterdir()} | {f"{folder}/RECORD"}
+        for path in (tmp_path / folder).iterdir():
+            assert archive.read(f"{folder}/{path.name}") == path.read_bytes()
+
+
+def test_an_archive_of_sources_holds_what_a_build_needs(backend, tmp_path):
+    name = backend.build_sdist(tmp_path)
     listed = run("tar", "-tzf", tmp_path / name).stdout.split()
     base = name.removesuffix(".tar.gz")
     for path in ("CMakeLists.txt", "pyproject.toml", "python/CMakeLists.txt", "src/base/stop.cpp", "PKG-INFO",
