@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/box_sides.h"
 #include "mesh/strata.h"
 
 namespace regionmesh {
@@ -51,11 +52,14 @@ bool GenericStar::has_one_fan(VertexId v, Label label) {
     });
     if (!order_fan(fan_)) return false;
     if (is_closed(fan_)) return fan_.size() >= 3;
-    return may_be_open(label, v, fan_.front().first) && may_be_open(label, v, fan_.back().second);
+    return may_be_open(label, v, fan_.front().first, FaceId{fan_.front().name}) &&
+           may_be_open(label, v, fan_.back().second, FaceId{fan_.back().name});
 }
 
-bool GenericStar::may_be_open(Label label, VertexId v, VertexId end) const {
-    return (mesh_[v].sides & mesh_[end].sides) != 0 && (options_.boundary_is_open || options_.is_background(label));
+/// May the face be the only one of the label at the edge?
+bool GenericStar::may_be_open(Label label, VertexId v, VertexId end, FaceId face) const {
+    return open_sides(mesh_[v].sides & mesh_[end].sides, mesh_[face].labels) != 0 &&
+           (options_.boundary_is_open || options_.is_background(label));
 }
 
 StarFault GenericStar::look_at_lines(VertexId v, int labels, const StarEdges& edges) {

@@ -35,7 +35,7 @@ public:
 
 private:
     bool has_one_fan(VertexId v, Label label);
-    bool may_be_open(Label label, VertexId v, VertexId end) const;
+    bool may_be_open(Label label, VertexId v, VertexId end, FaceId face) const;
     StarFault look_at_lines(VertexId v, int labels, const StarEdges& edges);
 
     const Mesh& mesh_;

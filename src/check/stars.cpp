@@ -11,6 +11,7 @@
 #include "check/generic_star.h"
 #include "check/part_components.h"
 #include "check/region_sums.h"
+#include "mesh/box_sides.h"
 #include "mesh/fan.h"
 #include "mesh/label_set.h"
 
@@ -255,8 +256,8 @@ private:
         }
         if (w < v) return;  // reported at w
         regions_[label].euler -= 1;
-        const bool may_be_open =
-            (options_.boundary_is_open || options_.is_background(label)) && (mesh_[v].sides & mesh_[w].sides) != 0;
+        const bool may_be_open = (options_.boundary_is_open || options_.is_background(label)) &&
+                                 open_sides(mesh_[v].sides & mesh_[w].sides, pages_[first_side / 2].labels) != 0;
         const auto say = [&, w = w, label = label](ViolationKind kind, const std::string& what) {
             findings_.add(kind, {index(v), index(w)}, {},
                           [&] { return name(v, w) + ", " + region_name(options_, label) + ": " + what; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -21,6 +22,14 @@ SideSet sides_at(const Points& points, const Box& box, double tolerance) {
             sides |= static_cast<SideSet>(1u << side);
     }
     return sides;
+}
+
+/// Of the sides that both ends of an edge lie on, those on which a face with these labels may end there, where the box
+/// is open: not the side that it lies in.
+inline SideSet open_sides(SideSet of_ends, const std::array<Label, 2>& labels) {
+    for (const Label label : labels)
+        if (is_exterior(label)) of_ends &= static_cast<SideSet>(~(1u << side_of(label)));
+    return of_ends;
 }
 
 /// Whether so many regions and these sides may meet at a point of a sound model: four labels in all.

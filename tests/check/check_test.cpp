@@ -59,6 +59,15 @@ TEST(Check, an_edge_may_be_open_on_a_side_of_the_box_that_is_not_capped) {
     EXPECT_THAT(found_in(mesh), ElementsAre("open_edge"));
 }
 
+TEST(Check, a_face_that_lies_in_a_side_of_the_box_may_not_end_there) {
+    Mesh mesh =
+        shape({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{{0, 1, 2}, 0, exterior(4)}, {{0, 2, 3}, 0, exterior(4)}});
+    for (std::uint32_t v = 0; v < 4; ++v) mesh[VertexId{v}].sides = 1 << 4;
+    const CheckReport report = check(mesh, {.boundary_is_open = true});
+    EXPECT_EQ(count(report, ViolationKind::kOpenEdge), 4u);
+    EXPECT_EQ(lock_violations(mesh, {.boundary_is_open = true}).vertices, 4u);
+}
+
 TEST(Check, overfull_edge) {
     // Two tetrahedra on the edge 0-1.
     const Mesh mesh =

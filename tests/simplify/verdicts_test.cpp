@@ -98,6 +98,12 @@ TEST(TopologyVerdict, a_tetrahedron_may_not_be_collapsed) {
     EXPECT_EQ(topology_of(shape(test::kTetrahedronCorners, test::tetrahedron_faces()), 0, 1), Verdict::kLink);
 }
 
+TEST(TopologyVerdict, no_vertex_loses_its_last_face) {
+    Mesh mesh = shape({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}},
+                      {{{0, 1, 2}}, {{0, 2, 3}}, {{1, 4, 5}}, {{1, 5, 2}}});
+    EXPECT_EQ(topology_of(mesh, 0, 2), Verdict::kLink) << "3 has no other face";
+}
+
 TEST(TopologyVerdict, a_neck_may_not_be_collapsed) {
     // Two tetrahedra on the hollow triangle 0 1 2.
     Mesh mesh = shape({{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 1, 1}, {1, 1, -1}},

@@ -10,10 +10,11 @@
 namespace regionmesh {
 namespace {
 
+/// Inside or on a wall: it may have another tetrahedron behind it.
 bool is_in_tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 q) {
     const int side = orientation(a, b, c, d);
-    return side != 0 && orientation(a, b, c, q) == side && orientation(a, d, b, q) == side &&
-           orientation(b, d, c, q) == side && orientation(c, d, a, q) == side;
+    return side != 0 && orientation(a, b, c, q) != -side && orientation(a, d, b, q) != -side &&
+           orientation(b, d, c, q) != -side && orientation(c, d, a, q) != -side;
 }
 
 /// The plane of a face and those through its edges, square to it. Conservative: certain outside the rounding error.
@@ -78,6 +79,7 @@ Verdict IntersectTest::verdict(const Mesh& mesh, const FaceTree& tree, const Ris
     const bool is_inside = mesh[star.goes].sides == 0 && (star.keeps_stays || mesh[star.stays].sides == 0);
     const Directions directions =
         rising && star.is_interface && is_inside ? rising->common(star, position) : Directions{0};
+    is_skipping_ = directions != 0;
     const bool is_simple = directions != 0 || is_simple_disk(star);
     Verdict verdict = Verdict::kAccepted;
     for (int first = 0; first < star.face_count() && verdict == Verdict::kAccepted; first += StarPlanes::kMost) {
@@ -234,14 +236,13 @@ void IntersectTest::find_near(const Mesh& mesh, const EdgeStar& star, std::span<
 bool IntersectTest::may_meet(const EdgeStar& star, const Corners& old) const {
     const Place &p = *old[0], &q = *old[1], &r = *old[2];
     const std::uint32_t of_star = p.is_of_star | q.is_of_star | r.is_of_star;
-    const std::uint32_t in_reach = p.is_in_reach & q.is_in_reach & r.is_in_reach;
     const std::uint32_t shared = p.is_shared + q.is_shared + r.is_shared;
     const std::uint32_t beside =
         (faces_at(p, q) & ~r.sides.link) | (faces_at(q, r) & ~p.sides.link) | (faces_at(r, p) & ~q.sides.link);
     const std::uint32_t at_stays =
         star.keeps_stays & ((p.vertex == star.stays) | (q.vertex == star.stays) | (r.vertex == star.stays));
     const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
-    const std::uint32_t pinch = (beside | at_stays) & -(shared >> 1), swept = in_reach & (shared == 0);
+    const std::uint32_t pinch = (beside | at_stays) & -(shared >> 1), swept = may_be_swept(old, shared);
     return ((doubtful | pinch | swept) & (of_star - 1)) != 0;
 }
 
@@ -253,7 +254,7 @@ Verdict IntersectTest::look_at(const Mesh& mesh, const EdgeStar& star, const Sha
     if (shared >= 2 && pinches(mesh, star, bounds, old)) return Verdict::kPinch;
     const std::uint32_t doubtful = planes_.all() & ~(p.sides & q.sides & r.sides).any();
     if (doubtful != 0 && meets(mesh, star, old, doubtful)) return Verdict::kIntersect;
-    return may_be_swept(old, shared) && is_swept(mesh, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
+    return may_be_swept(old, shared) != 0 && is_swept(mesh, star, old) ? Verdict::kIntersect : Verdict::kAccepted;
 }
 
 /// At an edge that is one of the link, or leads from there to `stays`. A corner beyond the plane that is square to the
@@ -298,16 +299,19 @@ bool IntersectTest::meets(const Mesh& mesh, const EdgeStar& star, const Corners&
 }
 
 /// The star sweeps the cone from the merged vertex over the old faces. A part of the surface that is not joined to the
-/// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone.
+/// star and meets none of its faces, old or new, has not changed sides if it has a point outside that cone. So has the
+/// rest of a face that is joined to it. Where all corners are, it may be swept.
 bool IntersectTest::is_swept(const Mesh& mesh, const EdgeStar& star, const Corners& old) const {
     const Place* best = nullptr;
     std::uint32_t doubtful = 0;
     for (const Place* place : old) {
+        if (place->is_shared != 0) continue;
         const std::uint32_t own = planes_.all() & ~(place->sides & apex_).any();
         if (best && __builtin_popcount(own) >= __builtin_popcount(doubtful)) continue;
         best = place;
         doubtful = own;
     }
+    if (!best) return true;
     const Vec3 q = mesh.position(best->vertex);
     for (std::uint32_t rest = doubtful; rest != 0; rest &= rest - 1) {
         const int n = first_ + __builtin_ctz(rest);

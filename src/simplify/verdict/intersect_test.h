@@ -30,8 +30,9 @@ public:
     /// passes from region A to region B wherever it crosses the star or a skipped face. Between two such crossings it
     /// passes back, through a face that is not skipped. Projected along the direction, the old and the new star cover
     /// the same polygon once. If no other face meets the new star or lies in the swept space, a line crosses no other
-    /// face between the old and the new star, and so no skipped face. A skipped face makes more than 5 degrees with a
-    /// face of the star at an edge (kLeastRise).
+    /// face between the old and the new star, and so no skipped face. This includes faces that are joined to the star,
+    /// which without `rising` need not be outside the swept space. A skipped face makes more than 5 degrees with a face
+    /// of the star at an edge (kLeastRise).
     Verdict verdict(const Mesh& mesh, const FaceTree& tree, const RisingFaces* rising, const EdgeStar& star,
                     Vec3 position, const ShapeBounds& bounds);
 
@@ -63,9 +64,10 @@ private:
     void find_near(const Mesh& mesh, const EdgeStar& star, std::span<const std::uint32_t> faces);
     bool may_meet(const EdgeStar& star, const Corners& old) const;
     Verdict look_at(const Mesh& mesh, const EdgeStar& star, const ShapeBounds& bounds, const Corners& old) const;
-    /// Not joined to the star, which sweeps near all corners.
-    static bool may_be_swept(const Corners& old, std::uint32_t shared) {
-        return ((old[0]->is_in_reach & old[1]->is_in_reach & old[2]->is_in_reach) != 0) & (shared == 0);
+    /// 1 where the star sweeps near all corners, and where it matters: the face is not joined to the star, or others
+    /// are skipped.
+    std::uint32_t may_be_swept(const Corners& old, std::uint32_t shared) const {
+        return old[0]->is_in_reach & old[1]->is_in_reach & old[2]->is_in_reach & ((shared == 0) | is_skipping_);
     }
     static std::uint32_t faces_at(const Place& from, const Place& to) {
         return (from.as_a & to.as_b) | (from.as_b & to.as_a);
@@ -79,6 +81,7 @@ private:
     std::vector<std::uint32_t> others_;  // faces that are not skipped; room for more
     StarPlanes planes_;
     int first_ = 0;                       // of the new faces under test
+    std::uint32_t is_skipping_ = 0;       // 1 where rising faces are skipped
     Sides apex_;                          // of their apexes: the opposite of their certain sides
     VertexNumbers numbers_;               // of the vertices looked up
     std::vector<Place> places_;           // by number

@@ -52,6 +52,19 @@ bool is_met_by_half(const Mesh& mesh, const EdgeStar& star) {
     return met;
 }
 
+/// Would a vertex lose its last face, as at a rim that is none of the box?
+bool strips_apex(const Mesh& mesh, const EdgeStar& star) {
+    return std::any_of(star.apexes.begin(), star.apexes.end(), [&](VertexId apex) {
+        bool has_other = false;
+        for (const StarFace& face : star.faces) has_other |= (face.a == apex) | (face.b == apex);
+        if (!has_other)
+            mesh.for_star(apex, [&](FaceId f, int) {
+                has_other |= std::find(star.dead.begin(), star.dead.end(), f) == star.dead.end();
+            });
+        return !has_other;
+    });
+}
+
 /// Two lines that leave the ends of a line edge must not meet in the next vertex.
 bool closes_loop_of_lines(const Mesh& mesh, const EdgeStar& star) {
     return std::any_of(star.apexes.begin(), star.apexes.end(), [&](VertexId apex) {
@@ -80,7 +93,8 @@ Verdict test_link(Collapse& collapse) {
     const EdgeStar& star = collapse.star;
     if (star.faces.empty()) return Verdict::kLink;
     const bool is_met = star.keeps_stays ? is_met_by_half(mesh, star) : is_met_by_edge(star);
-    if (!is_met || (mesh[star.goes].label_count > 2 && closes_loop_of_lines(mesh, star))) return Verdict::kLink;
+    if (!is_met || strips_apex(mesh, star)) return Verdict::kLink;
+    if (mesh[star.goes].label_count > 2 && closes_loop_of_lines(mesh, star)) return Verdict::kLink;
     return lands_on_box_edge(mesh, star) ? Verdict::kLink : Verdict::kAccepted;
 }
 
