@@ -130,8 +130,9 @@ def test_simplify_makes_a_new_mesh(filled):
 
 
 def test_simplify_is_that_of_the_program(grains, tmp_path):
-    # A file turns the faces of compact cells, and then sums over their corners are rounded differently.
-    model = regionmesh.reconstruct(grains, background=None, spacing=(1, 1, 2), reduce=0.4, cells="tetrahedra")
+    # A file turns faces where its first faces have other labels than the first samples, as those of compact cells or
+    # of a simplified model. Then sums over their corners are rounded differently.
+    model = regionmesh.reconstruct(grains, background=None, spacing=(1, 1, 2), cells="tetrahedra")
     model.save(tmp_path / "a.vtp")
     direct = model.simplify(target_faces=600, keep_samples=False)
     loaded = regionmesh.load(tmp_path / "a.vtp", background=None).simplify(target_faces=600)
