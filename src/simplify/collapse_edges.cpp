@@ -11,6 +11,7 @@
 #include "simplify/flat_vertices.h"
 #include "simplify/half_candidates.h"
 #include "simplify/prepass.h"
+#include "simplify/sweep_marks.h"
 #include "simplify/tuning.h"
 #include "simplify/verdict/quality.h"
 #include "simplify/verdict/verdicts.h"
@@ -133,11 +134,10 @@ private:
         double most = std::min(options_.max_cost, placement_->prepass_cost() * scale2 * scale2);
         if (histogram_) most = std::min(most, histogram_->costs.front());
         Prepass prepass(mesh_, *placement_, collapse_, options_, most);
-        for (int n = 0; n < kMostSweeps && mesh_.face_count() * kLeastSweepLeft > options_.target_faces; ++n) {
-            const std::uint32_t before = mesh_.face_count();
-            if (2 * prepass.sweep(result_.verdicts) < kLeastSweepGain * before) break;
+        sweep_above(options_.target_faces, mesh_, [&] {
             pack();
-        }
+            return prepass.sweep(result_.verdicts);
+        });
         prepass.find_slivers(threads_);
         for (int n = 0; n < kMostSliverSweeps && prepass.remove_slivers(result_.verdicts) > 0; ++n) {
         }

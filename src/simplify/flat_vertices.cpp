@@ -1,8 +1,8 @@
 #include "simplify/flat_vertices.h"
 
 #include <algorithm>
-#include <vector>
 
+#include "simplify/sweep_marks.h"
 #include "simplify/tuning.h"
 #include "simplify/verdict/quality.h"
 #include "simplify/verdict/verdicts.h"
@@ -12,27 +12,23 @@ namespace {
 
 class FlatSweeps {
 public:
-    FlatSweeps(Mesh& mesh, Collapse& collapse) : mesh_(mesh), collapse_(collapse), seen_(mesh.vertex_end(), 0) {}
+    FlatSweeps(Mesh& mesh, Collapse& collapse) : mesh_(mesh), collapse_(collapse), marks_(mesh.vertex_end()) {}
 
-    /// Returns the number of vertices removed. The neighbourhood of a collapse stays as it is until the next sweep.
+    /// Returns the number of vertices removed.
     std::uint32_t sweep() {
-        ++sweep_;
+        marks_.begin_sweep();
         std::uint32_t removed = 0;
         for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
-            if (seen_[v] == kSettled || seen_[v] == sweep_) continue;
+            if (!marks_.is_due(VertexId{v})) continue;
             if (may_go(VertexId{v}) && try_to_remove(VertexId{v}))
                 ++removed;
             else
-                seen_[v] = kSettled;
+                marks_.settle(VertexId{v});
         }
         return removed;
     }
 
 private:
-    /// Nothing near the vertex has changed since it could not be removed.
-    static constexpr std::uint8_t kSettled = 255;
-    static_assert(kMostSweeps < kSettled);
-
     bool may_go(VertexId v) const {
         const Vertex& vertex = mesh_[v];
         return vertex.is_alive && !vertex.is_fixed && vertex.label_count == 2 && is_level(v);
@@ -63,8 +59,8 @@ private:
         note_flat(star, star.at_stays);
         if (test_error(collapse_) != Verdict::kAccepted) return false;
         collapse_edge(mesh_, collapse_);
-        seen_[index(target)] = sweep_;
-        for (VertexId w : star.link) seen_[index(w)] = sweep_;
+        marks_.touch(target);
+        for (VertexId w : star.link) marks_.touch(w);
         return true;
     }
 
@@ -79,7 +75,7 @@ private:
         VertexId best = kNoVertex;
         double best3 = 0;
         for (const StarFace& face : around_.faces) {  // each neighbour comes first in one face
-            if (mesh_[face.a].is_fixed || seen_[index(face.a)] == sweep_) continue;
+            if (mesh_[face.a].is_fixed || marks_.is_touched(face.a)) continue;
             const double own3 = fan_quality3(around_, face.a, mesh_.position(face.a), collapse_.bounds);
             if (own3 > best3 || (own3 == best3 && own3 > 0 && face.a < best)) {
                 best3 = own3;
@@ -91,9 +87,8 @@ private:
 
     Mesh& mesh_;
     Collapse& collapse_;
-    EdgeStar around_;                 // the faces of the current vertex
-    std::vector<std::uint8_t> seen_;  // by vertex: the sweep in which its star changed, or kSettled
-    std::uint8_t sweep_ = 0;
+    EdgeStar around_;  // the faces of the current vertex
+    SweepMarks marks_;
 };
 
 }  // namespace
@@ -101,11 +96,11 @@ private:
 std::uint32_t remove_flat_vertices(Mesh& mesh, Collapse& collapse, std::uint32_t target_faces) {
     FlatSweeps sweeps(mesh, collapse);
     std::uint32_t removed = 0;
-    for (int n = 0; n < kMostSweeps && mesh.face_count() * kLeastSweepLeft > target_faces; ++n) {
-        const std::uint32_t before = mesh.face_count(), gone = sweeps.sweep();
+    sweep_above(target_faces, mesh, [&] {
+        const std::uint32_t gone = sweeps.sweep();
         removed += gone;
-        if (2 * gone < kLeastSweepGain * before) break;
-    }
+        return gone;
+    });
     return removed;
 }
 

@@ -12,13 +12,6 @@
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {
-namespace {
-
-/// Nothing near the vertex has changed since it could not be removed.
-constexpr std::uint8_t kSettled = 255;
-static_assert(kMostSweeps < kSettled);
-
-}  // namespace
 
 Prepass::Prepass(Mesh& mesh, Placement& placement, Collapse& collapse, const SimplifyOptions& options, double max_cost)
     : mesh_(mesh),
@@ -26,10 +19,10 @@ Prepass::Prepass(Mesh& mesh, Placement& placement, Collapse& collapse, const Sim
       collapse_(collapse),
       options_(options),
       max_cost_(max_cost),
-      seen_(mesh.vertex_end(), 0) {}
+      marks_(mesh.vertex_end()) {}
 
 std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
-    ++sweep_;
+    marks_.begin_sweep();
     std::uint32_t removed = 0;
     for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
         if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress();
@@ -37,13 +30,13 @@ std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
         if (try_to_remove(VertexId{v}, verdicts))
             ++removed;
         else
-            seen_[v] = kSettled;
+            marks_.settle(VertexId{v});
     }
     return removed;
 }
 
 bool Prepass::may_go(VertexId v) const {
-    if (seen_[index(v)] == kSettled || seen_[index(v)] == sweep_) return false;
+    if (!marks_.is_due(v)) return false;
     const Vertex& vertex = mesh_[v];
     return vertex.is_alive && !vertex.is_fixed && vertex.label_count <= 3;
 }
@@ -69,7 +62,7 @@ bool Prepass::is_sliver(FaceId f) const {
 }
 
 std::uint32_t Prepass::remove_slivers(VerdictCounts& verdicts) {
-    ++sweep_;
+    marks_.begin_sweep();
     const double max_cost = std::exchange(max_cost_, std::min(options_.max_cost, kSliverShare * max_cost_));
     std::uint32_t removed = 0;
     for (const FaceId f : slivers_) {
@@ -81,7 +74,7 @@ std::uint32_t Prepass::remove_slivers(VerdictCounts& verdicts) {
                 ++removed;
                 break;
             }
-            seen_[index(v)] = kSettled;
+            marks_.settle(v);
         }
     }
     max_cost_ = max_cost;
@@ -141,7 +134,7 @@ bool Prepass::gather_ends(VertexId v) {
 
 /// Without a branch, which would be mispredicted.
 void Prepass::add_end(VertexId end) {
-    const bool may_stay = !mesh_[end].is_fixed & (seen_[index(end)] != sweep_);
+    const bool may_stay = !mesh_[end].is_fixed & !marks_.is_touched(end);
     ends_[end_count_] = end;
     end_count_ += may_stay & (end_count_ < kMostPrepassFaces);
 }
@@ -155,8 +148,8 @@ void Prepass::apply(VertexId target) {
     const EdgeStar& star = collapse_.star;
     placement_.collapse(mesh_, star, star.at_stays);
     collapse_edge(mesh_, collapse_);
-    seen_[index(target)] = sweep_;
-    for (VertexId v : star.link) seen_[index(v)] = sweep_;
+    marks_.touch(target);
+    for (VertexId v : star.link) marks_.touch(v);
 }
 
 }  // namespace regionmesh

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simplify/placement.h"
+#include "simplify/sweep_marks.h"
 #include "simplify/tuning.h"
 
 namespace regionmesh {
@@ -13,9 +14,8 @@ namespace regionmesh {
 /// Most vertices of an unsimplified surface lie in flat places, where the order of collapses matters little. A sweep
 /// visits all vertices in their order and collapses those within interfaces into a neighbour, and those of lines into
 /// the next vertex of their line; the neighbour does not move. Of the neighbours that cost at most the threshold, the
-/// one that leaves the best faces is taken. The neighbourhood of a collapse stays as it is until the next sweep, so
-/// that collapses spread evenly. Several times as fast as ranked collapses: no ranks are kept, only the faces of one
-/// vertex change, and vertices near in space are near in time. The tests are the same.
+/// one that leaves the best faces is taken. Several times as fast as ranked collapses: no ranks are kept, only the
+/// faces of one vertex change, and vertices near in space are near in time. The tests are the same.
 class Prepass {
 public:
     /// `max_cost` is the threshold, squared length times area. Tests have their bounds in `collapse`.
@@ -56,8 +56,7 @@ private:
     std::vector<HalfCost> costs_;  // of these
     std::vector<Target> targets_;
     std::vector<FaceId> slivers_;
-    std::vector<std::uint8_t> seen_;  // by vertex: the sweep in which its star changed, or kSettled
-    std::uint8_t sweep_ = 0;
+    SweepMarks marks_;
 };
 
 }  // namespace regionmesh

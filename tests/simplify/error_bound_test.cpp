@@ -15,11 +15,10 @@ namespace {
 /// Rounding of the sampled distance.
 constexpr double kRounding = 1e-9;
 
-/// The larger of both ways, for every interface by itself. Up to ten samples a face of the larger model.
+/// The larger of both ways, for every interface by itself.
 double sampled_distance(const Reconstruction& a, const Reconstruction& b) {
-    const std::uint64_t faces = std::max(a.mesh.face_count(), b.mesh.face_count());
-    const CompareReport report = compare({a.mesh, a.labels}, {b.mesh, b.labels},
-                                         {.samples = std::min<std::uint64_t>(10 * faces, 200'000), .background = {}});
+    const CompareReport report =
+        compare({a.mesh, a.labels}, {b.mesh, b.labels}, {.samples = 200'000, .background = {}});
     double largest = report.distance.both.value().max;
     for (const StratumComparison& interface : report.interfaces) {
         EXPECT_TRUE(interface.distance.both.has_value()) << "an interface is gone";
