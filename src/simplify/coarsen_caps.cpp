@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "base/parallel_for.h"
@@ -19,6 +18,30 @@ constexpr int kBoxSides = 6;
 /// A sample of a side, by its indices along the two axes of the side.
 struct Node {
     std::uint32_t u, v;
+    bool is_some() const { return u != kNone && v != kNone; }
+};
+
+/// An axis of a lattice.
+class LatticeAxis {
+public:
+    LatticeAxis(const Lattice& lattice, int axis)
+        : axis_(axis),
+          origin_(lattice.origin[axis]),
+          spacing_(lattice.spacing[axis]),
+          per_unit_(1 / lattice.spacing[axis]) {}
+
+    /// The index of the samples at the position, exactly. kNone between samples.
+    std::uint32_t index_at(Vec3 p) const {
+        const double index = (p[axis_] - origin_) * per_unit_ + 0.5;
+        if (!(index >= 0 && index < 0x1p31)) return kNone;
+        const auto found = static_cast<std::uint32_t>(index);
+        return origin_ + found * spacing_ == p[axis_] ? found : kNone;
+    }
+    double along(Vec3 p) const { return p[axis_]; }
+
+private:
+    int axis_;
+    double origin_, spacing_, per_unit_;
 };
 
 /// The vertices of a chunk, as all sides see them.
@@ -43,9 +66,8 @@ public:
     CapSide(Chunk& chunk, const ChunkVertices& vertices, const Lattice& lattice, int side)
         : chunk_(chunk),
           vertices_(vertices),
-          lattice_(lattice),
-          u_axis_((side / 2 + 1) % 3),
-          v_axis_((side / 2 + 2) % 3) {}
+          u_axis_(lattice, (side / 2 + 1) % 3),
+          v_axis_(lattice, (side / 2 + 2) % 3) {}
 
     /// Sorts the faces, by number, into the squares of the side, and finds which squares may be joined.
     void find_squares(std::span<const std::uint32_t> faces);
@@ -74,7 +96,10 @@ private:
         std::uint32_t face_count() const { return has_centre() ? size : 2; }
     };
 
-    std::optional<Node> node_at(Vec3 p) const;
+    Node node_at(std::uint32_t local) const {
+        const Vec3 p = vertices_.position(local);
+        return {u_axis_.index_at(p), v_axis_.index_at(p)};
+    }
     bool add_face(std::uint32_t f);
     void keep_squares_at_fixed_vertices();
     void find_levels();
@@ -107,8 +132,7 @@ private:
 
     Chunk& chunk_;
     const ChunkVertices& vertices_;
-    const Lattice& lattice_;
-    int u_axis_, v_axis_;
+    LatticeAxis u_axis_, v_axis_;
     Node first_{kNone, kNone};                // the lowest indices that occur, down to a multiple of the largest square
     std::uint32_t width_ = 0, height_ = 0;    // squares
     std::vector<std::uint32_t> node_vertex_;  // by node: its vertex
@@ -116,27 +140,14 @@ private:
     std::vector<std::vector<std::uint8_t>> joined_;  // by level and square: kPlain if it may be one; level 0: its faces
 };
 
-/// The sample at a position, exactly. None elsewhere.
-std::optional<Node> CapSide::node_at(Vec3 p) const {
-    std::array<std::uint32_t, 2> found{};
-    for (int n = 0; n < 2; ++n) {
-        const int axis = n == 0 ? u_axis_ : v_axis_;
-        const double index = (p[axis] - lattice_.origin[axis]) / lattice_.spacing[axis] + 0.5;
-        if (!(index >= 0 && index < 0x1p31)) return {};
-        found[n] = static_cast<std::uint32_t>(index);
-        if (lattice_.origin[axis] + found[n] * lattice_.spacing[axis] != p[axis]) return {};
-    }
-    return Node{found[0], found[1]};
-}
-
 void CapSide::find_squares(std::span<const std::uint32_t> faces) {
     Node last{0, 0};
     for (const std::uint32_t f : faces)
         for (const std::uint32_t local : chunk_.faces[f].vertices) {
-            const auto node = node_at(vertices_.position(local));
-            if (!node) continue;
-            first_ = {std::min(first_.u, node->u), std::min(first_.v, node->v)};
-            last = {std::max(last.u, node->u), std::max(last.v, node->v)};
+            const Node node = node_at(local);
+            if (!node.is_some()) continue;
+            first_ = {std::min(first_.u, node.u), std::min(first_.v, node.v)};
+            last = {std::max(last.u, node.u), std::max(last.v, node.v)};
         }
     if (first_.u >= last.u || first_.v >= last.v) return;
     constexpr std::uint32_t kLargest = 1u << kCapLevels;
@@ -157,9 +168,9 @@ void CapSide::find_squares(std::span<const std::uint32_t> faces) {
 bool CapSide::add_face(std::uint32_t f) {
     std::array<Node, 3> corner;
     for (int n = 0; n < 3; ++n) {
-        const auto node = node_at(vertices_.position(chunk_.faces[f].vertices[n]));
-        if (!node) return true;
-        corner[n] = {node->u - first_.u, node->v - first_.v};
+        const Node node = node_at(chunk_.faces[f].vertices[n]);
+        if (!node.is_some()) return true;
+        corner[n] = {node.u - first_.u, node.v - first_.v};
         std::uint32_t& vertex = vertex_at(corner[n]);
         if (vertex != kNone && vertex != chunk_.faces[f].vertices[n]) return false;
         vertex = chunk_.faces[f].vertices[n];
@@ -247,8 +258,9 @@ void CapSide::join_square(int level, Node at) {
 bool CapSide::turns_left(const ChunkFace& face) const {
     const Vec3 a = vertices_.position(face.vertices[0]), b = vertices_.position(face.vertices[1]),
                c = vertices_.position(face.vertices[2]);
-    return (b[u_axis_] - a[u_axis_]) * (c[v_axis_] - a[v_axis_]) >
-           (b[v_axis_] - a[v_axis_]) * (c[u_axis_] - a[u_axis_]);
+    const auto u = [&](Vec3 p) { return u_axis_.along(p) - u_axis_.along(a); };
+    const auto v = [&](Vec3 p) { return v_axis_.along(p) - v_axis_.along(a); };
+    return u(b) * v(c) > v(b) * u(c);
 }
 
 /// Would all faces of a side, but for halves of squares, have the quality? They are quarters, by the diagonals.
