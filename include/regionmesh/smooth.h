@@ -58,7 +58,7 @@ struct SmoothReport {
 
 /// With kTaubin, kLaplacian or kNifpms. Moves the vertices in place, except fixed ones; ids stay the same. Runs the
 /// same passes and the same guard as the stream. Adds no violation; violations that came in may stay. Throws
-/// Error(kInput) for kLattice: a mesh has no lattice. Deterministic.
+/// Error(kUsage) for kLattice: a mesh has no lattice. Deterministic.
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options);
 
 /// Fixes all vertices on the sides of the box, or on another hull. For meshes that have no faces there: a filter could

@@ -8,7 +8,7 @@ namespace regionmesh {
 
 void require_no_lattice(const SmoothOptions& options) {
     if (options.passes > 0 && options.filter == SmoothFilter::kLattice)
-        throw Error(ErrorCode::kInput,
+        throw Error(ErrorCode::kUsage,
                     "--smooth-filter lattice: only sections have a lattice to keep vertices in; use taubin");
 }
 

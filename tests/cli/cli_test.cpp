@@ -196,6 +196,7 @@ TEST_F(Cli, bad_smoothing_is_refused) {
     write_mesh(test::octahedron(), labels, path("good.vtp"), {});
     expect_refusal("smooth " + path("good.vtp").string() + " -o " + out("m.xyz"), 1, "m.xyz");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-lambda 1.01", 2, "--smooth-lambda");
+    expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --smooth-filter lattice", 2, "use taubin");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --scale big", 2, "--scale");
     expect_refusal("smooth " + path("good.vtp").string() + " " + to + " --min-quality good", 2, "--min-quality");
 }

@@ -93,6 +93,13 @@ std::optional<Pattern> parse_pattern(std::string_view text) {
     return pattern;
 }
 
+void require_present(const fs::path& header, const fs::path& file) {
+    std::error_code error;
+    if (!fs::exists(file, error) && !error)
+        fail(header,
+             "names " + shown(file.string()) + ", and there is no such file; put it there, or correct the header");
+}
+
 /// A header from somewhere must not make the program read any file of this machine.
 void require_files_within(const ArrayFile& array) {
     for (const fs::path& file : array.files) {
@@ -118,6 +125,7 @@ void take_table_beside(ArrayFile& array) {
 std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOptions& options) {
     const std::vector<fs::path> files = array.files.empty() ? std::vector{array.source} : array.files;
     if (!options.external_files) require_files_within(array);
+    for (const fs::path& file : array.files) require_present(array.source, file);
     const SampleFormat format = array.encoding == Encoding::kAscii ? kAsciiFormat : array.sample;
     const auto& size = array.lattice.size;
     const std::uint64_t volume = volume_bytes(array.source, size, sample_bytes(format.type) * array.components);
@@ -204,7 +212,7 @@ std::vector<fs::path> numbered_files(const fs::path& header, std::string_view te
         const std::string digits = pattern->has_zeros ? fmt::format("{:0{}}", number, pattern->width)
                                                       : fmt::format("{:{}}", number, pattern->width);
         files.push_back(file_beside(header, std::string(pattern->before) + digits + std::string(pattern->after)));
-        const InputFile there(files.back());
+        require_present(header, files.back());
     }
     return files;
 }
