@@ -96,8 +96,7 @@ std::optional<Pattern> parse_pattern(std::string_view text) {
 void require_present(const fs::path& header, const fs::path& file) {
     std::error_code error;
     if (!fs::exists(file, error) && !error)
-        fail(header,
-             "names " + shown(file.string()) + ", and there is no such file; put it there, or correct the header");
+        fail(file, "no such file; put it there, or correct its name in the header, " + header.string());
 }
 
 /// A header from somewhere must not make the program read any file of this machine.

@@ -81,8 +81,8 @@ TEST_F(ReadMetaImageTest, bad_files_are_refused_and_say_why) {
         {"ObjectType = Image", "HeaderSize = 1000", "truncated"},
         {"ObjectType = Image", "CompressedData = True", "the compressed stream is damaged"},
         {"ObjectType = Image", "what is this", "line 'what is this' is no MetaImage header"},
-        {"LOCAL", "gone.raw", "gone.raw, and there is no such file"},
-        {"LOCAL", "LIST\ngone.raw", "gone.raw, and there is no such file"},
+        {"LOCAL", "gone.raw", "gone.raw: no such file"},
+        {"LOCAL", "LIST\ngone.raw", "gone.raw: no such file"},
         {"LOCAL", "z%d.raw 1 2 0", "never comes to its last number"},
         {"ElementDataFile = LOCAL\n", "", "is no MetaImage header"},
     };
