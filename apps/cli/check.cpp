@@ -58,6 +58,14 @@ std::optional<LabelOracle> oracle_of(const Settings& settings, LabelTable& label
     return translate(count_labels(*open_tetrahedra(settings.sections.front(), settings.tetrahedra), census), labels);
 }
 
+/// They are read twice, for the labels and for the samples.
+void require_sections_twice(const Settings& settings) {
+    for (const std::string& file : settings.sections)
+        if (file == "-")
+            throw Error(ErrorCode::kUsage,
+                        "--sections -: the sections are read twice, and standard input can be read once; name a file");
+}
+
 std::optional<SampleAgreement> compare_with_sections(const Settings& settings, MeshFile& file,
                                                      const CheckOptions& options) {
     if (!has_samples(settings)) return {};
@@ -123,6 +131,7 @@ bool needs_whole(const Settings& settings) {
 }  // namespace
 
 int run_check(const Settings& given) {
+    require_sections_twice(given);
     require_page(given.html, given.writing);
     const std::string& path = given.models.front();
     for (const std::string& file : {given.json, given.regions, given.interfaces, given.lines})

@@ -39,6 +39,22 @@ void require_no_number_sign_in_quotes(const std::string& path, const std::string
     }
 }
 
+/// CLI11 takes time and memory that grow with the square of the parts of a name.
+void require_short_names(const std::string& path, const std::string& text) {
+    constexpr std::ptrdiff_t kMostParts = 100;
+    std::istringstream lines(text);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+        ++number;
+        const std::string_view name = std::string_view(line).substr(0, line.find('='));
+        if (std::ranges::count(name, '.') > kMostParts)
+            throw Error(ErrorCode::kInput,
+                        fmt::format("{}: line {}: a name of more than {} parts; tables are named after commands, such "
+                                    "as [reconstruct]",
+                                    path, number, kMostParts));
+    }
+}
+
 std::vector<CLI::ConfigItem> items_in(const std::string& path) {
     std::ifstream stream(path);
     std::string text(std::istreambuf_iterator<char>(stream), {});
@@ -46,6 +62,7 @@ std::vector<CLI::ConfigItem> items_in(const std::string& path) {
         throw Error(ErrorCode::kInput, path + ": cannot be read; check the path");
     if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     require_no_number_sign_in_quotes(path, text);
+    require_short_names(path, text);
     std::istringstream again(text);
     try {
         return CLI::ConfigTOML().from_config(again);

@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "advice.h"
 #include "commands.h"
@@ -83,10 +85,14 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     fmt::print("sweep      along {}, {} sections of {} x {}\n", axis, reader.section_count(), reader.section_width(),
                reader.section_height());
     print_labels(settings, census, info.names, "sample");
-    const auto megabytes = [&](std::uint64_t faces) { return static_cast<double>(expected_bytes(info, faces)) / 1e6; };
     print_model(census);
-    fmt::print("memory     {:.0f} MB to hold the whole model; {:.0f} MB with a budget of a fifth of it\n",
-               megabytes(census.face_count), megabytes(census.face_count / 5));
+    const auto megabytes = [&](std::optional<double> reduce) {
+        ReconstructOptions options = settings.reconstruct;
+        options.reduce = reduce;
+        return std::ceil(static_cast<double>(least_memory(info, census, options)) / 1e6);
+    };
+    fmt::print("memory     {:.0f} MB at least for the model, {:.0f} MB with --reduce 80%\n", megabytes({}),
+               megabytes(0.8));
     return info_json(info, census);
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "regionmesh/census.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/report.h"
@@ -72,8 +73,9 @@ using OnModel = std::function<void(const Mesh&, const LabelTable&, const std::ve
 /// How sections are meshed with these options: kCompact or kTetrahedra.
 CellKind cell_kind(const ReconstructOptions& options);
 
-/// Bytes that the process needs to simplify a mesh of `faces` faces made from the volume, reading and meshing included.
-std::uint64_t expected_bytes(const VolumeInfo& volume, std::uint64_t faces);
+/// The least ReconstructOptions::memory, in bytes, with which reconstruct() accepts the volume. The census was taken of
+/// the same volume, with the same caps, background and cells.
+std::uint64_t least_memory(const VolumeInfo& volume, const Census& census, const ReconstructOptions& options);
 
 /// Reads all sections, builds the mesh on the fly within the memory, decimates it to the target and checks it. Sections
 /// that can be read twice are read first to count faces and to plan memory. With more than one thread, the reader is

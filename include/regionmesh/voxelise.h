@@ -31,12 +31,13 @@ struct VoxeliseOptions {
 /// to another; the region of a sample is the one that was entered once more than it was left. Which faces a line
 /// crosses, and on which side of a face a sample lies, are signs of determinants of the coordinates as given, and
 /// exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990): every sample is moved by (e^3, e,
-/// e^2) along x, y, z of the lattice for an infinitely small e, toward the inside of the box of the lattice along each
-/// axis. A sample on a capped side of the box therefore has the region inside.
+/// e^2) along x, y, z of the lattice for an infinitely small e, toward the inside of the box of the model, and of that
+/// of the lattice, along each axis. A sample on a capped side of the box therefore has the region inside.
 ///
-/// An oblique lattice has its vertices turned into the axes of the lattice first; there the coordinates are rounded,
-/// and vertices within 1e-9 spacings of a side of the box are moved onto it. If all coordinates are numbers of single
-/// precision, as in .dream3d and binary .stl files, vertices within its rounding of a side are moved onto it, too.
+/// An oblique lattice has its vertices turned into the axes of the lattice first; there the coordinates are rounded. So
+/// vertices within 1e-9 spacings of samples on a side of the box of the model are moved to where these lie, and also
+/// where a side of the model and samples of another lattice differ by rounding alone. If all coordinates are numbers of
+/// single precision, as in .dream3d and binary .stl files, so are vertices within its rounding of such samples.
 class Voxeliser {
 public:
     /// Holds a reference to the mesh. Memory: 8 bytes a face, 8 bytes a vertex, and the crossings of the sections
@@ -77,6 +78,8 @@ private:
         Sections sections;
     };
 
+    void find_sides(SampleLines& lines);
+    Vec3 in_lines(VertexId v) const;
     Vec3 place(VertexId v) const;
     void find_sections(std::uint32_t threads);
     Sections sections_of(FaceId f) const;
@@ -94,12 +97,13 @@ private:
     const Mesh& mesh_;
     VoxeliseOptions options_;
     std::shared_ptr<const SampleLines> lines_;
-    std::array<std::uint32_t, 3> size_;  // along the axes of the sweep
-    std::vector<Sections> sections_of_;  // by vertex
-    std::vector<FaceId> order_;          // faces that reach sections, by the first of these
-    std::vector<std::uint32_t> start_;   // of the faces of each section in order_
-    std::vector<ActiveFace> active_;     // faces that reach the sections in hand
-    std::vector<Scratch> scratch_;       // by section in hand
+    std::array<std::uint32_t, 3> size_;             // along the axes of the sweep
+    std::array<std::array<double, 2>, 3> sides_{};  // by axis: the samples nearest to either end of the model
+    std::vector<Sections> sections_of_;             // by vertex
+    std::vector<FaceId> order_;                     // faces that reach sections, by the first of these
+    std::vector<std::uint32_t> start_;              // of the faces of each section in order_
+    std::vector<ActiveFace> active_;                // faces that reach the sections in hand
+    std::vector<Scratch> scratch_;                  // by section in hand
     IntoAxes into_axes_;
     bool is_mirrored_ = false, is_turned_ = false;
     double rounding_ = 0;  // share of a coordinate that is lost; 0 where none is

@@ -67,7 +67,6 @@ struct Input {
         require_lattice(info.source, info.lattice);
         require_cells(info);
         shape = section_shape(info, cell_kind(options), section_scale(info, options));
-        halo_of(shape, options);  // refuses other filters
         is_in_place = can_crop(sections());
         survey.strips.cap = options.cap;
         survey.strips.cells = shape.cells;
@@ -176,21 +175,22 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     write_manifest(manifest, blocks.folder, blocks.output);
 }
 
-/// Leaves an empty folder behind, as if the input had been refused at once.
-void require_regions(const Survey& found, const Input& input, const ReconstructOptions& options,
-                     const fs::path& folder) {
+void require_regions(const Survey& found, const Input& input, const ReconstructOptions& options) {
     std::uint32_t background = 0;
     for (const InputLabel label : std::set(options.background.begin(), options.background.end()))
         background += found.labels.find(label).has_value();
     const bool is_empty = background == found.labels.size(), is_one = !options.cap && found.faces == 0;
     if (!is_empty && !is_one) return;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
-    for (const fs::path& file : files) fs::remove(file);
     throw Error(ErrorCode::kInput,
                 input.info.source + ": there is no region to model: " +
                     (is_empty ? "all of it is background; give another --background, or --no-background"
                               : "it has one label only, which has no face with --boundary open; give --boundary cap"));
+}
+
+void empty_folder(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+    for (const fs::path& file : files) fs::remove(file);
 }
 
 void make_folder(const fs::path& folder) {
@@ -253,6 +253,11 @@ void require_block_options(const ReconstructOptions& options) {
                         fmt::format("--{}: needs the whole surface at once, which a folder of pieces has not; leave it "
                                     "out, or name a file in --output",
                                     name));
+    const SmoothFilter filter = options.smooth.filter;
+    if (options.smooth.passes > 0 && filter != SmoothFilter::kAuto && filter != SmoothFilter::kLattice)
+        throw Error(
+            ErrorCode::kUsage,
+            "--smooth-filter: blocks are smoothed inside the lattice or not at all; leave it out, or give none");
 }
 
 std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const ReconstructOptions& options,
@@ -268,8 +273,14 @@ std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const Reconstruc
     if (tasks.is_first()) {
         const Survey found =
             boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder) : survey_whole(*input, blocks, on_progress);
-        require_regions(found, *input, options, blocks.folder);
-        note_survey(found, *input, options, blocks);
+        try {
+            require_regions(found, *input, options);
+            note_survey(found, *input, options, blocks);
+        } catch (const Error& error) {
+            // As if the input had been refused at once: another run may want the folder for other options.
+            if (error.code() != ErrorCode::kOutput) empty_folder(blocks.folder);
+            throw;
+        }
     }
     tasks.end_phase();
     return lock;

@@ -4,6 +4,7 @@
 
 #include "base/fingerprint.h"
 #include "blocks/block_grid.h"
+#include "blocks/passes.h"
 #include "formats/input_file.h"
 #include "formats/report/json_parts.h"
 #include "formats/text/header_text.h"
@@ -20,6 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "regionmesh blocks";
 constexpr int kVersion = 1;
+
+/// Along an axis of a volume or a block: sums of a few of them are numbers of 32 bits.
+constexpr std::uint32_t kMostCells = 1u << 30;
 
 Json vec_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 Vec3 vec_of(const nlohmann::json& json) { return {json.at(0), json.at(1), json.at(2)}; }
@@ -126,6 +130,23 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     return manifest;
 }
 
+/// Sizes that no volume and no run has would lead out of arrays.
+void require_sound(const Manifest& manifest, const fs::path& path) {
+    if (!manifest.is_surveyed) return;
+    const auto damaged = [&] { formats::fail(path, "sizes and pieces do not fit together; the file is damaged"); };
+    const auto& size = manifest.lattice.size;
+    if (!std::ranges::is_permutation(manifest.sweep.axes, std::array{0, 1, 2})) damaged();
+    if (std::ranges::min(size) < 2 || std::ranges::max(size) > kMostCells) damaged();
+    if (manifest.block_cells < 1 || manifest.block_cells > kMostCells || manifest.shift >= manifest.block_cells)
+        damaged();
+    if (!(manifest.scale_z > 0) || manifest.passes > end_of_passes()) damaged();
+    require_lattice(path.string(), manifest.lattice);
+    const BlockGrid grid(piece_lattice(manifest), manifest.block_cells, manifest.shift);
+    double count = manifest.passes > 0;  // of pieces, once there are any
+    for (const std::uint32_t along : grid.counts()) count *= along;
+    if (count != static_cast<double>(manifest.pieces.size())) damaged();
+}
+
 fs::path labels_path(const fs::path& folder) { return folder / "labels.bin"; }
 
 }  // namespace
@@ -135,12 +156,6 @@ Manifest read_complete_manifest(const fs::path& folder) {
     if (!manifest) formats::fail(folder, "has no manifest.json; it is no model in pieces");
     if (!manifest->is_complete)
         formats::fail(folder, "the model is not complete; run the command that began it once more");
-    require_lattice(folder.string(), manifest->lattice);
-    const auto& size = manifest->lattice.size;
-    const bool has_cells = *std::min_element(size.begin(), size.end()) >= 2 && manifest->shift < manifest->block_cells;
-    if (!has_cells || !(manifest->scale_z > 0) ||
-        BlockGrid(piece_lattice(*manifest), manifest->block_cells, manifest->shift).count() != manifest->pieces.size())
-        formats::fail(manifest_path(folder), "sizes and pieces do not fit together; the file is damaged");
     return std::move(*manifest);
 }
 
@@ -163,7 +178,9 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
         if (json->at("version") != kVersion)
             formats::fail(path, "is of version " + json->at("version").dump() + ", and this program writes version " +
                                     std::to_string(kVersion) + "; take the program that wrote it");
-        return manifest_of(*json, path);
+        Manifest manifest = manifest_of(*json, path);
+        require_sound(manifest, path);
+        return manifest;
     });
 }
 
@@ -203,7 +220,7 @@ void write_labels(const LabelTable& labels, const fs::path& folder, const Output
 
 LabelTable read_labels(const Manifest& manifest, const fs::path& folder) {
     const formats::InputFile file(labels_path(folder));
-    if (file.size() != manifest.label_count * sizeof(InputLabel))
+    if (file.size() % sizeof(InputLabel) != 0 || file.size() / sizeof(InputLabel) != manifest.label_count)
         formats::fail(file.path(), "has not the labels that the manifest counts; the file is damaged");
     std::vector<InputLabel> inputs(manifest.label_count);
     const auto bytes = std::as_writable_bytes(std::span(inputs));

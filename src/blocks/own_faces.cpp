@@ -18,10 +18,6 @@ ChunkOrder order_of(const SourceShape& shape, const Box& wanted) {
 
 std::array<std::uint32_t, 3> halo_of(const SourceShape& shape, const ReconstructOptions& options) {
     if (options.smooth.passes == 0) return {1, 1, 1};
-    if (options.smooth.filter != SmoothFilter::kLattice)
-        throw Error(ErrorCode::kInput, shape.name +
-                                           ": blocks are smoothed inside the lattice or not at all; leave out "
-                                           "--smooth-filter, or give none");
     return lattice_reach(smooth_options(options, shape.scale), {shape.lattice.origin, shape.lattice.spacing});
 }
 

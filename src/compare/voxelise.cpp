@@ -51,31 +51,56 @@ bool is_single(const Mesh& mesh) {
 }  // namespace
 
 Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads)
-    : mesh_(mesh),
-      options_(options),
-      lines_(std::make_shared<SampleLines>(lines_of(options))),
-      into_axes_(options.lattice) {
+    : mesh_(mesh), options_(options), into_axes_(options.lattice) {
+    const auto lines = std::make_shared<SampleLines>(lines_of(options));
+    lines_ = lines;
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
     is_turned_ = !options.lattice.is_axis_aligned();
     rounding_ = is_single(mesh) ? kSingleRounding : is_turned_ ? kRounding : 0;
     const auto& d = options.lattice.direction;
     is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
+    find_sides(*lines);
     find_sections(threads);
     sort_faces();
 }
 
+void Voxeliser::find_sides(SampleLines& lines) {
+    const auto box_of = [&](auto&& position) {
+        Box box;
+        for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v)
+            if (mesh_.is_alive(VertexId{v})) box.add(position(VertexId{v}));
+        return box;
+    };
+    Box box = box_of([&](VertexId v) { return in_lines(v); });
+    if (box.low.x > box.high.x) return;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int end = 0; end < 2; ++end) {
+            const double coordinate = end == 0 ? box.low[axis] : box.high[axis];
+            const double n = std::clamp(std::round(lines.index_of(axis, coordinate)), 0.0, size_[axis] - 1.0);
+            const double side = sides_[axis][end] = lines.at(axis, static_cast<std::uint32_t>(n));
+            // A lattice that is not the model's has samples there whose coordinates were rounded in another way.
+            const double near = kOnSide * lines.spacing(axis) + kRounding * std::abs(coordinate);
+            if (side != coordinate && std::abs(side - coordinate) < near) rounding_ = std::max(rounding_, kRounding);
+        }
+    if (rounding_ != 0) box = box_of([&](VertexId v) { return place(v); });
+    for (int axis = 0; axis < 3; ++axis) lines.turn_back_at(axis, box.high[axis]);
+}
+
 /// In the axes of the sweep: the line of samples along x, sections along z.
-Vec3 Voxeliser::place(VertexId v) const {
-    const Lattice& lattice = options_.lattice;
-    Vec3 p = mesh_.position(v);
-    const double rounding = rounding_ * (size(p) + size(lattice.origin));
-    if (is_turned_) p = into_axes_(p);
+Vec3 Voxeliser::in_lines(VertexId v) const {
+    const Vec3 p = is_turned_ ? into_axes_(mesh_.position(v)) : mesh_.position(v);
     const auto& axes = options_.sweep.axes;
-    p = {p[axes[0]], p[axes[1]], p[axes[2]]};
+    return {p[axes[0]], p[axes[1]], p[axes[2]]};
+}
+
+/// The same, with coordinates at the ends of the model that were rounded put back.
+Vec3 Voxeliser::place(VertexId v) const {
+    Vec3 p = in_lines(v);
     if (rounding_ == 0) return p;
+    const double rounding = rounding_ * (size(mesh_.position(v)) + size(options_.lattice.origin));
     for (int axis = 0; axis < 3; ++axis) {
         const double near = kOnSide * lines_->spacing(axis) + rounding;
-        for (const double side : {lines_->at(axis, 0), lines_->at(axis, size_[axis] - 1)})
+        for (const double side : sides_[axis])
             if (std::abs(p[axis] - side) < near) p[axis] = side;
     }
     return p;

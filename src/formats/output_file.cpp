@@ -137,6 +137,7 @@ void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
 }
 
 void OutputFile::put(std::string_view bytes) {
+    if (bytes.empty()) return;  // perhaps without an address
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
 }
 

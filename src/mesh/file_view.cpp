@@ -25,8 +25,10 @@ FileView::FileView(const Mesh& mesh, const LabelTable& labels, const std::vector
     std::vector<Label> order(labels.size());
     std::iota(order.begin(), order.end(), Label{0});
     std::ranges::sort(order, [&](Label a, Label b) { return labels.less(labels.input(a), labels.input(b)); });
-    const auto behind = std::ranges::stable_partition(
-        order, [&](Label label) { return std::ranges::find(background, label) == background.end(); });
+    std::vector<bool> is_behind(labels.size());
+    for (const Label label : background)
+        if (label < is_behind.size()) is_behind[label] = true;
+    const auto behind = std::ranges::stable_partition(order, [&](Label label) { return !is_behind[label]; });
     region_ranks_ = static_cast<std::uint32_t>(order.size() - behind.size());
     for (std::uint32_t rank = 0; rank < order.size(); ++rank) ranks_[order[rank]] = rank;
     if (mesh.vertex_count() == mesh.vertex_end()) return;

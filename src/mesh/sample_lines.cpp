@@ -47,11 +47,20 @@ std::array<int, 3> normal_signs(const std::array<Vec3, 3>& p) {
 SampleLines::SampleLines(const Lattice& lattice, const std::array<int, 3>& axes) {
     for (int n = 0; n < 3; ++n) {
         size_[n] = lattice.size[axes[n]];
+        turn_[n] = size_[n] - 1;
         origin_[n] = lattice.origin[axes[n]];
         spacing_[n] = lattice.spacing[axes[n]];
     }
     // The longest along y of the lattice, then z, then x.
     for (int n = 0; n < 3; ++n) by_nudge_[(axes[n] + 2) % 3] = n;
+}
+
+void SampleLines::turn_back_at(int axis, double coordinate) {
+    const double guess = std::floor(index_of(axis, coordinate));
+    auto n = static_cast<std::uint32_t>(std::clamp(guess, 0.0, static_cast<double>(size_[axis] - 1)));
+    while (n > 0 && at(axis, n - 1) >= coordinate) --n;
+    while (n + 1 < size_[axis] && at(axis, n) < coordinate) ++n;
+    turn_[axis] = n;
 }
 
 std::optional<SampleLines::Crossing> SampleLines::crossing(const Triangle& p, std::uint32_t row,

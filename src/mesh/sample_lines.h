@@ -14,7 +14,7 @@ namespace regionmesh {
 /// permuted. Which triangles a line crosses, and on which side of a triangle a sample lies, are signs of determinants
 /// of the coordinates as given, and exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990):
 /// every sample is moved by (e^3, e, e^2) along the axes of the lattice, whatever the lines, for an infinitely small e,
-/// toward the inside of the box of the lattice along each axis.
+/// toward the inside of the box of the lattice, or of a smaller one (turn_back_at), along each axis.
 class SampleLines {
 public:
     using Triangle = std::array<Vec3, 3>;
@@ -22,6 +22,9 @@ public:
     /// Axis n of the lines is axis axes[n] of the lattice; its direction is not looked at. Sample n of an axis lies at
     /// origin + n * spacing, rounded as the mesher does.
     SampleLines(const Lattice& lattice, const std::array<int, 3>& axes);
+
+    /// Samples at this coordinate and above are moved back: the box of a model ends there, within that of the lattice.
+    void turn_back_at(int axis, double coordinate);
 
     std::uint32_t size(int axis) const { return size_[axis]; }
     double spacing(int axis) const { return spacing_[axis]; }
@@ -37,10 +40,11 @@ public:
     std::optional<Crossing> crossing(const Triangle& p, std::uint32_t row, std::uint32_t section) const;
 
 private:
-    double inward(int axis, std::uint32_t n) const { return n + 1 == size_[axis] ? -1 : 1; }
+    double inward(int axis, std::uint32_t n) const { return n < turn_[axis] ? 1 : -1; }
     std::uint32_t first_beyond(const Triangle& p, bool ahead, Vec3 line, Vec3 nudge) const;
 
     std::array<std::uint32_t, 3> size_;
+    std::array<std::uint32_t, 3> turn_;  // the first sample that is moved back: the last one, or before it
     std::array<double, 3> origin_, spacing_;
     std::array<int, 3> by_nudge_;  // axes, that of the longest move first
 };

@@ -181,12 +181,14 @@ Rows run_rows() {
              .group = kGroup,
              .commands = kReconstruct},
             {"plan", "hard"}, [](Settings& s, std::size_t word) { s.memory_is_hard = word == 1; }),
-        option({.name = "face-budget",
-                .help = "largest number of faces in memory at a time; derived from --memory if not given",
-                .group = kGroup,
-                .commands = kReconstruct,
-                .unit = "faces"},
-               [](Settings& s) { return &s.reconstruct.face_budget; }),
+        option(
+            {.name = "face-budget",
+             .help = "largest number of faces in memory at a time, whatever memory that takes; derived from --memory "
+                     "if not given",
+             .group = kGroup,
+             .commands = kReconstruct,
+             .unit = "faces"},
+            [](Settings& s) { return &s.reconstruct.face_budget; }),
         option(
             {.name = "threads",
              .help = "number of threads; 0: one per core. The result is the same for any number",

@@ -1,7 +1,6 @@
 #include "stream/footprint.h"
 
 #include "cells/strip_mesher.h"
-#include "regionmesh/reconstruct.h"
 
 namespace regionmesh {
 
@@ -13,10 +12,6 @@ std::uint64_t reading_bytes(const VolumeInfo& volume) {
     constexpr std::uint64_t kPerSample = 2 * sizeof(InputLabel) + 2 * sizeof(Label) + StripMesher::kBytesPerSample;
     static_assert(kPerSample == 72);
     return kProcessBytes + held + samples * kPerSample;
-}
-
-std::uint64_t expected_bytes(const VolumeInfo& volume, std::uint64_t faces) {
-    return reading_bytes(volume) + faces * kBytesPerFace;
 }
 
 }  // namespace regionmesh

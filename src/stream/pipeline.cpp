@@ -110,6 +110,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     Attempt run;
     Reconstruction& result = run.result;
     RunLog log(result, on_progress);
+    require_room_to_read(source.shape(), options);
     std::optional<FaceCount> counted = count_faces(source, log);
     const SourceShape& shape = source.shape();
     const SmoothOptions smooth = smooth_options(options, shape.scale);
@@ -194,6 +195,13 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
 }
 
 }  // namespace
+
+std::uint64_t least_memory(const VolumeInfo& volume, const Census& census, const ReconstructOptions& given) {
+    const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
+    const SourceShape shape = section_shape(volume, cell_kind(options), section_scale(volume, options));
+    const std::uint32_t window = window_strips(smooth_options(options, shape.scale), strip_order(shape, 0));
+    return least_memory(shape, census.strip_faces, window, options);
+}
 
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,
                            const OnModel& on_model) {

@@ -1,7 +1,10 @@
 #include "stream/plan.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "base/megabytes.h"
+#include "regionmesh/error.h"
 #include "simplify/simplify_tiles.h"
 #include "smooth/filter.h"
 #include "stream/footprint.h"
@@ -41,7 +44,7 @@ std::vector<std::uint64_t> window_bytes(const std::vector<std::uint64_t>& strip_
 }
 
 BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vector<std::uint64_t> strip_faces,
-                       const TilePlan& tiles, const ReconstructOptions& options) {
+                       std::uint32_t window_strips, const TilePlan& tiles, const ReconstructOptions& options) {
     BudgetDemand demand{.source = shape.name,
                         .reading_bytes = shape.reading_bytes,
                         .strip_faces = std::move(strip_faces),
@@ -52,6 +55,7 @@ BudgetDemand demand_of(const SourceShape& shape, const Target& target, std::vect
     demand.fewest_chunk_strips = demand.chunk_strips;
     demand.is_decimating = is_decimating(options);
     demand.preserves_volume = options.preserve_volume;
+    demand.window_strips = window_strips;
     demand.asked_budget = options.face_budget;
     const bool is_counted = !demand.strip_faces.empty();
     if (!is_counted) demand.strip_faces = guessed_strip_faces(shape.lattice, shape.sweep);
@@ -79,6 +83,15 @@ std::vector<std::uint64_t> guessed_strip_faces(const Lattice& lattice, Sweep swe
     return std::vector<std::uint64_t>(strips, samples_of_section(lattice, sweep));
 }
 
+void require_room_to_read(const SourceShape& shape, const ReconstructOptions& options) {
+    // Faces of smaller inputs are counted all the same, so that the refusal says what the model needs, too.
+    constexpr std::uint64_t kCountedAnyway = std::uint64_t{256} << 20;
+    if (options.face_budget || shape.reading_bytes <= std::max(options.memory, kCountedAnyway)) return;
+    throw Error(ErrorCode::kInput, memory_limit_text(options.memory) + ": " + shape.name + " needs at least " +
+                                       megabytes(shape.reading_bytes) +
+                                       " to be read, and more for the model; raise --memory, or change --sweep");
+}
+
 Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::uint32_t window_strips,
                const ReconstructOptions& options) {
     Plan plan{.target = {options.target_faces, options.reduce, {}},
@@ -92,12 +105,20 @@ Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::
         plan.oracle = std::move(counted->oracle);
         strip_faces = std::move(counted->strip_faces);
     }
-    BudgetDemand demand = demand_of(shape, plan.target, std::move(strip_faces), plan.tiles, options);
-    demand.window_strips = window_strips;
+    const BudgetDemand demand =
+        demand_of(shape, plan.target, std::move(strip_faces), window_strips, plan.tiles, options);
     plan.budget = plan_budget(options.memory, demand);
     require_budget(plan.budget, demand);
     plan.tiles.run_strips = plan.budget.chunk_strips;
     return plan;
+}
+
+std::uint64_t least_memory(const SourceShape& shape, const std::vector<std::uint64_t>& strip_faces,
+                           std::uint32_t window_strips, const ReconstructOptions& options) {
+    const std::uint64_t total = std::accumulate(strip_faces.begin(), strip_faces.end(), std::uint64_t{0});
+    const Target target{options.target_faces, options.reduce, total};
+    const TilePlan tiles = plan_tiles(shape.lattice, shape.sweep);
+    return plan_budget(0, demand_of(shape, target, strip_faces, window_strips, tiles, options)).least.sum();
 }
 
 }  // namespace regionmesh

@@ -1,6 +1,7 @@
 // What is decided before the sections are read for the mesh: target, tiles and budget.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,10 +21,17 @@ struct Plan {
     bool is_decimating = false;
 };
 
+/// Throws Error(kInput) where --memory is not enough to read the input, which no count of faces changes.
+void require_room_to_read(const SourceShape& shape, const ReconstructOptions& options);
+
 /// `counted` is what the first pass over the input counted, if there was one; `window_strips` is the number of strips
 /// that smoothing holds, 0 without smoothing. Throws Error(kInput) where --memory cannot be kept.
 Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::uint32_t window_strips,
                const ReconstructOptions& options);
+
+/// The least --memory with which that is accepted.
+std::uint64_t least_memory(const SourceShape& shape, const std::vector<std::uint64_t>& strip_faces,
+                           std::uint32_t window_strips, const ReconstructOptions& options);
 
 /// Is there anything to decimate to?
 bool is_decimating(const ReconstructOptions& options);

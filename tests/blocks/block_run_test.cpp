@@ -255,7 +255,10 @@ TEST(BlockRun, damaged_folders_are_refused) {
     for (const auto& [old, by] :
          {std::pair("\"block_cells\": 17", "\"block_cells\": 0"),
           std::pair("\"block_cells\": 17", "\"block_cells\": 5"), std::pair("\"shift\":", "\"shift\": 17, \"was\":"),
+          std::pair("\"block_cells\": 17", "\"block_cells\": 4294967295"),
           std::pair("\"scale_z\": 1.0", "\"scale_z\": 0.0"), std::pair("\"labels\": 2", "\"labels\": 3"),
+          std::pair("\"labels\": 2", "\"labels\": 2305843009213693954"),  // 2^61 + 2: eight times that is 16
+          std::pair("\"sweep\": [", "\"sweep\": [1000000,"), std::pair("\"size\": [", "\"size\": [1,"),
           std::pair("\"version\": 1", "\"version\": 2"), std::pair("\"crc32\": ", "\"crc32\": 1"),
           std::pair("\"sweep\"", "\"swept\"")}) {
         SCOPED_TRACE(by);
@@ -264,6 +267,20 @@ TEST(BlockRun, damaged_folders_are_refused) {
         fs::copy_file(kept, manifest, fs::copy_options::overwrite_existing);
     }
     EXPECT_NO_THROW(read_block_folder(folder.path));
+}
+
+TEST(BlockRun, does_not_go_on_with_sizes_that_no_run_has) {
+    const test::ArrayVolume volume = foam();
+    for (const auto& [old, by] :
+         {std::pair("\"block_cells\": 17", "\"block_cells\": 0"), std::pair("\"shift\":", "\"shift\": 17, \"was\":"),
+          std::pair("\"size\": [", "\"size\": [4294967295,"), std::pair("\"size\": [", "\"size\": [1,"),
+          std::pair("\"sweep\": [", "\"sweep\": [1000000,"), std::pair("\"passes\":", "\"passes\": 99, \"was\":")}) {
+        SCOPED_TRACE(by);
+        const TestFolder folder;
+        EXPECT_THROW(run_until(19, folder.path, volume, options_for(0.8)), Ended);
+        replace_in(folder.path / "manifest.json", old, by);
+        EXPECT_THROW(run_blocks(folder.path, volume, options_for(0.8)), Error);
+    }
 }
 
 /// Threads that stand for processes: one list of tasks.

@@ -392,6 +392,7 @@ TEST_F(BlockProgram, refuses_an_input_without_cells_or_regions_and_leaves_nothin
     expect_refused(two + "--roi :,:,4:5 --block-size 8", "1 sample along z");
     expect_refused(two + "--background 0,1", "all of it is background");
     expect_refused(one + "2,10,20 --boundary open", "one label only");
+    expect_refused(two + "--memory 1MB", "needs at least");
     EXPECT_TRUE(fs::is_empty(out("m")));
     EXPECT_EQ(run(two + "--quiet -o " + out("m/")).code, 0) << "the folder is as good as new";
 }

@@ -42,6 +42,13 @@ TEST_F(Config, holds_a_whole_run) {
     EXPECT_TRUE(made == text_of(out("typed.vtp")));
 }
 
+TEST_F(Config, with_a_name_of_many_parts_is_refused_at_once) {
+    std::string name = "a";
+    for (int part = 0; part < 100'000; ++part) name += ".a";
+    const std::string file = toml(whole() + "[" + name + "]\n");
+    expect_refusal("reconstruct --config " + file, 1, "run.toml: line 5: a name of more than 100 parts");
+}
+
 TEST_F(Config, gives_way_to_the_command_line) {
     const std::string file = toml(whole() + "reduce = \"50%\"\n");
     const Ran ran = run("reconstruct --reduce 0% --report " + out("r.json") + " --config " + file);

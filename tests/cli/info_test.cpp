@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "cli/program.h"
 #include "support/volumes.h"
@@ -38,6 +40,29 @@ protected:
 TEST_F(Info, lists_20_labels_or_all) {
     EXPECT_THAT(run("info " + layers()).out, AllOf(HasSubstr("19  9 samples\n  and 10 more; --all lists them\n")));
     EXPECT_THAT(run("info --all " + layers()).out, AllOf(HasSubstr("29  9 samples\n"), Not(HasSubstr("more;"))));
+}
+
+TEST_F(Info, says_the_least_memory_that_is_accepted) {
+    std::string noise;
+    for (std::uint32_t n = 0, bits = 7; n < 20 * 20 * 20; ++n)
+        noise += static_cast<char>((bits = bits * 1664525 + 1013904223) >> 28);
+    put_text(path("noise.raw"), noise);
+    const std::string volume = path("noise.raw").string() + " --size 20,20,20 --type uint8";
+    const std::string said = run("info " + volume).out;
+    const auto least = [&](std::string_view before) {
+        const std::size_t at = said.find(before);
+        return at == std::string::npos ? 0 : std::stoi(said.substr(at + before.size()));
+    };
+    const int whole = least("memory     "), fifth = least("for the model, ");
+    ASSERT_GT(whole, 20);
+    ASSERT_GT(fifth, 20);
+    const std::string to = " --quiet -o " + out("m.vtp");
+    for (const auto& [least, options] : {std::pair(whole, ""), std::pair(fifth, " --reduce 80%")}) {
+        const std::string reconstruct = "reconstruct " + volume + options + to + " --memory ";
+        expect_refusal(reconstruct + std::to_string(least - 1) + "MB", 1, "needs at least");
+        EXPECT_EQ(run(reconstruct + std::to_string(least) + "MB").code, 0);
+        std::filesystem::remove(out("m.vtp"));
+    }
 }
 
 TEST_F(Info, writes_json_with_all_labels_of_a_volume) {

@@ -44,10 +44,39 @@ TEST_F(Usage, options_that_contradict_each_other_are_refused_by_name) {
     refused("--no-decimate --max-error 1", "--no-decimate", "--max-error");
     refused("--no-background --background 3", "--no-background", "--background");
     refused("--quiet --verbose", "--quiet", "--verbose");
+    refused("--face-budget 1000 --memory 1GB", "--face-budget", "--memory");
     refused("--smooth-filter none --smooth 50", "--smooth-filter none", "--smooth 50");
     refused("--smooth off --smooth-filter taubin", "--smooth off", "--smooth-filter taubin");
     refused("--smooth 0 --smooth-points", "--smooth 0", "--smooth-points");
     EXPECT_EQ(run(reconstruct_ball("--smooth off --smooth-filter none --no-decimate")).code, 0);
+    EXPECT_EQ(run(reconstruct_ball("--face-budget 1000 --memory 1GB --memory-limit hard")).code, 0);
+}
+
+TEST_F(Usage, sections_that_a_check_reads_twice_are_not_read_from_standard_input) {
+    const std::string model = path("m.vtp").string();
+    ASSERT_EQ(run("reconstruct " + of("ball") + " -o " + model).code, 0);
+    expect_refusal("check " + model + " --sections - --size 9,9,9 --type uint8 < " + path("ball.raw").string(), 2,
+                   "--sections -: ");
+}
+
+TEST_F(Usage, voxelise_writes_no_label_with_another_sign) {
+    const auto put_labels = [&](const std::string& name, char high) {
+        std::string bytes;
+        for (int n = 0; n < 8; ++n) bytes += std::string(1, '\5') + std::string(6, '\0') + (n % 2 == 1 ? high : '\0');
+        put_text(path(name), bytes);
+    };
+    const std::string model = path("m.vtp").string();
+    put_labels("large.raw", '\x80');
+    const std::string large = path("large.raw").string() + " --size 2,2,2 --type ";
+    for (const auto& [type, other, said] :
+         {std::tuple("uint64", "int64", "9223372036854775813; give a volume of uint64"),
+          std::tuple("int64", "uint64", "-9223372036854775803; give a volume of a")}) {
+        ASSERT_EQ(run("reconstruct " + large + type + " -o " + model).code, 0);
+        EXPECT_EQ(run("voxelise " + model + " --like " + large + type + " -o " + out("v.raw")).code, 0);
+        EXPECT_EQ(text_of(out("v.raw")), text_of(path("large.raw")));
+        std::filesystem::remove(out("v.raw"));
+        expect_refusal("voxelise " + model + " --like " + large + other + " -o " + out("v.raw"), 1, said);
+    }
 }
 
 TEST_F(Usage, background_leaves_the_input_alone_and_takes_several_labels) {

@@ -55,23 +55,73 @@ TEST(Voxelise, sweeps_spacings_and_origins_are_lossless) {
     }
 }
 
+/// Grains in a lattice that is turned about z by an angle of this sine.
+ArrayVolume turned_grains(double sine) {
+    ArrayVolume volume = test::grain_volume({9, 8, 7}, 12, 3);
+    volume.spaced({0.3, 0.7, 1.1});
+    volume.lattice().origin = {10.1, -3.3, 7.7};
+    const double cosine = std::sqrt(1 - sine * sine);
+    volume.lattice().direction = {cosine, -sine, 0, sine, cosine, 0, 0, 0, 1};
+    return volume;
+}
+
+void round_to_single(Mesh& mesh) {
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+        Vec3& p = mesh[VertexId{v}].position;
+        for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+    }
+}
+
 TEST(Voxelise, positions_rounded_to_single_precision_leave_no_sample_on_a_side_outside) {
-    for (const double turn : {0.0, 0.6}) {
-        ArrayVolume volume = test::grain_volume({9, 8, 7}, 12, 3);
-        volume.spaced({0.3, 0.7, 1.1});
-        volume.lattice().origin = {10.1, -3.3, 7.7};
-        volume.lattice().direction = {
-            std::sqrt(1 - turn * turn), -turn, 0, turn, std::sqrt(1 - turn * turn), 0, 0, 0, 1};
+    for (const double sine : {0.0, 0.6}) {
+        ArrayVolume volume = turned_grains(sine);
         Reconstruction made = reconstruct(volume, plain());
-        for (std::uint32_t v = 0; v < made.mesh.vertex_end(); ++v) {
-            Vec3& p = made.mesh[VertexId{v}].position;
-            for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
-        }
+        round_to_single(made.mesh);
         volume.rewind();
         const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);
-        EXPECT_EQ(found.wrong, 0u) << turn;
-        EXPECT_EQ(found.contradictions, 0u) << turn;
+        EXPECT_EQ(found.wrong, 0u) << sine;
+        EXPECT_EQ(found.contradictions, 0u) << sine;
     }
+}
+
+/// Voxelises in a lattice with samples between those of the volume, and beyond them.
+void expect_lossless_in_larger_lattice(ArrayVolume volume, bool is_single) {
+    constexpr std::uint32_t kParts = 3, kRim = 2;
+    Reconstruction made = reconstruct(volume, plain());
+    if (is_single) round_to_single(made.mesh);
+    Lattice large = volume.lattice();
+    for (int axis = 0; axis < 3; ++axis) {
+        large.size[axis] = kParts * (large.size[axis] - 1) + 1 + 2 * kRim;
+        large.spacing[axis] /= kParts;
+        for (int row = 0; row < 3; ++row)
+            large.origin[row] -= kRim * large.spacing[axis] * large.direction[3 * row + axis];
+    }
+    Voxeliser voxeliser(made.mesh, {.lattice = large});
+    std::vector<Label> section(std::size_t{large.size[0]} * large.size[1]);
+    std::uint32_t found = 0, wrong = 0;
+    const auto is_beyond = [&](std::uint32_t n, int axis) { return n < kRim || n + kRim >= large.size[axis]; };
+    for (std::uint32_t z = 0; voxeliser.next(section); ++z)
+        for (std::uint32_t y = 0; y < large.size[1]; ++y)
+            for (std::uint32_t x = 0; x < large.size[0]; ++x) {
+                const Label label = section[std::size_t{y} * large.size[0] + x];
+                if (is_beyond(x, 0) || is_beyond(y, 1) || is_beyond(z, 2)) {
+                    wrong += label != kNoRegion;
+                    continue;
+                }
+                const std::uint32_t i = x - kRim, j = y - kRim, k = z - kRim;
+                if (i % kParts != 0 || j % kParts != 0 || k % kParts != 0) continue;
+                ++found;
+                wrong +=
+                    is_exterior(label) || made.labels.input(label) != volume.at(i / kParts, j / kParts, k / kParts);
+            }
+    EXPECT_EQ(found, volume.labels().size());
+    EXPECT_EQ(wrong, 0u);
+    EXPECT_EQ(voxeliser.contradictions(), 0u);
+}
+
+TEST(Voxelise, samples_on_the_sides_of_a_model_in_a_larger_lattice_have_the_region_inside) {
+    for (const double sine : {0.0, 0.6})
+        for (const bool is_single : {false, true}) expect_lossless_in_larger_lattice(turned_grains(sine), is_single);
 }
 
 TEST(Voxelise, oblique_and_mirrored_lattices_are_lossless) {
