@@ -57,6 +57,7 @@ Seeds gather_stores(const Format& format) {
     for (const fs::path& file : files) {
         fs::path store = file;
         while (store.has_relative_path() && store.extension() != format.store) store = store.parent_path();
+        if (!store.has_relative_path()) continue;  // beside the stores
         seeds.stores.push_back(store);
         seeds.places.push_back(file.lexically_relative(store));
         seeds.texts.push_back(text_of(file));
