@@ -55,15 +55,20 @@ OutputOptions model_writing(const Settings& settings) {
 }
 
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
+    constexpr double kMostRounded = 0.01;
     write_tables(settings, model, files);
-    return write_mesh(model.mesh, model.labels, settings.output,
-                      {.background = model.background,
-                       .names = model.names,
-                       .colours = model.colours,
-                       .per_region = settings.per_region,
-                       .space = model.space,
-                       .metres = settings.metres},
-                      files);
+    const WriteOptions options{.background = model.background,
+                               .names = model.names,
+                               .colours = model.colours,
+                               .per_region = settings.per_region,
+                               .space = model.space,
+                               .metres = settings.metres};
+    if (const double share = rounded_share_of_edge(model.mesh, settings.output, options); share > kMostRounded)
+        warn(
+            fmt::format("{}: its numbers of single precision move points by up to {:.2g} of an edge, so far from the "
+                        "origin: faces may degenerate or cross; write .vtp or .ply, or move the origin",
+                        settings.output, share));
+    return write_mesh(model.mesh, model.labels, settings.output, options, files);
 }
 
 void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written) {

@@ -80,6 +80,11 @@ std::vector<std::filesystem::path> write_mesh(const Mesh& mesh, const LabelTable
 void require_writable_mesh(const std::filesystem::path& path, const WriteOptions& options = {},
                            bool with_point_arrays = false);
 
+/// How far the numbers of the file move a point of the mesh, at most, as a share of the mean edge; 0 where they are of
+/// double precision, and for a mesh without faces. Single precision far from the origin makes faces degenerate and
+/// cross.
+double rounded_share_of_edge(const Mesh& mesh, const std::filesystem::path& path, const WriteOptions& options = {});
+
 /// ".vtp .vtu .ply ...": the extensions of the formats that this build writes, and of those that it reads.
 std::string writable_extensions();
 std::string readable_extensions();

@@ -153,7 +153,8 @@ constexpr Format kFormats[] = {
      .extensions = {".stl"},
      .read_surface = read_stl,
      .write_surface = write_one<write_stl>,
-     .write_region = write_region_stl},
+     .write_region = write_region_stl,
+     .has_single_region_points = true},
     {.name = "OBJ",
      .extensions = {".obj"},
      .read_surface = read_obj,
@@ -193,6 +194,7 @@ constexpr Format kFormats[] = {
      .holds_surface = true,
      .read_surface = in_part<kHdf5, read_dream3d>(),
      .write_surface = write_two_in_part<kHdf5, write_dream3d>(),
+     .has_single_points = true,
      .companion = ".xdmf",
      .forbidden_in_name = "\":<>&"},
 };

@@ -68,6 +68,19 @@ TEST_F(Cli, per_region_writes_a_file_for_each_region) {
     EXPECT_TRUE(std::filesystem::exists(out("m-1.stl")));
 }
 
+TEST_F(Cli, single_precision_far_from_the_origin_is_a_warning) {
+    const auto nrrd = [&](const std::string& origin) {
+        put_text(path("far.nrrd"),
+                 "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 9 9 9\nspace dimension: 3\n"
+                 "space directions: (0.1,0,0) (0,0.1,0) (0,0,0.1)\nspace origin: " +
+                     origin + "\nencoding: raw\n\n" + text_of(path("volume.raw")));
+        return "reconstruct " + path("far.nrrd").string() + " -o " + out("m.stl");
+    };
+    EXPECT_THAT(run(nrrd("(1e5,0,0)") + " --per-region").error, HasSubstr("m.stl: its numbers of single precision"));
+    EXPECT_EQ(run(nrrd("(1e5,0,0)")).error, "") << "text";
+    EXPECT_EQ(run(nrrd("(100,0,0)") + " --per-region").error, "");
+}
+
 TEST_F(Cli, open_box_is_refused_where_volumes_are_needed) {
     expect_refusal("reconstruct " + volume() + "-o " + out("m.smesh") + " --boundary open", 1, "--boundary open");
 }

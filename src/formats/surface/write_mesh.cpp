@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -137,6 +139,24 @@ void require_arrays(const Mesh& mesh, const Path& path, const WriteOptions& opti
 }
 
 }  // namespace
+
+double rounded_share_of_edge(const Mesh& mesh, const Path& path, const WriteOptions& options) {
+    const Format* const format = formats::find_format(path);
+    if (!format || !(options.per_region ? format->has_single_region_points : format->has_single_points)) return 0;
+    double farthest = 0, edges = 0;
+    std::uint64_t count = 0;
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+        if (!mesh.is_alive(FaceId{f})) continue;
+        const auto& vertices = mesh[FaceId{f}].vertices;
+        for (int n = 0; n < 3; ++n, ++count) {
+            const Vec3 p = mesh.position(vertices[n]);
+            farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+            edges += length(mesh.position(vertices[(n + 1) % 3]) - p);
+        }
+    }
+    constexpr double kRounding = std::numeric_limits<float>::epsilon() / 2;
+    return edges > 0 ? kRounding * farthest * static_cast<double>(count) / edges : 0;
+}
 
 std::string writable_extensions() { return formats::extensions_with(&Format::write_surface); }
 
