@@ -21,7 +21,8 @@ fs::path path_of(const Manifest& manifest, const fs::path& folder, std::uint32_t
     const fs::path path = piece_path(folder, entry.pass, block);
     if (!fs::exists(path))
         formats::fail(path, "is missing, and the manifest names it; remove the folder, and run again");
-    if (read_checksum(path) != entry.checksum)
+    const PieceHeader header = read_piece_header(path);  // its counts fit the size of the file
+    if (read_checksum(path) != entry.checksum || header.vertices != entry.vertices || header.faces != entry.faces)
         formats::fail(path, "is not the piece that the manifest names; remove the folder, and run again");
     return path;
 }
@@ -87,6 +88,7 @@ MeshFile describe_block_folder(const fs::path& folder) {
 MeshFile read_block_folder(const fs::path& folder) {
     const Manifest manifest = read_complete_manifest(folder);
     MeshFile file = describe_block_folder(folder);
+    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) path_of(manifest, folder, block);
     require_mesh_size("the model in pieces", manifest.vertices, manifest.faces);
     file.mesh.reserve(manifest.vertices, manifest.faces);
     GlobalNumbers numbers(manifest, folder);

@@ -156,6 +156,13 @@ Manifest read_complete_manifest(const fs::path& folder) {
     if (!manifest) formats::fail(folder, "has no manifest.json; it is no model in pieces");
     if (!manifest->is_complete)
         formats::fail(folder, "the model is not complete; run the command that began it once more");
+    std::uint64_t vertices = 0, faces = 0;  // vertices on walls are those of several pieces
+    for (const PieceEntry& piece : manifest->pieces) {
+        vertices += piece.vertices;
+        faces += piece.faces;
+    }
+    if (faces != manifest->faces || vertices < manifest->vertices)
+        formats::fail(manifest_path(folder), "the counts of the pieces do not fit its own; the file is damaged");
     return std::move(*manifest);
 }
 

@@ -49,7 +49,10 @@ protected:
         const fs::path path = piece_path(folder_, manifest.pieces[block].pass, block);
         Piece piece = read_piece(path);
         change(piece);
-        manifest.pieces[block].checksum = write_piece(piece, path, {.sync = false});
+        PieceEntry& entry = manifest.pieces[block];
+        manifest.faces += piece.faces.size() - entry.faces;
+        entry.faces = piece.faces.size();
+        entry.checksum = write_piece(piece, path, {.sync = false});
         write_manifest(manifest, folder_, {.sync = false});
     }
 
