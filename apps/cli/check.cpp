@@ -58,10 +58,10 @@ std::optional<LabelOracle> oracle_of(const Settings& settings, LabelTable& label
     return translate(count_labels(*open_tetrahedra(settings.sections.front(), settings.tetrahedra), census), labels);
 }
 
-/// They are read twice, for the labels and for the samples.
-void require_sections_twice(const Settings& settings) {
+/// Sections are read for the labels, and again where there are samples to compare.
+void require_readable_twice(const Settings& settings) {
     for (const std::string& file : settings.sections)
-        if (file == "-")
+        if (file == "-" && has_samples(settings))
             throw Error(ErrorCode::kUsage,
                         "--sections -: the sections are read twice, and standard input can be read once; name a file");
 }
@@ -131,7 +131,7 @@ bool needs_whole(const Settings& settings) {
 }  // namespace
 
 int run_check(const Settings& given) {
-    require_sections_twice(given);
+    require_readable_twice(given);
     require_page(given.html, given.writing);
     const std::string& path = given.models.front();
     for (const std::string& file : {given.json, given.regions, given.interfaces, given.lines})

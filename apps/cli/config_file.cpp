@@ -46,8 +46,9 @@ void require_short_names(const std::string& path, const std::string& text) {
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
         ++number;
-        const std::string_view name = std::string_view(line).substr(0, line.find('='));
-        if (std::ranges::count(name, '.') > kMostParts)
+        const std::size_t end = std::min(line.find_first_of("=]#\"'"), line.size());
+        const bool is_name = line.find('[') < end || (end < line.size() && line[end] == '=');
+        if (is_name && std::count(line.begin(), line.begin() + end, '.') > kMostParts)
             throw Error(ErrorCode::kInput,
                         fmt::format("{}: line {}: a name of more than {} parts; tables are named after commands, such "
                                     "as [reconstruct]",

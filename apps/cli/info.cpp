@@ -91,7 +91,7 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
         options.reduce = reduce;
         return std::ceil(static_cast<double>(least_memory(info, census, options)) / 1e6);
     };
-    fmt::print("memory     {:.0f} MB at least for the model, {:.0f} MB with --reduce 80%\n", megabytes({}),
+    fmt::print("memory     {:.0f} MB at least without decimation, {:.0f} MB with --reduce 80%\n", megabytes({}),
                megabytes(0.8));
     return info_json(info, census);
 }

@@ -6,20 +6,6 @@
 #include "regionmesh/blocks.h"
 
 namespace regionmesh::cli {
-namespace {
-
-/// A negative label and one of 2^63 and more have the same 64 bits.
-void require_sign(const LabelTable& labels, SampleType type, const std::string& output) {
-    if (labels.is_unsigned() == (type == SampleType::kU64)) return;
-    for (Label label = 0; label < labels.size(); ++label)
-        if (labels.input(label) < 0)
-            throw Error(
-                ErrorCode::kInput,
-                fmt::format("{}: samples of the type of --like do not hold the label {}; give a volume of {}", output,
-                            labels.text(labels.input(label)), labels.is_unsigned() ? "uint64" : "a signed type"));
-}
-
-}  // namespace
 
 int run_voxelise(const Settings& given) {
     const std::string& path = given.models.front();
@@ -32,8 +18,8 @@ int run_voxelise(const Settings& given) {
     VoxeliseOptions options{.lattice = lattice};
     for (const InputLabel label : settings.reconstruct.background)
         options.background.push_back(file.labels.dense(label));
-    require_sign(file.labels, info.type, given.output);
-    const auto writer = create_volume(settings.output, lattice, info.space, info.type, settings.writing);
+    const auto writer =
+        create_volume(settings.output, lattice, info.space, info.type, settings.writing, file.labels.is_unsigned());
     std::vector<InputLabel> written(std::size_t{lattice.size[0]} * lattice.size[1]);
     const auto write = [&](std::span<const Label> section) {
         for (std::size_t n = 0; n < section.size(); ++n)

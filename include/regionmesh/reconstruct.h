@@ -74,7 +74,7 @@ using OnModel = std::function<void(const Mesh&, const LabelTable&, const std::ve
 CellKind cell_kind(const ReconstructOptions& options);
 
 /// The least ReconstructOptions::memory, in bytes, with which reconstruct() accepts the volume. The census was taken of
-/// the same volume, with the same caps, background and cells.
+/// the same volume, after ReconstructOptions::room, with the same caps, background and cells.
 std::uint64_t least_memory(const VolumeInfo& volume, const Census& census, const ReconstructOptions& options);
 
 /// Reads all sections, builds the mesh on the fly within the memory, decimates it to the target and checks it. Sections

@@ -31,8 +31,8 @@ struct VoxeliseOptions {
 /// to another; the region of a sample is the one that was entered once more than it was left. Which faces a line
 /// crosses, and on which side of a face a sample lies, are signs of determinants of the coordinates as given, and
 /// exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990): every sample is moved by (e^3, e,
-/// e^2) along x, y, z of the lattice for an infinitely small e, toward the inside of the box of the model, and of that
-/// of the lattice, along each axis. A sample on a capped side of the box therefore has the region inside.
+/// e^2) along x, y, z of the lattice for an infinitely small e, toward the inside of the box of the model along each
+/// axis. A sample on a capped side of the box therefore has the region inside.
 ///
 /// An oblique lattice has its vertices turned into the axes of the lattice first; there the coordinates are rounded. So
 /// vertices within 1e-9 spacings of samples on a side of the box of the model are moved to where these lie, and also

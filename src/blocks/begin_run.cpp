@@ -108,6 +108,7 @@ void write_part(const PartSurvey& part, const fs::path& path, const OutputOption
 PartSurvey read_part(const fs::path& path) {
     const formats::InputFile file(path);
     PartSurvey part;
+    if (file.size() < sizeof part.faces) formats::fail(path, "the file ends early; remove the folder, and run again");
     part.labels.resize((file.size() - sizeof part.faces) / sizeof part.labels[0]);
     const auto labels = std::as_writable_bytes(std::span(part.labels));
     if (file.read(0, std::as_writable_bytes(std::span(&part.faces, 1))) != sizeof part.faces ||
@@ -187,10 +188,15 @@ void require_regions(const Survey& found, const Input& input, const ReconstructO
                               : "it has one label only, which has no face with --boundary open; give --boundary cap"));
 }
 
-void empty_folder(const fs::path& folder) {
+/// Removes what a run writes before it makes pieces; the manifest last, so that nobody takes the rest for another's.
+void remove_survey(const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
-    for (const fs::path& file : files) fs::remove(file);
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (const std::string name = entry.path().filename(); name == kStagedLabels || name.starts_with(kSurveyPart))
+            files.push_back(entry.path());
+    files.push_back(manifest_path(folder));
+    std::error_code ignored;
+    for (const fs::path& file : files) fs::remove(file, ignored);
 }
 
 void make_folder(const fs::path& folder) {
@@ -278,7 +284,7 @@ std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const Reconstruc
             note_survey(found, *input, options, blocks);
         } catch (const Error& error) {
             // As if the input had been refused at once: another run may want the folder for other options.
-            if (error.code() != ErrorCode::kOutput) empty_folder(blocks.folder);
+            if (error.code() != ErrorCode::kOutput) remove_survey(blocks.folder);
             throw;
         }
     }

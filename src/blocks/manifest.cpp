@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFormat = "regionmesh blocks";
 constexpr int kVersion = 1;
 
-/// Along an axis of a volume or a block: sums of a few of them are numbers of 32 bits.
+/// Along an axis of a volume or a block: a sum of three fits in 32 bits.
 constexpr std::uint32_t kMostCells = 1u << 30;
 
 Json vec_json(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -139,12 +139,13 @@ void require_sound(const Manifest& manifest, const fs::path& path) {
     if (std::ranges::min(size) < 2 || std::ranges::max(size) > kMostCells) damaged();
     if (manifest.block_cells < 1 || manifest.block_cells > kMostCells || manifest.shift >= manifest.block_cells)
         damaged();
-    if (!(manifest.scale_z > 0) || manifest.passes > end_of_passes()) damaged();
+    if (!(manifest.scale_z > 0) || manifest.passes > kMostBlockPasses) damaged();
     require_lattice(path.string(), manifest.lattice);
     const BlockGrid grid(piece_lattice(manifest), manifest.block_cells, manifest.shift);
-    double count = manifest.passes > 0;  // of pieces, once there are any
-    for (const std::uint32_t along : grid.counts()) count *= along;
-    if (count != static_cast<double>(manifest.pieces.size())) damaged();
+    double blocks = 1;  // more than 32 bits hold, perhaps
+    for (const std::uint32_t along : grid.counts()) blocks *= along;
+    const bool has_pieces = manifest.is_complete || manifest.passes > 0;
+    if (static_cast<double>(manifest.pieces.size()) != (has_pieces ? blocks : 0)) damaged();
 }
 
 fs::path labels_path(const fs::path& folder) { return folder / "labels.bin"; }

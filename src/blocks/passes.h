@@ -13,8 +13,7 @@ namespace regionmesh {
 /// turns.
 inline constexpr std::uint32_t kSeams = 1, kFirstLog = 2, kMostLogs = 7;
 
-/// Beyond the last pass that a run can have.
-inline constexpr std::uint32_t end_of_passes() { return kFirstLog + 2 * kMostLogs; }
+inline constexpr std::uint32_t kMostBlockPasses = kFirstLog + 2 * kMostLogs;
 
 inline bool is_log(std::uint32_t pass) { return pass >= kFirstLog && (pass - kFirstLog) % 2 == 0; }
 

@@ -79,7 +79,8 @@ void Voxeliser::find_sides(SampleLines& lines) {
             const double n = std::clamp(std::round(lines.index_of(axis, coordinate)), 0.0, size_[axis] - 1.0);
             const double side = sides_[axis][end] = lines.at(axis, static_cast<std::uint32_t>(n));
             // A lattice that is not the model's has samples there whose coordinates were rounded in another way.
-            const double near = kOnSide * lines.spacing(axis) + kRounding * std::abs(coordinate);
+            const double near =
+                kOnSide * lines.spacing(axis) + kRounding * (std::abs(coordinate) + size(options_.lattice.origin));
             if (side != coordinate && std::abs(side - coordinate) < near) rounding_ = std::max(rounding_, kRounding);
         }
     if (rounding_ != 0) box = box_of([&](VertexId v) { return place(v); });

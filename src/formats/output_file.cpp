@@ -137,7 +137,7 @@ void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
 }
 
 void OutputFile::put(std::string_view bytes) {
-    if (bytes.empty()) return;  // perhaps without an address
+    if (bytes.empty()) return;  // data() may be null, which fwrite does not allow
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
 }
 

@@ -57,9 +57,9 @@ SampleLines::SampleLines(const Lattice& lattice, const std::array<int, 3>& axes)
 
 void SampleLines::turn_back_at(int axis, double coordinate) {
     const double guess = std::floor(index_of(axis, coordinate));
-    auto n = static_cast<std::uint32_t>(std::clamp(guess, 0.0, static_cast<double>(size_[axis] - 1)));
+    auto n = static_cast<std::uint32_t>(std::clamp(guess, 0.0, static_cast<double>(size_[axis])));
     while (n > 0 && at(axis, n - 1) >= coordinate) --n;
-    while (n + 1 < size_[axis] && at(axis, n) < coordinate) ++n;
+    while (n < size_[axis] && at(axis, n) < coordinate) ++n;
     turn_[axis] = n;
 }
 

@@ -14,7 +14,7 @@ namespace regionmesh {
 /// permuted. Which triangles a line crosses, and on which side of a triangle a sample lies, are signs of determinants
 /// of the coordinates as given, and exact. Ties are broken by symbolic perturbation (Edelsbrunner and Muecke 1990):
 /// every sample is moved by (e^3, e, e^2) along the axes of the lattice, whatever the lines, for an infinitely small e,
-/// toward the inside of the box of the lattice, or of a smaller one (turn_back_at), along each axis.
+/// toward the inside of a box along each axis: that of the lattice, or of a model (turn_back_at).
 class SampleLines {
 public:
     using Triangle = std::array<Vec3, 3>;
@@ -23,7 +23,7 @@ public:
     /// origin + n * spacing, rounded as the mesher does.
     SampleLines(const Lattice& lattice, const std::array<int, 3>& axes);
 
-    /// Samples at this coordinate and above are moved back: the box of a model ends there, within that of the lattice.
+    /// The box ends at this coordinate: samples there and above are moved back, all others forward.
     void turn_back_at(int axis, double coordinate);
 
     std::uint32_t size(int axis) const { return size_[axis]; }
@@ -44,7 +44,7 @@ private:
     std::uint32_t first_beyond(const Triangle& p, bool ahead, Vec3 line, Vec3 nudge) const;
 
     std::array<std::uint32_t, 3> size_;
-    std::array<std::uint32_t, 3> turn_;  // the first sample that is moved back: the last one, or before it
+    std::array<std::uint32_t, 3> turn_;  // the first sample that is moved back; size_ for none
     std::array<double, 3> origin_, spacing_;
     std::array<int, 3> by_nudge_;  // axes, that of the longest move first
 };

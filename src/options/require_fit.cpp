@@ -119,7 +119,7 @@ void require_consistent(const Settings& settings) {
     for (const Contradiction& pair : kContradictions)
         if (given(settings, pair.a) && given(settings, pair.b)) refuse_both(pair.a, pair.b, pair.why);
     if (given(settings, "face-budget") && given(settings, "memory") && !settings.memory_is_hard)
-        refuse_both("face-budget", "memory", "each says by itself how many faces are held");
+        refuse_both("face-budget", "memory", "each says how many faces are held, unless --memory-limit is hard");
     require_consistent_smoothing(settings);
     if (!settings.volume.select.labels.empty() && settings.reconstruct.background.empty())
         throw Error(ErrorCode::kUsage,

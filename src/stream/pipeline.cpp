@@ -200,7 +200,7 @@ std::uint64_t least_memory(const VolumeInfo& volume, const Census& census, const
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
     const SourceShape shape = section_shape(volume, cell_kind(options), section_scale(volume, options));
     const std::uint32_t window = window_strips(smooth_options(options, shape.scale), strip_order(shape, 0));
-    return least_memory(shape, census.strip_faces, window, options);
+    return least_memory(shape, volume.can_rewind ? census.strip_faces : std::vector<std::uint64_t>(), window, options);
 }
 
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,

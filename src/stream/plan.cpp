@@ -115,8 +115,8 @@ Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::
 
 std::uint64_t least_memory(const SourceShape& shape, const std::vector<std::uint64_t>& strip_faces,
                            std::uint32_t window_strips, const ReconstructOptions& options) {
-    const std::uint64_t total = std::accumulate(strip_faces.begin(), strip_faces.end(), std::uint64_t{0});
-    const Target target{options.target_faces, options.reduce, total};
+    Target target{options.target_faces, options.reduce, {}};
+    if (!strip_faces.empty()) target.total = std::accumulate(strip_faces.begin(), strip_faces.end(), std::uint64_t{0});
     const TilePlan tiles = plan_tiles(shape.lattice, shape.sweep);
     return plan_budget(0, demand_of(shape, target, strip_faces, window_strips, tiles, options)).least.sum();
 }

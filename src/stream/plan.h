@@ -29,7 +29,7 @@ void require_room_to_read(const SourceShape& shape, const ReconstructOptions& op
 Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::uint32_t window_strips,
                const ReconstructOptions& options);
 
-/// The least --memory with which that is accepted.
+/// The least --memory with which that is accepted. No faces of strips: they were not counted.
 std::uint64_t least_memory(const SourceShape& shape, const std::vector<std::uint64_t>& strip_faces,
                            std::uint32_t window_strips, const ReconstructOptions& options);
 

@@ -24,7 +24,7 @@ InputLabel SmallRegions::nearest_label(const Region& region) const {
         ->first;
 }
 
-/// Makes `other` part of `region`, which has its label.
+/// Makes `other` part of `region`.
 void SmallRegions::absorb(std::uint32_t region, std::uint32_t other) {
     Region& to = regions_[region];
     Region& from = regions_[other];
@@ -55,25 +55,34 @@ void SmallRegions::make_large(std::uint32_t region) {
 std::vector<InputLabel> SmallRegions::resolve(std::uint64_t min_samples) {
     for (std::uint32_t n = 0; n < regions_.size(); ++n) queue_.emplace(regions_[n].samples, n);
     while (!queue_.empty()) {
-        const std::uint32_t number = queue_.begin()->second;
-        queue_.erase(queue_.begin());
-        Region& region = regions_[number];
-        if (region.small.empty() && region.large.empty()) continue;
-        region.label = nearest_label(region);
-        const bool joins_large = region.large.contains(region.label);
-        std::vector<std::uint32_t> same;
+        const std::uint32_t smallest = queue_.begin()->second;
+        const Region& region = regions_[smallest];
+        if (region.small.empty() && region.large.empty()) {
+            queue_.erase(queue_.begin());
+            continue;
+        }
+        const InputLabel label = nearest_label(region);
+        const bool joins_large = region.large.contains(label);
+        std::vector<std::uint32_t> same{smallest};
         for (const auto& [other, area] : region.small)
-            if (regions_[other].label == region.label) same.push_back(other);
-        for (const std::uint32_t other : same) absorb(number, other);
-        if (joins_large || region.samples >= min_samples)
-            make_large(number);
+            if (regions_[other].label == label) same.push_back(other);
+        // The one with the most neighbours takes in the others: each of these is told once for each time that its
+        // region doubles, or so.
+        const std::uint32_t joint = *std::ranges::max_element(
+            same, {}, [&](std::uint32_t n) { return regions_[n].small.size() + regions_[n].large.size(); });
+        queue_.erase({regions_[joint].samples, joint});
+        regions_[joint].label = label;
+        for (const std::uint32_t other : same)
+            if (other != joint) absorb(joint, other);
+        if (joins_large || regions_[joint].samples >= min_samples)
+            make_large(joint);
         else
-            queue_.emplace(region.samples, number);
+            queue_.emplace(regions_[joint].samples, joint);
     }
     std::vector<InputLabel> labels;
     for (std::uint32_t n = 0; n < regions_.size(); ++n) {
         std::uint32_t root = n;
-        while (regions_[root].joined != root) root = regions_[root].joined;
+        while (regions_[root].joined != root) root = regions_[root].joined = regions_[regions_[root].joined].joined;
         labels.push_back(regions_[root].label);
     }
     return labels;

@@ -260,7 +260,8 @@ TEST(BlockRun, damaged_folders_are_refused) {
           std::pair("\"labels\": 2", "\"labels\": 2305843009213693954"),  // 2^61 + 2: eight times that is 16
           std::pair("\"sweep\": [", "\"sweep\": [1000000,"), std::pair("\"size\": [", "\"size\": [1,"),
           std::pair("\"version\": 1", "\"version\": 2"), std::pair("\"crc32\": ", "\"crc32\": 1"),
-          std::pair("\"sweep\"", "\"swept\"")}) {
+          std::pair("\"sweep\"", "\"swept\""),
+          std::pair("\"pieces\": [", "\"pieces\": [], \"passes\": 0, \"are\": [")}) {
         SCOPED_TRACE(by);
         replace_in(manifest, old, by);
         EXPECT_THROW(read_block_folder(folder.path), Error);

@@ -10,6 +10,7 @@ namespace regionmesh {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class Config : public Program {
 protected:
@@ -47,6 +48,11 @@ TEST_F(Config, with_a_name_of_many_parts_is_refused_at_once) {
     for (int part = 0; part < 100'000; ++part) name += ".a";
     const std::string file = toml(whole() + "[" + name + "]\n");
     expect_refusal("reconstruct --config " + file, 1, "run.toml: line 5: a name of more than 100 parts");
+    expect_refusal("reconstruct --config " + toml(name + " = 1\n"), 1, "line 1: a name of more than 100 parts");
+    std::string inputs;
+    for (int n = 0; n < 120; ++n) inputs += std::string(n > 0 ? ", " : "") + "\"v.raw\"";
+    for (const std::string& more : {"# " + std::string(200, '.'), "labels = [" + inputs + "]"})
+        EXPECT_THAT(run("reconstruct --config " + toml(more + '\n')).error, Not(HasSubstr("parts"))) << more;
 }
 
 TEST_F(Config, gives_way_to_the_command_line) {

@@ -69,8 +69,8 @@ TEST_F(Usage, voxelise_writes_no_label_with_another_sign) {
     put_labels("large.raw", '\x80');
     const std::string large = path("large.raw").string() + " --size 2,2,2 --type ";
     for (const auto& [type, other, said] :
-         {std::tuple("uint64", "int64", "9223372036854775813; give a volume of uint64"),
-          std::tuple("int64", "uint64", "-9223372036854775803; give a volume of a")}) {
+         {std::tuple("uint64", "int64", "samples of int64 do not hold the label 9223372036854775813;"),
+          std::tuple("int64", "uint64", "samples of uint64 do not hold the label -9223372036854775803;")}) {
         ASSERT_EQ(run("reconstruct " + large + type + " -o " + model).code, 0);
         EXPECT_EQ(run("voxelise " + model + " --like " + large + type + " -o " + out("v.raw")).code, 0);
         EXPECT_EQ(text_of(out("v.raw")), text_of(path("large.raw")));

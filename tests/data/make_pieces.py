@@ -35,5 +35,5 @@ manifest["run"] = []
 write_manifest("grains.pieces", manifest)
 os.makedirs(path("begun.pieces"))
 shutil.copy(path("grains.pieces", "labels.bin"), path("begun.pieces"))
-manifest.update(pieces=[], passes=0, complete=False, faces=0, vertices=0, stopped="", thresholds=[0.0, 0.0, 0.0])
+manifest.update(pieces=[], passes=0, complete=False, faces=0, vertices=0, error_bound=0.0, stopped="", thresholds=[0.0, 0.0, 0.0])
 write_manifest("begun.pieces", manifest)

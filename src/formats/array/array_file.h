@@ -65,7 +65,6 @@ std::filesystem::path file_beside(const std::filesystem::path& header, std::stri
 std::vector<std::filesystem::path> listed_files(const std::filesystem::path& header, std::string_view text);
 
 /// The files of "name%03d.raw 1 10 1": a pattern with one number in it, the first, the last and the step (default 1).
-/// Throws where one is missing.
 std::vector<std::filesystem::path> numbered_files(const std::filesystem::path& header, std::string_view text);
 
 /// Whether `text` has one number to fill in, as numbered_files needs it.

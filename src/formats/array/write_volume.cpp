@@ -14,6 +14,7 @@
 
 #include "formats/codec/sample_format.h"
 #include "regionmesh/error.h"
+#include "regionmesh/label_table.h"
 #include "regionmesh/output_file.h"
 
 namespace regionmesh {
@@ -26,7 +27,7 @@ struct TypeNames {
     SampleType type;
     const char *npy, *nrrd;
     std::int16_t nifti;
-    InputLabel least, most;  // of signed types; unsigned 64-bit labels keep their bits
+    InputLabel least, most;  // of labels below 2^63
 };
 
 template <class T>
@@ -37,7 +38,7 @@ constexpr TypeNames names(SampleType type, const char* npy, const char* nrrd, st
             npy,
             nrrd,
             nifti,
-            is_wide ? std::numeric_limits<InputLabel>::min() : static_cast<InputLabel>(Limits::min()),
+            static_cast<InputLabel>(Limits::min()),
             is_wide ? std::numeric_limits<InputLabel>::max() : static_cast<InputLabel>(Limits::max())};
 }
 
@@ -241,13 +242,18 @@ struct VolumeKind {
     const Lattice& lattice;
     Space space;
     SampleType type;
+    bool has_unsigned_labels;
 };
 
 class VolumeWriter final : public SectionWriter {
 public:
     VolumeWriter(const std::filesystem::path& path, const Format& format, const VolumeKind& kind,
                  const OutputOptions& options)
-        : path_(path), size_(kind.lattice.size), type_(names_of(kind.type)), output_(path, format.is_gzipped, options) {
+        : path_(path),
+          size_(kind.lattice.size),
+          type_(names_of(kind.type)),
+          has_unsigned_labels_(kind.has_unsigned_labels),
+          output_(path, format.is_gzipped, options) {
         output_.write(format.header(kind.lattice, kind.space, type_));
     }
 
@@ -257,11 +263,11 @@ public:
         bytes_.resize(section.size() * size);
         char* place = bytes_.data();
         for (const InputLabel label : section) {
-            if (label < type_.least || label > type_.most)
-                throw Error(
-                    ErrorCode::kOutput,
-                    fmt::format("{}: samples of {} do not hold the label {}; give --like a volume of a larger type",
-                                path_.string(), type_.nrrd, label));
+            if (!holds(label))
+                throw Error(ErrorCode::kOutput,
+                            fmt::format("{}: samples of {} do not hold the label {}; give --like a volume of a type "
+                                        "that holds it",
+                                        path_.string(), type_.nrrd, LabelTable(has_unsigned_labels_).text(label)));
             std::memcpy(place, &label, size);  // little endian: the low bytes come first
             place += size;
         }
@@ -273,6 +279,10 @@ public:
     }
 
 private:
+    bool holds(InputLabel label) const {
+        if (has_unsigned_labels_ && label < 0) return type_.type == SampleType::kU64;
+        return type_.least <= label && label <= type_.most;
+    }
     [[noreturn]] void refuse_count() const {
         throw Error(ErrorCode::kOutput, fmt::format("{}: not the {} sections of {} x {} samples that were announced",
                                                     path_.string(), size_[2], size_[0], size_[1]));
@@ -282,6 +292,7 @@ private:
     std::array<std::uint32_t, 3> size_;
     std::uint32_t written_ = 0;
     const TypeNames& type_;
+    bool has_unsigned_labels_;
     Output output_;
     std::string bytes_;
 };
@@ -289,12 +300,13 @@ private:
 }  // namespace
 
 std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, Space space,
-                                             SampleType type, const OutputOptions& options) {
+                                             SampleType type, const OutputOptions& options, bool has_unsigned_labels) {
     const std::string name = path.filename().string();
     std::string known;
     for (const Format& format : kFormats) {
         if (name.ends_with(format.extension))
-            return std::make_unique<VolumeWriter>(path, format, VolumeKind{lattice, space, type}, options);
+            return std::make_unique<VolumeWriter>(path, format, VolumeKind{lattice, space, type, has_unsigned_labels},
+                                                  options);
         known += std::string(" ") + format.extension;
     }
     throw Error(ErrorCode::kOutput, path.string() + ": labels are written as" + known);
