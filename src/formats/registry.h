@@ -61,8 +61,8 @@ struct Format {
     void (*write_surface)(const FileView&, const WriteOptions&, OutputFiles&, const Path&) = nullptr;
     void (*write_region)(const FileView&, const RegionStyle&, OutputFile&) = nullptr;  // one region as a file
     void (*write_companion)(const FileView&, OutputFile&) = nullptr;  // of the files of regions, by the model's name
-    bool has_single_points = false;         // single precision, from the origin of the model,
-    bool has_single_region_points = false;  // and of the file of one region
+    bool has_single_points = false;                                   // single precision, from the origin of the model,
+    bool has_single_region_points = false;                            // and of the file of one region
     bool has_point_arrays = false;
     bool needs_closed_regions = false;
     const char* companion = nullptr;          // extension of a second file

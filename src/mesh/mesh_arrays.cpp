@@ -125,9 +125,10 @@ bool has_rims_on_hull(const MeshArrays& arrays) {
     return false;
 }
 
-/// Where the regions on both sides are background, or no side is capped, an interface ends on a side of the box, in
-/// edges with one face: their ends lie on that side, too.
-void mark_open_rims(Mesh& mesh, const MeshArrays& arrays, const Box& box) {
+/// Calls visit(a, b, sides) for each edge with one face between two regions, whose ends are on the hull: with the
+/// planes of the box in which the edge lies and the face does not.
+template <class Visit>
+void for_open_edges(const Mesh& mesh, const MeshArrays& arrays, const Box& box, Visit&& visit) {
     const auto is_on_hull = [&](VertexId v) { return arrays.node_types[index(v)] >= kFirstHullType; };
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
         const Face& face = mesh[FaceId{f}];
@@ -138,10 +139,31 @@ void mark_open_rims(Mesh& mesh, const MeshArrays& arrays, const Box& box) {
             int faces = 0;
             mesh.for_star(a, [&](FaceId g, int) { faces += std::ranges::count(mesh[g].vertices, b) > 0; });
             if (faces != 1) continue;
-            if (sides_of(arrays, std::array{index(a), index(b)}, box) == 0) continue;
-            for (const VertexId v : {a, b}) mesh[v].sides |= sides_of(arrays, std::array{index(v)}, box);
+            const SideSet of_edge = sides_of(arrays, std::array{index(a), index(b)}, box),
+                          of_face = sides_of(arrays, arrays.faces[f], box);
+            visit(a, b, static_cast<SideSet>(of_edge & ~of_face));
         }
     }
+}
+
+/// Where the regions on both sides are background, or no side is capped, an interface ends on a side of the box, in
+/// edges with one face: their ends lie on that side, too. `box` is that of the points, and interfaces need not reach
+/// all sides: its plane is a side where faces are capped, or where open edges lie in no other plane.
+void mark_open_rims(LabelledMesh& made, const MeshArrays& arrays, const Box& box) {
+    Mesh& mesh = made.mesh;
+    SideSet real = 0;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) real |= mesh[VertexId{v}].sides;
+    for_open_edges(mesh, arrays, box, [&](VertexId, VertexId, SideSet sides) {
+        if (std::has_single_bit(sides)) real |= sides;
+    });
+    for_open_edges(mesh, arrays, box, [&](VertexId a, VertexId b, SideSet sides) {
+        for (const VertexId v : {a, b}) mesh[v].sides |= static_cast<SideSet>(sides & real);
+    });
+    // A rim on one side may touch another one.
+    const FileView view(mesh, made.labels, {});
+    for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
+        if (mesh[VertexId{v}].sides != 0 && view.node_type(VertexId{v}) < arrays.node_types[v])
+            mesh[VertexId{v}].sides |= static_cast<SideSet>(sides_of(arrays, {&v, 1}, box) & real);
 }
 
 }  // namespace
@@ -175,7 +197,7 @@ LabelledMesh assemble(const MeshArrays& arrays) {
         const auto& [a, b, c] = arrays.faces[f];
         mesh.add_face(VertexId{a}, VertexId{b}, VertexId{c}, labels[0], labels[1]);
     }
-    if (has_sides && !arrays.node_types.empty()) mark_open_rims(mesh, arrays, box);
+    if (has_sides && !arrays.node_types.empty()) mark_open_rims(made, arrays, box);
     // A vertex without a face on a side of the box may lie on a side that is not capped, or on a hull of another shape.
     for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
         if (arrays.node_types[v] >= kFirstHullType && mesh[VertexId{v}].sides == 0) mesh[VertexId{v}].sides = kOnHull;

@@ -92,6 +92,26 @@ TEST(MeshArrays, of_an_open_model_have_their_rims_on_the_sides) {
     EXPECT_GT(on_sides, 20u);
 }
 
+TEST(MeshArrays, of_an_open_model_that_does_not_reach_all_sides_have_their_rims_on_those_that_it_reaches) {
+    const test::Size size{8, 7, 9};
+    std::vector<InputLabel> flat, waves;
+    for (std::uint32_t z = 0; z < size[2]; ++z)
+        for (std::uint32_t y = 0; y < size[1]; ++y)
+            for (std::uint32_t x = 0; x < size[0]; ++x) {
+                flat.push_back(z < 3 ? 1 : z < 5 ? 2 : 3);
+                waves.push_back(z < 3 + (x * x + 3 * y) % 4 ? 1 : 2);
+            }
+    for (const std::vector<InputLabel>& labels : {flat, waves})
+        for (const std::uint32_t passes : {0u, 20u}) {
+            test::ArrayVolume volume(size, labels);
+            const Reconstruction made =
+                test::run(volume, {.smooth = {.passes = passes}, .decimate = false, .cap = false, .background = {}});
+            const LabelledMesh back = import_arrays(export_arrays(made.mesh, made.labels));
+            for (std::uint32_t v = 0; v < back.mesh.vertex_end(); ++v)
+                ASSERT_EQ(back.mesh[VertexId{v}].sides, made.mesh[VertexId{v}].sides) << v;
+        }
+}
+
 TEST(MeshArrays, simplify_without_a_file) {
     const Reconstruction made = grains();
     LabelledMesh mesh = import_arrays(export_arrays(made.mesh, made.labels));
