@@ -148,7 +148,8 @@ void for_open_edges(const Mesh& mesh, const MeshArrays& arrays, const Box& box, 
 
 /// Where the regions on both sides are background, or no side is capped, an interface ends on a side of the box, in
 /// edges with one face: their ends lie on that side, too. `box` is that of the points, and interfaces need not reach
-/// all sides: its plane is a side where faces are capped, or where open edges lie in no other plane.
+/// all sides: its plane is a side where faces are capped, or where open edges lie in no other plane. Edges in planes of
+/// which none is known so keep all of them.
 void mark_open_rims(LabelledMesh& made, const MeshArrays& arrays, const Box& box) {
     Mesh& mesh = made.mesh;
     SideSet real = 0;
@@ -157,7 +158,8 @@ void mark_open_rims(LabelledMesh& made, const MeshArrays& arrays, const Box& box
         if (std::has_single_bit(sides)) real |= sides;
     });
     for_open_edges(mesh, arrays, box, [&](VertexId a, VertexId b, SideSet sides) {
-        for (const VertexId v : {a, b}) mesh[v].sides |= static_cast<SideSet>(sides & real);
+        const SideSet found = (sides & real) != 0 ? static_cast<SideSet>(sides & real) : sides;
+        for (const VertexId v : {a, b}) mesh[v].sides |= found;
     });
     // A rim on one side may touch another one.
     const FileView view(mesh, made.labels, {});

@@ -112,6 +112,22 @@ TEST(MeshArrays, of_an_open_model_that_does_not_reach_all_sides_have_their_rims_
         }
 }
 
+TEST(MeshArrays, of_a_decimated_open_model_have_no_open_edge_inside) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        const test::ArrayVolume grains = test::grain_volume({11, 4, 4}, 5, seed);
+        std::vector<InputLabel> labels = grains.labels();
+        std::fill_n(labels.begin(), 11 * 4, 9);  // the lowest section
+        test::ArrayVolume volume(grains.size(), labels);
+        ReconstructOptions options;
+        options.cap = false;
+        options.background = {};
+        options.reduce = 0.8;
+        const Reconstruction made = reconstruct(volume, options);
+        const LabelledMesh back = import_arrays(export_arrays(made.mesh, made.labels));
+        EXPECT_EQ(check(back.mesh, {.boundary_is_open = true}).violation_count(), 0u) << seed;
+    }
+}
+
 TEST(MeshArrays, simplify_without_a_file) {
     const Reconstruction made = grains();
     LabelledMesh mesh = import_arrays(export_arrays(made.mesh, made.labels));
