@@ -125,11 +125,15 @@ bool has_rims_on_hull(const MeshArrays& arrays) {
     return false;
 }
 
-/// Calls visit(a, b, sides) for each edge with one face between two regions, whose ends are on the hull: with the
-/// planes of the box in which the edge lies and the face does not.
-template <class Visit>
-void for_open_edges(const Mesh& mesh, const MeshArrays& arrays, const Box& box, Visit&& visit) {
+/// An edge with one face, which lies between two regions; both ends are on the hull.
+struct OpenEdge {
+    VertexId a, b;
+    SideSet planes;  // of the box, in which the edge lies and the face does not
+};
+
+std::vector<OpenEdge> find_open_edges(const Mesh& mesh, const MeshArrays& arrays, const Box& box) {
     const auto is_on_hull = [&](VertexId v) { return arrays.node_types[index(v)] >= kFirstHullType; };
+    std::vector<OpenEdge> edges;
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
         const Face& face = mesh[FaceId{f}];
         if (is_exterior(face.labels[0]) || is_exterior(face.labels[1])) continue;
@@ -141,31 +145,32 @@ void for_open_edges(const Mesh& mesh, const MeshArrays& arrays, const Box& box, 
             if (faces != 1) continue;
             const SideSet of_edge = sides_of(arrays, std::array{index(a), index(b)}, box),
                           of_face = sides_of(arrays, arrays.faces[f], box);
-            visit(a, b, static_cast<SideSet>(of_edge & ~of_face));
+            edges.push_back({a, b, static_cast<SideSet>(of_edge & ~of_face)});
         }
     }
+    return edges;
 }
 
 /// Where the regions on both sides are background, or no side is capped, an interface ends on a side of the box, in
 /// edges with one face: their ends lie on that side, too. `box` is that of the points, and interfaces need not reach
-/// all sides: its plane is a side where faces are capped, or where open edges lie in no other plane. Edges in planes of
-/// which none is known so keep all of them.
+/// all sides: one of its planes is known to be a side where it has capped faces, or an open edge that lies in no other
+/// plane. An edge lies on the known sides among its planes, or on all of them if none is known.
 void mark_open_rims(LabelledMesh& made, const MeshArrays& arrays, const Box& box) {
     Mesh& mesh = made.mesh;
-    SideSet real = 0;
-    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) real |= mesh[VertexId{v}].sides;
-    for_open_edges(mesh, arrays, box, [&](VertexId, VertexId, SideSet sides) {
-        if (std::has_single_bit(sides)) real |= sides;
-    });
-    for_open_edges(mesh, arrays, box, [&](VertexId a, VertexId b, SideSet sides) {
-        const SideSet found = (sides & real) != 0 ? static_cast<SideSet>(sides & real) : sides;
-        for (const VertexId v : {a, b}) mesh[v].sides |= found;
-    });
+    const std::vector<OpenEdge> edges = find_open_edges(mesh, arrays, box);
+    SideSet known = 0;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) known |= mesh[VertexId{v}].sides;
+    for (const OpenEdge& edge : edges)
+        if (std::has_single_bit(edge.planes)) known |= edge.planes;
+    for (const auto& [a, b, planes] : edges) {
+        const auto among_known = static_cast<SideSet>(planes & known);
+        for (const VertexId v : {a, b}) mesh[v].sides |= among_known != 0 ? among_known : planes;
+    }
     // A rim on one side may touch another one.
     const FileView view(mesh, made.labels, {});
     for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
         if (mesh[VertexId{v}].sides != 0 && view.node_type(VertexId{v}) < arrays.node_types[v])
-            mesh[VertexId{v}].sides |= static_cast<SideSet>(sides_of(arrays, {&v, 1}, box) & real);
+            mesh[VertexId{v}].sides |= static_cast<SideSet>(sides_of(arrays, {&v, 1}, box) & known);
 }
 
 }  // namespace

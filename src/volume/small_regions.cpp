@@ -66,8 +66,7 @@ std::vector<InputLabel> SmallRegions::resolve(std::uint64_t min_samples) {
         std::vector<std::uint32_t> same{smallest};
         for (const auto& [other, area] : region.small)
             if (regions_[other].label == label) same.push_back(other);
-        // The one with the most neighbours takes in the others: each of these is told once for each time that its
-        // region doubles, or so.
+        // The one with the most neighbours takes in the others, since all neighbours of those have to be told.
         const std::uint32_t joint = *std::ranges::max_element(
             same, {}, [&](std::uint32_t n) { return regions_[n].small.size() + regions_[n].large.size(); });
         queue_.erase({regions_[joint].samples, joint});

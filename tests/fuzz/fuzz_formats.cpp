@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "boreholes/point_table.h"
@@ -97,11 +96,6 @@ void mesh(const fs::path& path, Random& random) {
     file.mesh.sort_spatially();
     lock_violations(file.mesh, {.threads = 1});
     simplify(file.mesh, {.target_faces = file.mesh.face_count() / 4});
-}
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// Checksums that fit: what the pieces hold comes before the reader then.

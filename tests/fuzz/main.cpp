@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <exception>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,11 +40,6 @@ struct Seeds {
     std::vector<std::string> extensions, texts;
     std::vector<fs::path> stores, places;  // of a directory that is read whole, and of the file in it
 };
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 /// Every file of every store of a format.
 Seeds gather_stores(const Format& format) {

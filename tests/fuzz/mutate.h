@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ public:
 private:
     std::uint64_t state_;
 };
+
+/// The bytes of a file.
+std::string text_of(const std::filesystem::path& path);
 
 /// One to six changes, few more often, to one of `seeds`, number `index`: bits, bytes, spans; numbers in text and in
 /// binary made huge, negative or none; words exchanged for words of other seeds; spans of other seeds. What is gzipped
