@@ -48,6 +48,7 @@ private:
     friend class OutputFiles;
 
     void open();
+    void open_in_place();
     void open_temporary(mode_t mode);
     void keep_permissions(const struct stat& earlier);
     void put(std::string_view bytes);

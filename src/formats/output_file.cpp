@@ -54,6 +54,8 @@ OutputFile::OutputFile(const fs::path& path, const OutputOptions& options)
 void OutputFile::open() {
     struct stat link {
     }, status{};
+    const bool exists = ::stat(path_.c_str(), &status) == 0;
+    if (exists && !S_ISREG(status.st_mode)) return open_in_place();
     if (::lstat(path_.c_str(), &link) == 0 && S_ISLNK(link.st_mode)) {
         std::error_code error;
         target_ = fs::weakly_canonical(path_, error);
@@ -61,14 +63,14 @@ void OutputFile::open() {
         if (error || target_.empty() || fs::is_symlink(target_, error))
             fail("is a link that leads nowhere; remove it or name a file");
     }
-    const bool exists = ::stat(target_.c_str(), &status) == 0;
-    if (!exists || S_ISREG(status.st_mode)) {
-        if (exists && !options_.force && ((status.st_mode & kAnyWrite) == 0 || ::access(target_.c_str(), W_OK) != 0))
-            fail("is read-only; make it writable, give another name or --force");
-        open_temporary(exists ? kPrivate : kAsUsual);
-        if (exists) keep_permissions(status);
-        return;
-    }
+    if (exists && !options_.force && ((status.st_mode & kAnyWrite) == 0 || ::access(target_.c_str(), W_OK) != 0))
+        fail("is read-only; make it writable, give another name or --force");
+    open_temporary(exists ? kPrivate : kAsUsual);
+    if (exists) keep_permissions(status);
+}
+
+/// A device, or a pipe, to which a link may lead that no path follows, as /dev/stdout.
+void OutputFile::open_in_place() {
     // O_NONBLOCK: a pipe that nobody reads is refused instead of waited for.
     const int file = ::open(path_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NONBLOCK);
     if (file < 0 && errno == ENXIO) fail("is a pipe that nobody reads; start its reader first");

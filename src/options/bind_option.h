@@ -90,11 +90,16 @@ OptionSpec inverted_flag(OptionSpec row, Access access) {
     return row;
 }
 
-/// An option whose value is the name of a file.
+/// An option whose value is the name of a file. A file to write is not `-`, by which many programs mean standard output.
 template <class Access>
 OptionSpec file_option(OptionSpec row, Access access) {
     row = option(std::move(row), access);
     row.kind = OptionKind::kFile;
+    if (!row.is_output) return row;
+    row.set = [flag = row.flag(), set = row.set](Settings& settings, const std::string& text) {
+        if (text == "-") refuse_value(flag, text, "the name of a file; standard output is /dev/stdout");
+        set(settings, text);
+    };
     return row;
 }
 

@@ -22,7 +22,8 @@ constexpr std::string_view kConventions = R"(```
   that the option does not take, or options that contradict each other; 3 the model has violations;
   4 `--preserve-volume` left a region off its volume.
 - An error is one line on stderr: what is wrong, where, and what to do. A failed run leaves no file behind.
-- Progress is shown on a terminal only. The summary goes to stdout; `--quiet` suppresses both.
+- Progress is shown on a terminal only. The summary goes to stdout; `--quiet` suppresses both. A file to write may be a
+  device or a pipe: `check model.vtp --quiet --json /dev/stdout | jq .violation_counts`.
 - *Length* is the unit of the spacing of a volume, or of the points of a surface.
 - A share is `90%` or `0.9`. A size in bytes has the unit B, kB, MB, GB, KiB, MiB, GiB, or none.
 - An option is given once; one marked with "..." takes several values, and may be repeated.

@@ -51,6 +51,21 @@ TEST_F(Streams, a_pipe_that_nobody_reads_is_an_error_and_no_signal) {
     EXPECT_THAT(text_of(said), HasSubstr("standard output cannot be written"));
 }
 
+TEST_F(Streams, findings_go_to_standard_output_or_to_another_program) {
+    const std::string info = "info " + volume() + "--json ", model = out("m.vtp");
+    ASSERT_EQ(code_of("reconstruct " + volume() + "--quiet -o " + model, ""), 0);
+    const std::string check = "check " + model + " --quiet --json ";
+    ASSERT_EQ(code_of(check + out("as_file.json"), ""), 0);
+    const std::string wanted = text_of(path("out") / "as_file.json");
+    ASSERT_FALSE(wanted.empty());
+    EXPECT_EQ(code_of(check + "/dev/stdout", "| cat > " + out("piped.json") + "; exit ${PIPESTATUS[0]}"), 0);
+    EXPECT_EQ(text_of(path("out") / "piped.json"), wanted);
+    EXPECT_EQ(code_of(check + ">(cat > " + out("read.json") + ")", "; code=$?; wait $!; exit $code"), 0);
+    EXPECT_EQ(text_of(path("out") / "read.json"), wanted);
+    EXPECT_EQ(code_of(info + "-", "2>'" + path("said").string() + "'"), 2);
+    EXPECT_THAT(text_of(path("said")), HasSubstr("--json -: not the name of a file; standard output is /dev/stdout"));
+}
+
 TEST_F(Streams, a_file_at_its_limit_of_size_is_an_error_and_leaves_nothing) {
     const std::string said = path("said").string(), before = "ulimit -f 4; ";
     EXPECT_EQ(
