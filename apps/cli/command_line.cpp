@@ -8,6 +8,7 @@
 #include "config_file.h"
 #include "messages.h"
 #include "regionmesh/error.h"
+#include "regionmesh/output_file.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -100,6 +101,7 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             require_distinct_files(settings);
             begin_messages(command.command, settings);
             const std::optional<SandboxState> confined = confine(settings);
+            remove_outputs_on_signals();
             const int code = run(settings);
             say_confined(confined);
             return code;

@@ -193,7 +193,6 @@ int run_program(int argc, char** argv) {
     hold_standard_streams();
     let_writes_fail();
     std::set_terminate(end_without_destructors);
-    remove_outputs_on_signals();
     keep_large_arrays_apart();
     return finish(run([&] { return parse_and_run(argc, argv); }));
 }

@@ -1,7 +1,10 @@
 #include "catalogue.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace regionmesh::hdf5 {
@@ -134,10 +137,36 @@ void add_attributes(hid_t object, Words words, Entry& entry) {
     }
 }
 
+/// Whether parts of a virtual dataset are in another file, which the library would not find: their samples would be the
+/// fill value. Parts in this file may be virtual, too.
+bool is_virtual_elsewhere(hid_t dataset, const Hdf5Properties& layout, int depth) {
+    constexpr int kMostChained = 8;
+    std::size_t count = 0;
+    if (H5Pget_layout(layout.id()) != H5D_VIRTUAL || H5Pget_virtual_count(layout.id(), &count) < 0) return false;
+    std::set<std::string> parts;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<char, 256> name{};
+        if (H5Pget_virtual_filename(layout.id(), i, name.data(), name.size()) < 0 ||
+            std::string_view(name.data()) != ".")
+            return true;
+        const ssize_t size = H5Pget_virtual_dsetname(layout.id(), i, nullptr, 0);
+        std::string part(size > 0 ? static_cast<std::size_t>(size) + 1 : 1, '\0');
+        H5Pget_virtual_dsetname(layout.id(), i, part.data(), part.size());
+        parts.insert(std::move(part));
+    }
+    const Hdf5Object root(H5Oopen(dataset, "/", H5P_DEFAULT));
+    return std::ranges::any_of(parts, [&](const std::string& name) {
+        const Hdf5Dataset part(H5Dopen2(root.id(), name.c_str(), H5P_DEFAULT));
+        return part && (depth == kMostChained ||
+                        is_virtual_elsewhere(part.id(), Hdf5Properties(H5Dget_create_plist(part.id())), depth + 1));
+    });
+}
+
 /// Why the samples cannot be read: a filter that this build of the library lacks, or samples in another file, which is
 /// not opened.
-std::string obstacle_of(const Hdf5Properties& layout) {
-    if (H5Pget_external_count(layout.id()) > 0) return "its samples are kept in another file";
+std::string obstacle_of(hid_t dataset, const Hdf5Properties& layout) {
+    if (H5Pget_external_count(layout.id()) > 0 || is_virtual_elsewhere(dataset, layout, 0))
+        return "its samples are kept in another file";
     const int count = H5Pget_nfilters(layout.id());
     for (int i = 0; i < count; ++i) {
         unsigned flags = 0, filter_config = 0;
@@ -167,7 +196,7 @@ void describe_dataset(hid_t object, Entry& entry) {
         if (count == static_cast<int>(entry.shape.size())) entry.chunk.assign(chunk.begin(), chunk.begin() + count);
     }
     entry.stored_bytes = H5Dget_storage_size(object);
-    entry.obstacle = obstacle_of(layout);
+    entry.obstacle = obstacle_of(object, layout);
     const hssize_t count = H5Sget_simple_extent_npoints(space.id());
     if (is_number(type) && count > 0 && count <= kMaxNumbers && entry.obstacle.empty()) {
         std::vector<double> values(static_cast<std::size_t>(count));

@@ -46,12 +46,13 @@ void limit_seconds(unsigned seconds) {
     ::setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-bool receive(void* bytes, std::size_t count) { return std::fread(bytes, 1, count, stdin) == count; }
+bool receive(void* bytes, std::size_t count) { return count == 0 || std::fread(bytes, 1, count, stdin) == count; }
 
 void send(const Magic& magic, std::span<const std::byte> body) {
     const Head head{magic, body.size()};
     if (std::fwrite(&head, sizeof head, 1, stdout) != 1 ||
-        std::fwrite(body.data(), 1, body.size(), stdout) != body.size() || std::fflush(stdout) != 0) {
+        (!body.empty() && std::fwrite(body.data(), 1, body.size(), stdout) != body.size()) ||
+        std::fflush(stdout) != 0) {
         std::exit(kDone);  // the reader is gone
     }
 }

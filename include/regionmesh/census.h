@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct CensusOptions {
     std::optional<Sweep> sweep = {};        // of tetrahedra
     CellKind cells = CellKind::kCompact;    // of sections; kAuto counts as kCompact
     std::uint32_t threads = 1;              // 0: one per core. On two a section is read while the one before is counted
+    std::function<void(std::uint32_t strips)> on_strip = {};  // called after each pair of sections that was counted
 };
 
 /// Reads all sections. Throws Error(kInput) for a volume with fewer than two samples along an axis, and what the reader

@@ -46,7 +46,8 @@ struct ImproveResult {
 /// min_quality. Each step passes the tests of a collapse (fold, pinch, intersect, and samples where a lattice is
 /// given), lowers no worst quality and lowers the sum of 1 / quality^3 of the faces that it changes, in which the worst
 /// faces count most. So no violation is added, and the worst quality of the mesh never falls. Deterministic. Requires
-/// that every vertex that is not fixed has all its faces in the mesh. Renumbers vertices and faces.
+/// that every vertex that is not fixed has all its faces in the mesh. Renumbers vertices and faces. Throws like
+/// simplify().
 ImproveResult improve(Mesh& mesh, const ImproveOptions& options);
 
 }  // namespace regionmesh

@@ -130,8 +130,8 @@ public:
     void for_star(VertexId v, Visit&& visit) const {
         for (Corner c = vertices_[index(v)].star; c != kNoCorner;) {
             const Face& face = faces_[c >> 2];
-            const int place = static_cast<int>(c & 3);
-            visit(FaceId{c >> 2}, place);
+            const Corner place = c & 3;
+            visit(FaceId{c >> 2}, static_cast<int>(place));
             c = face.next[place];
         }
     }

@@ -106,7 +106,8 @@ struct MeshFile {
 
 struct ReadMeshOptions {
     /// Merges points within this distance, in the unit of the file, and then opposite faces on the same vertices; 0:
-    /// only points at the same place. Points of .stl files and of folders are always merged, by default with 0.
+    /// only points at the same place; Error(kUsage) below 0. Points of .stl files and of folders are always merged, by
+    /// default with 0.
     std::optional<double> weld = {};
     /// Orients faces so that neighbours agree on the side of each region.
     bool orient = false;

@@ -40,7 +40,8 @@ struct PageOptions {
 /// Writes one model, or two side by side. Positions are rounded to 1/65535 of the extent along each axis: the page is
 /// for looking, not for measuring. The bytes depend on the arguments only, except `threads`. Names, titles and the
 /// report are data: no text in them can become markup or script. Memory: about 40 bytes per face; for a model that is
-/// simplified, 250 bytes per face more. The page is one of `files`, which the caller commits. Throws Error(kOutput).
+/// simplified, 250 bytes per face more. The page is one of `files`, which the caller commits. Throws Error(kOutput),
+/// also for a report that is no JSON text and for too few distances.
 void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options,
                 OutputFiles& files);
 /// The same, committed.

@@ -18,8 +18,8 @@ enum class SampleType { kU1, kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64 };
 
 /// What a reader knows before the first section is read.
 struct VolumeInfo {
-    std::string source;  // path as given, for messages
-    std::string format;  // "npy", "nifti", "png", "tiff", "raw", "array"
+    std::string source = {};  // path as given, for messages
+    std::string format = {};  // "npy", "nifti", "png", "tiff", "raw", "array"
     SampleType type = SampleType::kU8;
     Lattice lattice = {};                               // axes of the file, independent of the sweep
     Sweep sweep = {};                                   // order in which sections are read
@@ -52,9 +52,12 @@ public:
     /// changes nothing, where it cannot. Requires a box within the volume that is not empty.
     virtual bool crop(const IndexBox&) { return false; }
 
-    std::uint32_t section_width() const { return info().lattice.size[info().sweep.axes[0]]; }
-    std::uint32_t section_height() const { return info().lattice.size[info().sweep.axes[1]]; }
-    std::uint32_t section_count() const { return info().lattice.size[info().sweep.axes[2]]; }
+    std::uint32_t section_width() const { return samples_along(info().sweep.axes[0]); }
+    std::uint32_t section_height() const { return samples_along(info().sweep.axes[1]); }
+    std::uint32_t section_count() const { return samples_along(info().sweep.axes[2]); }
+
+private:
+    std::uint32_t samples_along(int axis) const { return info().lattice.size[static_cast<std::size_t>(axis)]; }
 };
 
 /// Throws Error(kInput) where a reader ends before its last section: `is_there` is what next() returned for `section`.

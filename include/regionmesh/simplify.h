@@ -59,7 +59,8 @@ struct SimplifyResult {
 /// everything else may. A target below what topology and quality allow is not reached; `stopped` says why. Renumbers
 /// vertices and faces. Deterministic: the result depends on the mesh and the options, not on `threads`. `max_error`
 /// bounds the two-sided Hausdorff distance of each interface to the same interface of the mesh as it comes. Requires
-/// that every vertex that is not fixed has all its faces in the mesh.
+/// that every vertex that is not fixed has all its faces in the mesh. Throws Error(kUsage) for numbers out of range,
+/// and Error(kInput) for `samples` that are no lattice.
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options);
 
 }  // namespace regionmesh

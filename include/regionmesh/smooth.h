@@ -58,7 +58,7 @@ struct SmoothReport {
 
 /// With kTaubin, kLaplacian or kNifpms. Moves the vertices in place, except fixed ones; ids stay the same. Runs the
 /// same passes and the same guard as the stream. Adds no violation; violations that came in may stay. Throws
-/// Error(kUsage) for kLattice: a mesh has no lattice. Deterministic.
+/// Error(kUsage) for kLattice, since a mesh has no lattice, and for numbers out of range. Deterministic.
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options);
 
 /// Fixes all vertices on the sides of the box, or on another hull. For meshes that have no faces there: a filter could
@@ -86,7 +86,8 @@ using WantedVolumes = std::vector<std::optional<double>>;
 /// surface, that corrects all volumes to first order. The matrix couples regions that share an interface. Quadruple
 /// points move, too: on a coarse mesh a small region may have no other vertices. Vertices on the box stay on its
 /// sides. No region ends farther from its wanted volume than it began, beyond kVolumeTolerance. Uses
-/// min_quality, intersect_check and threads of the options. Deterministic.
+/// min_quality, intersect_check and threads of the options. Throws Error(kUsage) for numbers out of range.
+/// Deterministic.
 PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options);
 
 }  // namespace regionmesh

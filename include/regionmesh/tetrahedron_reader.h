@@ -27,8 +27,8 @@ struct LabelledTetrahedron {
 
 /// What a reader knows before the first tetrahedron is read.
 struct TetrahedraInfo {
-    std::string source;            // path as given, for messages
-    std::string format;            // "csv", "vtu", "msh"
+    std::string source = {};       // path as given, for messages
+    std::string format = {};       // "csv", "vtu", "msh"
     bool has_cell_labels = false;  // the tetrahedra have the labels, not the points
     bool is_unsigned = false;      // labels are unsigned 64-bit numbers
     bool hull_is_convex = false;   // the tetrahedra fill their convex hull without gaps

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace regionmesh {
@@ -17,7 +18,7 @@ inline constexpr int kVerdictCount = static_cast<int>(kVerdictNames.size());
 using VerdictCounts = std::array<std::uint64_t, kVerdictCount>;
 
 inline void add(VerdictCounts& counts, const VerdictCounts& more) {
-    for (int n = 0; n < kVerdictCount; ++n) counts[n] += more[n];
+    for (std::size_t n = 0; n < counts.size(); ++n) counts[n] += more[n];
 }
 
 }  // namespace regionmesh

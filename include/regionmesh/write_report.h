@@ -22,8 +22,9 @@ namespace regionmesh {
 
 /// The run of the program that made a model.
 struct MadeBy {
-    std::string command;                                       // "reconstruct"; empty: none
-    std::vector<std::pair<std::string, std::string>> options;  // names and texts, as given; several of a name: in order
+    std::string command = {};  // "reconstruct"; empty: none
+    std::vector<std::pair<std::string, std::string>> options =
+        {};  // names and texts, as given; several of a name: in order
 };
 
 /// The report of a run: JSON text, indented by two spaces, with a newline at the end; a number that is not finite is

@@ -14,12 +14,13 @@ namespace regionmesh {
 
 void parallel_invoke(std::uint32_t threads, const std::function<void()>& other, const std::function<void()>& own) {
     namespace tbb = oneapi::tbb;
+    const std::atomic<bool>* stop = stop_of_this_thread();
+    throw_if(stop);
     if (threads == 1) {
         own();
         other();
         return;
     }
-    const std::atomic<bool>* stop = stop_of_this_thread();
     TaskOrder begun, ended;
     begun.happened();
     const ComesFirstAtEnd joined(ended);

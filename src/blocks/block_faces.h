@@ -23,7 +23,7 @@ public:
     /// The volume must outlive it. Requires a box of two samples along every axis.
     BlockFaces(const BlockVolume& volume, const IndexBox& samples);
 
-    std::optional<FaceCount> count() override { return {}; }
+    std::optional<FaceCount> count(const OnStripsCounted& /*on_strips*/) override { return {}; }
     const SourceShape& shape() const override { return shape_; }
     double low_of(std::uint32_t strip) const override;
     bool advance() override;

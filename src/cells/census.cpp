@@ -37,6 +37,7 @@ Census count_labels(SectionReader& reader, const CensusOptions& options) {
     }
     while (is_more) {
         parallel_invoke(options.threads, count, [&] { add_samples(window.read_ahead()); });
+        if (options.on_strip) options.on_strip(static_cast<std::uint32_t>(census.strip_faces.size()));
         is_more = window.advance();
     }
     census.face_count = counter.face_count();

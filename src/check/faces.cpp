@@ -1,5 +1,6 @@
 // Tests and measures of single faces: degenerate faces, area, quality, pairs of regions.
 #include <algorithm>
+#include <cmath>
 
 #include "base/exact_predicates.h"
 #include "base/hash.h"
@@ -54,11 +55,13 @@ FaceChunk look_at_faces(const Mesh& mesh, Vec3 origin, std::uint32_t listed, con
         if (!mesh.is_alive(f) || (range.part && !range.part->has(f))) continue;
         const auto p = mesh.corners(f);
         const auto& labels = mesh[f].labels;
-        if (labels[0] == labels[1] || is_degenerate({p[0], p[1], p[2]}))
-            chunk.findings.add(ViolationKind::kDegenerateFace, {}, {n}, [&] {
-                return name(f) + (labels[0] == labels[1] ? " has one label on both sides" : " has no area");
-            });
         const double area = 0.5 * length(area_vector(p[0], p[1], p[2]));
+        if (labels[0] == labels[1] || !std::isfinite(area) || is_degenerate({p[0], p[1], p[2]}))
+            chunk.findings.add(ViolationKind::kDegenerateFace, {}, {n}, [&] {
+                return name(f) + (labels[0] == labels[1] ? " has one label on both sides"
+                                  : !std::isfinite(area) ? " has no finite area"
+                                                         : " has no area");
+            });
         const double volume = dot(p[0] - origin, cross(p[1] - origin, p[2] - origin)) / 6;
         for (int side = 0; side < 2; ++side) {
             if (is_exterior(labels[side])) continue;

@@ -90,7 +90,8 @@ OptionSpec inverted_flag(OptionSpec row, Access access) {
     return row;
 }
 
-/// An option whose value is the name of a file. A file to write is not `-`, by which many programs mean standard output.
+/// An option whose value is the name of a file. A file to write is not `-`, by which many programs mean standard
+/// output.
 template <class Access>
 OptionSpec file_option(OptionSpec row, Access access) {
     row = option(std::move(row), access);

@@ -14,6 +14,7 @@
 #include "page/page_geometry.h"
 #include "page/page_template.h"
 #include "regionmesh/check.h"
+#include "regionmesh/error.h"
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/page.h"
@@ -146,14 +147,16 @@ void put_labels_as_text(Json& json) {
         for (Json& value : json) put_labels_as_text(value);
 }
 
-Json page_json(const PageOptions& options) {
+Json page_json(const std::filesystem::path& path, const PageOptions& options) {
     Json json{{"version", 1},
               {"command", options.command},
               {"command_line", options.command_line},
               {"has_labels", options.has_labels}};
     json["min_quality"] = options.min_quality ? Json(*options.min_quality) : Json(nullptr);
     json["max_error"] = options.max_error ? Json(*options.max_error) : Json(nullptr);
-    json["report"] = options.report.empty() ? Json(nullptr) : Json::parse(options.report);
+    json["report"] = options.report.empty() ? Json(nullptr) : Json::parse(options.report, nullptr, false);
+    if (json["report"].is_discarded())
+        throw Error(ErrorCode::kOutput, path.string() + ": its report is no JSON text; give that of report_json()");
     put_labels_as_text(json["report"]);
     json["models"] = Json::array();
     return json;
@@ -169,12 +172,17 @@ std::string title_of(const std::vector<PageModel>& models) {
 
 void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options,
                 OutputFiles& files) {
+    for (const PageModel& model : models)
+        if (!model.distances.empty() && model.distances.size() < model.mesh.vertex_end())
+            throw Error(ErrorCode::kOutput,
+                        fmt::format("{}: {} distances for {} vertices; give one for each", path.string(),
+                                    model.distances.size(), model.mesh.vertex_end()));
+    Json json = page_json(path, options);
     OutputFile& file = files.add(path);
     const std::size_t title = kPageTemplate.find(kTitlePlace), data = kPageTemplate.find(kDataPlace);
     file.write(kPageTemplate.substr(0, title));
     file.write(escaped_html(title_of(models)));
     file.write(kPageTemplate.substr(title + kTitlePlace.size(), data - title - kTitlePlace.size()));
-    Json json = page_json(options);
     for (std::size_t n = 0; n < models.size(); ++n) {
         PageData model = model_data(models[n], options);
         file.write(fmt::format("<script type=\"text/plain\" id=\"geometry-{}\">{}</script>\n", n, model.bytes));

@@ -5,8 +5,10 @@
 #include <numbers>
 #include <vector>
 
+#include "base/option_range.h"
 #include "base/triangle.h"
 #include "mesh/strata.h"
+#include "regionmesh/limits.h"
 #include "simplify/edge_flips.h"
 #include "simplify/error_bound.h"
 #include "simplify/short_edges.h"
@@ -125,6 +127,15 @@ private:
     std::uint32_t now_ = 0;
 };
 
+void require_in_range(const ImproveOptions& options) {
+    require_number("min_quality", options.min_quality, kQualityRange);
+    require_number("scale", options.scale, kPositive);
+    require_number("tolerance", options.tolerance, kNotNegative);
+    require_number("max_error", options.max_error, kNotNegativeOrInfinite);
+    require_number("scale_z", options.scale_z, kPositive);
+    if (options.samples) require_lattice("samples", *options.samples);
+}
+
 }  // namespace
 
 ImproveOptions improve_options(const SimplifyOptions& simplified) {
@@ -135,6 +146,7 @@ ImproveOptions improve_options(const SimplifyOptions& simplified) {
 }
 
 ImproveResult improve(Mesh& mesh, const ImproveOptions& given) {
+    require_in_range(given);
     ImproveOptions options = given;
     options.max_error =
         std::min(given.max_error, largest_error_bound(mesh) + SurfaceDrift::kPoorShare * given.tolerance * given.scale);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
+#include "base/option_range.h"
 #include "mesh/extent.h"
-#include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
@@ -66,11 +66,19 @@ bool simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
     return true;
 }
 
+void require_in_range(const SimplifyOptions& options) {
+    require_number("max_cost", options.max_cost, kNotNegativeOrInfinite);
+    require_number("max_error", options.max_error, kNotNegativeOrInfinite);
+    require_number("min_quality", options.min_quality, kQualityRange);
+    require_number("perturbation", options.perturbation, kNotNegative);
+    require_number("scale", options.scale, kPositive);
+    if (options.samples) require_lattice("samples", *options.samples);
+}
+
 }  // namespace
 
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
-    if (!(options.max_error >= 0))
-        throw Error(ErrorCode::kUsage, "max_error: " + std::to_string(options.max_error) + "; give 0 or more");
+    require_in_range(options);
     SimplifyResult result;
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].set_error_bound(0);
     if (!simplify_by_tiles(mesh, options, result)) mesh.sort_spatially(options.threads);

@@ -37,7 +37,10 @@ public:
 /// Requires options.passes > 0, and a filter that is not kAuto.
 std::unique_ptr<ChunkSmoother> make_chunk_smoother(const SmoothOptions& options, const ChunkOrder& order);
 
-/// Throws Error(kInput) for SmoothFilter::kLattice, where the surface is not one of sections.
+/// Throws Error(kUsage) for numbers that no filter can work with.
+void require_in_range(const SmoothOptions& options);
+
+/// Throws Error(kUsage) for SmoothFilter::kLattice, where the surface is not one of sections.
 void require_no_lattice(const SmoothOptions& options);
 
 /// Positions of the vertices of a chunk before and after smoothing, by local number.

@@ -2,10 +2,12 @@
 #include <array>
 #include <cmath>
 
+#include "base/option_range.h"
 #include "base/triangle.h"
 #include "mesh/region_volumes.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/smooth.h"
+#include "smooth/chunk_smoother.h"
 #include "smooth/guarded_move.h"
 #include "smooth/region_matrix.h"
 #include "smooth/relax.h"
@@ -251,6 +253,9 @@ std::vector<Label> worse_regions(const State& before, const State& now) {
 }  // namespace
 
 PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options) {
+    require_in_range(options);
+    for (const std::optional<double>& volume : wanted)
+        if (volume) require_number("wanted", *volume, {-kMostNumber, kMostNumber, "any size"});
     const State before = state_of(mesh, wanted);
     State best = before;
     PreserveReport report;

@@ -1,10 +1,29 @@
 #include "regionmesh/smooth.h"
 
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "base/option_range.h"
 #include "regionmesh/error.h"
 #include "smooth/chunk_smoother.h"
 #include "smooth/smoother.h"
 
 namespace regionmesh {
+
+void require_in_range(const SmoothOptions& options) {
+    constexpr OptionRange kReach{1e-6, 1e6, "0.000001 to 1000000"};
+    constexpr double kBlocks[] = {0, 2, 4, 8, 16};
+    if (std::ranges::find(kBlocks, options.reach) == std::end(kBlocks))
+        throw Error(ErrorCode::kUsage, "smooth.reach: " + std::to_string(options.reach) +
+                                           " is none of 0, 2, 4, 8 and 16; give one of them");
+    require_number("smooth.lambda", options.lambda, {0, 1, "0 to 1"});
+    require_number("smooth.mu_per_lambda", options.mu_per_lambda, kNotNegative);
+    require_number("smooth.scale", options.scale, kPositive);
+    require_number("smooth.nifpms_reach", options.nifpms_reach, kReach);
+    require_number("smooth.nifpms_bound", options.nifpms_bound, kReach);
+    require_number("smooth.min_quality", options.min_quality, kQualityRange);
+}
 
 void require_no_lattice(const SmoothOptions& options) {
     if (options.passes > 0 && options.filter == SmoothFilter::kLattice)
@@ -14,6 +33,7 @@ void require_no_lattice(const SmoothOptions& options) {
 
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options) {
     if (options.passes == 0) return {};
+    require_in_range(options);
     require_no_lattice(options);
     SmoothOptions own = options;
     if (own.filter == SmoothFilter::kAuto) own.filter = SmoothFilter::kTaubin;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "regionmesh/voxelise.h"
 
 namespace regionmesh {
+
+using OnStripsCounted = std::function<void(std::uint32_t strips)>;
 
 /// All that is known of the faces before the first of them is made.
 struct FaceCount {
@@ -44,8 +47,9 @@ class FaceSource {
 public:
     virtual ~FaceSource() = default;
 
-    /// Counts all faces, where that can be done without making the mesh; to be called first.
-    virtual std::optional<FaceCount> count() = 0;
+    /// Counts all faces, where that can be done without making the mesh; to be called first. Calls on_strips, if
+    /// there is one, now and then.
+    virtual std::optional<FaceCount> count(const OnStripsCounted& on_strips) = 0;
     virtual const SourceShape& shape() const = 0;
     /// All vertices of this strip and the later ones lie here or beyond along the sweep. For the strip count it is the
     /// end of the last strip.

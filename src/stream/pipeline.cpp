@@ -32,7 +32,7 @@ std::optional<FaceCount> count_faces(FaceSource& source, RunLog& log) {
     log.note_strip_count(source.shape().strip_count);
     log.report_progress("count");
     const StageTimer timer = log.time("count");
-    std::optional<FaceCount> counted = source.count();
+    std::optional<FaceCount> counted = source.count([&](std::uint32_t strips) { log.note_strips_counted(strips); });
     log.note_strip_count(source.shape().strip_count);
     log.advance(WorkStage::kCount, 1);
     return counted;
@@ -206,7 +206,7 @@ std::uint64_t least_memory(const VolumeInfo& volume, const Census& census, const
 Reconstruction reconstruct(SectionReader& reader, const ReconstructOptions& given, const OnProgress& on_progress,
                            const OnModel& on_model) {
     require_in_range(given);
-    require_sweep(reader.info());
+    require_sweep(reader.info().source, reader.info().sweep);
     require_lattice(reader.info().source, reader.info().lattice);
     const ReconstructOptions options = with_filter(given, SmoothFilter::kLattice);
     if (options.room == 0) return reconstruct_sections(reader, options, on_progress, on_model);

@@ -87,6 +87,11 @@ public:
 
     void note_strip_count(std::uint32_t strips) { progress_.strip_count = strips; }
 
+    void note_strips_counted(std::uint32_t strips) {
+        advance(WorkStage::kCount, share_of_strips(strips));
+        report_progress("count");
+    }
+
     /// Notes a strip that was meshed, before smoothing.
     void note_strip(std::uint32_t strips_read, std::uint64_t faces, std::uint64_t vertices) {
         {

@@ -33,13 +33,15 @@ SectionFaces::SectionFaces(SectionReader& reader, const CensusOptions& options, 
       labels_(table_for(reader.info())),
       background_(dense_background(options.background, labels_)) {}
 
-std::optional<FaceCount> SectionFaces::count() {
+std::optional<FaceCount> SectionFaces::count(const OnStripsCounted& on_strips) {
     if (!reader_.info().can_rewind) {
         begin();
         census_.emplace(shape_.lattice, shape_.sweep, strip_options());
         return {};
     }
-    Census census = count_labels(reader_, options_);
+    CensusOptions options = options_;
+    options.on_strip = on_strips;
+    Census census = count_labels(reader_, options);
     reader_.rewind();
     return FaceCount{std::move(census.strip_faces), census.face_count, std::move(census.oracle)};
 }

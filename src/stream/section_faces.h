@@ -21,7 +21,7 @@ public:
     SectionFaces(SectionReader& reader, const CensusOptions& options, QuadCuts cuts = QuadCuts::kBestQuality,
                  double scale_z = 1);
 
-    std::optional<FaceCount> count() override;
+    std::optional<FaceCount> count(const OnStripsCounted& on_strips) override;
     const SourceShape& shape() const override { return shape_; }
     double low_of(std::uint32_t strip) const override;
     bool advance() override;

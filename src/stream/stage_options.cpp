@@ -2,42 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <string>
 
+#include "base/option_range.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
+#include "smooth/chunk_smoother.h"
 #include "stream/tuning.h"
 #include "volume/exact_grid.h"
 #include "volume/room_reader.h"
 
 namespace regionmesh {
-namespace {
-
-constexpr double kBestQuality = 0.26;  // of an equilateral face, rounded down
-
-}  // namespace
-
 void require_in_range(const ReconstructOptions& options) {
-    const auto require = [](const char* name, double number, double most, const char* range) {
-        if (number >= 0 && number <= most) return;
-        throw Error(ErrorCode::kUsage,
-                    std::string(name) + ": " + std::to_string(number) + " is not a number of " + range + "; give one");
-    };
-    constexpr double kMost = std::numeric_limits<double>::max();
-    if (options.reduce) require("reduce", *options.reduce, 1, "0 to 1");
-    if (options.max_error) require("max_error", *options.max_error, HUGE_VAL, "0 or more");
+    if (options.reduce) require_number("reduce", *options.reduce, {0, 1, "0 to 1"});
+    if (options.max_error) require_number("max_error", *options.max_error, kNotNegativeOrInfinite);
     require_room(options.room);
     if (options.strips_per_chunk == 0) throw Error(ErrorCode::kUsage, "strips_per_chunk: 0; give at least 1");
-    require("min_quality", options.min_quality, kBestQuality, "0 to 0.26");
-    require("perturbation", options.perturbation, kMost, "0 or more");
-    require("smooth.lambda", options.smooth.lambda, 1, "0 to 1");
-    require("smooth.mu_per_lambda", options.smooth.mu_per_lambda, kMost, "0 or more");
-    constexpr double kReaches[] = {0, 2, 4, 8, 16};
-    if (std::ranges::find(kReaches, options.smooth.reach) == std::end(kReaches))
-        throw Error(ErrorCode::kUsage, "smooth.reach: " + std::to_string(options.smooth.reach) +
-                                           " is none of 0, 2, 4, 8 and 16; give one of them");
+    require_number("min_quality", options.min_quality, kQualityRange);
+    require_number("perturbation", options.perturbation, kNotNegative);
+    require_in_range(options.smooth);
 }
 
 ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter automatic) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/parallel_invoke.h"
+#include "base/stop.h"
 #include "cells/compact_cells.h"
 
 namespace regionmesh {
@@ -42,6 +43,7 @@ bool Strips::next(Chunk& strip) {
 }
 
 bool Strips::mesh_next(Chunk& strip) {
+    throw_if(stop_of_this_thread());
     {
         const StageTimer timer = log_.time("read");
         if (!source_.advance()) return false;

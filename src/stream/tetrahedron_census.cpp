@@ -7,7 +7,7 @@ TetrahedronCensus count_labels(TetrahedronReader& reader, const CensusOptions& o
     constexpr std::uint64_t kAnyMemory = std::uint64_t{1} << 62;  // no mesh is held
     TetrahedronFaces source(
         reader, {.cap = options.cap, .background = options.background, .sweep = options.sweep, .memory = kAnyMemory});
-    FaceCount counted = *source.count();
+    FaceCount counted = *source.count({});
     return {.labels = source.labels(),
             .point_count = source.point_count(),
             .tetrahedron_count = source.tetrahedron_count(),

@@ -11,6 +11,7 @@
 #include "stream/place_in_space.h"
 #include "stream/star_watch.h"
 #include "stream/tuning.h"
+#include "volume/section_window.h"
 
 namespace regionmesh {
 namespace {
@@ -46,11 +47,12 @@ TetrahedronFaces::TetrahedronFaces(TetrahedronReader& reader, const TetrahedronO
       labels_(reader.info().is_unsigned),
       background_(dense_background(options.background, labels_)),
       spilled_(sort_bytes(options.memory)) {
+    if (options.sweep) require_sweep(reader.info().source, *options.sweep);
     shape_.name = reader.info().source;
     shape_.scale_z = reader.info().scale_z;
 }
 
-std::optional<FaceCount> TetrahedronFaces::count() {
+std::optional<FaceCount> TetrahedronFaces::count(const OnStripsCounted& /*on_strips*/) {
     if (strips_.empty()) make_all();
     FaceCount count{.strip_faces = {}, .face_count = spilled_.face_count(), .oracle = oracle_};
     for (StripRange strip : strips_) count.strip_faces.push_back(spilled_.faces_of(strip));

@@ -26,7 +26,7 @@ public:
     TetrahedronFaces(TetrahedronReader& reader, const TetrahedronOptions& options);
 
     /// Makes all faces, the first time.
-    std::optional<FaceCount> count() override;
+    std::optional<FaceCount> count(const OnStripsCounted& on_strips) override;
     const SourceShape& shape() const override { return shape_; }
     double low_of(std::uint32_t strip) const override;
     bool advance() override;

@@ -13,7 +13,7 @@ namespace regionmesh {
 void require_cells(const VolumeInfo& info);
 
 /// Throws Error(kInput) if the axes are in none of the three orders of a sweep.
-void require_sweep(const VolumeInfo& info);
+void require_sweep(const std::string& source, const Sweep& sweep);
 
 /// Reads sections one by one and holds the last two, a strip, with labels numbered densely in order of appearance.
 class SectionWindow {

@@ -42,6 +42,15 @@ TEST(Check, good_surfaces_have_no_violation) {
         EXPECT_THAT(found_in(made.mesh), ElementsAre());
 }
 
+TEST(Check, a_vertex_that_is_nowhere_degenerates_its_faces) {
+    for (const double nowhere : {std::nan(""), double{HUGE_VAL}, -double{HUGE_VAL}})
+        for (std::uint32_t v = 0; v < 4; ++v) {
+            Mesh mesh = shape(test::kTetrahedronCorners, test::tetrahedron_faces());
+            mesh[VertexId{v}].position.z = nowhere;
+            EXPECT_EQ(count(check(mesh), ViolationKind::kDegenerateFace), 3u) << nowhere << " of vertex " << v;
+        }
+}
+
 TEST(Check, open_edge) {
     Mesh mesh = octahedron();
     mesh.remove_face(FaceId{0});

@@ -216,7 +216,8 @@ bool is_before(const std::array<std::uint32_t, 3>& a, const std::array<std::uint
 
 TEST_F(PrecomputedProgram, fragments_are_an_octree_along_the_curve_and_halved_where_the_viewer_halves_them) {
     make_precomputed("--levels 3");
-    for (const std::string id : json_of("m.precomputed/names/info")["inline"]["ids"]) {
+    const auto info = json_of("m.precomputed/names/info");
+    for (const std::string id : info["inline"]["ids"]) {
         const DecodedRegion region = decoded("m", id);
         for (std::size_t level = 0; level < region.levels.size(); ++level) {
             const auto& fragments = region.levels[level];

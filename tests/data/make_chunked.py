@@ -75,6 +75,13 @@ def hdf5():
         file["two"] = samples("uint8")[0]
         file["LabDCT/Spacing"] = numpy.array([0.25, 0.5, 0.75])
         file["LabDCT/Data/GrainId"] = samples("int64")
+    with h5py.File(place("virtual.h5"), "w") as file:
+        file["part"] = samples("uint16")
+        for name, source, part in (("inside", ".", "part"), ("elsewhere", "other.h5", "part"),
+                                   ("chained", ".", "elsewhere")):
+            layout = h5py.VirtualLayout(V.shape, "u2")
+            layout[...] = h5py.VirtualSource(source, part, shape=V.shape)
+            file.create_virtual_dataset(name, layout)
     with h5py.File(place("channels.h5"), "w") as file:
         for name, axes in dict(one="czyx", two="tczyx").items():
             stack = numpy.stack([V, V + 100])

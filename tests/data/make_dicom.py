@@ -200,6 +200,7 @@ def bad():
     changed(lambda d: setattr(d, "SegmentationType", "SOLID")).write("bad", "kind.dcm")
     label_map().write("bad", "jpeg_ls.dcm", syntax=RLE, says=JPEG_LS)
     changed(lambda d: setattr(d, "BitsAllocated", 8)).write("bad", "bits.dcm")
+    changed(lambda d: d.update(item(InConcatenationNumber=1, InConcatenationTotalNumber=2))).write("bad", "part.dcm")
 
     def image(data):
         data.SOPClassUID, data.Modality = CT, "CT"

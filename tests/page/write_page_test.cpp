@@ -44,6 +44,16 @@ protected:
     }
 };
 
+TEST_F(Page, what_does_not_fit_the_model_is_refused_and_nothing_is_written) {
+    const Reconstruction made = grains();
+    const std::vector<double> few(3);
+    EXPECT_THROW(write_page(path("page.html"),
+                            {{.mesh = made.mesh, .labels = made.labels, .title = "few", .distances = few}}, {}),
+                 Error);
+    EXPECT_THROW(written(made, {.report = "no JSON"}), Error);
+    EXPECT_TRUE(std::filesystem::is_empty(path("")));
+}
+
 TEST_F(Page, holds_the_report_and_the_labels) {
     const Reconstruction made = grains();
     const json data = json::parse(data_of(

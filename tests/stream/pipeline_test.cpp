@@ -1,11 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
-#include "regionmesh/error.h"
-#include "regionmesh/reconstruct.h"
+#include "regionmesh/regionmesh.h"
 #include "stream/footprint.h"
 #include "support/digest.h"
 #include "support/runs.h"
@@ -99,13 +100,73 @@ TEST(Reconstruct, options_out_of_range_are_refused) {
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.perturbation = bad; })) << bad;
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.min_quality = bad; })) << bad;
         EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.smooth.reach = bad; })) << bad;
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.smooth.nifpms_reach = bad; })) << bad;
+        EXPECT_TRUE(refused([&](ReconstructOptions& o) { o.smooth.nifpms_bound = bad; })) << bad;
     }
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.max_error = std::nan(""); }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.reach = 3; }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.strips_per_chunk = 0; }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.scale_z = std::nan(""); }));
+}
+
+TEST(Reconstruct, options_of_its_steps_out_of_range_are_refused) {
     Mesh mesh = run(test::ball_volume({9, 9, 9}, 3)).mesh;
-    for (const double bad : {std::nan(""), -1.0}) EXPECT_THROW(simplify(mesh, {.max_error = bad}), Error) << bad;
+    for (const double bad : {std::nan(""), -1.0}) {
+        SCOPED_TRACE(bad);
+        const Lattice lattice{.size = {9, 9, 9}, .spacing = {bad, 1, 1}};
+        EXPECT_THROW(simplify(mesh, {.max_error = bad}), Error);
+        EXPECT_THROW(simplify(mesh, {.min_quality = bad}), Error);
+        EXPECT_THROW(simplify(mesh, {.scale = bad}), Error);
+        EXPECT_THROW(simplify(mesh, {.samples = lattice}), Error);
+        EXPECT_THROW(improve(mesh, {.scale = bad}), Error);
+        EXPECT_THROW(improve(mesh, {.samples = lattice}), Error);
+        EXPECT_THROW(smooth(mesh, {.nifpms_reach = bad}), Error);
+        EXPECT_THROW(smooth(mesh, {.lambda = bad}), Error);
+        EXPECT_THROW(preserve_volumes(mesh, {std::nan("")}, {.scale = bad}), Error);
+    }
+    EXPECT_THROW(preserve_volumes(mesh, {1.0, std::nan("")}, {}), Error);
+    EXPECT_EQ(mesh.face_count(), run(test::ball_volume({9, 9, 9}, 3)).mesh.face_count());
+}
+
+/// Asks for a stop once so many sections were read.
+class StoppingReader final : public SectionReader {
+public:
+    StoppingReader(SectionReader& reader, std::uint32_t last) : reader_(reader), last_(last) {}
+    const VolumeInfo& info() const override { return reader_.info(); }
+    bool next(std::span<InputLabel> section) override {
+        stop = stop || ++read >= last_;
+        return reader_.next(section);
+    }
+    void rewind() override { reader_.rewind(); }
+
+    std::atomic<bool> stop = false;
+    std::atomic<std::uint32_t> read = 0;
+
+private:
+    SectionReader& reader_;
+    std::uint32_t last_;
+};
+
+TEST(Reconstruct, a_request_to_stop_is_seen_while_sections_are_counted_and_meshed) {
+    constexpr std::uint32_t kSections = 200;
+    for (const std::uint32_t threads : {1u, 2u})
+        for (const std::uint32_t last : {5u, kSections + 5}) {
+            auto volume = test::ball_volume({9, 9, kSections}, 3);
+            StoppingReader reader(volume, last);
+            const StopScope scope(reader.stop);
+            EXPECT_THROW(reconstruct(reader, {.threads = threads}), Stopped);
+            EXPECT_LE(reader.read, last + 5) << threads << " threads";
+        }
+}
+
+TEST(Reconstruct, progress_goes_on_while_sections_are_counted) {
+    auto volume = test::ball_volume({9, 9, 30}, 3);
+    std::vector<double> shares;
+    reconstruct(volume, {}, [&](const Progress& progress) {
+        if (std::string(progress.stage) == "count") shares.push_back(progress.share);
+    });
+    EXPECT_GE(shares.size(), 20u);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
 }
 
 TEST(Reconstruct, grains_go_down_by_90_percent) {

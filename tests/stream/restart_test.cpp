@@ -32,7 +32,7 @@ public:
     MisplacedBead(SectionFaces& plain, double back, bool can_rewind = true)
         : plain_(plain), back_(back), can_rewind_(can_rewind) {}
 
-    std::optional<FaceCount> count() override { return plain_.count(); }
+    std::optional<FaceCount> count(const OnStripsCounted& on_strips) override { return plain_.count(on_strips); }
     const SourceShape& shape() const override { return plain_.shape(); }
     double low_of(std::uint32_t strip) const override { return plain_.low_of(strip); }
     bool advance() override { return plain_.advance(); }

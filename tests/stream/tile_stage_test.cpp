@@ -18,7 +18,7 @@ std::vector<std::pair<std::size_t, std::size_t>> faces_of_chunks(test::ArrayVolu
     const OnProgress on_progress;
     RunLog log(result, on_progress);
     SectionFaces source(volume, {.background = {}, .cells = options.cells});
-    std::optional<FaceCount> counted = source.count();
+    std::optional<FaceCount> counted = source.count({});
     const SourceShape& shape = source.shape();
     const Plan plan = make_plan(shape, std::move(counted), 0, options);
     Strips strips(source, options.smooth, strip_order(shape, 0), log);

@@ -1,5 +1,7 @@
 #include "formats/array/array_axes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -99,8 +101,9 @@ void place(VolumeInfo& info, const Placement& placement, const ReadOptions& opti
     for (int axis = 0; axis < 3; ++axis) {
         const double spacing = placement.spacing[axis], origin = placement.origin[axis];
         if (!options.spacing && (!std::isfinite(spacing) || spacing == 0)) {
-            fail(info.source, std::string("spacing along ") + "xyz"[axis] + " is " + std::to_string(spacing) +
-                                  " in the file; give the right one with --spacing X,Y,Z");
+            fail(info.source,
+                 fmt::format("spacing along {} is {:g} in the file; give the right one with --spacing X,Y,Z",
+                             "xyz"[axis], spacing));
         }
         if (!std::isfinite(origin)) {
             fail(info.source, std::string("the position of the first sample along ") + "xyz"[axis] + " is " +
@@ -120,7 +123,9 @@ Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const 
         if (!is_whole && numbers.size() != 3) return false;
         for (int i = 0; i < 3; ++i) {
             if (is_whole && axes.axis[i] >= 0) target[i] = numbers[axes.axis[i]];
-            if (!is_whole) target[i] = numbers[2 - i];
+            // Three numbers: in the order of x, y and z in the array; one that it lacks is z, and comes first.
+            if (!is_whole)
+                target[i] = numbers[std::ranges::count_if(axes.axis, [&](int a) { return a < axes.axis[i]; })];
         }
         return true;
     };

@@ -50,7 +50,8 @@ using FindNumbers = std::function<std::vector<double>(const std::string& name)>;
 
 /// Reads attributes in common use, along the axes of the array (mostly z, y, x): the spacing is the first of
 /// `element_size_um`, `voxel_size`, `resolution` and `spacing`, the first sample is the first of `offset`, `origin` and
-/// `translation`. A list is used if it has a number for each axis, or three.
+/// `translation`. A list is used if it has a number for each axis, or three: for x, y and z in their order in the
+/// array.
 Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const FindNumbers& find);
 
 }  // namespace regionmesh::formats

@@ -15,6 +15,7 @@
 #include "formats/codec/sample_format.h"
 #include "regionmesh/error.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/output_file.h"
 
 namespace regionmesh {
@@ -301,6 +302,7 @@ private:
 
 std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, Space space,
                                              SampleType type, const OutputOptions& options, bool has_unsigned_labels) {
+    require_lattice(path.string(), lattice);
     const std::string name = path.filename().string();
     std::string known;
     for (const Format& format : kFormats) {

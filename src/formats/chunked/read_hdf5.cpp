@@ -46,7 +46,11 @@ Hdf5Entry only_candidate(Hdf5Reader& file, const std::string& source, const std:
     if (candidates.size() == 1)
         return file.entry(candidates.front().path).value_or(candidates.front());  // with words of variable length
     if (candidates.empty())
-        fail(source, "holds no dataset of integers with 2 or 3 dimensions; labels must be integers");
+        fail(
+            source,
+            "holds no dataset of integers with 2 or 3 dimensions; labels must be integers. One with more dimensions is "
+            "read if you name it, as in " +
+                source + ":/path, with --layer N");
     fail(source, "holds several datasets; name one: " + list_datasets(file.path(), candidates));
 }
 

@@ -7,6 +7,7 @@
 #include "formats/chunked/store_array.h"
 #include "formats/chunked/store_search.h"
 #include "formats/input_file.h"
+#include "formats/text/header_text.h"
 #include "formats/text/json_text.h"
 
 namespace regionmesh::formats {
@@ -129,7 +130,7 @@ bool take_transform(const Json& attributes, Placement& placement) {
     const std::vector<double> scale = numbers_of(transform, "scale"), translate = numbers_of(transform, "translate");
     const Json& axes = transform.at("axes");
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const std::size_t axis = axes[i].is_string() ? std::string("xyz").find(axes[i].get<std::string>()) : 3;
+        const std::size_t axis = axes[i].is_string() ? std::string("xyz").find(lower(axes[i].get<std::string>())) : 3;
         if (axis > 2) continue;
         if (i < scale.size()) placement.spacing[axis] = scale[i];
         if (i < translate.size()) placement.origin[axis] = translate[i];
@@ -137,16 +138,22 @@ bool take_transform(const Json& attributes, Placement& placement) {
     return true;
 }
 
-/// A sample of a coarser level lies in the middle of the samples it was made from.
-Placement placement_of(const StoreArray& array) {
+/// A sample of a coarser level lies in the middle of the samples it was made from. Lists have a number for each axis of
+/// the array, the first axis of the file first, or else for x, y, z.
+Placement placement_of(const StoreArray& array, const ArrayAxes& axes) {
     Placement placement;
     if (take_transform(array.attributes, placement)) return placement;
     const Found found = find_numbers(array.folder);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double resolution = axis < found.resolution.size() ? found.resolution[axis] : 1;
-        const double factor = axis < found.factors.size() ? found.factors[axis] : 1;
+        const auto number = [&](const std::vector<double>& numbers, double otherwise) {
+            std::size_t at = axis;
+            if (numbers.size() == array.shape.size() && axes.axis[axis] >= 0)
+                at = numbers.size() - 1 - static_cast<std::size_t>(axes.axis[axis]);
+            return at < numbers.size() ? numbers[at] : otherwise;
+        };
+        const double resolution = number(found.resolution, 1), factor = number(found.factors, 1);
         placement.spacing[axis] = resolution * factor;
-        placement.origin[axis] = resolution * (factor - 1) / 2 + (axis < found.offset.size() ? found.offset[axis] : 0);
+        placement.origin[axis] = resolution * (factor - 1) / 2 + number(found.offset, 0);
     }
     return placement;
 }
@@ -166,7 +173,7 @@ std::unique_ptr<SectionReader> open_n5(const fs::path& path, const ReadOptions& 
     StoreArray array = parse_array(found, attributes_of(found));
     StoreVolume volume{.format = "n5", .source = path.string()};
     volume.axes = choose_axes(found, array.shape, {}, options);
-    volume.placement = placement_of(array);
+    volume.placement = placement_of(array, volume.axes);
     return open_store_array(std::move(array), std::move(volume), options);
 }
 

@@ -57,8 +57,10 @@ fs::path only_volume(const fs::path& folder, const Describe& describe) {
     look_into(search, folder, 0);
     if (search.volumes.size() == 1) return search.volumes.front();
     if (search.volumes.empty())
-        fail(folder,
-             "holds no array of integers with 2 or 3 dimensions; name a folder of a Zarr or N5 store that does");
+        fail(
+            folder,
+            "holds no array of integers with 2 or 3 dimensions; name a folder of a Zarr or N5 store that does, or that "
+            "of an array with more dimensions, with --layer N");
     std::string list;
     for (std::size_t i = 0; i < std::min(search.volumes.size(), kShown); ++i)
         list += (i ? ", " : "") + search.volumes[i].string();

@@ -81,6 +81,23 @@ void check_channels(const std::filesystem::path& path, const std::string& descri
     }
 }
 
+/// OME writes its XML into the description of the first page. Its pages go along z, channels and times.
+void check_ome_axes(const std::filesystem::path& path, const std::string& description) {
+    if (description.find("<OME") == std::string::npos) return;
+    for (const std::string_view axis : {"SizeC", "SizeT"}) {
+        const std::string start = ' ' + std::string(axis) + "=\"";
+        const std::size_t at = description.find(start);
+        std::uint64_t size = 1;
+        if (at != std::string::npos)
+            std::from_chars(description.data() + at + start.size(), description.data() + description.size(), size);
+        const bool is_pixel =
+            axis == "SizeC" && description.find("SamplesPerPixel=\"" + std::to_string(size) + '"') != std::string::npos;
+        if (size > 1 && !is_pixel)
+            fail(path, "an OME stack with " + std::string(axis) + ' ' + std::to_string(size) +
+                           "; save one channel of one time alone");
+    }
+}
+
 /// ImageJ writes stacks beyond 4 GiB, and others on request, as one page; the pixels of all images follow one another.
 std::unique_ptr<SectionReader> open_imagej_stack(const std::filesystem::path& path, const TiffFile& tiff,
                                                  const ImageShape& shape, const Lattice& lattice,
@@ -132,6 +149,7 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
         check_channels(path, description);
         if (images == 1) images = imagej_count(description, "images");
     }
+    check_ome_axes(path, description);
     Lattice lattice{.size = checked_size(path, {shape.width, shape.height, images})};
     if (is_imagej) lattice.spacing = imagej_spacing(description, file);
     if (images > file.page_count()) return open_imagej_stack(path, file, shape, lattice, options);

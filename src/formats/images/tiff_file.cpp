@@ -162,6 +162,9 @@ ImageShape TiffFile::read_shape(std::uint32_t page, std::uint64_t section) {
     select(page, section);
     check_pixels(section);
     TIFF* tiff = tiff_.get();
+    if (const auto depth = tag<std::uint32_t>(tiff, TIFFTAG_IMAGEDEPTH, 1); depth > 1)
+        fail_section(path_, section,
+                     "the page is a volume of " + std::to_string(depth) + " sections; save each section as a page");
     const ImageShape shape{
         .width = tag<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0),
         .height = tag<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0),
@@ -238,6 +241,15 @@ void TiffFile::decode(const Blocks& blocks, Block block, std::uint64_t section, 
     TIFF* tiff = tiff_.get();
     const std::uint32_t number = blocks.are_tiles ? TIFFComputeTile(tiff, block.left, block.top, 0, block.plane)
                                                   : TIFFComputeStrip(tiff, block.top, block.plane);
+    // Never written: GDAL leaves out blocks of nothing but 0. Their size is 0, for which libtiff may put a guess.
+    if (TIFFGetStrileOffset(tiff, number) == 0) {
+        std::ranges::fill(pixels, std::byte{});
+        return;
+    }
+    // libtiff reads what is not compressed without a look at its size.
+    if (TIFFGetStrileByteCount(tiff, number) < pixels.size() &&
+        tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_NONE)
+        refuse(section, "a strip or tile is cut short");
     check_sum(blocks, number, section);
     const auto wanted = static_cast<tmsize_t>(pixels.size());
     const tmsize_t count = blocks.are_tiles ? TIFFReadEncodedTile(tiff, number, pixels.data(), wanted)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,6 +100,8 @@ MeshFile assemble(FileSurface&& surface) {
 std::string readable_extensions() { return formats::extensions_with(&Format::read_surface); }
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options) {
+    if (options.weld && !(*options.weld >= 0 && std::isfinite(*options.weld)))
+        throw Error(ErrorCode::kUsage, "weld: a distance is 0 or more, and finite; give one");
     FileSurface surface = read_surface(path);
     Box box;
     for (const Vec3 p : surface.points) box.add(p);

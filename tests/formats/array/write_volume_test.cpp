@@ -39,6 +39,14 @@ TEST_F(WriteVolume, another_number_of_sections_or_samples_is_refused) {
     EXPECT_THROW(writer->write(std::span(labels_).first(12)), Error);
 }
 
+TEST_F(WriteVolume, a_lattice_that_cannot_be_read_back_is_refused) {
+    for (const double bad : {std::nan(""), 0.0, -1.0})
+        EXPECT_THROW(create_volume(path("v.nii"), {.size = {4, 3, 2}, .spacing = {bad, 1, 1}}, Space::kUnknown,
+                                   SampleType::kU16),
+                     Error);
+    EXPECT_TRUE(std::filesystem::is_empty(path("")));
+}
+
 /// Oblique; its spacing is not one of single precision.
 Lattice oblique() {
     Lattice lattice{.size = {4, 3, 2}};

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "formats/array/read_volume.h"
 #include "formats/temporary_folder.h"
 
@@ -74,6 +76,36 @@ TEST_F(ReadN5Test, blocks_that_are_not_there_are_0) {
     fs::remove(store / "0/0/0");
     EXPECT_EQ(read_volume({store}).labels,
               expected([](InputLabel v) { return v < 40 && v % 20 < 15 && v % 5 < 4 ? 0 : v; }));
+}
+
+TEST_F(ReadN5Test, numbers_of_each_axis_are_those_of_the_axes_that_remain) {
+    const fs::path store = path("channel.n5");
+    fs::copy(data("chunked/n5/raw_uint16.n5"), store, fs::copy_options::recursive);
+    nlohmann::json attributes = nlohmann::json::parse(text_of(store / "attributes.json"));
+    const auto insert_one = [&](const char* name, int number) {
+        attributes[name].insert(attributes[name].begin() + 2, number);
+    };
+    attributes["resolution"] = {0.5, 2, 3};
+    attributes["offset"] = {1, 2, 3};
+    for (const auto& [name, number] :
+         {std::pair("dimensions", 1), std::pair("blockSize", 1), std::pair("resolution", 7), std::pair("offset", 9)})
+        insert_one(name, number);
+    put_text(store / "attributes.json", attributes.dump());
+    for (const char* row : {"0/0", "0/1", "1/0", "1/1"}) {
+        fs::remove_all(store / row);
+        fs::create_directories(store / row / "0");
+        for (const char* last : {"0", "1"}) {
+            // Two bytes, the number of axes in two, and four for each size.
+            const std::string block = text_of(data("chunked/n5/raw_uint16.n5/" + std::string(row) + '/' + last));
+            put_text(store / row / "0" / last,
+                     block.substr(0, 3) + '\4' + block.substr(4, 8) + std::string({0, 0, 0, 1}) + block.substr(12));
+        }
+    }
+    EXPECT_EQ(read_volume({store}).labels, expected(SampleType::kU16));
+    const Lattice lattice = open_sections({store})->info().lattice;
+    EXPECT_EQ(lattice.size, (std::array<std::uint32_t, 3>{5, 4, 3}));
+    EXPECT_EQ(lattice.spacing, (Vec3{0.5, 2, 3}));
+    EXPECT_EQ(lattice.origin, (Vec3{1, 2, 3}));
 }
 
 TEST_F(ReadN5Test, damaged_heads_are_refused) {

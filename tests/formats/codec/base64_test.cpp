@@ -83,7 +83,7 @@ TEST_F(Base64, text_ends_at_a_tag_or_at_a_given_byte) {
 
 TEST_F(Base64, text_of_any_length_is_read_in_parts) {
     std::string bytes;
-    for (int i = 0; i < 100'000; ++i) bytes += static_cast<char>(i * i >> 3);
+    for (std::uint32_t i = 0; i < 100'000; ++i) bytes += static_cast<char>(i * i >> 3);
     std::string text = base64(bytes_of(bytes));
     for (std::size_t i = 77; i < text.size(); i += 77) text.insert(i, "\n");
     EXPECT_EQ(decoded(text, 4099), bytes);

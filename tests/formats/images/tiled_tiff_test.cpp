@@ -19,6 +19,8 @@ struct Pixels {
     int bits = 16, channels = 1;
     bool are_planes = false;  // a plane for each channel
     bool is_tiled = true;
+    int compression = COMPRESSION_ADOBE_DEFLATE;
+    bool has_holes = false;  // the first tile or strip is not written
 };
 
 /// The next of the bytes that the pixels are made of.
@@ -35,7 +37,7 @@ void write_page(TIFF* tiff, const Pixels& pixels) {
     TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, pixels.channels);
     TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, pixels.channels == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
     TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, pixels.are_planes ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG);
-    TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
+    TIFFSetField(tiff, TIFFTAG_COMPRESSION, pixels.compression);
     if (pixels.is_tiled) {
         TIFFSetField(tiff, TIFFTAG_TILEWIDTH, kTile);
         TIFFSetField(tiff, TIFFTAG_TILELENGTH, kTile);
@@ -43,7 +45,7 @@ void write_page(TIFF* tiff, const Pixels& pixels) {
         TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
     }
     const std::uint32_t count = pixels.is_tiled ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
-    for (std::uint32_t n = 0; n < count; ++n) {
+    for (std::uint32_t n = pixels.has_holes ? 1 : 0; n < count; ++n) {
         std::vector<std::uint8_t> bytes(static_cast<std::size_t>(
             pixels.is_tiled ? TIFFTileSize(tiff) : TIFFVStripSize(tiff, n + 1 < count ? 5 : 3)));
         for (std::uint8_t& byte : bytes) byte = next_byte();
@@ -126,6 +128,56 @@ TEST_F(TiledTiff, blocks_without_their_checksum_are_refused) {
         put_text(path("a.tif"), bytes);
         EXPECT_NE(refusal({path("a.tif")}).find("does not have its checksum"), std::string::npos);
     }
+}
+
+TEST_F(TiledTiff, blocks_that_were_never_written_are_zero) {
+    for (const int compression : {COMPRESSION_NONE, COMPRESSION_ADOBE_DEFLATE})
+        for (const bool is_tiled : {true, false}) {
+            SCOPED_TRACE(std::to_string(compression) + (is_tiled ? " tiles" : " strips"));
+            write_file(path("a.tif"), kPages, {.is_tiled = is_tiled, .compression = compression, .has_holes = true});
+            const std::uint32_t width = is_tiled ? kTile : kWidth, height = is_tiled ? kTile : 5;
+            const std::vector<InputLabel> labels = read_volume({path("a.tif")}).labels;
+            for (std::uint32_t z = 0; z < kPages; ++z) {
+                std::uint32_t inside = 0, outside = 0;  // samples that are not 0
+                for (std::uint32_t y = 0; y < kHeight; ++y)
+                    for (std::uint32_t x = 0; x < kWidth; ++x)
+                        (x < width && y < height ? inside : outside) +=
+                            labels[(std::size_t{z} * kHeight + y) * kWidth + x] != 0;
+                EXPECT_EQ(inside, 0u);
+                EXPECT_GT(outside, 1000u);
+            }
+        }
+}
+
+TEST_F(TiledTiff, a_strip_with_fewer_bytes_than_its_pixels_is_refused) {
+    write_file(path("a.tif"), 1, {.bits = 8, .is_tiled = false, .compression = COMPRESSION_NONE});
+    std::string bytes = text_of(path("a.tif"));
+    constexpr char kLow = kWidth * 5 % 256, kHigh = kWidth * 5 / 256;
+    std::size_t counts = bytes.find({kLow, kHigh, kLow, kHigh, kLow, kHigh});  // of 16 bits, or of 32
+    if (counts == std::string::npos) counts = bytes.find({kLow, kHigh, 0, 0, kLow, kHigh, 0, 0, kLow, kHigh, 0, 0});
+    ASSERT_NE(counts, std::string::npos);
+    EXPECT_NO_THROW(read_volume({path("a.tif")}));
+    bytes[counts] -= 1;
+    put_text(path("a.tif"), bytes);
+    EXPECT_NE(refusal({path("a.tif")}).find("section 0: the TIFF file is damaged (a strip or tile is cut short)"),
+              std::string::npos);
+}
+
+TEST_F(TiledTiff, pages_that_are_no_sections_are_refused) {
+    const auto with_tag = [&](std::uint32_t tag, const auto& value) {
+        TIFF* const tiff = TIFFOpen(path("a.tif").c_str(), "w");
+        for (std::uint32_t page = 0; page < kPages; ++page) {
+            TIFFSetField(tiff, tag, value);
+            write_page(tiff, {});
+        }
+        TIFFClose(tiff);
+    };
+    with_tag(TIFFTAG_IMAGEDESCRIPTION, R"(<?xml version="1.0"?><OME><Pixels SizeC="2" SizeT="1" SizeZ="2"/></OME>)");
+    EXPECT_NE(refusal({path("a.tif")}).find("an OME stack with SizeC 2"), std::string::npos);
+    with_tag(TIFFTAG_IMAGEDESCRIPTION, R"(<?xml version="1.0"?><OME><Pixels SizeC="1" SizeT="1" SizeZ="4"/></OME>)");
+    EXPECT_NO_THROW(read_volume({path("a.tif")}));
+    with_tag(TIFFTAG_IMAGEDEPTH, std::uint32_t{7});
+    EXPECT_NE(refusal({path("a.tif")}).find("the page is a volume of 7 sections"), std::string::npos);
 }
 
 TEST_F(TiledTiff, strips_are_not_read_in_boxes) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "formats/surface/mesh_formats.h"
@@ -207,6 +208,7 @@ TEST_F(TextSurfaces, points_are_joined_within_a_distance_and_no_farther) {
     EXPECT_EQ(corners(1e-7), 12u);
     EXPECT_EQ(corners(2e-5), 4u);
     EXPECT_EQ(corners(1e9), 0u) << "faces without corners of their own are dropped";
+    for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) EXPECT_THROW(corners(bad), Error) << bad;
     const MeshFile welded = read("m.stl", text, {.weld = 2e-5});
     EXPECT_EQ(check(welded.mesh).violation_count(), 0u);
     EXPECT_NEAR(welded.mesh.position(VertexId{0}).x, faces[0][0].x, 1e-9) << "the first point is kept";

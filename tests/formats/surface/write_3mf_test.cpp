@@ -91,6 +91,7 @@ TEST_F(Write3mf, says_the_unit) {
             most = std::max(most, v.attribute("x").as_double());
         return std::string(root.attribute("unit").value()) + " " + std::to_string(most);
     };
+    for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) EXPECT_THROW(unit_and_size(bad), Error) << bad;
     EXPECT_EQ(unit_and_size({}), "millimeter 9.000000") << "what programs assume";
     EXPECT_EQ(unit_and_size(1e-3), "millimeter 9.000000");
     EXPECT_EQ(unit_and_size(1), "meter 9.000000");

@@ -1,0 +1,23 @@
+// Refuses numbers of options that lie out of their range.
+#pragma once
+
+#include <limits>
+
+namespace regionmesh {
+
+/// From `least` to `most`, both included. `text` says so in messages: "0 to 1".
+struct OptionRange {
+    double least, most;
+    const char* text;
+};
+
+inline constexpr double kMostNumber = std::numeric_limits<double>::max();
+inline constexpr OptionRange kNotNegative{0, kMostNumber, "0 or more"};
+inline constexpr OptionRange kPositive{std::numeric_limits<double>::min(), kMostNumber, "more than 0"};
+inline constexpr OptionRange kNotNegativeOrInfinite{0, std::numeric_limits<double>::infinity(), "0 or more"};
+inline constexpr OptionRange kQualityRange{0, 0.26, "0 to 0.26"};  // an equilateral face has more than that
+
+/// Throws Error(kUsage) for a number out of range, and for NaN.
+void require_number(const char* option, double number, const OptionRange& range);
+
+}  // namespace regionmesh
