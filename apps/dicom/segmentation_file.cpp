@@ -200,12 +200,12 @@ std::string SegmentationFile::Parts::obstacle() {
     if (pixels() == nullptr) return "holds no samples (Pixel Data); fetch it again";
     Uint16 channels = 1;
     dataset().findAndGetUint16(DCM_SamplesPerPixel, channels);
-    Uint16 part = 1, parts = 1;
-    dataset().findAndGetUint16(DCM_InConcatenationNumber, part);
-    dataset().findAndGetUint16(DCM_InConcatenationTotalNumber, parts);
-    if (part > 1 || parts > 1)
-        return "is part " + std::to_string(part) + " of " + std::to_string(std::max(part, parts)) +
-               " of a segmentation (a concatenation); write its frames into one file";
+    Uint16 part = 1, parts = 0;
+    const bool is_part = dataset().findAndGetUint16(DCM_InConcatenationNumber, part).good();
+    dataset().findAndGetUint16(DCM_InConcatenationTotalNumber, parts);  // may be missing
+    if (is_part && parts != 1)
+        return "is part " + std::to_string(part) +
+               " of a segmentation in several files (a concatenation); write its frames into one file";
     if (channels != 1) return "has " + std::to_string(channels) + " numbers at each sample; export it with labels";
     if (is_native()) {
         const std::uint64_t stored = pixels()->getLength(dataset().getOriginalXfer());

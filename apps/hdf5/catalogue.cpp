@@ -137,36 +137,52 @@ void add_attributes(hid_t object, Words words, Entry& entry) {
     }
 }
 
-/// Whether parts of a virtual dataset are in another file, which the library would not find: their samples would be the
-/// fill value. Parts in this file may be virtual, too.
-bool is_virtual_elsewhere(hid_t dataset, const Hdf5Properties& layout, int depth) {
-    constexpr int kMostChained = 8;
+constexpr const char* kElsewhere = "its samples are kept in another file";
+
+/// The datasets that a virtual one is made of: all of them, and those on the way to the one that is looked at.
+struct VirtualParts {
+    std::set<std::string> seen;
+    std::vector<std::string> way;
+};
+
+std::string obstacle_of(hid_t dataset, const Hdf5Properties& layout, VirtualParts& parts);
+
+/// The library reads a part that it cannot read as its fill value.
+std::string obstacle_of_part(const Hdf5Object& root, const std::string& name, VirtualParts& parts) {
+    if (std::ranges::find(parts.way, name) != parts.way.end()) return "it is a part of itself";
+    // Names with % count through parts that may be written later.
+    if (!parts.seen.insert(name).second || name.find('%') != std::string::npos) return {};
+    const Hdf5Dataset part(H5Dopen2(root.id(), name.c_str(), H5P_DEFAULT));
+    if (!part) return "its samples are kept in another file, or are missing";
+    parts.way.push_back(name);
+    std::string obstacle = obstacle_of(part.id(), Hdf5Properties(H5Dget_create_plist(part.id())), parts);
+    parts.way.pop_back();
+    return obstacle;
+}
+
+std::string obstacle_of_parts(hid_t dataset, const Hdf5Properties& layout, VirtualParts& parts) {
     std::size_t count = 0;
-    if (H5Pget_layout(layout.id()) != H5D_VIRTUAL || H5Pget_virtual_count(layout.id(), &count) < 0) return false;
-    std::set<std::string> parts;
-    for (std::size_t i = 0; i < count; ++i) {
-        std::array<char, 256> name{};
-        if (H5Pget_virtual_filename(layout.id(), i, name.data(), name.size()) < 0 ||
-            std::string_view(name.data()) != ".")
-            return true;
-        const ssize_t size = H5Pget_virtual_dsetname(layout.id(), i, nullptr, 0);
-        std::string part(size > 0 ? static_cast<std::size_t>(size) + 1 : 1, '\0');
-        H5Pget_virtual_dsetname(layout.id(), i, part.data(), part.size());
-        parts.insert(std::move(part));
-    }
+    if (H5Pget_layout(layout.id()) != H5D_VIRTUAL || H5Pget_virtual_count(layout.id(), &count) < 0) return {};
     const Hdf5Object root(H5Oopen(dataset, "/", H5P_DEFAULT));
-    return std::ranges::any_of(parts, [&](const std::string& name) {
-        const Hdf5Dataset part(H5Dopen2(root.id(), name.c_str(), H5P_DEFAULT));
-        return part && (depth == kMostChained ||
-                        is_virtual_elsewhere(part.id(), Hdf5Properties(H5Dget_create_plist(part.id())), depth + 1));
-    });
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<char, 256> file{};
+        if (H5Pget_virtual_filename(layout.id(), i, file.data(), file.size()) < 0 ||
+            std::string_view(file.data()) != ".")
+            return kElsewhere;
+        const ssize_t size = H5Pget_virtual_dsetname(layout.id(), i, nullptr, 0);
+        std::string name(size > 0 ? static_cast<std::size_t>(size) + 1 : 1, '\0');
+        H5Pget_virtual_dsetname(layout.id(), i, name.data(), name.size());
+        name.pop_back();
+        if (std::string obstacle = obstacle_of_part(root, name, parts); !obstacle.empty()) return obstacle;
+    }
+    return {};
 }
 
 /// Why the samples cannot be read: a filter that this build of the library lacks, or samples in another file, which is
 /// not opened.
-std::string obstacle_of(hid_t dataset, const Hdf5Properties& layout) {
-    if (H5Pget_external_count(layout.id()) > 0 || is_virtual_elsewhere(dataset, layout, 0))
-        return "its samples are kept in another file";
+std::string obstacle_of(hid_t dataset, const Hdf5Properties& layout, VirtualParts& parts) {
+    if (H5Pget_external_count(layout.id()) > 0) return kElsewhere;
+    if (std::string obstacle = obstacle_of_parts(dataset, layout, parts); !obstacle.empty()) return obstacle;
     const int count = H5Pget_nfilters(layout.id());
     for (int i = 0; i < count; ++i) {
         unsigned flags = 0, filter_config = 0;
@@ -196,7 +212,8 @@ void describe_dataset(hid_t object, Entry& entry) {
         if (count == static_cast<int>(entry.shape.size())) entry.chunk.assign(chunk.begin(), chunk.begin() + count);
     }
     entry.stored_bytes = H5Dget_storage_size(object);
-    entry.obstacle = obstacle_of(object, layout);
+    VirtualParts parts;
+    entry.obstacle = obstacle_of(object, layout, parts);
     const hssize_t count = H5Sget_simple_extent_npoints(space.id());
     if (is_number(type) && count > 0 && count <= kMaxNumbers && entry.obstacle.empty()) {
         std::vector<double> values(static_cast<std::size_t>(count));

@@ -47,8 +47,8 @@ class FaceSource {
 public:
     virtual ~FaceSource() = default;
 
-    /// Counts all faces, where that can be done without making the mesh; to be called first. Calls on_strips, if
-    /// there is one, now and then.
+    /// Counts all faces, where that can be done without making the mesh; to be called first. May call on_strips, if
+    /// there is one, after some of the strips.
     virtual std::optional<FaceCount> count(const OnStripsCounted& on_strips) = 0;
     virtual const SourceShape& shape() const = 0;
     /// All vertices of this strip and the later ones lie here or beyond along the sweep. For the strip count it is the

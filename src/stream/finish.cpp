@@ -1,7 +1,9 @@
 #include "stream/finish.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/option_range.h"
 #include "regionmesh/smooth.h"
 #include "simplify/error_bound.h"
 #include "stream/stage_options.h"
@@ -13,6 +15,7 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
     const StageTimer timer = log.time("improve");
     ImproveOptions own = improve_options(simplify_options(options, shape));
     own.scale_z = shape.scale_z;
+    own.min_quality = std::min(own.min_quality, kQualityRange.most);  // it may have a margin on it
     // The number of sweeps is not known: the share nears 1 ever more slowly.
     double calls = 0;
     const double calls_a_sweep = 1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0;

@@ -1,6 +1,5 @@
 #include "stream/stage_options.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "volume/room_reader.h"
 
 namespace regionmesh {
+
 void require_in_range(const ReconstructOptions& options) {
     if (options.reduce) require_number("reduce", *options.reduce, {0, 1, "0 to 1"});
     if (options.max_error) require_number("max_error", *options.max_error, kNotNegativeOrInfinite);
@@ -20,7 +20,7 @@ void require_in_range(const ReconstructOptions& options) {
     if (options.strips_per_chunk == 0) throw Error(ErrorCode::kUsage, "strips_per_chunk: 0; give at least 1");
     require_number("min_quality", options.min_quality, kQualityRange);
     require_number("perturbation", options.perturbation, kNotNegative);
-    require_in_range(options.smooth);
+    require_in_range(smooth_options(options, 1));
 }
 
 ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter automatic) {

@@ -77,8 +77,9 @@ def hdf5():
         file["LabDCT/Data/GrainId"] = samples("int64")
     with h5py.File(place("virtual.h5"), "w") as file:
         file["part"] = samples("uint16")
+        file["away"] = h5py.ExternalLink("other.h5", "/part")
         for name, source, part in (("inside", ".", "part"), ("elsewhere", "other.h5", "part"),
-                                   ("chained", ".", "elsewhere")):
+                                   ("chained", ".", "elsewhere"), ("linked", ".", "away"), ("itself", ".", "itself")):
             layout = h5py.VirtualLayout(V.shape, "u2")
             layout[...] = h5py.VirtualSource(source, part, shape=V.shape)
             file.create_virtual_dataset(name, layout)

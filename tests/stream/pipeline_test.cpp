@@ -118,14 +118,25 @@ TEST(Reconstruct, options_of_its_steps_out_of_range_are_refused) {
         EXPECT_THROW(simplify(mesh, {.min_quality = bad}), Error);
         EXPECT_THROW(simplify(mesh, {.scale = bad}), Error);
         EXPECT_THROW(simplify(mesh, {.samples = lattice}), Error);
+        EXPECT_THROW(improve(mesh, {.min_quality = bad}), Error);
         EXPECT_THROW(improve(mesh, {.scale = bad}), Error);
+        EXPECT_THROW(improve(mesh, {.tolerance = bad}), Error);
+        EXPECT_THROW(improve(mesh, {.max_error = bad}), Error);
+        EXPECT_THROW(improve(mesh, {.scale_z = bad}), Error);
         EXPECT_THROW(improve(mesh, {.samples = lattice}), Error);
         EXPECT_THROW(smooth(mesh, {.nifpms_reach = bad}), Error);
         EXPECT_THROW(smooth(mesh, {.lambda = bad}), Error);
-        EXPECT_THROW(preserve_volumes(mesh, {std::nan("")}, {.scale = bad}), Error);
+        EXPECT_THROW(preserve_volumes(mesh, {}, {.scale = bad}), Error);
     }
     EXPECT_THROW(preserve_volumes(mesh, {1.0, std::nan("")}, {}), Error);
     EXPECT_EQ(mesh.face_count(), run(test::ball_volume({9, 9, 9}, 3)).mesh.face_count());
+}
+
+TEST(Reconstruct, all_steps_take_the_largest_quality) {
+    ReconstructOptions options = reduced(0.5);
+    options.min_quality = 0.26;
+    options.preserve_volume = options.improve = true;
+    EXPECT_EQ(run(test::ball_volume({9, 9, 9}, 3), options).report.check.violation_count(), 0u);
 }
 
 /// Asks for a stop once so many sections were read.
@@ -134,7 +145,7 @@ public:
     StoppingReader(SectionReader& reader, std::uint32_t last) : reader_(reader), last_(last) {}
     const VolumeInfo& info() const override { return reader_.info(); }
     bool next(std::span<InputLabel> section) override {
-        stop = stop || ++read >= last_;
+        if (++read >= last_) stop = true;
         return reader_.next(section);
     }
     void rewind() override { reader_.rewind(); }

@@ -130,7 +130,8 @@ bool take_transform(const Json& attributes, Placement& placement) {
     const std::vector<double> scale = numbers_of(transform, "scale"), translate = numbers_of(transform, "translate");
     const Json& axes = transform.at("axes");
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        const std::size_t axis = axes[i].is_string() ? std::string("xyz").find(lower(axes[i].get<std::string>())) : 3;
+        const std::string name = axes[i].is_string() ? lower(axes[i].get<std::string>()) : "";
+        const std::size_t axis = name.size() == 1 ? std::string_view("xyz").find(name) : 3;
         if (axis > 2) continue;
         if (i < scale.size()) placement.spacing[axis] = scale[i];
         if (i < translate.size()) placement.origin[axis] = translate[i];

@@ -81,21 +81,24 @@ void check_channels(const std::filesystem::path& path, const std::string& descri
     }
 }
 
-/// OME writes its XML into the description of the first page. Its pages go along z, channels and times.
-void check_ome_axes(const std::filesystem::path& path, const std::string& description) {
+/// A size in the first Pixels of the XML that OME writes into the description of the first page; 1 where there is none.
+std::uint64_t ome_size(const std::string& description, std::string_view axis) {
+    const std::size_t at = description.find(axis), number = at + axis.size() + 2;  // behind ="
+    std::uint64_t size = 1;
+    if (at != std::string::npos && number < description.size())
+        std::from_chars(description.data() + number, description.data() + description.size(), size);
+    return size;
+}
+
+/// Its pages go along z, channels and times. The XML may describe the pages of other files, too.
+void check_ome_axes(const std::filesystem::path& path, const std::string& description, const ImageShape& shape,
+                    std::uint64_t pages) {
     if (description.find("<OME") == std::string::npos) return;
-    for (const std::string_view axis : {"SizeC", "SizeT"}) {
-        const std::string start = ' ' + std::string(axis) + "=\"";
-        const std::size_t at = description.find(start);
-        std::uint64_t size = 1;
-        if (at != std::string::npos)
-            std::from_chars(description.data() + at + start.size(), description.data() + description.size(), size);
-        const bool is_pixel =
-            axis == "SizeC" && description.find("SamplesPerPixel=\"" + std::to_string(size) + '"') != std::string::npos;
-        if (size > 1 && !is_pixel)
-            fail(path, "an OME stack with " + std::string(axis) + ' ' + std::to_string(size) +
-                           "; save one channel of one time alone");
-    }
+    const std::uint64_t sections = ome_size(description, "SizeZ"), times = ome_size(description, "SizeT");
+    const std::uint64_t channels = ome_size(description, "SizeC") / shape.channels;  // those of a pixel are in one page
+    if (pages > sections && (channels > 1 || (times > 1 && sections > 1)))
+        fail(path, "an OME stack of " + std::to_string(channels) + " channels and " + std::to_string(times) +
+                       " times; save one channel of one time alone");
 }
 
 /// ImageJ writes stacks beyond 4 GiB, and others on request, as one page; the pixels of all images follow one another.
@@ -149,7 +152,7 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
         check_channels(path, description);
         if (images == 1) images = imagej_count(description, "images");
     }
-    check_ome_axes(path, description);
+    check_ome_axes(path, description, shape, images);
     Lattice lattice{.size = checked_size(path, {shape.width, shape.height, images})};
     if (is_imagej) lattice.spacing = imagej_spacing(description, file);
     if (images > file.page_count()) return open_imagej_stack(path, file, shape, lattice, options);

@@ -76,8 +76,10 @@ int TiffFile::on_error(TIFF*, void* messages, const char*, const char* format, v
     return 1;
 }
 
-int TiffFile::on_warning(TIFF*, void* messages, const char*, const char* format, va_list values) {
+int TiffFile::on_warning(TIFF*, void* messages, const char* function, const char* format, va_list values) {
     auto* kept = static_cast<Messages*>(messages);
+    // There libtiff fills up lists of places that are too short, with 0.
+    if (function && std::string_view(function) == "TIFFFetchStripThing") kept->has_short_list = true;
     if (kept->is_decoding) keep_first(kept->first, format, values);
     return 1;
 }
@@ -113,7 +115,7 @@ void TiffFile::list_pages(std::uint64_t section) {
 }
 
 void TiffFile::select(std::uint32_t page, std::uint64_t section) {
-    *messages_ = {};
+    *messages_ = {.has_short_list = messages_->has_short_list};
     if (TIFFCurrentDirOffset(tiff_.get()) == pages_[page]) return;
     if (!TIFFSetSubDirectory(tiff_.get(), pages_[page]) || messages_->first[0])
         refuse(section, "a page has no directory");
@@ -241,14 +243,14 @@ void TiffFile::decode(const Blocks& blocks, Block block, std::uint64_t section, 
     TIFF* tiff = tiff_.get();
     const std::uint32_t number = blocks.are_tiles ? TIFFComputeTile(tiff, block.left, block.top, 0, block.plane)
                                                   : TIFFComputeStrip(tiff, block.top, block.plane);
-    // Never written: GDAL leaves out blocks of nothing but 0. Their size is 0, for which libtiff may put a guess.
-    if (TIFFGetStrileOffset(tiff, number) == 0) {
+    const std::uint64_t stored = TIFFGetStrileByteCount(tiff, number);
+    // Never written: GDAL leaves out blocks of nothing but 0.
+    if (stored == 0 && TIFFGetStrileOffset(tiff, number) == 0 && !messages_->has_short_list) {
         std::ranges::fill(pixels, std::byte{});
         return;
     }
-    // libtiff reads what is not compressed without a look at its size.
-    if (TIFFGetStrileByteCount(tiff, number) < pixels.size() &&
-        tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_NONE)
+    // libtiff reads what is not compressed without a look at its size. Where it finds sizes wrong, it guesses them.
+    if (stored < pixels.size() && tag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_NONE)
         refuse(section, "a strip or tile is cut short");
     check_sum(blocks, number, section);
     const auto wanted = static_cast<tmsize_t>(pixels.size());

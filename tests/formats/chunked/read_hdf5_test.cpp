@@ -34,8 +34,9 @@ TEST_F(ReadHdf5Test, every_type_byte_order_and_sweep_comes_back_label_for_label)
 
 TEST_F(ReadHdf5Test, virtual_datasets_are_read_where_all_parts_are_in_the_file) {
     EXPECT_EQ(read_volume({inside("virtual.h5", "/inside")}).labels, expected(SampleType::kU16));
-    for (const char* name : {"/elsewhere", "/chained"})
+    for (const char* name : {"/elsewhere", "/chained", "/linked"})
         EXPECT_THAT(refusal({inside("virtual.h5", name)}), HasSubstr("its samples are kept in another file")) << name;
+    EXPECT_THAT(refusal({inside("virtual.h5", "/itself")}), HasSubstr("it is a part of itself"));
 }
 
 TEST_F(ReadHdf5Test, filters_of_the_library_are_undone) {

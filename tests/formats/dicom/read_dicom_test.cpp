@@ -135,7 +135,7 @@ TEST(ReadDicom, what_is_not_a_regular_segmentation_is_refused_with_its_reason) {
         {"fractional", "is a fractional segmentation"},
         {"kind", "its segmentation type is 'SOLID'"},
         {"jpeg_ls", "compressed as JPEG-LS Lossless, which is not read; write them uncompressed"},
-        {"part", "is part 1 of 2 of a segmentation (a concatenation)"},
+        {"part", "is part 1 of a segmentation in several files (a concatenation)"},
         {"bits", "its samples have 8 bits; BINARY segmentations have 1"},
         {"image", "is a DICOM object of modality CT, not a segmentation; segment the images"},
         {"beside", "frame 3: its position (-9.228, 21.946, 31.34) is 0.40 spacings off the grid"},
