@@ -101,7 +101,7 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             require_distinct_files(settings);
             begin_messages(command.command, settings);
             const std::optional<SandboxState> confined = confine(settings);
-            remove_outputs_on_signals();
+            remove_outputs_on_signals();  // its thread is confined, too
             const int code = run(settings);
             say_confined(confined);
             return code;

@@ -147,7 +147,7 @@ struct VirtualParts {
 
 std::string obstacle_of(hid_t dataset, const Hdf5Properties& layout, VirtualParts& parts);
 
-/// The library reads a part that it cannot read as its fill value.
+/// Of a part of a virtual dataset. The library takes the fill value where it cannot open a part.
 std::string obstacle_of_part(const Hdf5Object& root, const std::string& name, VirtualParts& parts) {
     if (std::ranges::find(parts.way, name) != parts.way.end()) return "it is a part of itself";
     // Names with % count through parts that may be written later.

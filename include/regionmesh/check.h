@@ -17,14 +17,14 @@ namespace regionmesh {
 
 /// The kinds of violations. to_string() gives their names in reports.
 enum class ViolationKind {
-    kOpenEdge,        // a region has a single face at an edge (P 3.6 b)
-    kOverfullEdge,    // a region has more than two faces at an edge (P 3.6 b)
-    kOrientation,     // two faces of a region pass their edge in the same direction: inside and outside are mixed;
-                      // or the volume of a region is negative
-    kPinchedVertex,   // a region's faces at a vertex are more than one fan
-    kFewEdges,        // a vertex with fewer than three edges (P 3.6 a)
-    kDuplicateFace,   // two faces on the same three vertices
-    kDegenerateFace,  // a face that repeats a vertex, or without a finite area above 0, or with one label on both sides
+    kOpenEdge,            // a region has a single face at an edge (P 3.6 b)
+    kOverfullEdge,        // a region has more than two faces at an edge (P 3.6 b)
+    kOrientation,         // two faces of a region pass their edge in the same direction: inside and outside are mixed;
+                          // or the volume of a region is negative
+    kPinchedVertex,       // a region's faces at a vertex are more than one fan
+    kFewEdges,            // a vertex with fewer than three edges (P 3.6 a)
+    kDuplicateFace,       // two faces on the same three vertices
+    kDegenerateFace,      // a face that repeats a vertex, has no finite area above 0, or one label on both sides
     kCoincidentVertices,  // two vertices at the same place (P 3.6 d)
     kUnusedVertex,        // a vertex without a face
     kCrossingFaces,       // two faces meet outside the vertices and edges that they share (exact)

@@ -60,7 +60,7 @@ struct WriteOptions {
 /// Doubles in text round-trip. The bytes depend only on the model, the labels and the options. Memory: a few megabytes;
 /// 4 bytes per vertex where ids are not dense; 8 bytes per face for .obj and .stl, some hundred for the formats of
 /// volume meshers and .dream3d. Throws Error(kOutput) for another extension and for options that the format does not
-/// support, before it writes anything, and where the file cannot be written.
+/// support, before it writes anything, and where the file cannot be written; Error(kUsage) for `metres` out of range.
 ///
 /// .vtp, .vtu, .ply, .obj and .stl say the space, where it is known, as 3D Slicer reads it: SPACE=RAS. .vtp, .vtu, .ply
 /// and .obj say which labels are background. .vtp and .vtu have two arrays to colour by: Region, the first label of a

@@ -78,7 +78,7 @@ int TiffFile::on_error(TIFF*, void* messages, const char*, const char* format, v
 
 int TiffFile::on_warning(TIFF*, void* messages, const char* function, const char* format, va_list values) {
     auto* kept = static_cast<Messages*>(messages);
-    // There libtiff fills up lists of places that are too short, with 0.
+    // This function of libtiff fills up a list of offsets that is too short, with 0.
     if (function && std::string_view(function) == "TIFFFetchStripThing") kept->has_short_list = true;
     if (kept->is_decoding) keep_first(kept->first, format, values);
     return 1;

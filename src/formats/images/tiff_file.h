@@ -55,7 +55,7 @@ public:
 private:
     struct Messages {
         bool is_decoding = false;
-        bool has_short_list = false;    // of the places of strips or tiles, on any page
+        bool has_short_list = false;    // of the offsets or sizes of strips or tiles, on any page
         std::array<char, 256> first{};  // empty without an error
     };
     struct Close {

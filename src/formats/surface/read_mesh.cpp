@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/option_range.h"
 #include "formats/input_file.h"
 #include "formats/registry.h"
 #include "formats/surface/mesh_formats.h"
@@ -100,8 +100,7 @@ MeshFile assemble(FileSurface&& surface) {
 std::string readable_extensions() { return formats::extensions_with(&Format::read_surface); }
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options) {
-    if (options.weld && !(*options.weld >= 0 && std::isfinite(*options.weld)))
-        throw Error(ErrorCode::kUsage, "weld: a distance is 0 or more, and finite; give one");
+    if (options.weld) require_number("weld", *options.weld, kNotNegative);
     FileSurface surface = read_surface(path);
     Box box;
     for (const Vec3 p : surface.points) box.add(p);

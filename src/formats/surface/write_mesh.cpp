@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/option_range.h"
 #include "formats/registry.h"
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
@@ -57,8 +58,7 @@ const Format& format_of(const Path& path, const WriteOptions& options, bool has_
     if (has_point_arrays && !found->has_point_arrays) refuse("only .vtp and .vtu files hold a number for each vertex");
     if (options.per_region && !found->write_region)
         refuse("a file for each region is written as " + formats::extensions_with(&Format::write_region));
-    if (options.metres && !(*options.metres > 0 && std::isfinite(*options.metres)))
-        refuse("a unit of length has a finite number of metres above 0");
+    if (options.metres) require_number("metres", *options.metres, kPositive);
     if (options.boundary_is_open && found->needs_closed_regions)
         refuse("holds closed regions only: leave out --boundary open");
     if (found->forbidden_in_name && !is_plain(path.filename().string(), found->forbidden_in_name))
