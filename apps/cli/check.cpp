@@ -76,7 +76,8 @@ std::optional<SampleAgreement> compare_with_sections(const Settings& settings, M
 /// Is the background of the volume the exterior of the model? So it is in STL files and folders of them.
 bool lacks_background(const Settings& settings, const MeshFile& file) {
     const std::string& path = settings.models.front();
-    if (!has_extension(path, ".stl") && !std::filesystem::is_directory(path)) return false;
+    std::error_code ignored;
+    if (!has_extension(path, ".stl") && !std::filesystem::is_directory(path, ignored)) return false;
     if (settings.sections.empty() || !is_lattice(settings, settings.sections)) return false;
     const auto& background = settings.reconstruct.background;
     if (background.empty() || !file.background || !file.background->empty()) return false;

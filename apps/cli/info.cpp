@@ -149,11 +149,11 @@ std::string print_input(const Settings& settings) {
 std::string print_anything(const Settings& settings) {
     const std::string& path = settings.inputs.front();
     const auto model = [&] { return print_info(settings, path); };
-    const bool may_be_model = settings.inputs.size() == 1 &&
-                              (has_extension(path, readable_extensions()) || std::filesystem::is_directory(path));
+    std::error_code ignored;
+    const bool is_folder = std::filesystem::is_directory(path, ignored);
+    const bool may_be_model = settings.inputs.size() == 1 && (is_folder || has_extension(path, readable_extensions()));
     if (!may_be_model) return print_input(settings);
-    const bool may_be_input = has_extension(path, volume_extensions() + ' ' + tetrahedron_extensions()) ||
-                              std::filesystem::is_directory(path);
+    const bool may_be_input = is_folder || has_extension(path, volume_extensions() + ' ' + tetrahedron_extensions());
     if (!may_be_input || is_block_folder(path)) return model();
     try {
         return print_input(settings);

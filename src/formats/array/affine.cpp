@@ -24,4 +24,12 @@ void set_affine(const std::filesystem::path& path, const char* what, const char*
     }
 }
 
+void keep_steps(const ReadOptions& options, Vec3 steps, Lattice& lattice) {
+    if (!options.spacing) return;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double change = steps[axis] * ((*options.spacing)[axis] - lattice.spacing[axis]);
+        for (int row = 0; row < 3; ++row) lattice.origin[row] += change * lattice.direction[3 * row + axis];
+    }
+}
+
 }  // namespace regionmesh::formats

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "regionmesh/lattice.h"
+#include "regionmesh/read_sections.h"
 
 namespace regionmesh::formats {
 
@@ -15,5 +16,9 @@ using Columns = std::array<Vec3, 3>;
 /// `lattice`. `what` names the map in errors, `remedy` ends the error for a map that is singular or not finite.
 void set_affine(const std::filesystem::path& path, const char* what, const char* remedy, const Columns& columns,
                 Vec3 origin, Lattice& lattice);
+
+/// For a lattice of a file that says where a point lies from which the first sample is `steps` spacings away: moves the
+/// origin to where it is with the spacing of `options`, if they have one.
+void keep_steps(const ReadOptions& options, Vec3 steps, Lattice& lattice);
 
 }  // namespace regionmesh::formats

@@ -99,12 +99,14 @@ bool may_be_volume(const std::vector<std::uint64_t>& shape) {
 
 void place(VolumeInfo& info, const Placement& placement, const ReadOptions& options) {
     for (int axis = 0; axis < 3; ++axis) {
-        const double spacing = placement.spacing[axis], origin = placement.origin[axis];
+        const double spacing = placement.spacing[axis];
         if (!options.spacing && (!std::isfinite(spacing) || spacing == 0)) {
             fail(info.source,
                  fmt::format("spacing along {} is {:g} in the file; give the right one with --spacing X,Y,Z",
                              "xyz"[axis], spacing));
         }
+        const double used = options.spacing ? std::copysign((*options.spacing)[axis], spacing) : spacing;
+        const double origin = placement.origin[axis] + placement.steps[axis] * used;
         if (!std::isfinite(origin)) {
             fail(info.source, std::string("the position of the first sample along ") + "xyz"[axis] + " is " +
                                   std::to_string(origin) + "; mend the file");
@@ -113,25 +115,33 @@ void place(VolumeInfo& info, const Placement& placement, const ReadOptions& opti
         info.lattice.origin[axis] = origin;
         info.lattice.direction[axis * 4] = spacing < 0 ? -1 : 1;
     }
+    info.warning = placement.warning;
 }
 
-Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const FindNumbers& find) {
+Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const ReadOptions& options,
+                           const FindNumbers& find) {
     Placement placement;
     const auto take = [&](const char* name, std::array<double, 3>& target) {
-        std::vector<double> numbers = find(name);
-        const bool is_whole = numbers.size() == axis_count;
-        if (!is_whole && numbers.size() != 3) return false;
+        const auto numbers = find(name);
+        if (!numbers) return false;
+        const bool is_whole = numbers->size() == axis_count;
+        if (!is_whole && numbers->size() != 3) {
+            placement.warning += fmt::format("{}the attribute '{}' is not used: 3 numbers are needed, not {}",
+                                             placement.warning.empty() ? "" : "; ", name, numbers->size());
+            return false;
+        }
         for (int i = 0; i < 3; ++i) {
-            if (is_whole && axes.axis[i] >= 0) target[i] = numbers[axes.axis[i]];
+            if (is_whole && axes.axis[i] >= 0) target[i] = (*numbers)[axes.axis[i]];
             // Three numbers: in the order of x, y and z in the array; one that it lacks is z, and comes first.
             if (!is_whole)
-                target[i] = numbers[std::ranges::count_if(axes.axis, [&](int a) { return a < axes.axis[i]; })];
+                target[i] = (*numbers)[std::ranges::count_if(axes.axis, [&](int a) { return a < axes.axis[i]; })];
         }
         return true;
     };
     for (const char* name : {"element_size_um", "voxel_size", "resolution", "spacing"}) {
         if (take(name, placement.spacing)) break;
     }
+    if (options.spacing) placement.warning.clear();
     for (const char* name : {"offset", "origin", "translation"}) {
         if (take(name, placement.origin)) break;
     }

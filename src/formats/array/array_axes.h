@@ -35,23 +35,26 @@ ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std
 /// Whether two or three axes have more than one sample, and none has no sample.
 bool may_be_volume(const std::vector<std::uint64_t>& shape);
 
-/// Spacing and the position of the first sample, along x, y, z.
+/// Along x, y, z: the spacing, and the first sample, `steps` spacings from `origin`.
 struct Placement {
     std::array<double, 3> spacing{1, 1, 1};
     std::array<double, 3> origin{0, 0, 0};
+    std::array<double, 3> steps{0, 0, 0};
+    std::string warning = {};  // as VolumeInfo has it
 };
 
-/// Sets the lattice of `info`. A negative spacing mirrors the axis. Throws if a number is not finite or a spacing is 0,
-/// unless the options give the spacing.
+/// Sets the lattice of `info`, and its warning. A negative spacing mirrors the axis. Throws if a number is not finite
+/// or a spacing is 0, unless the options give the spacing.
 void place(VolumeInfo& info, const Placement& placement, const ReadOptions& options);
 
-/// The numbers of an attribute; empty if there is no such attribute.
-using FindNumbers = std::function<std::vector<double>(const std::string& name)>;
+/// The numbers of an attribute, none if it has something else; nothing if there is no such attribute.
+using FindNumbers = std::function<std::optional<std::vector<double>>(const std::string& name)>;
 
 /// Reads attributes in common use, along the axes of the array (mostly z, y, x): the spacing is the first of
 /// `element_size_um`, `voxel_size`, `resolution` and `spacing`, the first sample is the first of `offset`, `origin` and
 /// `translation`. A list is used if it has a number for each axis, or three: for x, y and z in their order in the
-/// array.
-Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const FindNumbers& find);
+/// array; a warning names what is not used for that reason, unless the options replace it.
+Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const ReadOptions& options,
+                           const FindNumbers& find);
 
 }  // namespace regionmesh::formats

@@ -54,8 +54,9 @@ void check_present(const ArrayFile& array, const InputFile& file, std::uint64_t 
     const bool is_ascii = array.encoding == Encoding::kAscii;
     const std::uint64_t most = is_ascii ? most_ascii_samples(present) : present;
     if (most >= (is_ascii ? needed / sample_bytes(kAsciiFormat.type) : needed)) return;
-    fail(file.path(),
-         fmt::format("has {} bytes of samples, fewer than the header says; it is truncated, fetch it again", present));
+    fail(file.path(), fmt::format("has {} bytes of samples, fewer than the header says; {}", present,
+                                  array.files.size() > 1 ? "it is truncated, or the header names too few files"
+                                                         : "it is truncated, fetch it again"));
 }
 
 StreamPart part_of(const ArrayFile& array, const fs::path& path, std::uint64_t needed) {
@@ -96,7 +97,10 @@ std::optional<Pattern> parse_pattern(std::string_view text) {
 void require_present(const fs::path& header, const fs::path& file) {
     std::error_code error;
     if (!fs::exists(file, error) && !error)
-        fail(file, "no such file; put it there, or correct its name in the header, " + header.string());
+        fail(file,
+             "no such file; put it there, or correct its name in the header, " + header.string() +
+                 (file.string().find('%') != std::string::npos ? "; a pattern has one number, as in 'z%03d.raw 1 10 1'"
+                                                               : ""));
 }
 
 /// A header from somewhere must not make the program read any file of this machine.
@@ -127,13 +131,14 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     for (const fs::path& file : array.files) require_present(array.source, file);
     const SampleFormat format = array.encoding == Encoding::kAscii ? kAsciiFormat : array.sample;
     const auto& size = array.lattice.size;
-    const std::uint64_t volume = volume_bytes(array.source, size, sample_bytes(format.type) * array.components);
+    const std::uint64_t sample = sample_bytes(format.type) * array.components;
+    const std::uint64_t volume = volume_bytes(array.source, size, sample);
     if (volume > std::numeric_limits<std::int64_t>::max() / array.blocks)
         fail(array.source, "describes more samples than any file holds; check the header");
     const std::uint64_t all = volume * array.blocks;
     if (array.encoding == Encoding::kDeflated && array.skipped_bytes < 0)
         fail(array.source, "compressed samples cannot be found from the end of the file; give the bytes to skip");
-    if (all % files.size() != 0) {
+    if (all / sample % files.size() != 0) {
         fail(array.source, fmt::format("names {} files for {} samples; each must hold as many", files.size(),
                                        size_text({size[0], size[1], size[2]})));
     }
@@ -189,20 +194,22 @@ std::vector<fs::path> listed_files(const fs::path& header, std::string_view text
 
 bool is_pattern(std::string_view text) { return parse_pattern(text).has_value(); }
 
-std::vector<fs::path> numbered_files(const fs::path& header, std::string_view text) {
+std::vector<fs::path> numbered_files(const fs::path& header, std::string_view text,
+                                     std::optional<std::uint32_t> count) {
     const auto refuse = [&](const char* what) {
         fail(header, fmt::format("the file pattern '{}' {}; write one such as 'z%03d.raw 1 10 1'", shown(text), what));
     };
     const auto words = split_words(text);
     const auto pattern = parse_pattern(words.empty() ? text : words[0]);
-    std::array<std::int64_t, 3> numbers{0, 0, 1};  // first, last, step
-    if (!pattern || words.size() < 3) refuse("has no number to fill in, or no first and last one");
+    std::array<std::int64_t, 3> numbers{1, 0, 1};  // first, last, step
+    if (!pattern || (words.size() < 3 && !count)) refuse("has no number to fill in, or no first and last one");
     for (std::size_t i = 0; i < std::min<std::size_t>(3, words.size() - 1); ++i) {
         const auto number = parse_integer(words[i + 1]);
         if (!number || *number < -1'000'000'000'000 || *number > 1'000'000'000'000)
             refuse("has something that is no number");
         numbers[i] = *number;
     }
+    if (words.size() < 3) numbers[1] = numbers[0] + *count - 1;
     const auto [first, last, step] = numbers;
     if (step == 0 || (last - first) / step < 0) refuse("never comes to its last number");
     if (static_cast<std::uint64_t>((last - first) / step) >= kMostFiles) refuse("stands for more than a million files");

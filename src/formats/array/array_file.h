@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,7 +66,9 @@ std::filesystem::path file_beside(const std::filesystem::path& header, std::stri
 std::vector<std::filesystem::path> listed_files(const std::filesystem::path& header, std::string_view text);
 
 /// The files of "name%03d.raw 1 10 1": a pattern with one number in it, the first, the last and the step (default 1).
-std::vector<std::filesystem::path> numbered_files(const std::filesystem::path& header, std::string_view text);
+/// With a count of files, the first (default 1) and the last may be left out.
+std::vector<std::filesystem::path> numbered_files(const std::filesystem::path& header, std::string_view text,
+                                                  std::optional<std::uint32_t> count = {});
 
 /// Whether `text` has one number to fill in, as numbered_files needs it.
 bool is_pattern(std::string_view text);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "formats/array/affine.h"
@@ -59,6 +60,7 @@ MetaHeader read_header(const InputFile& file) {
         }
         header.fields.add(key, line.substr(equals + 1));
         if (key != kDataFile) continue;
+        if (header.fields.text({kDataFile}).empty()) break;
         header.end = bytes.size() - rest.size();
         if (header.fields.text({kDataFile}).starts_with("LIST")) header.behind = rest;
         return header;
@@ -111,12 +113,13 @@ void place_in_space(const HeaderFields& header, std::size_t dimension, Lattice& 
 void set_files(const MetaHeader& header, ArrayFile& array) {
     const HeaderFields& fields = header.fields;
     const std::string_view data = fields.text({kDataFile});
+    std::error_code ignored;
     if (lower(data) == "local") {
         array.begin = header.end;
     } else if (data.starts_with("LIST")) {
         array.files = listed_files(array.source, header.behind);
-    } else if (const auto words = split_words(data); words.size() >= 3 && is_pattern(words[0])) {
-        array.files = numbered_files(array.source, data);
+    } else if (is_pattern(split_words(data)[0]) && !fs::exists(file_beside(array.source, data), ignored)) {
+        array.files = numbered_files(array.source, data, array.lattice.size[2]);
     } else {
         array.files = {file_beside(array.source, data)};
     }

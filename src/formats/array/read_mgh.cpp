@@ -52,7 +52,7 @@ public:
     }
 
     /// Columns lead from the middle of the volume; without a place in the header FreeSurfer takes coronal sections.
-    void place(Lattice& lattice) const {
+    void place(const ReadOptions& options, Lattice& lattice) const {
         std::array<Vec3, 3> directions{Vec3{-1, 0, 0}, Vec3{0, 0, -1}, Vec3{0, 1, 0}};
         Vec3 spacing{1, 1, 1}, centre{};
         if (load<std::int16_t>(bytes_.data() + kHasPlace, true) > 0) {
@@ -61,12 +61,14 @@ public:
             centre = vector(kCentre);
         }
         Columns columns;
-        Vec3 origin = centre;
+        Vec3 origin = centre, steps;
         for (int axis = 0; axis < 3; ++axis) {
             columns[axis] = spacing[axis] * directions[axis];
-            origin = origin - (0.5 * lattice.size[axis]) * columns[axis];
+            steps[axis] = -0.5 * lattice.size[axis];
+            origin += steps[axis] * columns[axis];
         }
         set_affine(path_, "map to space", "mend the header", columns, origin, lattice);
+        keep_steps(options, steps, lattice);
     }
 
 private:
@@ -88,7 +90,7 @@ std::unique_ptr<SectionReader> open_mgh(const std::filesystem::path& path, const
     const Header header(path, bytes);
     array.sample = {header.type(), true};
     array.lattice.size = header.size();
-    header.place(array.lattice);
+    header.place(options, array.lattice);
     array.space = Space::kRas;
     array.skipped_bytes = kHeaderBytes;
     take_table_beside(array);

@@ -38,9 +38,10 @@ std::string to_json_text(std::string_view python) {
             text += is_quote ? '"' : c;
             continue;
         }
-        const std::size_t last = text.find_last_not_of(" \t\r\n");
-        const bool closes = c == ')' || c == ']' || c == '}';
-        if (closes && last != std::string::npos && text[last] == ',') text.resize(last);
+        if (c == ')' || c == ']' || c == '}') {
+            const std::size_t last = text.find_last_not_of(" \t\r\n");
+            if (last != std::string::npos && text[last] == ',') text.resize(last);
+        }
         if (c == 'L') continue;
         text += c == '(' ? '[' : c == ')' ? ']' : c == 'T' ? 't' : c == 'F' ? 'f' : c;
     }

@@ -260,19 +260,22 @@ Space place_in_named_space(std::string_view name, Lattice& lattice) {
 }
 
 /// With the numbers of the header.
-void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, Lattice& lattice) {
+void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, const ReadOptions& options,
+                    Lattice& lattice) {
     const fs::path& path = fields.path();
     constexpr const char* kRemedy = "mend space directions, spacings or origin";
     Columns columns{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-    Vec3 origin{0, 0, 0};
+    Vec3 origin{0, 0, 0}, steps{0, 0, 0};
     if (!axes[0].direction) {
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const double step = axes[i].step(), low = axes[i].low;
             columns[i][static_cast<int>(i)] = std::isnan(step) ? 1 : step;
-            if (!std::isnan(low)) origin[static_cast<int>(i)] = axes[i].is_node_centered ? low : low + step / 2;
+            if (std::isnan(low)) continue;
+            origin[static_cast<int>(i)] = axes[i].is_node_centered ? low : low + step / 2;
+            steps[static_cast<int>(i)] = axes[i].is_node_centered ? 0 : 0.5;
         }
         set_affine(path, "map to space", kRemedy, columns, origin, lattice);
-        return;
+        return keep_steps(options, steps, lattice);
     }
     const std::size_t dimension = axes[0].direction->size();
     for (std::size_t i = 0; i < axes.size(); ++i) columns[i] = vector3(path, *axes[i].direction, dimension);
@@ -310,6 +313,8 @@ void set_files(const NrrdText& text, ArrayFile& array) {
 }
 
 void set_format(const NrrdText& text, ArrayFile& array) {
+    for (const char* name : {"type", "encoding"})
+        if (text.field(name).empty()) fail(array.source, fmt::format("has no {}; write the header again", name));
     array.sample.type = sample_type(array.source, text.field("type"));
     array.encoding = encoding_of(array.source, text.field("encoding"));
     const std::string endian = lower(text.field("endian"));
@@ -343,7 +348,7 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     std::array<std::uint64_t, 3> size{1, 1, 1};
     for (std::size_t i = 0; i < roles.space.size(); ++i) size[i] = roles.space[i].size;
     array.lattice.size = checked_size(path, size);
-    place_in_space(text.fields, roles.space, array.lattice);
+    place_in_space(text.fields, roles.space, options, array.lattice);
     array.space = place_in_named_space(text.fields.text({"space"}), array.lattice);
     set_files(text, array);
     const std::uint32_t layer = chosen_layer(path, roles.layers, options);

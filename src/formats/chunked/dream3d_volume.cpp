@@ -117,8 +117,8 @@ Hdf5Volume volume_of(const std::filesystem::path& file, const Hdf5Entry& array, 
                                                 : std::vector<std::string>{"z", "y", "x"};
     for (int axis = 0; axis < 3; ++axis) {
         if (geometry.spacing.size() == 3) volume.placement.spacing[axis] = geometry.spacing[axis];
-        volume.placement.origin[axis] = volume.placement.spacing[axis] / 2;
-        if (geometry.origin.size() == 3) volume.placement.origin[axis] += geometry.origin[axis];
+        if (geometry.origin.size() == 3) volume.placement.origin[axis] = geometry.origin[axis];
+        volume.placement.steps[axis] = 0.5;
     }
     return volume;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "formats/input_file.h"
@@ -33,10 +34,10 @@ void require_hdf5(const std::filesystem::path& path) {
 /// Paths need not be UTF-8, as JSON must be.
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// JSON has no number for values that are not finite: they come as null, and no length is 0.
+/// JSON has no number for values that are not finite: they come as null.
 std::vector<double> numbers_of(const Json& json) {
     std::vector<double> numbers;
-    for (const Json& number : json) numbers.push_back(number.is_number() ? number.get<double>() : 0);
+    for (const Json& number : json) numbers.push_back(number.is_number() ? number.get<double>() : NAN);
     return numbers;
 }
 

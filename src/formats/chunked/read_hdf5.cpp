@@ -46,11 +46,10 @@ Hdf5Entry only_candidate(Hdf5Reader& file, const std::string& source, const std:
     if (candidates.size() == 1)
         return file.entry(candidates.front().path).value_or(candidates.front());  // with words of variable length
     if (candidates.empty())
-        fail(
-            source,
-            "holds no dataset of integers with 2 or 3 dimensions; labels must be integers. One with more dimensions is "
-            "read if you name it, as in " +
-                source + ":/path, with --layer N");
+        fail(source,
+             "holds no dataset of integers with 2 or 3 dimensions; labels must be integers. One with more dimensions, "
+             "whose axes have names, is read if you name it, as in " +
+                 source + ":/path, with --layer N");
     fail(source, "holds several datasets; name one: " + list_datasets(file.path(), candidates));
 }
 
@@ -80,9 +79,11 @@ std::unique_ptr<SectionReader> open_hdf5(const fs::path& named, const ReadOption
     require_labels(volume.source, volume.dataset);
     volume.axis_names = axis_names(volume.dataset);
     const ArrayAxes axes = choose_axes(volume.source, volume.dataset.shape, volume.axis_names, options);
-    volume.placement = common_placement(axes, volume.dataset.shape.size(), [&](const std::string& name) {
-        const auto found = volume.dataset.numbers.find(name);
-        return found == volume.dataset.numbers.end() ? std::vector<double>() : found->second;
+    volume.placement = common_placement(axes, volume.dataset.shape.size(), options, [&](const std::string& name) {
+        const Hdf5Entry& dataset = volume.dataset;
+        const auto found = dataset.numbers.find(name);
+        if (found != dataset.numbers.end()) return std::optional(found->second);
+        return dataset.words.contains(name) ? std::optional(std::vector<double>()) : std::nullopt;
     });
     add_lab_dct_spacing(*file, volume);
     return open_hdf5_volume(std::move(file), volume, options);

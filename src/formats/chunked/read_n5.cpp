@@ -154,7 +154,8 @@ Placement placement_of(const StoreArray& array, const ArrayAxes& axes) {
         };
         const double resolution = number(found.resolution, 1), factor = number(found.factors, 1);
         placement.spacing[axis] = resolution * factor;
-        placement.origin[axis] = resolution * (factor - 1) / 2 + number(found.offset, 0);
+        placement.origin[axis] = number(found.offset, 0);
+        placement.steps[axis] = factor != 0 ? (factor - 1) / factor / 2 : 0;
     }
     return placement;
 }

@@ -62,9 +62,9 @@ Found find(const fs::path& folder) {
 
 /// The numbers under a name in the attributes.
 FindNumbers numbers_in(const Json& attributes) {
-    return [&attributes](const std::string& name) {
+    return [&attributes](const std::string& name) -> std::optional<std::vector<double>> {
+        if (!attributes.is_object() || !attributes.contains(name)) return {};
         std::vector<double> numbers;
-        if (!attributes.is_object() || !attributes.contains(name) || !attributes.at(name).is_array()) return numbers;
         for (const Json& number : attributes.at(name)) {
             if (number.is_number()) numbers.push_back(number);
         }
@@ -114,7 +114,7 @@ std::unique_ptr<SectionReader> open_zarr(const fs::path& path, const ReadOptions
         volume.placement = level_placement(found.folder, *found.level, volume.axes, axis_count);
     } else {
         volume.axes = choose_axes(found.folder, array->shape, array->axis_names, options);
-        volume.placement = common_placement(volume.axes, axis_count, numbers_in(array->attributes));
+        volume.placement = common_placement(volume.axes, axis_count, options, numbers_in(array->attributes));
     }
     return open_store_array(std::move(*array), std::move(volume), options);
 }

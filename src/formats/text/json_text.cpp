@@ -28,7 +28,8 @@ bool is_too_deep(const std::string& text) {
 }  // namespace
 
 nlohmann::json parse_json(const std::filesystem::path& path, const std::string& text) {
-    if (is_too_deep(text)) fail(path, "the metadata are nested deeper than " + std::to_string(kMaxDepth));
+    if (is_too_deep(text))
+        fail(path, "the metadata are nested deeper than " + std::to_string(kMaxDepth) + "; check the file");
     return nlohmann::json::parse(text);
 }
 

@@ -47,12 +47,14 @@ pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece) {
     }
     xml.fail(fmt::format("has {}; its arrays: {}",
                          count == 0 ? "no array of integers with one component, as labels need"
-                                    : "several arrays of integers; make the one with labels its active scalars",
+                                    : "several arrays of integers; write the one with labels alone, or make it "
+                                      "the only active scalars",
                          list_of(arrays)));
 }
 
 /// Samples of cells lie at the cell centres, one fewer per axis; an axis of one point has one cell at that point.
-void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, Lattice& lattice) {
+void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, const ReadOptions& options,
+                    Lattice& lattice) {
     const auto numbers = [&](const char* name, std::size_t count, std::vector<double> otherwise) {
         const std::string_view text = xml.dataset().attribute(name).value();
         if (text.empty() && !otherwise.empty()) return otherwise;
@@ -68,7 +70,7 @@ void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, Latti
     for (const std::string_view word : split_words(text))
         if (const auto number = parse_integer(word)) extent.push_back(*number);
     Columns columns;
-    Vec3 first{origin[0], origin[1], origin[2]};
+    Vec3 first{origin[0], origin[1], origin[2]}, steps;  // to the first sample
     std::array<std::uint64_t, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         constexpr std::int64_t kMost = std::int64_t{1} << 40;
@@ -79,21 +81,23 @@ void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, Latti
         const bool is_between = is_cell && parts > 0;
         size[axis] = static_cast<std::uint64_t>(is_between ? parts : parts + 1);
         columns[axis] = spacing[axis] * Vec3{direction[axis], direction[3 + axis], direction[6 + axis]};
-        first += (static_cast<double>(low) + (is_between ? 0.5 : 0)) * columns[axis];
+        steps[static_cast<int>(axis)] = static_cast<double>(low) + (is_between ? 0.5 : 0);
+        first += steps[static_cast<int>(axis)] * columns[axis];
     }
     lattice.size = checked_size(xml.path(), size);
     set_affine(xml.path(), "map to space", "mend Origin, Spacing or Direction", columns, first, lattice);
+    keep_steps(options, steps, lattice);
 }
 
 /// Throws Error(kInput) naming the file: more than one piece, no array of integers, or several of which none is the
 /// active scalars.
-VtiHeader read_vti_header(const VtkXml& xml) {
+VtiHeader read_vti_header(const VtkXml& xml, const ReadOptions& options) {
     const pugi::xml_node piece = xml.dataset().child("Piece");
     if (!piece || piece.next_sibling("Piece")) xml.fail("has no Piece, or several; write it as one piece");
     VtiHeader header;
     header.array = choose_array(xml, piece);
     header.type = sample_type(*vtk_type(header.array));
-    place_in_space(xml, piece, describe(header.array).is_cell, header.lattice);
+    place_in_space(xml, piece, describe(header.array).is_cell, options, header.lattice);
     return header;
 }
 
@@ -102,7 +106,7 @@ VtiHeader read_vti_header(const VtkXml& xml) {
 std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const ReadOptions& options) {
     using Form = VtkArrayPlace::Form;
     const VtkXml xml(path, "ImageData");
-    const VtiHeader header = read_vti_header(xml);
+    const VtiHeader header = read_vti_header(xml, options);
     const SampleFormat format{header.type, xml.encoding().is_big_endian};
     VolumeInfo info = volume_info(path, "vti", header.type, header.lattice.size);
     info.lattice = header.lattice;
@@ -115,7 +119,7 @@ std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const
     const std::uint64_t present = place.end - place.begin;
     if (place.form == Form::kAscii) {
         if (most_ascii_samples(present) < needed / sample_bytes(header.type))
-            xml.fail(header.array, "has fewer numbers than its extent needs");
+            xml.fail(header.array, "has fewer numbers than its extent needs; write the file again");
         return open_stream(std::make_unique<AsciiStream>(InputFile(path), header.type, place.begin, place.end),
                            std::move(info), {.format = kAsciiFormat}, options);
     }

@@ -116,7 +116,7 @@ VtkXml::VtkXml(const std::filesystem::path& path, const char* type) : path_(path
         fail(fmt::format("no XML: {}; check the file", result.description()));
     const pugi::xml_node root = document_.child("VTKFile");
     dataset_ = root.child(type);
-    if (!dataset_) fail(fmt::format("is no VTK XML file with {}", type));
+    if (!dataset_) fail(fmt::format("is no VTK XML file with {}; check the file", type));
     const std::string_view compressor = root.attribute("compressor").value();
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
         fail(fmt::format("compressor '{}': write it with zlib or without", shown(compressor)));
@@ -141,7 +141,7 @@ VtkArrayPlace VtkXml::place_of(pugi::xml_node array) const {
             fail("has no appended data in raw or base64, which its array needs; write the file again");
         const auto offset = parse_size(array.attribute("offset").value());
         if (!offset || *offset > file_bytes_ - std::min(appended_, file_bytes_))
-            fail(array, "begins beyond the end of the file; the file is truncated");
+            fail(array, "begins beyond the end of the file; it is truncated, fetch it again");
         return {encoding == "raw" ? Form::kRaw : Form::kBase64, appended_ + *offset, file_bytes_};
     }
     if (format != "binary" && format != "ascii" && !format.empty())

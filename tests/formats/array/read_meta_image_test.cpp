@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "formats/array/read_volume.h"
@@ -6,7 +7,9 @@
 namespace regionmesh {
 namespace {
 
+using testing::Each;
 using testing::ElementsAre;
+using testing::ElementsAreArray;
 using testing::HasSubstr;
 using testing::Pair;
 using testing::StartsWith;
@@ -48,6 +51,18 @@ TEST_F(ReadMetaImageTest, two_axes_are_one_section) {
     EXPECT_EQ(volume.info.lattice.size, (std::array<std::uint32_t, 3>{5, 4, 1}));
     EXPECT_EQ(volume.labels[19], 19);
     expect_in_space(volume.info, {0, 0, 0}, {0, -1, 0, 1, 0, 0, 0, 0, 1});
+}
+
+TEST_F(ReadMetaImageTest, a_pattern_alone_stands_for_a_file_for_each_section_from_the_first_number_on) {
+    for (int n = 1; n <= 4; ++n) put_text(path(fmt::format("s{:02}.raw", n)), std::string(20, static_cast<char>(n)));
+    for (const auto& [numbers, first] : {std::pair("", 1), {" 1", 1}, {" 2", 2}, {" 2 4", 2}}) {
+        EXPECT_THAT(read_volume({meta("LOCAL", std::string("s%02d.raw") + numbers)}).labels,
+                    ElementsAreArray(expected([&, first = first](InputLabel v) { return first + v / 20; })))
+            << numbers;
+    }
+    put_text(path("s%02d.raw"), std::string(60, 'a'));
+    EXPECT_THAT(read_volume({meta("LOCAL", "s%02d.raw")}).labels, Each('a')) << "the name of a file that is there";
+    EXPECT_THAT(refusal({meta("LOCAL", "")}), HasSubstr("has no ElementDataFile"));
 }
 
 TEST_F(ReadMetaImageTest, raw_files_sweep_along_every_axis_and_others_along_z) {

@@ -39,6 +39,8 @@ TEST_F(ReadMghTest, places_in_space_are_those_of_the_header) {
     expect_in_space(placed, {10, -20, 30}, {-0.5, 0, 0, 0, 0, 2, 0, -0.75, 0});
     // Without a place FreeSurfer takes coronal sections of 1 mm around 0: 5 x 4 x 3 samples.
     expect_in_space(info_of(data("mgh/uint8.mgh")), {2.5, -1.5, 2}, {-1, 0, 0, 0, 0, 1, 0, -1, 0});
+    expect_in_space(open_sections({data("mgh/uint8.mgh")}, spaced({2, 4, 6}))->info(), {5, -9, 8},
+                    {-2, 0, 0, 0, 0, 6, 0, -4, 0});
 }
 
 TEST_F(ReadMghTest, table_beside_the_file_names_labels) {

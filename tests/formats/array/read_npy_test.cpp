@@ -91,6 +91,15 @@ TEST_F(ReadNpyTest, header_cut_anywhere_is_refused) {
     }
 }
 
+TEST_F(ReadNpyTest, header_of_a_mebibyte_is_read_in_a_moment) {
+    std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (1, 2, 4), }";
+    header.resize(1'000'000, ' ');
+    std::string length(4, '\0');
+    for (std::size_t n = 0; n < 4; ++n) length[n] = static_cast<char>(header.size() >> (8 * n) & 255);
+    put_text(path("long.npy"), std::string("\x93NUMPY\x02\x00", 8) + length + header + "12345678");
+    EXPECT_EQ(read_volume({path("long.npy")}).labels.back(), '8');
+}
+
 TEST_F(ReadNpyTest, damaged_headers_are_refused) {
     for (const char* text :
          {"", "{", "{}", "()", "{'descr'", "{'descr': }", "{'descr': '<u1', 'fortran_order': 0, 'shape': (1,1,1)}",

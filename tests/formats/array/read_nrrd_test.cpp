@@ -62,6 +62,15 @@ TEST_F(ReadNrrdTest, places_in_space_are_those_of_the_header) {
     expect_in_space(info_of(nrrd("", "spacings: -0.5 nan 2")), {0, 0, 0}, {-0.5, 0, 0, 0, 1, 0, 0, 0, 2});
 }
 
+TEST_F(ReadNrrdTest, another_spacing_moves_samples_of_cells_as_if_the_header_had_it) {
+    const std::string ends = "axis mins: 0 1 0\naxis maxs: 10 13 27";
+    expect_in_space(info_of(nrrd("", ends)), {1, 2.5, 4.5}, {2, 0, 0, 0, 3, 0, 0, 0, 9});
+    expect_in_space(open_sections({nrrd("", ends)}, spaced({2, 3, 4}))->info(), {1, 2.5, 2},
+                    {2, 0, 0, 0, 3, 0, 0, 0, 4});
+    expect_in_space(open_sections({nrrd("", ends + "\ncenters: node node cell")}, spaced({2, 3, 4}))->info(), {0, 1, 2},
+                    {2, 0, 0, 0, 3, 0, 0, 0, 4});
+}
+
 TEST_F(ReadNrrdTest, las_is_turned_into_lps) {
     const std::string where = "\nspace directions: (0.3,0.4,0) (-0.6,0.45,0) (0,0,2)\nspace origin: (10,-20,30)";
     for (const char* name : {"left-anterior-superior", "LAS"}) {
@@ -205,7 +214,14 @@ TEST_F(ReadNrrdTest, data_files_that_do_not_fit_are_refused) {
                 ElementsAreArray(expected([](InputLabel v) { return v < 30 ? 'b' : 'a'; })));
     put_text(path("z2.raw"), std::string(29, 'b'));
     EXPECT_THAT(refusal({detached("z%d.raw 1 2 1")}),
-                AllOf(HasSubstr("z2.raw: "), HasSubstr("has 29 bytes of samples")));
+                AllOf(HasSubstr("z2.raw: "), HasSubstr("has 29 bytes of samples"), HasSubstr("names too few files")));
+    EXPECT_THAT(refusal({detached("z%s.raw 1 2 1")}), HasSubstr("a pattern has one number"));
+    const auto wide = [&](const std::string& data_file) {
+        return nrrd("type: uint8", "type: uint16\nendian: little\ndata file: " + data_file);
+    };
+    for (int n = 1; n <= 8; ++n) put_text(path("z" + std::to_string(n) + ".raw"), std::string(15, 'c'));
+    EXPECT_THAT(refusal({wide("z%d.raw 1 8 1")}), HasSubstr("names 8 files for 5 x 4 x 3 samples"))
+        << "7.5 samples each";
 }
 
 TEST_F(ReadNrrdTest, file_cut_anywhere_is_refused) {

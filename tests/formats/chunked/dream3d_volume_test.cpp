@@ -25,6 +25,8 @@ TEST_F(Dream3dVolumeTest, regions_and_geometry_are_found_in_files_of_versions_7_
 TEST_F(Dream3dVolumeTest, first_sample_lies_in_the_middle_of_the_first_cell) {
     EXPECT_EQ(open_sections({data("chunked/version7.dream3d")})->info().lattice.origin, (Vec3{10.25, 20.5, 31}));
     EXPECT_EQ(open_sections({data("chunked/version8.dream3d")})->info().lattice.origin, (Vec3{10.25, 20.5, 31}));
+    EXPECT_EQ(open_sections({data("chunked/version8.dream3d")}, spaced({2, 4, 6}))->info().lattice.origin,
+              (Vec3{11, 22, 33}));
 }
 
 TEST_F(Dream3dVolumeTest, extension_may_be_that_of_hdf5) {

@@ -108,9 +108,15 @@ TEST_F(ReadHdf5Test, spacing_and_origin_come_from_common_attributes_along_z_y_x)
     EXPECT_EQ(lattice("/element_size_um").spacing, (Vec3{0.5, 2, 5}));
     EXPECT_EQ(lattice("/resolution").spacing, (Vec3{0.5, 2, 5}));
     EXPECT_EQ(lattice("/resolution").origin, (Vec3{10, 20, 30}));
-    EXPECT_EQ(lattice("/beside").spacing, (Vec3{1, 1, 1}));
     EXPECT_EQ(lattice("/LabDCT/Data/GrainId").spacing, (Vec3{0.25, 0.5, 0.75}));
     EXPECT_EQ(lattice("/two").size, (std::array<std::uint32_t, 3>{5, 4, 1}));
+}
+
+TEST_F(ReadHdf5Test, attributes_that_do_not_fit_are_named) {
+    const auto reader = open_sections({inside("spaced.h5", "/beside")});
+    EXPECT_EQ(reader->info().lattice.spacing, (Vec3{1, 1, 1}));
+    EXPECT_EQ(reader->info().warning, "the attribute 'spacing' is not used: 3 numbers are needed, not 2");
+    EXPECT_EQ(open_sections({inside("spaced.h5", "/beside")}, spaced({1, 2, 3}))->info().warning, "");
 }
 
 TEST_F(ReadHdf5Test, negative_spacing_mirrors_and_a_spacing_of_nothing_is_refused) {

@@ -50,6 +50,8 @@ TEST_F(ReadN5Test, group_opens_at_its_finest_resolution_and_another_may_be_named
     const Lattice coarse = open_sections({data("chunked/n5/bad/levels.n5/volume/s1")})->info().lattice;
     EXPECT_EQ(coarse.spacing, (Vec3{1, 4, 10}));
     EXPECT_EQ(coarse.origin, (Vec3{10.25, 21, 32.5})) << "the middle of the samples it was made from";
+    const auto respaced = open_sections({data("chunked/n5/bad/levels.n5/volume/s1")}, spaced({2, 8, 20}));
+    EXPECT_EQ(respaced->info().lattice.origin, (Vec3{10.5, 22, 35}));
 }
 
 TEST_F(ReadN5Test, numbers_of_a_group_are_found_however_the_path_is_written) {

@@ -53,6 +53,13 @@ TEST_F(ReadVtiTest, samples_of_cells_lie_at_their_centres) {
     expect_in_space(flat.info, {0.5, 0.5, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 1});
 }
 
+TEST_F(ReadVtiTest, another_spacing_moves_samples_as_if_the_header_had_it) {
+    const VolumeInfo cells = open_sections({data("vti/cells_uint16.vti")}, spaced({1, 2, 3}))->info();
+    expect_in_space(cells, {10 + 0.3 - 0.8, -20 + 0.4 + 0.6, 30 - 1.5}, {0.6, -1.6, 0, 0.8, 1.2, 0, 0, 0, -3});
+    const VolumeInfo points = open_sections({data("vti/turned_uint8.vti")}, spaced({1, 2, 3}))->info();
+    expect_in_space(points, {10 - 1.2 - 16, -20 - 1.6 + 12, 30 - 21}, {0.6, -1.6, 0, 0.8, 1.2, 0, 0, 0, -3});
+}
+
 TEST_F(ReadVtiTest, only_integers_with_one_component_are_labels) {
     EXPECT_THAT(refusal({data("vti/bad/float32.vti")}),
                 AllOf(HasSubstr("no array of integers"), HasSubstr("ct (points, Float32)"),
