@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "formats/temporary_folder.h"
 #include "regionmesh/error.h"
 #include "support/json_keys.h"
 #include "support/labels.h"
+#include "support/paths.h"
 
 namespace regionmesh {
 namespace {
@@ -43,6 +46,10 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     EXPECT_THAT(keys_of(json["verdicts"]), testing::ElementsAre("accepted", "strata", "link", "fold", "quality",
                                                                 "pinch", "error", "samples", "intersect"));
     EXPECT_EQ(json["violation_counts"].size(), std::size_t{kViolationKindCount});
+    std::ifstream page(test::source_folder() + "/docs/report.md");
+    const std::string docs(std::istreambuf_iterator<char>(page), {});
+    for (const Json& part : {json, json["quality"], json["regions"][0], json["verdicts"], json["smoothing"]})
+        for (const std::string& key : keys_of(part)) EXPECT_THAT(docs, testing::HasSubstr('`' + key));
 }
 
 TEST(ReportJson, says_what_the_report_says) {
