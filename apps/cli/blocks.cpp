@@ -1,7 +1,7 @@
 #include "blocks.h"
 
 #include <fmt/chrono.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -70,17 +70,30 @@ std::string state_of(const fs::path& path) {
     return fmt::format("{} files, {} bytes, state {:016x}", files, bytes, states);
 }
 
-/// Those that a header names.
-std::vector<fs::path> files_of_samples(const Settings& settings) {
+/// What a volume says besides its samples, some of it in files that no option names.
+VolumeInfo info_of_volume(const Settings& settings) {
     if (kind_of_input(settings.inputs) != kVolumeInput || settings.inputs.front() == "-") return {};
     ReadOptions options = settings.volume;
     options.select = {};  // which may read samples
     options.merge_table.clear();
-    return open_sections({settings.inputs.begin(), settings.inputs.end()}, options)->info().files;
+    return open_sections({settings.inputs.begin(), settings.inputs.end()}, options)->info();
 }
 
-/// Inputs and files of options by their states, files of samples that an input names likewise; other options by their
-/// values.
+std::string text_of(const Lattice& lattice, Space space) {
+    const auto text = [](const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
+    return fmt::format("spacing {}, origin {}, axes {}, space '{}'", text(lattice.spacing), text(lattice.origin),
+                       fmt::join(lattice.direction, " "), space_name(space));
+}
+
+std::string text_of(const LabelNames& names, const LabelColours& colours) {
+    std::string all;
+    for (const auto& [label, name] : names) all += fmt::format("{}={}\n", label, name);
+    for (const auto& [label, colour] : colours) all += fmt::format("{}#{:06x}\n", label, colour);
+    return fmt::format("{} names, {} colours, state {:016x}", names.size(), colours.size(), hash_of(all));
+}
+
+/// Inputs and files of options by their states; files of samples that an input names, its lattice and names likewise;
+/// other options by their values.
 RunIdentity identity_of(const Settings& settings) {
     RunIdentity identity{{"version", REGIONMESH_VERSION}};
     const auto add = [&](const std::string& name, const fs::path& path, const std::string& inside = "") {
@@ -90,8 +103,10 @@ RunIdentity identity_of(const Settings& settings) {
         const fs::path file = file_of_input(settings.inputs[n]);
         add(fmt::format("input {}", n + 1), file, settings.inputs[n].substr(file.string().size()));
     }
-    const std::vector<fs::path> files = files_of_samples(settings);
-    for (std::size_t n = 0; n < files.size(); ++n) add(fmt::format("samples {}", n + 1), files[n]);
+    const VolumeInfo info = info_of_volume(settings);
+    for (std::size_t n = 0; n < info.files.size(); ++n) add(fmt::format("samples {}", n + 1), info.files[n]);
+    identity.emplace_back("lattice", text_of(info.lattice, info.space));
+    identity.emplace_back("names in the input", text_of(info.names, info.colours));
     for (const auto& [name, text] : settings.given) {
         if (std::ranges::find(kFree, name) != kFree.end()) continue;
         if (find_option(name)->kind == OptionKind::kFile && fs::exists(text))

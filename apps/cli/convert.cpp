@@ -43,8 +43,9 @@ bool convert_pieces(const Settings& settings) {
                                          .names = std::move(names),
                                          .colours = std::move(colours),
                                          .output = settings.writing};
-        const std::uint64_t regions = write_precomputed(folder, settings.output, options);
-        if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(regions, "region"));
+        const PrecomputedResult made = write_precomputed(folder, settings.output, options);
+        warn_of_rounding(settings.output, made.rounded_share_of_edge, "give --precomputed multi");
+        if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(made.regions, "region"));
     }
     return true;
 }

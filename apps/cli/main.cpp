@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <exception>
 #include <initializer_list>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <string>
 #include <system_error>
@@ -127,7 +129,8 @@ void add_commands(CLI::App& app, bool has_config, Action& action) {
     // In the order of command_table().
     constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth,   run_check, run_convert,
                                                  run_compare,     run_info,     run_voxelise, run_view};
-    for (std::size_t n = 0; n < command_table().size(); ++n)
+    assert(std::size(kRuns) == command_table().size());
+    for (std::size_t n = 0; n < std::size(kRuns); ++n)
         add_command(app, command_table()[n], kRuns[n], has_config, action);
 }
 

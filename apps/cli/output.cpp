@@ -54,8 +54,16 @@ OutputOptions model_writing(const Settings& settings) {
     return options;
 }
 
-std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
+void warn_of_rounding(const std::string& output, double share_of_edge, const std::string& advice) {
     constexpr double kMostRounded = 0.01;
+    if (share_of_edge > kMostRounded)
+        warn(
+            fmt::format("{}: its numbers of single precision move points by up to {:.2g} of an edge, so far from the "
+                        "origin: faces may degenerate or cross; {}, or move the origin",
+                        output, share_of_edge, advice));
+}
+
+std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files) {
     write_tables(settings, model, files);
     const WriteOptions options{.background = model.background,
                                .names = model.names,
@@ -63,11 +71,8 @@ std::vector<std::filesystem::path> write_model(const Settings& settings, const M
                                .per_region = settings.per_region,
                                .space = model.space,
                                .metres = settings.metres};
-    if (const double share = rounded_share_of_edge(model.mesh, settings.output, options); share > kMostRounded)
-        warn(
-            fmt::format("{}: its numbers of single precision move points by up to {:.2g} of an edge, so far from the "
-                        "origin: faces may degenerate or cross; write .vtp or .ply, or move the origin",
-                        settings.output, share));
+    warn_of_rounding(settings.output, rounded_share_of_edge(model.mesh, settings.output, options),
+                     "write .vtp or .ply");
     return write_mesh(model.mesh, model.labels, settings.output, options, files);
 }
 

@@ -38,6 +38,9 @@ void write_tables(const Settings& settings, const Model& model, OutputFiles& fil
 /// How a model is written: on as many threads as it was made.
 OutputOptions model_writing(const Settings& settings);
 
+/// Warns where single precision moves points by more than a hundredth of an edge.
+void warn_of_rounding(const std::string& output, double share_of_edge, const std::string& advice);
+
 /// Writes the model to `settings.output`, and the tables, as some of `files`. Returns the files of the model.
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files);
 

@@ -139,6 +139,12 @@ struct PrecomputedOptions {
     OutputOptions output = {};
 };
 
+struct PrecomputedResult {
+    std::uint64_t regions = 0;
+    double rounded_share_of_edge =
+        0;  // legacy: how far single precision may move a point; above 0.01 faces may degenerate
+};
+
 /// Writes the regions of a complete folder, but the background, as meshes for Neuroglancer: a folder that its data
 /// source `precomputed` reads. Requires the folder `output` and `names` in it. Coordinates are in nanometres.
 ///   multi-resolution  level 0 is the model cut along the walls of chunks, its positions rounded to 1/65535 of a chunk;
@@ -149,10 +155,10 @@ struct PrecomputedOptions {
 ///   legacy            single precision, one fragment for each region and piece. Holds one piece.
 /// `info` is removed first and written last, so a folder that has it is whole. `state.json` is a state of the viewer
 /// that shows up to 100 regions, those with the most faces, from a server at http://localhost:8080 that serves the
-/// parent of `output`. Returns the number of regions. Throws Error(kInput) for a negative label, which is no id there,
+/// parent of `output`. Throws Error(kInput) for a negative label, which is no id there,
 /// and Error(kOutput) for multi-resolution in a build without Draco.
-std::uint64_t write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output,
-                                const PrecomputedOptions& options = {});
+PrecomputedResult write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output,
+                                    const PrecomputedOptions& options = {});
 
 /// The whole model of a complete folder, in memory: vertices and faces in the order of the pieces, shared vertices
 /// once. Throws Error(kInput) for a folder that is not complete or is damaged.

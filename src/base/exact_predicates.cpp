@@ -42,6 +42,7 @@ bool is_degenerate(const Triangle& t) {
     const Vec3 u = t.b - t.a, v = t.c - t.a;
     const double size = dot(u, u) * dot(v, v), area = length2(cross(u, v));
     if (area > 1e-20 * size && size > 1e-200) return false;  // far above its rounding error
+    if (!(is_finite(t.a) && is_finite(t.b) && is_finite(t.c))) return true;
     return CGAL::collinear(point(t.a), point(t.b), point(t.c));
 }
 

@@ -111,8 +111,7 @@ Piece read_piece(const fs::path& path) {
     if (checksum != checksum_in(file))
         formats::fail(path, "the checksum does not fit: the file is damaged; remove the folder, and run again");
     for (const PieceVertex& vertex : piece.vertices)
-        if (const Vec3& p = vertex.position; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            formats::fail(path, "a vertex has a coordinate that is not finite");
+        if (!is_finite(vertex.position)) formats::fail(path, "a vertex has a coordinate that is not finite");
     for (const PieceFace& face : piece.faces)
         for (const std::uint32_t v : face.vertices)
             if (v >= piece.vertices.size()) formats::fail(path, "a face has a vertex that is not there");

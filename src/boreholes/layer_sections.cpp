@@ -154,7 +154,7 @@ void require_places(const std::filesystem::path& path, const DrillHoles& holes) 
         const Vec3 ends[] = {{interval.x, interval.y, interval.top},
                              {interval.bottom_x, interval.bottom_y, interval.bottom}};
         for (const Vec3& end : ends) {
-            if (!std::isfinite(end.x) || !std::isfinite(end.y) || !std::isfinite(end.z))
+            if (!is_finite(end))
                 fail(path, fmt::format("row {}: its interval ends beyond all numbers; mend the path of its hole",
                                        interval.row));
             box.add(end);

@@ -2,6 +2,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <new>
@@ -16,6 +18,7 @@
 #include <system_error>
 #include <thread>
 
+#include "base/hash.h"
 #include "regionmesh/output_file.h"
 
 namespace regionmesh {
@@ -25,8 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMark = ".part-";
-/// Of the 255 bytes of a file name: leaves room for the rest of a temporary name.
-constexpr std::size_t kLongestName = 200;
+/// Of the 255 bytes of a file name: leaves room for the rest of a temporary name. Longer names have a
+/// hash at their end.
+constexpr std::size_t kLongestName = 180;
 
 struct Parts {
     std::mutex mutex;
@@ -68,7 +72,13 @@ bool is_locked(const fs::path& part) {
 }  // namespace
 
 std::string part_prefix(const fs::path& target) {
-    return "." + target.filename().string().substr(0, kLongestName) + std::string(kMark);
+    std::string name = target.filename().string();
+    if (name.size() > kLongestName) {
+        std::uint64_t hash = 0;
+        for (const char c : name) hash = mix64(hash ^ static_cast<unsigned char>(c));
+        name = fmt::format("{}~{:016x}", std::string_view(name).substr(0, kLongestName), hash);
+    }
+    return "." + name + std::string(kMark);
 }
 
 std::string part_name(const fs::path& target, int attempt) {

@@ -98,7 +98,10 @@ OptionSpec file_option(OptionSpec row, Access access) {
     row.kind = OptionKind::kFile;
     if (!row.is_output) return row;
     row.set = [flag = row.flag(), set = row.set](Settings& settings, const std::string& text) {
-        if (text == "-") refuse_value(flag, text, "the name of a file; standard output is /dev/stdout");
+        if (text == "-")
+            refuse_value(flag, text,
+                         flag == "--output" ? "the name of a file; link one to /dev/stdout, as out.ply"
+                                            : "the name of a file; standard output is /dev/stdout");
         set(settings, text);
     };
     return row;

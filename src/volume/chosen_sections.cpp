@@ -124,16 +124,19 @@ public:
     const VolumeInfo& info() const override { return info_; }
 
     bool next(std::span<InputLabel> section) override {
-        std::size_t read = 0;
-        while (read < slab_.size() && reader_->next(slab_[read])) ++read;
-        if (read == 0) return false;
+        const std::size_t count = std::min<std::size_t>(slab_.size(), reader_->section_count() - read_);
+        if (count == 0) return false;
+        for (std::size_t s = 0; s < count; ++s) require_section(reader_->next(slab_[s]), reader_->info(), read_++);
         auto to = section.begin();
         for (std::uint32_t v = 0; v < section_height(); ++v)
-            for (std::uint32_t u = 0; u < section_width(); ++u) *to++ = label_of_block(u, v, read);
+            for (std::uint32_t u = 0; u < section_width(); ++u) *to++ = label_of_block(u, v, count);
         return true;
     }
 
-    void rewind() override { reader_->rewind(); }
+    void rewind() override {
+        reader_->rewind();
+        read_ = 0;
+    }
 
 private:
     InputLabel label_of_block(std::uint32_t u, std::uint32_t v, std::size_t sections) {
@@ -154,6 +157,7 @@ private:
     std::array<std::uint32_t, 3> factors_;
     InputLabel rest_;
     VolumeInfo info_;
+    std::uint32_t read_ = 0;                     // sections since the beginning
     std::vector<std::vector<InputLabel>> slab_;  // the sections of one block
     std::vector<InputLabel> block_;
 };

@@ -58,6 +58,9 @@ TEST(IsDegenerate, means_on_one_line_exactly) {
     EXPECT_TRUE(is_degenerate({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}));
     EXPECT_TRUE(is_degenerate({{0, 0, 0}, {0, 0, 0}, {3, 1, 2}}));
     EXPECT_FALSE(is_degenerate({{0, 0, 0}, {1, 1, 1}, {3, 3, std::nextafter(3, 4)}}));
+    EXPECT_FALSE(is_degenerate({{0, 0, 0}, {1e200, 0, 0}, {0, 1e200, 0}}));
+    for (const double nowhere : {std::nan(""), HUGE_VAL})
+        EXPECT_TRUE(is_degenerate({{0, 0, 0}, {1, 0, 0}, {0, nowhere, 0}}));
 }
 
 TEST(Meet, crossing_and_apart) {

@@ -325,6 +325,21 @@ TEST_F(BlockProgram, damaged_labels_are_refused) {
     EXPECT_THAT(run("check " + out("model")).error, testing::HasSubstr("other labels than the manifest says"));
 }
 
+TEST_F(BlockProgram, warns_where_single_precision_is_too_coarse_for_neuroglancer) {
+    grains("");  // writes grains.raw
+    for (const auto& [origin, warns] : {std::pair("(0,0,0)", false), {"(1e5,2e5,3e5)", true}}) {
+        put_text(path("g.nhdr"),
+                 std::string("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 40 40 40\nspace dimension: 3\n"
+                             "space directions: (0.01,0,0) (0,0.01,0) (0,0,0.01)\nspace origin: ") +
+                     origin + "\nencoding: raw\ndata file: grains.raw\n");
+        fs::remove_all(out("far"));
+        ASSERT_EQ(run("reconstruct " + path("g.nhdr").string() + " --block-size 14 --quiet -o " + out("far")).code, 0);
+        const std::string convert = "convert " + out("far") + ' ' + out("m.precomputed") + " --precomputed ";
+        EXPECT_EQ(run(convert + "legacy").error.find("single precision") != std::string::npos, warns) << origin;
+        EXPECT_EQ(run(convert + "multi").error.find("single precision"), std::string::npos) << origin;
+    }
+}
+
 TEST_F(BlockProgram, refuses_a_changed_run_in_one_line) {
     ASSERT_EQ(run(grains("model")).code, 0);
     const Ran other = run(grains("model") + " --min-quality 0.05");
@@ -357,6 +372,10 @@ TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
     ASSERT_EQ(run(header + last + out("header")).code, 0);
     put_text(path("grains.raw"), std::string(64000, 'x'));
     refused(header + last + out("header"), "was begun with samples 1 grains.raw, 64000 bytes");
+    put_text(path("g.csv"), "label,name\n3,old\n");
+    ASSERT_EQ(run(header + last + out("named")).code, 0);
+    put_text(path("g.csv"), "label,name\n3,new\n");
+    refused(header + last + out("named"), "was begun with names in the input 1 names");
 
     const fs::path store = path("s.zarr");
     fs::copy(data("chunked/zarr2/type_uint8.zarr"), store, fs::copy_options::recursive);
@@ -366,6 +385,17 @@ TEST_F(BlockProgram, refuses_changed_files_that_the_input_or_an_option_names) {
     for (const auto& entry : fs::recursive_directory_iterator(store))
         if (entry.is_regular_file()) put_text(entry.path(), text_of(entry.path()));
     refused(zarr + last + out("zarr"), "was begun with input 1 s.zarr");
+
+    const fs::path group = path("l.n5");
+    fs::copy(data("chunked/n5/bad/levels.n5"), group, fs::copy_options::recursive);
+    const std::string level = "reconstruct " + (group / "volume/s1").string();
+    ASSERT_EQ(run(level + last + out("n5")).code, 0);
+    const fs::path above = group / "volume/attributes.json";
+    std::string attributes = text_of(above);
+    const std::size_t place = attributes.find("0.5");
+    ASSERT_NE(place, std::string::npos);
+    put_text(above, attributes.replace(place, 3, "0.7"));
+    refused(level + last + out("n5"), "was begun with lattice spacing 1 4 10");
 }
 
 TEST_F(BlockProgram, keeps_to_the_memory_or_says_that_it_cannot) {

@@ -5,6 +5,9 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "formats/temporary_folder.h"
 #include "regionmesh/error.h"
@@ -77,6 +80,14 @@ TEST_F(OutputFileTest, takes_a_name_of_255_bytes) {
     OutputFile file(path(std::string(255, 'n')));
     file.commit();
     EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(OutputFileTest, many_long_names_that_begin_alike_are_written_at_a_time) {
+    std::vector<std::unique_ptr<OutputFile>> files;
+    for (int n = 0; n < 150; ++n)
+        files.push_back(std::make_unique<OutputFile>(path(std::string(240, 'n') + std::to_string(n))));
+    for (const auto& file : files) file->commit();
+    EXPECT_EQ(file_count(), 150);
 }
 
 TEST_F(OutputFileTest, full_disk_is_an_output_error) {

@@ -74,13 +74,22 @@ private:
 };
 
 TEST(Reconstruct, a_reader_that_ends_early_is_refused) {
+    const auto refusal = [](SectionReader& volume, const ReconstructOptions& options = {}) {
+        try {
+            reconstruct(volume, options);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("a cut volume was taken for whole");
+    };
+    const auto missing = HasSubstr("section 6 is missing; 7 sections were announced");
     ShortVolume volume(test::solid_volume({4, 5, 6}));
-    try {
-        reconstruct(volume);
-        FAIL() << "a cut volume was taken for whole";
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("section 6 is missing; 7 sections were announced"));
-    }
+    EXPECT_THAT(refusal(volume), missing);
+    ReconstructOptions cleaned;
+    cleaned.room = 1;
+    EXPECT_THAT(refusal(volume, cleaned), missing);
+    const auto halved = select_sections(std::make_unique<ShortVolume>(volume), {.downsample = {1, 1, 2}});
+    EXPECT_THAT(refusal(*halved), missing);
 }
 
 TEST(Reconstruct, options_out_of_range_are_refused) {

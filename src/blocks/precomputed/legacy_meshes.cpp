@@ -7,6 +7,7 @@
 #include "blocks/join.h"
 #include "blocks/piece_mesh.h"
 #include "blocks/precomputed/precomputed.h"
+#include "mesh/edge_rounding.h"
 
 namespace regionmesh {
 namespace {
@@ -51,11 +52,13 @@ WrittenRegions write_legacy_meshes(const Precomputed& precomputed) {
     const Manifest& manifest = precomputed.manifest;
     std::map<Label, Json> lists;
     WrittenRegions written;
+    EdgeRounding rounding;
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
         if (manifest.pieces[block].faces == 0) continue;
         const Mesh mesh = mesh_of(read_entry(manifest, precomputed.folder, block), manifest);
         for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
             written.box.add(mesh.position(VertexId{v}) * precomputed.nanometres());
+        rounding.add(mesh);
         for (const auto& [label, fragment] : fragments_of(mesh, precomputed)) {
             const std::string name = fmt::format("{}:0:{}", precomputed.id(label), block);
             OutputFile file(precomputed.output / name, precomputed.options.output);
@@ -71,6 +74,7 @@ WrittenRegions write_legacy_meshes(const Precomputed& precomputed) {
     for (const auto& [label, names] : lists)
         precomputed.write(precomputed.id(label) + ":0", text_of(Json{{"fragments", names}}));
     written.info = {{"@type", "neuroglancer_legacy_mesh"}};
+    written.rounded_share_of_edge = rounding.share();
     return written;
 }
 

@@ -42,6 +42,7 @@ struct WrittenRegions {
     std::map<Label, std::uint64_t> faces;
     Box box;
     Json info;
+    double rounded_share_of_edge = 0;  // as PrecomputedResult has it
 };
 
 /// Single-resolution: NAME:0 and one fragment for each piece.

@@ -110,7 +110,7 @@ void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& re
                                              {"layout", "3d"}}));
 }
 
-std::uint64_t write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& options) {
+PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& options) {
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
     std::vector<Label> background = dense_background(manifest.background, labels);
@@ -125,7 +125,7 @@ std::uint64_t write_precomputed(const fs::path& folder, const fs::path& output, 
     write_viewer_state(precomputed, written);
     written.info["segment_properties"] = "names";
     precomputed.write("info", text_of(written.info));  // last: a folder without it is not taken for whole
-    return written.faces.size();
+    return {written.faces.size(), written.rounded_share_of_edge};
 }
 
 }  // namespace regionmesh

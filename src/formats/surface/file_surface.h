@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -37,8 +36,6 @@ struct FileSurface {
     bool is_by_region = false;      // each face has a region on one side and the exterior on the other
     bool has_shared_points = true;  // false: each face or region has its own points
 };
-
-inline bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// Throws Error(kInput) naming the file where a coordinate is not finite, or the model would have too many vertices.
 void add_point(FileSurface& surface, Vec3 point, const std::filesystem::path& path);

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 
 #include "formats/surface/file_surface.h"
 #include "formats/text/header_text.h"
+#include "regionmesh/label_table.h"
 
 namespace regionmesh {
 namespace {
@@ -25,18 +25,18 @@ std::optional<InputLabel> region_in(std::string_view name) {
     return formats::parse_label(word);
 }
 
-/// The exterior of a file that does not name it. A region may have the usual label: then it is one below the smallest
-/// label, as in the model that was written.
+/// The exterior of a file that does not name it. A region may have the usual label: then it is as in the model that was
+/// written.
 InputLabel exterior_of(const std::vector<std::string>& names, InputLabel exterior) {
-    InputLabel smallest = exterior;
+    LabelTable labels;
     bool is_taken = false;
     for (const std::string& name : names) {
         const auto label = region_in(name);
         if (!label) continue;
         is_taken = is_taken || *label == exterior;
-        smallest = std::min(smallest, *label);
+        labels.dense(*label);
     }
-    return is_taken && smallest > std::numeric_limits<InputLabel>::min() ? smallest - 1 : exterior;
+    return is_taken ? labels.exterior_label() : exterior;
 }
 
 std::optional<NamedLabels> labels_in(std::string_view name, InputLabel exterior) {

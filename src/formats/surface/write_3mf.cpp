@@ -12,8 +12,10 @@
 
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
+#include "formats/surface/region_seeds.h"
 #include "formats/surface/zip_file_3mf.h"
 #include "formats/text/xml_text.h"
+#include "mesh/bodies.h"
 #include "mesh/region_colours.h"
 
 namespace regionmesh {
@@ -136,6 +138,7 @@ private:
 }  // namespace
 
 void write_3mf(const FileView& view, std::optional<double> metres, OutputFile& file) {
+    require_closed_regions(view, Bodies(view.mesh()));
     Writer3mf(view, metres, file).write();
 }
 

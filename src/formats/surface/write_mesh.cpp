@@ -15,6 +15,7 @@
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
+#include "mesh/edge_rounding.h"
 #include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/mesh_file.h"
@@ -145,19 +146,9 @@ void require_arrays(const Mesh& mesh, const Path& path, const WriteOptions& opti
 double rounded_share_of_edge(const Mesh& mesh, const Path& path, const WriteOptions& options) {
     const Format* const format = formats::find_format(path);
     if (!format || !(options.per_region ? format->has_single_region_points : format->has_single_points)) return 0;
-    double farthest = 0, edges = 0;
-    std::uint64_t count = 0;
-    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
-        if (!mesh.is_alive(FaceId{f})) continue;
-        const auto& vertices = mesh[FaceId{f}].vertices;
-        for (int n = 0; n < 3; ++n, ++count) {
-            const Vec3 p = mesh.position(vertices[n]);
-            farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-            edges += length(mesh.position(vertices[(n + 1) % 3]) - p);
-        }
-    }
-    constexpr double kRounding = std::numeric_limits<float>::epsilon() / 2;
-    return edges > 0 ? kRounding * farthest * static_cast<double>(count) / edges : 0;
+    EdgeRounding rounding;
+    rounding.add(mesh);
+    return rounding.share();
 }
 
 std::string writable_extensions() { return formats::extensions_with(&Format::write_surface); }

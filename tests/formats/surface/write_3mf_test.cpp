@@ -99,6 +99,19 @@ TEST_F(Write3mf, says_the_unit) {
     EXPECT_EQ(unit_and_size(1e-9), "micron 0.009000") << "nanometres, of which the format knows nothing";
 }
 
+TEST_F(Write3mf, a_region_that_is_not_closed_is_refused) {
+    Mesh open = nested();
+    open.remove_face(FaceId{0});
+    open.compact_faces();
+    try {
+        write_mesh(open, nested_labels(), path("m.3mf"), {.background = {2}});
+        FAIL() << "an open object was written";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::kOutput);
+        EXPECT_THAT(error.what(), testing::HasSubstr("is not closed"));
+    }
+}
+
 TEST_F(Write3mf, is_the_same_bytes_at_any_time) {
     model();
     const std::string first = text_of(path("m.3mf"));

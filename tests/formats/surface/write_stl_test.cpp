@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <limits>
+#include <set>
+
 #include "formats/surface/written_meshes.h"
 
 namespace regionmesh {
@@ -27,6 +30,20 @@ TEST_F(WriterTest, stl_normals_point_out_of_each_solid) {
         sum += dot(normal, corner);
     }
     EXPECT_NEAR(sum, (8 * 4 - 8 * 2 + 8 * 1) / std::sqrt(3), 1e-9);
+}
+
+TEST_F(WriterTest, stl_of_the_smallest_label_and_minus_1_is_read_back) {
+    constexpr InputLabel kSmallest = std::numeric_limits<InputLabel>::min();
+    Mesh mesh;
+    test::add_octahedron(mesh, {}, {1, 1, 1}, 0, exterior(0));
+    test::add_octahedron(mesh, {4, 0, 0}, {1, 1, 1}, 1, exterior(0));
+    write_mesh(mesh, test::labels_from({kSmallest, -1}), path("m.stl"));
+    const MeshFile file = read_mesh(path("m.stl"));
+    std::set<InputLabel> labels;
+    for (std::uint32_t f = 0; f < file.mesh.face_end(); ++f)
+        for (const Label label : file.mesh[FaceId{f}].labels)
+            if (!is_exterior(label)) labels.insert(file.labels.input(label));
+    EXPECT_THAT(labels, testing::ElementsAre(kSmallest, -1));
 }
 
 TEST_F(WriterTest, binary_stl_has_a_record_for_each_face) {
