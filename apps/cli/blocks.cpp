@@ -70,8 +70,8 @@ std::string state_of(const fs::path& path) {
     return fmt::format("{} files, {} bytes, state {:016x}", files, bytes, states);
 }
 
-/// What a volume says besides its samples, some of it in files that no option names.
-VolumeInfo info_of_volume(const Settings& settings) {
+/// What a volume in files says besides its samples, some of it in files that no option names.
+std::optional<VolumeInfo> info_of_volume(const Settings& settings) {
     if (kind_of_input(settings.inputs) != kVolumeInput || settings.inputs.front() == "-") return {};
     ReadOptions options = settings.volume;
     options.select = {};  // which may read samples
@@ -81,19 +81,21 @@ VolumeInfo info_of_volume(const Settings& settings) {
 
 std::string text_of(const Lattice& lattice, Space space) {
     const auto text = [](const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
-    return fmt::format("spacing {}, origin {}, axes {}, space '{}'", text(lattice.spacing), text(lattice.origin),
-                       fmt::join(lattice.direction, " "), space_name(space));
+    return fmt::format("{} samples, spacing {}, origin {}, axes {}, space '{}'", fmt::join(lattice.size, " x "),
+                       text(lattice.spacing), text(lattice.origin), fmt::join(lattice.direction, " "),
+                       space_name(space));
 }
 
 std::string text_of(const LabelNames& names, const LabelColours& colours) {
     std::string all;
     for (const auto& [label, name] : names) all += fmt::format("{}={}\n", label, name);
     for (const auto& [label, colour] : colours) all += fmt::format("{}#{:06x}\n", label, colour);
-    return fmt::format("{} names, {} colours, state {:016x}", names.size(), colours.size(), hash_of(all));
+    return fmt::format("{}, {}, state {:016x}", counted(names.size(), "name"), counted(colours.size(), "colour"),
+                       hash_of(all));
 }
 
-/// Inputs and files of options by their states; files of samples that an input names, its lattice and names likewise;
-/// other options by their values.
+/// Inputs and files of options by their states, and files of samples that an input names; what it says of its lattice
+/// and, unless an option names them, of the names of labels; other options by their values.
 RunIdentity identity_of(const Settings& settings) {
     RunIdentity identity{{"version", REGIONMESH_VERSION}};
     const auto add = [&](const std::string& name, const fs::path& path, const std::string& inside = "") {
@@ -103,10 +105,12 @@ RunIdentity identity_of(const Settings& settings) {
         const fs::path file = file_of_input(settings.inputs[n]);
         add(fmt::format("input {}", n + 1), file, settings.inputs[n].substr(file.string().size()));
     }
-    const VolumeInfo info = info_of_volume(settings);
-    for (std::size_t n = 0; n < info.files.size(); ++n) add(fmt::format("samples {}", n + 1), info.files[n]);
-    identity.emplace_back("lattice", text_of(info.lattice, info.space));
-    identity.emplace_back("names in the input", text_of(info.names, info.colours));
+    if (const auto info = info_of_volume(settings)) {
+        for (std::size_t n = 0; n < info->files.size(); ++n) add(fmt::format("samples {}", n + 1), info->files[n]);
+        identity.emplace_back("lattice", text_of(info->lattice, info->space));
+        if (settings.names.empty())
+            identity.emplace_back("names in or beside the input", text_of(info->names, info->colours));
+    }
     for (const auto& [name, text] : settings.given) {
         if (std::ranges::find(kFree, name) != kFree.end()) continue;
         if (find_option(name)->kind == OptionKind::kFile && fs::exists(text))

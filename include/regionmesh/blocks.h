@@ -141,8 +141,8 @@ struct PrecomputedOptions {
 
 struct PrecomputedResult {
     std::uint64_t regions = 0;
-    double rounded_share_of_edge =
-        0;  // legacy: how far single precision may move a point; above 0.01 faces may degenerate
+    /// Of legacy meshes: how far single precision moves points at most. Above a hundredth faces may degenerate.
+    double rounded_share_of_edge = 0;
 };
 
 /// Writes the regions of a complete folder, but the background, as meshes for Neuroglancer: a folder that its data

@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMark = ".part-";
-/// Of the 255 bytes of a file name: leaves room for the rest of a temporary name. Longer names have a
-/// hash at their end.
+/// Of the 255 bytes of a file name: leaves room for a hash, by which longer names that begin alike are told apart, and
+/// for the rest of a temporary name.
 constexpr std::size_t kLongestName = 180;
 
 struct Parts {

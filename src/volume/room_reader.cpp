@@ -71,8 +71,8 @@ void RoomReader::read_ahead() {
     const std::int64_t end = std::min<std::int64_t>(section_count(), section_ + reach_ + 1);
     while (first_held_ + static_cast<std::int64_t>(held_.size()) < end) {
         std::vector<InputLabel> section(std::size_t{section_width()} * section_height());
-        require_section(reader_.next(section), info_,
-                        static_cast<std::uint32_t>(first_held_) + static_cast<std::uint32_t>(held_.size()));
+        const auto number = first_held_ + static_cast<std::int64_t>(held_.size());
+        require_section(reader_.next(section), info_, static_cast<std::uint32_t>(number));
         held_.push_back(std::move(section));
     }
     for (; first_held_ < section_ - reach_; ++first_held_) held_.pop_front();

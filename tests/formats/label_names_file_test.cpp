@@ -67,6 +67,7 @@ TEST_F(LabelNamesFile, numbers_before_four_of_a_colour_are_part_of_names) {
 TEST_F(LabelNamesFile, rows_of_numbers_alone_are_left_out) {
     EXPECT_THAT(names_of("0 0 0 0 0 0 0 \"\"\n1 255 0 0 1 1 1 \"Label 1\"\n"), ElementsAre(Pair(1, "Label 1")));
     EXPECT_THAT(failure_of("1 a\n2\n"), HasSubstr("row 2: has no name"));
+    EXPECT_THAT(failure_of("label,name\n1,a\n2,d\n4\n5,e\n"), HasSubstr("row 4: has no name"));
 }
 
 TEST_F(LabelNamesFile, commas_in_names_separate_no_columns) {

@@ -17,8 +17,8 @@ using Columns = std::array<Vec3, 3>;
 void set_affine(const std::filesystem::path& path, const char* what, const char* remedy, const Columns& columns,
                 Vec3 origin, Lattice& lattice);
 
-/// For a lattice of a file that says where a point lies from which the first sample is `steps` spacings away: moves the
-/// origin to where it is with the spacing of `options`, if they have one.
+/// For files that place a point of reference, from which the first sample lies `steps` spacings away: moves the origin
+/// to where it is with the spacing of `options`, if they have one. Requires the spacing of the file in `lattice`.
 void keep_steps(const ReadOptions& options, Vec3 steps, Lattice& lattice);
 
 }  // namespace regionmesh::formats

@@ -105,7 +105,8 @@ void place(VolumeInfo& info, const Placement& placement, const ReadOptions& opti
                  fmt::format("spacing along {} is {:g} in the file; give the right one with --spacing X,Y,Z",
                              "xyz"[axis], spacing));
         }
-        const double used = options.spacing ? std::copysign((*options.spacing)[axis], spacing) : spacing;
+        const double sign = spacing < 0 ? -1 : 1;
+        const double used = options.spacing ? sign * (*options.spacing)[axis] : spacing;
         const double origin = placement.origin[axis] + placement.steps[axis] * used;
         if (!std::isfinite(origin)) {
             fail(info.source, std::string("the position of the first sample along ") + "xyz"[axis] + " is " +
@@ -113,7 +114,7 @@ void place(VolumeInfo& info, const Placement& placement, const ReadOptions& opti
         }
         info.lattice.spacing[axis] = std::abs(spacing);
         info.lattice.origin[axis] = origin;
-        info.lattice.direction[axis * 4] = spacing < 0 ? -1 : 1;
+        info.lattice.direction[axis * 4] = sign;
     }
     info.warning = placement.warning;
 }

@@ -97,10 +97,10 @@ std::optional<Pattern> parse_pattern(std::string_view text) {
 void require_present(const fs::path& header, const fs::path& file) {
     std::error_code error;
     if (!fs::exists(file, error) && !error)
-        fail(file,
-             "no such file; put it there, or correct its name in the header, " + header.string() +
-                 (file.string().find('%') != std::string::npos ? "; a pattern has one number, as in 'z%03d.raw 1 10 1'"
-                                                               : ""));
+        fail(file, "no such file; put it there, or correct its name in the header, " + header.string() +
+                       (file.filename().string().find('%') != std::string::npos
+                            ? "; a pattern has one number, as in 'z%03d.raw 1 10 1'"
+                            : ""));
 }
 
 /// A header from somewhere must not make the program read any file of this machine.
@@ -139,7 +139,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     if (array.encoding == Encoding::kDeflated && array.skipped_bytes < 0)
         fail(array.source, "compressed samples cannot be found from the end of the file; give the bytes to skip");
     if (all / sample % files.size() != 0) {
-        fail(array.source, fmt::format("names {} files for {} samples; each must hold as many", files.size(),
+        fail(array.source, fmt::format("names {} files for {} samples; each must hold the same number", files.size(),
                                        size_text({size[0], size[1], size[2]})));
     }
     VolumeInfo info = volume_info(array.source, array.format, array.sample.type, size);

@@ -271,8 +271,9 @@ void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, c
             const double step = axes[i].step(), low = axes[i].low;
             columns[i][static_cast<int>(i)] = std::isnan(step) ? 1 : step;
             if (std::isnan(low)) continue;
-            origin[static_cast<int>(i)] = axes[i].is_node_centered ? low : low + step / 2;
-            steps[static_cast<int>(i)] = axes[i].is_node_centered ? 0 : 0.5;
+            const double share = axes[i].is_node_centered ? 0 : 0.5;
+            origin[static_cast<int>(i)] = low + share * step;
+            steps[static_cast<int>(i)] = share;
         }
         set_affine(path, "map to space", kRemedy, columns, origin, lattice);
         return keep_steps(options, steps, lattice);

@@ -30,6 +30,7 @@ void add_lab_dct_spacing(Hdf5Reader& file, Hdf5Volume& volume) {
     const auto spacing = file.entry("/LabDCT/Spacing");
     if (!spacing || spacing->values.size() != 3) return;
     for (int axis = 0; axis < 3; ++axis) volume.placement.spacing[axis] = spacing->values[axis];
+    volume.placement.warning.clear();
 }
 
 /// Datasets of integers below a group that may be volumes.

@@ -64,11 +64,10 @@ Found find(const fs::path& folder) {
 FindNumbers numbers_in(const Json& attributes) {
     return [&attributes](const std::string& name) -> std::optional<std::vector<double>> {
         if (!attributes.is_object() || !attributes.contains(name)) return {};
-        std::vector<double> numbers;
-        for (const Json& number : attributes.at(name)) {
-            if (number.is_number()) numbers.push_back(number);
-        }
-        return numbers;
+        const Json& value = attributes.at(name);
+        const Json list = value.is_array() ? value : Json::array({value});
+        const bool has_numbers = std::ranges::all_of(list, [](const Json& entry) { return entry.is_number(); });
+        return has_numbers ? list.get<std::vector<double>>() : std::vector<double>();
     };
 }
 

@@ -19,8 +19,8 @@ void require_closed_regions(const FileView& view, const Bodies& bodies) {
     for (const Body& body : bodies.all())
         if (!body.is_bounded && !view.is_background(body.label))
             throw Error(ErrorCode::kOutput,
-                        fmt::format("{} is not closed, so that it has no volume: leave out --boundary open, or see "
-                                    "regionmesh check",
+                        fmt::format("{} is not closed, so that nothing can mesh its volume: leave out --boundary open, "
+                                    "or see regionmesh check",
                                     name_of(view, body.label)));
 }
 

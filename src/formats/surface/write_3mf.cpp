@@ -12,11 +12,11 @@
 
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
-#include "formats/surface/region_seeds.h"
 #include "formats/surface/zip_file_3mf.h"
 #include "formats/text/xml_text.h"
-#include "mesh/bodies.h"
 #include "mesh/region_colours.h"
+#include "mesh/shells.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh {
 namespace {
@@ -135,10 +135,24 @@ private:
     std::string text_;
 };
 
+/// Faces may still cross, or be inside out.
+void require_no_open_edges(const FileView& view) {
+    UnionFind joined(2 * view.mesh().face_end());
+    const std::vector<bool> ends = join_sides(view.mesh(), joined);
+    for (std::uint32_t side = 0; side < ends.size(); ++side) {
+        const Label label = label_of_side(view.mesh(), side);
+        if (ends[side] && !is_exterior(label) && !view.is_background(label))
+            throw Error(ErrorCode::kOutput,
+                        fmt::format("region {} has open edges, so that it is no closed object: leave out --boundary "
+                                    "open, join points with --weld, or see regionmesh check",
+                                    view.label_text(label)));
+    }
+}
+
 }  // namespace
 
 void write_3mf(const FileView& view, std::optional<double> metres, OutputFile& file) {
-    require_closed_regions(view, Bodies(view.mesh()));
+    require_no_open_edges(view);
     Writer3mf(view, metres, file).write();
 }
 

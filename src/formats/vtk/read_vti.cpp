@@ -47,8 +47,8 @@ pugi::xml_node choose_array(const VtkXml& xml, pugi::xml_node piece) {
     }
     xml.fail(fmt::format("has {}; its arrays: {}",
                          count == 0 ? "no array of integers with one component, as labels need"
-                                    : "several arrays of integers; write the one with labels alone, or make it "
-                                      "the only active scalars",
+                                    : "several arrays of integers; write a file with the labels only, or make "
+                                      "them the only active scalars",
                          list_of(arrays)));
 }
 
@@ -81,8 +81,9 @@ void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, const
         const bool is_between = is_cell && parts > 0;
         size[axis] = static_cast<std::uint64_t>(is_between ? parts : parts + 1);
         columns[axis] = spacing[axis] * Vec3{direction[axis], direction[3 + axis], direction[6 + axis]};
-        steps[static_cast<int>(axis)] = static_cast<double>(low) + (is_between ? 0.5 : 0);
-        first += steps[static_cast<int>(axis)] * columns[axis];
+        const double step = static_cast<double>(low) + (is_between ? 0.5 : 0);
+        steps[static_cast<int>(axis)] = step;
+        first += step * columns[axis];
     }
     lattice.size = checked_size(xml.path(), size);
     set_affine(xml.path(), "map to space", "mend Origin, Spacing or Direction", columns, first, lattice);

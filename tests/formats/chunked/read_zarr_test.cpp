@@ -177,12 +177,16 @@ TEST_F(ReadZarrTest, spacing_comes_from_attributes_in_common_use) {
     const Lattice lattice = open_sections({data("chunked/zarr2/spaced_uint8.zarr")})->info().lattice;
     EXPECT_EQ(lattice.spacing, (Vec3{0.5, 2, 5}));
     EXPECT_EQ(lattice.origin, (Vec3{10, 20, 30}));
-    const auto one =
-        open_sections({changed("zarr2/spaced_uint8.zarr", ".zattrs",
-                               "\"resolution\": [\n        5,\n        2,\n        0.5\n    ]", "\"resolution\": 5")});
-    EXPECT_EQ(one->info().lattice.spacing, (Vec3{1, 1, 1}));
-    EXPECT_EQ(one->info().lattice.origin, (Vec3{10, 20, 30}));
-    EXPECT_EQ(one->info().warning, "the attribute 'resolution' is not used: 3 numbers are needed, not 1");
+    const std::string list = "\"resolution\": [\n        5,\n        2,\n        0.5\n    ]";
+    for (const auto& [value, count] :
+         {std::pair("5", 1), {"{\"x\": 0.5, \"y\": 2, \"z\": 5}", 0}, {"[5, 2]", 2}, {"[\"a\", 5, 2, 0.5]", 0}}) {
+        const auto reader = open_sections(
+            {changed("zarr2/spaced_uint8.zarr", ".zattrs", list, std::string("\"resolution\": ") + value)});
+        EXPECT_EQ(reader->info().lattice.spacing, (Vec3{1, 1, 1})) << value;
+        EXPECT_EQ(reader->info().lattice.origin, (Vec3{10, 20, 30})) << value;
+        EXPECT_EQ(reader->info().warning,
+                  "the attribute 'resolution' is not used: 3 numbers are needed, not " + std::to_string(count));
+    }
 }
 
 TEST_F(ReadZarrTest, store_is_recognised_before_a_directory_of_images_whatever_its_name) {

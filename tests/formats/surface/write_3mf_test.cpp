@@ -99,7 +99,10 @@ TEST_F(Write3mf, says_the_unit) {
     EXPECT_EQ(unit_and_size(1e-9), "micron 0.009000") << "nanometres, of which the format knows nothing";
 }
 
-TEST_F(Write3mf, a_region_that_is_not_closed_is_refused) {
+TEST_F(Write3mf, a_region_with_open_edges_is_refused_and_one_inside_out_is_not) {
+    Mesh turned;
+    test::add_octahedron(turned, {}, {4, 4, 4}, 2, 0);
+    write_mesh(turned, nested_labels(), path("m.3mf"), {.background = {2}});
     Mesh open = nested();
     open.remove_face(FaceId{0});
     open.compact_faces();
@@ -108,7 +111,7 @@ TEST_F(Write3mf, a_region_that_is_not_closed_is_refused) {
         FAIL() << "an open object was written";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::kOutput);
-        EXPECT_THAT(error.what(), testing::HasSubstr("is not closed"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("region 5 has open edges"));
     }
 }
 
