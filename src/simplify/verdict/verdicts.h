@@ -6,10 +6,9 @@
 
 namespace regionmesh {
 
-/// The first test of the table that refuses a collapse gives its verdict. A row is {verdict, step, test}; a new verdict
-/// is one file with its test, one row in verdicts.cpp and its name in regionmesh/verdict.h. A test looks at the steps
-/// before its own as done, and serves both kinds of star: that of both ends, and that of `goes` alone, where `stays`
-/// does not move (EdgeStar::keeps_stays).
+/// The first test of the table that refuses a collapse gives its verdict. A row is {verdict, step, test};
+/// CONTRIBUTING.md says what a new one needs. A test looks at the steps before its own as done, and serves both kinds
+/// of star: that of both ends, and that of `goes` alone, where `stays` does not move (EdgeStar::keeps_stays).
 ///   strata     the edge's label set equals that of the vertex that goes (P tests 3 and 4).
 ///   link       Lk(goes) and Lk(stays) meet in exactly Lk(edge), in the complex and in the network of lines (Dey et al.
 ///              1999; Vivodtzev et al. 2005); implies that the Euler characteristics stay (P test 5). No edge moves
