@@ -70,7 +70,7 @@ std::string state_of(const fs::path& path) {
     return fmt::format("{} files, {} bytes, state {:016x}", files, bytes, states);
 }
 
-/// What a volume in files says besides its samples, some of it in files that no option names.
+/// What a volume in files says besides its samples; some of it comes from files beside or above its own.
 std::optional<VolumeInfo> info_of_volume(const Settings& settings) {
     if (kind_of_input(settings.inputs) != kVolumeInput || settings.inputs.front() == "-") return {};
     ReadOptions options = settings.volume;
@@ -94,8 +94,8 @@ std::string text_of(const LabelNames& names, const LabelColours& colours) {
                        hash_of(all));
 }
 
-/// Inputs and files of options by their states, and files of samples that an input names; what it says of its lattice
-/// and, unless an option names them, of the names of labels; other options by their values.
+/// What must stay the same: the states of inputs, of the files of samples that they name, and of files that options
+/// name; the lattice; the names of labels, unless an option gives them; the values of other options.
 RunIdentity identity_of(const Settings& settings) {
     RunIdentity identity{{"version", REGIONMESH_VERSION}};
     const auto add = [&](const std::string& name, const fs::path& path, const std::string& inside = "") {

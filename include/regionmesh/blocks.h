@@ -155,8 +155,8 @@ struct PrecomputedResult {
 ///   legacy            single precision, one fragment for each region and piece. Holds one piece.
 /// `info` is removed first and written last, so a folder that has it is whole. `state.json` is a state of the viewer
 /// that shows up to 100 regions, those with the most faces, from a server at http://localhost:8080 that serves the
-/// parent of `output`. Throws Error(kInput) for a negative label, which is no id there,
-/// and Error(kOutput) for multi-resolution in a build without Draco.
+/// parent of `output`. Throws Error(kInput) for a negative label, which is no id there, and Error(kOutput) for
+/// multi-resolution in a build without Draco.
 PrecomputedResult write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output,
                                     const PrecomputedOptions& options = {});
 

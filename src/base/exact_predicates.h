@@ -39,7 +39,7 @@ struct Triangle {
     Vec3 a, b, c;
 };
 
-/// Do the three corners lie on one line? Exact. Corners that are not finite do.
+/// Do the three corners lie on one line? Exact. True, too, if a corner is not finite.
 bool is_degenerate(const Triangle& t);
 
 /// Two triangles without a common corner: do they meet at all, touching included? Requires neither is degenerate.

@@ -142,17 +142,15 @@ void TableReader::join_words() {
         if (std::adjacent_find(names.begin(), names.end()) != names.end()) dropped = 0;
     }
     constexpr const char* kNoName = "has no name behind the label; write 'label,name'";
+    // Among rows such as "3,c" the row "4" lacks a name.
+    for (const bool is_label_alone : {true, false})
+        for (const Row& row : rows_)
+            if (row.fields.size() < 2 && is_label(row.fields[0]) == is_label_alone) refuse(row.number, kNoName);
     std::vector<Row> named;
-    std::optional<std::uint64_t> nameless;  // of rows of one word the first that is a label, or else the first
-    bool is_label_alone = false;
     for (const Row& row : rows_) {
         const std::string name = name_of(row, dropped);
         if (!name.empty()) named.push_back({row.number, {row.fields[0], name}});
-        if (!name.empty() || row.fields.size() > 1 || is_label_alone) continue;
-        is_label_alone = is_label(row.fields[0]);
-        if (is_label_alone || !nameless) nameless = row.number;
     }
-    if (nameless) refuse(*nameless, kNoName);
     if (named.empty() && !rows_.empty()) refuse(rows_[0].number, kNoName);
     rows_ = std::move(named);
 }

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <new>
@@ -18,7 +17,7 @@
 #include <system_error>
 #include <thread>
 
-#include "base/hash.h"
+#include "base/fingerprint.h"
 #include "regionmesh/output_file.h"
 
 namespace regionmesh {
@@ -73,11 +72,8 @@ bool is_locked(const fs::path& part) {
 
 std::string part_prefix(const fs::path& target) {
     std::string name = target.filename().string();
-    if (name.size() > kLongestName) {
-        std::uint64_t hash = 0;
-        for (const char c : name) hash = mix64(hash ^ static_cast<unsigned char>(c));
-        name = fmt::format("{}~{:016x}", std::string_view(name).substr(0, kLongestName), hash);
-    }
+    if (name.size() > kLongestName)
+        name = fmt::format("{}~{:016x}", name.substr(0, kLongestName), Fingerprint().add(name).value());
     return "." + name + std::string(kMark);
 }
 

@@ -100,8 +100,7 @@ OptionSpec file_option(OptionSpec row, Access access) {
     row.set = [flag = row.flag(), set = row.set](Settings& settings, const std::string& text) {
         if (text == "-")
             refuse_value(flag, text,
-                         flag == "--output" ? "the name of a file; link one to /dev/stdout, as out.ply"
-                                            : "the name of a file; standard output is /dev/stdout");
+                         "the name of a file; standard output is /dev/stdout, unless the name needs an extension");
         set(settings, text);
     };
     return row;

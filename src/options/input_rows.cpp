@@ -176,13 +176,14 @@ Rows volume_rows() {
                      .group = kGroup,
                      .commands = kVolumeCommands},
                     {"auto", "x", "y", "z"}, choose_sweep),
-        option({.name = "spacing",
-                .help = "distance between samples along x, y and z: of a volume, as if its file said so; of layers",
-                .group = kGroup,
-                .commands = kFileCommands,
-                .unit = "length",
-                .inputs = kVolumeInput | kTableInput},
-               [](Settings& s) { return &s.volume.spacing; }),
+        option(
+            {.name = "spacing",
+             .help = "distance between samples along x, y and z: of a volume, instead of that in the file; of layers",
+             .group = kGroup,
+             .commands = kFileCommands,
+             .unit = "length",
+             .inputs = kVolumeInput | kTableInput},
+            [](Settings& s) { return &s.volume.spacing; }),
         option(
             {.name = "layer",
              .help = "NRRD, HDF5, Zarr and N5: which layer, channel or time to read where a file has several; counted "

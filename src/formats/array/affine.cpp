@@ -24,12 +24,12 @@ void set_affine(const std::filesystem::path& path, const char* what, const char*
     }
 }
 
-void keep_steps(const ReadOptions& options, Vec3 steps, Lattice& lattice) {
-    if (!options.spacing) return;
+Vec3 first_sample(const Columns& columns, Vec3 from, Vec3 steps, const ReadOptions& options) {
     for (int axis = 0; axis < 3; ++axis) {
-        const double change = steps[axis] * ((*options.spacing)[axis] - lattice.spacing[axis]);
-        for (int row = 0; row < 3; ++row) lattice.origin[row] += change * lattice.direction[3 * row + axis];
+        const double scale = options.spacing ? (*options.spacing)[axis] / length(columns[axis]) : 1;
+        from += steps[axis] * scale * columns[axis];
     }
+    return from;
 }
 
 }  // namespace regionmesh::formats

@@ -17,8 +17,8 @@ using Columns = std::array<Vec3, 3>;
 void set_affine(const std::filesystem::path& path, const char* what, const char* remedy, const Columns& columns,
                 Vec3 origin, Lattice& lattice);
 
-/// For files that place a point of reference, from which the first sample lies `steps` spacings away: moves the origin
-/// to where it is with the spacing of `options`, if they have one. Requires the spacing of the file in `lattice`.
-void keep_steps(const ReadOptions& options, Vec3 steps, Lattice& lattice);
+/// The place of the first sample, which lies `steps` spacings from the point `from` that the file names. Spacings are
+/// the lengths of the columns, or those of `options`.
+Vec3 first_sample(const Columns& columns, Vec3 from, Vec3 steps, const ReadOptions& options);
 
 }  // namespace regionmesh::formats

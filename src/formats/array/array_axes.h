@@ -47,7 +47,7 @@ struct Placement {
 /// or a spacing is 0, unless the options give the spacing.
 void place(VolumeInfo& info, const Placement& placement, const ReadOptions& options);
 
-/// The numbers of an attribute, none if it has something else; nothing if there is no such attribute.
+/// The numbers of an attribute: an empty list if it holds anything else, nullopt if there is no such attribute.
 using FindNumbers = std::function<std::optional<std::vector<double>>(const std::string& name)>;
 
 /// Reads attributes in common use, along the axes of the array (mostly z, y, x): the spacing is the first of

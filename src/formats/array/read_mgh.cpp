@@ -61,14 +61,13 @@ public:
             centre = vector(kCentre);
         }
         Columns columns;
-        Vec3 origin = centre, steps;
+        Vec3 steps;
         for (int axis = 0; axis < 3; ++axis) {
             columns[axis] = spacing[axis] * directions[axis];
             steps[axis] = -0.5 * lattice.size[axis];
-            origin += steps[axis] * columns[axis];
         }
-        set_affine(path_, "map to space", "mend the header", columns, origin, lattice);
-        keep_steps(options, steps, lattice);
+        const Vec3 first = first_sample(columns, centre, steps, options);
+        set_affine(path_, "map to space", "mend the header", columns, first, lattice);
     }
 
 private:

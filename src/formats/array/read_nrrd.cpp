@@ -271,12 +271,11 @@ void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, c
             const double step = axes[i].step(), low = axes[i].low;
             columns[i][static_cast<int>(i)] = std::isnan(step) ? 1 : step;
             if (std::isnan(low)) continue;
-            const double share = axes[i].is_node_centered ? 0 : 0.5;
-            origin[static_cast<int>(i)] = low + share * step;
-            steps[static_cast<int>(i)] = share;
+            origin[static_cast<int>(i)] = low;
+            steps[static_cast<int>(i)] = axes[i].is_node_centered ? 0 : 0.5;
         }
-        set_affine(path, "map to space", kRemedy, columns, origin, lattice);
-        return keep_steps(options, steps, lattice);
+        set_affine(path, "map to space", kRemedy, columns, first_sample(columns, origin, steps, options), lattice);
+        return;
     }
     const std::size_t dimension = axes[0].direction->size();
     for (std::size_t i = 0; i < axes.size(); ++i) columns[i] = vector3(path, *axes[i].direction, dimension);

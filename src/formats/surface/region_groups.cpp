@@ -25,8 +25,8 @@ std::optional<InputLabel> region_in(std::string_view name) {
     return formats::parse_label(word);
 }
 
-/// The exterior of a file that does not name it. A region may have the usual label: then it is as in the model that was
-/// written.
+/// The exterior of a file that does not name it. If a region has the usual label, it is
+/// LabelTable::exterior_label(), as in the model that was written.
 InputLabel exterior_of(const std::vector<std::string>& names, InputLabel exterior) {
     LabelTable labels;
     bool is_taken = false;

@@ -70,7 +70,7 @@ void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, const
     for (const std::string_view word : split_words(text))
         if (const auto number = parse_integer(word)) extent.push_back(*number);
     Columns columns;
-    Vec3 first{origin[0], origin[1], origin[2]}, steps;  // to the first sample
+    Vec3 steps;  // to the first sample
     std::array<std::uint64_t, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         constexpr std::int64_t kMost = std::int64_t{1} << 40;
@@ -81,13 +81,11 @@ void place_in_space(const VtkXml& xml, pugi::xml_node piece, bool is_cell, const
         const bool is_between = is_cell && parts > 0;
         size[axis] = static_cast<std::uint64_t>(is_between ? parts : parts + 1);
         columns[axis] = spacing[axis] * Vec3{direction[axis], direction[3 + axis], direction[6 + axis]};
-        const double step = static_cast<double>(low) + (is_between ? 0.5 : 0);
-        steps[static_cast<int>(axis)] = step;
-        first += step * columns[axis];
+        steps[static_cast<int>(axis)] = static_cast<double>(low) + (is_between ? 0.5 : 0);
     }
     lattice.size = checked_size(xml.path(), size);
+    const Vec3 first = first_sample(columns, {origin[0], origin[1], origin[2]}, steps, options);
     set_affine(xml.path(), "map to space", "mend Origin, Spacing or Direction", columns, first, lattice);
-    keep_steps(options, steps, lattice);
 }
 
 /// Throws Error(kInput) naming the file: more than one piece, no array of integers, or several of which none is the
