@@ -1,4 +1,4 @@
-// Headless Chromium for tests of pages.
+// A browser for tests of pages: headless Chromium, or the Firefox that FIREFOX names, which has WebGL on a display alone.
 import { existsSync } from "node:fs";
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
@@ -12,8 +12,8 @@ export function skip(reason) {
     process.exit(process.env.REGIONMESH_REQUIRE_BROWSER ? 1 : kSkipped);
 }
 
-export async function launch(repository, more = []) {
-    const program = process.env.CHROMIUM ?? kPrograms.find(existsSync);
+export async function launch(repository, hasWebgl = true) {
+    const firefox = process.env.FIREFOX, program = firefox ?? process.env.CHROMIUM ?? kPrograms.find(existsSync);
     if (!program) skip("Chromium is not installed: apt install chromium");
     const modules = createRequire(`${repository}/viewer/package.json`);
     let place;
@@ -23,10 +23,12 @@ export async function launch(repository, more = []) {
         skip("puppeteer-core is not installed: npm ci in viewer");
     }
     const { default: puppeteer } = await import(pathToFileURL(place));
-    return puppeteer.launch({
-        executablePath: program,
-        args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...more],
-    });
+    if (firefox) {
+        const webgl = { "webgl.force-enabled": hasWebgl, "webgl.disabled": !hasWebgl };
+        return puppeteer.launch({ browser: "firefox", executablePath: program, headless: false, extraPrefsFirefox: webgl });
+    }
+    const webgl = hasWebgl ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] : ["--disable-3d-apis"];
+    return puppeteer.launch({ executablePath: program, args: ["--no-sandbox", ...webgl] });
 }
 
 /** Opens a page of ours and waits for its first picture. `errors` gets all that the console says, and refused requests. */

@@ -293,7 +293,7 @@ async function two_models_share_a_camera(browser) {
 }
 
 async function without_webgl_the_proof_is_there(repository) {
-    const other = await launch(repository, ["--disable-3d-apis"]);
+    const other = await launch(repository, false);
     try {
         const errors = [], page = await open(other, `${folder}/in.html`, errors);
         assert.ok(await page.$eval("#notice", (e) => !e.hidden && e.textContent.includes("hardware acceleration")));

@@ -1,5 +1,6 @@
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
@@ -101,6 +102,27 @@ void check_ome_axes(const std::filesystem::path& path, const std::string& descri
                        " times; save one channel of one time alone");
 }
 
+/// tifffile writes the shape of an array as JSON into the description of the first page; its pages go along all axes
+/// but those of a page.
+void check_array_axes(const std::filesystem::path& path, const std::string& description, std::uint64_t pages) {
+    if (!description.starts_with("{\"shape\":")) return;
+    const auto json = nlohmann::json::parse(description, nullptr, /*allow_exceptions=*/false);
+    if (json.is_discarded() || !json["shape"].is_array()) return;
+    std::string sizes;
+    std::uint64_t images = 1, axes = 0;
+    for (const nlohmann::json& size : json["shape"]) {
+        if (!size.is_number_unsigned()) return;
+        sizes += (sizes.empty() ? "" : " x ") + size.dump();
+        if (images < pages && size > 1u) {
+            images *= size.get<std::uint64_t>();
+            ++axes;
+        }
+    }
+    if (images == pages && axes > 1)
+        fail(path, "an array of " + sizes + ", whose pages go along " + std::to_string(axes) +
+                       " axes; save one volume of it alone");
+}
+
 /// ImageJ writes stacks beyond 4 GiB, and others on request, as one page; the pixels of all images follow one another.
 std::unique_ptr<SectionReader> open_imagej_stack(const std::filesystem::path& path, const TiffFile& tiff,
                                                  const ImageShape& shape, const Lattice& lattice,
@@ -153,6 +175,7 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
         if (images == 1) images = imagej_count(description, "images");
     }
     check_ome_axes(path, description, shape, images);
+    check_array_axes(path, description, images);
     Lattice lattice{.size = checked_size(path, {shape.width, shape.height, images})};
     if (is_imagej) lattice.spacing = imagej_spacing(description, file);
     if (images > file.page_count()) return open_imagej_stack(path, file, shape, lattice, options);

@@ -199,6 +199,11 @@ TEST_F(TiledTiff, pages_that_are_no_sections_are_refused) {
     EXPECT_NO_THROW(read_volume({path("a.tif")})) << "sections stored as times, as from ImageJ";
     with_tag(TIFFTAG_IMAGEDESCRIPTION, R"(<?xml version="1.0"?><OME><Pixels SizeC="2" SizeT="1" SizeZ="4"/></OME>)");
     EXPECT_NO_THROW(read_volume({path("a.tif")})) << "the other channel is in another file";
+    with_tag(TIFFTAG_IMAGEDESCRIPTION, R"({"shape": [2, 2, 38, 53]})");
+    EXPECT_NE(refusal({path("a.tif")}).find("an array of 2 x 2 x 38 x 53, whose pages go along 2 axes"),
+              std::string::npos);
+    with_tag(TIFFTAG_IMAGEDESCRIPTION, R"({"shape": [1, 4, 38, 53]})");
+    EXPECT_NO_THROW(read_volume({path("a.tif")}));
     with_tag(TIFFTAG_IMAGEDEPTH, std::uint32_t{7});
     EXPECT_NE(refusal({path("a.tif")}).find("the page is a volume of 7 sections"), std::string::npos);
 }
