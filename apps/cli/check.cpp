@@ -6,7 +6,6 @@
 #include "page_output.h"
 #include "printable.h"
 #include "regionmesh/blocks.h"
-#include "restore_background.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -73,17 +72,11 @@ std::optional<SampleAgreement> compare_with_sections(const Settings& settings, M
     return compare_samples(file.mesh, file.labels, options.background, *reader);
 }
 
-/// Is the background of the volume the exterior of the model? So it is in STL files and folders of them.
-bool lacks_background(const Settings& settings, const MeshFile& file) {
-    const std::string& path = settings.models.front();
-    std::error_code ignored;
-    if (!has_extension(path, ".stl") && !std::filesystem::is_directory(path, ignored)) return false;
-    if (settings.sections.empty() || !is_lattice(settings, settings.sections)) return false;
+/// Is the background of the volume the exterior of the model?
+bool has_exterior_for_background(const Settings& settings, const MeshFile& file) {
     const auto& background = settings.reconstruct.background;
-    if (background.empty() || !file.background || !file.background->empty()) return false;
-    for (Label label = 0; label < file.labels.size(); ++label)
-        if (file.labels.input(label) == background.front()) return false;
-    return true;
+    return !settings.sections.empty() && is_lattice(settings, settings.sections) && !background.empty() &&
+           lacks_background(file, settings.models.front(), background.front());
 }
 
 void print_samples(const SampleAgreement& samples) {
@@ -139,7 +132,7 @@ int run_check(const Settings& given) {
         if (!file.empty()) require_writable(file, given.writing);
     if (is_block_folder(path) && !needs_whole(given)) return check_folder(given);
     MeshFile file = read_model(path, given.surface);
-    if (lacks_background(given, file)) {
+    if (has_exterior_for_background(given, file)) {
         const auto reader = open_volume(settings_for(given, file), given.sections);
         restore_background(file, reader->info().lattice, given.reconstruct.background.front());
     }

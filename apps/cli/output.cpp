@@ -147,7 +147,7 @@ void print_certificate(const Report& run) {
 void print_stop(const Settings& settings, const Report& report) {
     const char* reason = nullptr;
     if (report.stopped == "topology")
-        reason = settings.inputs.empty()
+        reason = settings.inputs.empty() || !is_lattice(settings, settings.inputs)
                      ? "every further collapse would change topology, or fold, cross or degrade faces"
                      : "every further collapse would change topology, fold, cross or degrade faces, "
                        "or carry samples into other regions";

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/vec3.h"
 
@@ -24,19 +26,27 @@ public:
     /// coordinates exactly on its planes, and they and the faces with the exterior get these sides. Ids are then dense,
     /// in the order of before. Does nothing to other meshes.
     explicit BoxAxes(Mesh& mesh);
+    /// Turns the mesh of these samples into their axes, whichever they are; the box is theirs. Then samples() are those
+    /// that simplify() and improve() keep in their regions. Does nothing where a face with the exterior is not on it.
+    BoxAxes(Mesh& mesh, const Lattice& lattice);
     /// Turns the mesh back. Vertices that did not move get the positions of before.
     void restore(Mesh& mesh) const;
 
     bool is_oblique() const { return !sorted_.empty(); }
+    /// The lattice given, in the axes of the turned mesh. None without a lattice, or where the mesh is not on its box.
+    const std::optional<Lattice>& samples() const { return samples_; }
 
 private:
     struct Side;
 
     void set_axes(const std::array<Vec3, 3>& normals);
+    void set_axes(const Lattice& lattice);
+    bool turn(Mesh& mesh, const Box& box);
     void note_positions(const Mesh& mesh);
     bool find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const;
     void put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<Side>& sides);
 
+    std::optional<Lattice> samples_;
     Vec3 origin_;
     std::array<Vec3, 3> axes_, across_;  // along the edges, of length 1; their products are 1 in pairs, else 0
     std::vector<Vec3> before_, after_;   // positions; the second ones in the axes of the box

@@ -22,6 +22,6 @@ constexpr int side_of(Label label) { return static_cast<int>(label - kFirstExter
 
 /// The sides of the box that a vertex lies on: bit s stands for side s. Bit 7 marks a vertex that never moves.
 using SideSet = std::uint8_t;
-inline constexpr SideSet kOnHull = 1 << kHull, kPinned = 1 << 7;
+inline constexpr SideSet kBoxSides = (1 << kHull) - 1, kOnHull = 1 << kHull, kPinned = 1 << 7;
 
 }  // namespace regionmesh

@@ -152,6 +152,10 @@ public:
     /// Reverses the orientation of all faces; labels stay. For a map of the positions that mirrors.
     void flip_faces();
 
+    /// Renames side s of the box to `names[s]`, of vertices and of faces with its exterior. For a map of the positions
+    /// that permutes the sides.
+    void rename_sides(const std::array<int, 6>& names);
+
     /// Bytes of the arrays.
     std::size_t bytes() const { return vertices_.bytes() + faces_.bytes(); }
     /// Throws Error(kInput) beyond the limits of limits.h.

@@ -130,4 +130,12 @@ struct ReadMeshOptions {
 /// file, whatever sizes its header gives.
 MeshFile read_mesh(const std::filesystem::path& path, const ReadMeshOptions& options = {});
 
+/// Whether the file, read from `path`, may have the exterior where the model had this background: .stl files and
+/// folders of regions have.
+bool lacks_background(const MeshFile& file, const std::filesystem::path& path, InputLabel background);
+
+/// Gives `background` to the faces of the exterior that do not lie on a side of the lattice, as reconstruct() had it.
+/// Requires a model without that label.
+void restore_background(MeshFile& file, const Lattice& lattice, InputLabel background);
+
 }  // namespace regionmesh

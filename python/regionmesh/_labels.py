@@ -21,7 +21,7 @@ def names_of(names):
         return None
     if isinstance(names, (str, os.PathLike)):
         with _sources.missing_files(names):
-            return _core.read_names(os.fspath(names))
+            return _core.read_names(_sources.file_name(names))
     return {bits(label): _text(name) for label, name in dict(names).items()}
 
 

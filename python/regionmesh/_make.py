@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import _core, _options, _sources
-from ._labels import bits as _bits, names_of
+from ._labels import bits, names_of
 from ._mesh import Mesh
 
 
@@ -57,7 +57,7 @@ def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
     >>> regionmesh.load("cube.vtp").certified
     True
     """
-    path = os.fspath(path)
+    name = _sources.file_name(path)
     asked = {"boundary": boundary}
     if not (isinstance(background, str) and background == "file"):
         asked["background"] = background
@@ -66,7 +66,7 @@ def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
         pairs.append(("weld", repr(float(weld))))
     pairs.append(("orient", "true" if orient else "false"))
     with _sources.missing_files(path):
-        return Mesh(_core.load(path, pairs))
+        return Mesh(_core.load(name, pairs))
 
 
 def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names=None, boundary="cap"):
@@ -83,7 +83,7 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     background : int or sequence of int, or None
         Labels of empty space.
     exterior_label : int
-        The label that stands for the outside of the box.
+        The label that stands for the outside of the box: `Mesh.exterior_label` for the labels of a mesh.
     names : dict of int to str, optional
         Names of labels.
     boundary : {"cap", "open"}
@@ -119,13 +119,12 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     if faces.size and (faces.min() < 0 or faces.max() >= len(points)):
         raise ValueError(f"faces: rows {faces.min()} to {faces.max()} of {len(points)} points; give rows from 0")
     is_unsigned = labels.dtype == np.uint64
-    bits = labels.view(np.int64) if is_unsigned else labels.astype(np.int64)
+    whole = labels.view(np.int64) if is_unsigned else labels.astype(np.int64)
     outside = [] if background is None else [background] if np.ndim(background) == 0 else list(background)
-    exterior = np.array([exterior_label]).astype(np.uint64 if exterior_label >= 0 else np.int64).view(np.int64)[0]
     model = _core.from_arrays(
-        (points, faces.astype(np.uint32), np.ascontiguousarray(bits), None),
-        ([_bits(label) for label in outside], [], names_of(names) or {}, {}, ""),
-        int(exterior), bool(is_unsigned), boundary == "open",
+        (points, faces.astype(np.uint32), np.ascontiguousarray(whole), None),
+        ([bits(label) for label in outside], [], names_of(names) or {}, {}, ""),
+        bits(exterior_label), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)
 
@@ -134,7 +133,7 @@ def _integers(name, values):
     array = np.asarray(values)
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name}: {array.dtype}; give integers")
-    return array if array.size else array.astype(np.int64)
+    return array.astype(array.dtype.newbyteorder("=")) if array.size else array.astype(np.int64)
 
 
 def _rows(name, array, columns):

@@ -2,11 +2,14 @@
 
 import json
 import os
+import warnings
 
 import numpy as np
 
 from . import _core, _measure, _options, _progress, _sources, _surface
 from ._labels import bits
+
+_COARSE = 0.01  # of an edge: numbers of a file that move points farther are worth a warning
 
 
 class Mesh:
@@ -109,7 +112,7 @@ class Mesh:
 
     @property
     def quadruple_points(self):
-        """(k,) int64: rows of `points` where four regions meet, on the box or inside."""
+        """(k,) int64: rows of `points` where four regions meet; each side of the box counts as one."""
         return np.flatnonzero(self.node_types % 10 == 4)
 
     # What was found
@@ -191,7 +194,7 @@ class Mesh:
         ----------
         keep_samples : bool
             No sample of the volume that the mesh was made from changes its region. Meshes from files and arrays have
-            no samples, nor have those whose lattice is not along the axes.
+            no samples.
         progress : bool or callable, optional
             As in `reconstruct`.
         **options
@@ -254,9 +257,7 @@ class Mesh:
     def _samples(self):
         """The lattice that the mesh was made from, or None."""
         own = self._lattice
-        if own is None or tuple(own["direction"]) != _sources.IDENTITY:
-            return None
-        return _sources.frame(own["spacing"], own["origin"], None), own["size"]
+        return own and (_sources.frame(own["spacing"], own["origin"], own["direction"]), own["size"])
 
     def smooth(self, **options):
         """Return a smoother mesh with the same faces.
@@ -288,7 +289,8 @@ class Mesh:
         labels : array_like, path or image, optional
             The labels that the model was made from, as in `reconstruct`: the model is compared with them, too. `roi`,
             `downsample` and all else that chose samples for the model chooses them here, too; samples already so
-            chosen are taken as they are. `room` changes labels as it did for the model.
+            chosen are taken as they are. `room` changes labels as it did for the model. A volume in another space is
+            turned into that of the model.
         spacing, origin, direction : optional
             As in `reconstruct`; default: those the model was made with.
         threads : int
@@ -303,51 +305,73 @@ class Mesh:
         Raises
         ------
         ValueError
-            For labels that are not as many along each axis as the model was made from.
+            For labels that are not as many along each axis as the model was made from, and for a file whose samples
+            lie elsewhere.
         FileNotFoundError
             For a path where there is no file.
         """
         source = None
+        threads = int(dict(_options.pairs("reconstruct", {"threads": threads}, "check")).get("threads", 0))
         if labels is not None:
             opened = self._file_source if _sources.is_path(labels) else self._array_source
             source = opened(labels, (spacing, origin, direction))
-            if "size" in (self._lattice or {}) and source.info["size"] != self._lattice["size"]:
-                size, own = ([str(n) for n in lattice["size"]] for lattice in (source.info, self._lattice))
-                raise ValueError(
-                    f"labels: {' x '.join(size)} samples along x, y, z, the model was made from {' x '.join(own)}; "
-                    "give the volume that it was made from"
-                )
+            self._require_same_size(source.info)
         room = (self._lattice or {}).get("made", {}).get("room", 0)
         return json.loads(_core.check(self._model, threads, source, room))
+
+    def _require_same_size(self, info):
+        own = (self._lattice or {}).get("size", info["size"])
+        if info["size"] != own:
+            size, made = (" x ".join(str(n) for n in each) for each in (info["size"], own))
+            raise ValueError(
+                f"labels: {size} samples along x, y, z, the model was made from {made}; "
+                "give the volume that it was made from"
+            )
+
+    def _require_same_place(self, info, keys):
+        """Files say where their samples lie: where those of the model do."""
+        for key in keys if "size" in (self._lattice or {}) else ():
+            theirs, own = info[key], self._lattice[key]
+            if not np.allclose(theirs, own, rtol=1e-6, atol=1e-6 * min(self._lattice["spacing"])):
+                theirs, own = (", ".join(f"{n:g}" for n in each) for each in (theirs, own))
+                raise ValueError(
+                    f"labels: the {key} of the file is {theirs}, that of the model {own}; give the labels as an array"
+                )
 
     def _made(self):
         """How samples were chosen: options, labels kept, and the place of the whole input."""
         made = (self._lattice or {}).get("made")
         return (made["selection"], made["kept"], made["place"]) if made else ([], None, self._place())
 
-    def _is_chosen(self, size, selection):
+    def _is_chosen(self, size):
         """Whether a volume of that size is the part that was chosen, not the whole."""
-        return _sources.is_cut(selection) and tuple(size) == tuple(self._lattice["size"])
+        made = (self._lattice or {}).get("made")
+        return made is not None and list(size) == list(self._lattice["size"]) != list(made["size"])
 
     def _file_source(self, labels, given):
         if given[1] is not None or given[2] is not None:
             raise TypeError("check(): origin and direction are those of the file; leave them out")
         paths = _sources.paths_of(labels)
-        selection, kept, _ = self._made()
+        selection, kept, place = self._made()
+        reading = (self._lattice or {}).get("made", {}).get("reading")
+        if reading is None and given[0] is None and place[0] is not None:  # made from an array
+            given = (place[0], None, None)
         spacing = _options.pairs("reconstruct", {"spacing": given[0]})
-        if spacing:
-            selection = [pair for pair in selection if pair[0] != "spacing"] + spacing
+        spacing += [("space", self.space.lower())] if self.space else []
+        selection = [pair for pair in selection if pair[0] != "spacing" or given[0] is None] + spacing
         with _sources.missing_files(*paths):
-            whole = [pair for pair in selection if pair[0] == "spacing"]
+            whole = [pair for pair in selection if pair[0] in ("spacing", "space")] + (reading or [])
             source = _core.file_source(paths, whole, None)
-            if self._is_chosen(source.info["size"], selection) or (selection == whole and kept is None):
-                return source
-            return _core.file_source(paths, selection, kept)
+            if not self._is_chosen(source.info["size"]) and (selection + (reading or []) != whole or kept is not None):
+                source = _core.file_source(paths, selection + (reading or []), kept)
+        keys = ("direction", "origin") if given[0] is not None else ("direction", "origin", "spacing")
+        self._require_same_place(source.info, keys)
+        return source
 
     def _array_source(self, labels, given):
         opened = _sources.opened(labels)
         selection, kept, place = self._made()
-        if self._is_chosen(_sources.size_of(opened), selection):
+        if self._is_chosen(_sources.size_of(opened)):
             selection, kept, place = [], None, self._place()
         selection = [pair for pair in selection if pair[0] not in ("spacing", "sweep")]
         place = [mine if mine is not None else made for mine, made in zip(given, place)]
@@ -378,6 +402,10 @@ class Mesh:
         """
         if not isinstance(other, Mesh):
             raise TypeError(f"compare: {type(other).__name__}; give a Mesh")
+        if self.space and other.space and self.space != other.space:
+            warnings.warn(
+                f"compare: the meshes are in {self.space} and {other.space}; they are compared as they are", stacklevel=2
+            )
         return json.loads(_core.compare(self._model, other._model, _options.pairs("compare", options)))
 
     def voxelise(self, like=None, *, shape=None, spacing=None, origin=None, direction=None, dtype=None, outside=0):
@@ -406,6 +434,8 @@ class Mesh:
             Without a shape, for a type that cannot hold the labels, and for a surface that is not closed.
         """
         own = self._lattice or {}
+        if like is not None and shape is not None:
+            raise TypeError("voxelise: give like or shape, not both")
         if like is not None:
             like = like if hasattr(like, "shape") else np.asarray(like)
             shape, dtype = like.shape, like.dtype if dtype is None else dtype
@@ -413,6 +443,8 @@ class Mesh:
             shape = own["size"][::-1]
         if shape is None or len(shape) != 3:
             raise ValueError("voxelise: no lattice; give like or shape with three axes")
+        if not all(0 < n < 1 << 32 for n in shape):
+            raise ValueError(f"voxelise: shape {tuple(shape)}; give 1 to {(1 << 32) - 1} samples along each axis")
         dtype = np.dtype(own.get("type", "int64") if dtype is None else dtype)
         regions = [row["label"] for row in self.report["regions"]] + self.background + [outside]
         if dtype.kind not in "iu" or min(regions) < np.iinfo(dtype).min or max(regions) > np.iinfo(dtype).max:
@@ -445,7 +477,17 @@ class Mesh:
         OSError
             For another extension, and where the file cannot be written.
         """
-        return _core.save(self._model, os.fspath(path), per_region, [("units", units)])
+        if not isinstance(units, str):
+            raise TypeError(f"units={units!r}: not a text")
+        pairs = [("units", units)]
+        paths, share = _core.save(self._model, _sources.file_name(path), bool(per_region), pairs)
+        if share > _COARSE:
+            warnings.warn(
+                f"save: {os.fspath(path)!r} holds numbers of single precision, which moves points by up to {share:.2g} "
+                "of an edge; subtract an offset, or write .vtp or .ply",
+                stacklevel=2,
+            )
+        return [os.fsdecode(path) for path in paths]
 
     # Python
 

@@ -48,6 +48,8 @@ def _whole(name, value):
 
 
 def _number(name, value):
+    if isinstance(value, str) and value == "auto":  # which some options take
+        return value
     if isinstance(value, (bool, str)):
         raise TypeError(f"{name}={value!r}: not a number")
     try:

@@ -8,6 +8,7 @@ from ._mesh import Mesh
 _OF_SOURCE = {"sweep", "roi", "box", "downsample", "min-region", "background", "no-background"}
 _OF_FILES = ("size", "type", "layer", "columns", "step", "layers", "collars", "surveys", "terrain", "array", "hull",
              "max_work", "external_files")  # fmt: skip
+_OF_READING = {name.replace("_", "-") for name in _OF_FILES}
 
 
 def _split(options, names):
@@ -28,12 +29,14 @@ def _from_files(labels, options, kept, names, progress):
             whole = _core.file_source(paths, [pair for pair in options if pair[0] not in _OF_SOURCE], None).info
         place = tuple(whole[key] for key in ("spacing", "origin", "direction"))
         model = _core.reconstruct_source(source, options, names, progress)
-        return Mesh(model, {**source.info, "made": _made(options, chosen, kept, place)})
+        made = _made(options, chosen, kept, place, whole["size"])
+        return Mesh(model, {**source.info, "made": {**made, "reading": _split(options, _OF_READING)}})
 
 
-def _made(options, chosen, kept, place):
+def _made(options, chosen, kept, place, size):
     """What Mesh.check needs to choose the same samples again."""
-    return {"selection": chosen, "kept": kept, "place": place, "room": float(dict(options).get("room", 0))}
+    room = float(dict(options).get("room", 0))
+    return {"selection": chosen, "kept": kept, "place": place, "size": list(size), "room": room}
 
 
 def reconstruct(
@@ -94,7 +97,7 @@ def reconstruct(
 
     Notes
     -----
-    Another thread of Python may run meanwhile. Iterators are called on another thread than the caller's. The
+    Another thread of Python may run meanwhile. Iterators are called on the caller's thread and on another one. The
     model depends on labels and options only, not on the number of threads.
 
     Examples
@@ -125,7 +128,7 @@ def reconstruct(
         place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
         source = _sources.source(given, place, chosen, names or {}, kept)
         model = _core.reconstruct_source(source, pairs, names, report)
-    return Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place)})
+    return Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place, _sources.size_of(given))})
 
 
 def _describe(function, command):

@@ -59,9 +59,17 @@ def is_path(labels):
     return isinstance(labels, (list, tuple)) and bool(labels) and all(isinstance(p, (str, os.PathLike)) for p in labels)
 
 
+def file_name(path):
+    """A path as the file system has it: bytes, which need not be UTF-8."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError(f"{path!r}: has a null character; give another path")
+    return name
+
+
 def paths_of(labels):
-    """The paths as texts."""
-    return [os.fspath(p) for p in ([labels] if isinstance(labels, (str, os.PathLike)) else labels)]
+    """The paths as bytes."""
+    return [file_name(p) for p in ([labels] if isinstance(labels, (str, os.PathLike)) else labels)]
 
 
 def _from_simpleitk(image):
@@ -101,11 +109,18 @@ def placed(labels):
         return _from_simpleitk(labels)
     if hasattr(labels, "affine") and hasattr(labels, "dataobj"):
         return _from_nibabel(labels)
+    _refuse_masked(labels)
     return Placed(labels)
+
+
+def _refuse_masked(array):
+    if isinstance(array, np.ma.MaskedArray):
+        raise TypeError("labels: a masked array; give labels.filled(LABEL), with the label of what is masked")
 
 
 def _native(array):
     """Bring into the byte order of the machine; no copy otherwise."""
+    _refuse_masked(array)
     array = np.asarray(array)
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
 
@@ -287,6 +302,6 @@ def missing_files(*paths):
     try:
         yield
     except ValueError as error:
-        if all(os.path.exists(path.split(":/")[0]) for path in map(os.fspath, paths)):
+        if all(os.path.exists(os.fsencode(path).split(b":/")[0]) for path in paths):
             raise
         raise FileNotFoundError(str(error)) from None

@@ -72,7 +72,17 @@ Model copy_of(const Model& model) {
             model.names,
             model.is_open,
             model.space,
-            model.colours};
+            model.colours,
+            model.lacks_background};
+}
+
+/// As it was before it went through a file without a background.
+Model with_background(const Model& model, const Lattice& lattice) {
+    MeshFile file{.mesh = copy_of(model.mesh, model.labels), .labels = model.labels};
+    restore_background(file, lattice, 0);
+    Model restored{std::move(file.mesh), std::move(file.labels), {}, model.names, model.is_open, model.space};
+    restored.background = {restored.labels.dense(0)};
+    return restored;
 }
 
 CheckOptions check_options(const Model& model, std::uint32_t threads) {
@@ -170,30 +180,30 @@ Model load_model(const std::string& path, const OptionValues& options) {
     const py::gil_scoped_release release;
     MeshFile file = read_mesh(path, settings.surface);
     file.mesh.compact();
+    const bool lacks = !has_background(settings) && lacks_background(file, path, 0);
     std::vector<Label> background;
     for (const InputLabel label :
          !has_background(settings) && file.background ? *file.background : settings.reconstruct.background)
         background.push_back(file.labels.dense(label));
-    return {std::move(file.mesh),   std::move(file.labels),    std::move(background),
-            std::move(file.names),  !settings.reconstruct.cap, file.space,
-            std::move(file.colours)};
+    return {std::move(file.mesh),      std::move(file.labels),
+            std::move(background),     std::move(file.names),
+            !settings.reconstruct.cap, file.space,
+            std::move(file.colours),   lacks};
 }
 
-std::vector<std::string> save_model(const Model& model, const std::string& path, bool per_region,
-                                    const OptionValues& options) {
+Saved save_model(const Model& model, const std::string& path, bool per_region, const OptionValues& options) {
     const Settings settings = settings_from(options);
     const py::gil_scoped_release release;
-    std::vector<std::string> paths;
-    for (const auto& file : write_mesh(model.mesh, model.labels, path,
-                                       {.background = model.background,
-                                       .names = model.names,
-                                       .colours = model.colours,
-                                       .per_region = per_region,
-                                       .space = model.space,
-                                       .metres = settings.metres,
-                                       .boundary_is_open = model.is_open}))
-        paths.push_back(file.string());
-    return paths;
+    const WriteOptions writing{.background = model.background,
+                               .names = model.names,
+                               .colours = model.colours,
+                               .per_region = per_region,
+                               .space = model.space,
+                               .metres = settings.metres,
+                               .boundary_is_open = model.is_open};
+    Saved saved{{}, rounded_share_of_edge(model.mesh, path, writing)};
+    for (const auto& file : write_mesh(model.mesh, model.labels, path, writing)) saved.paths.push_back(file.string());
+    return saved;
 }
 
 Model model_of(const GivenArrays& given, const GivenLabels& labels) {
@@ -225,12 +235,14 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
     Model made;
     watch.run([&] {
         made = copy_of(model);
-        const BoxAxes axes(made.mesh);
+        const BoxAxes axes = samples ? BoxAxes(made.mesh, *samples) : BoxAxes(made.mesh);
         const CheckOptions checks = check_options(made, asked.threads);
         Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
         SimplifyOptions simplify_with = simplify_options(settings, made.mesh);
-        simplify_with.samples = samples;
-        const std::uint64_t before = made.mesh.face_count(), gone = before - simplify_with.target_faces;
+        simplify_with.samples = axes.samples();
+        const std::uint64_t before = made.mesh.face_count();
+        std::optional<std::uint64_t> gone;  // known where the target is a number of faces
+        if (simplify_with.target_faces > 0) gone = before - simplify_with.target_faces;
         simplify_with.on_progress = [&] { watch.note("decimate", before - made.mesh.face_count(), gone); };
         {
             const Timer timer(report.seconds["decimate"]);
@@ -281,9 +293,12 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
     return made;
 }
 
-std::string check_text(const Model& model, std::uint32_t threads, Source* source, double room, Watch& watch) {
+std::string check_text(const Model& given, std::uint32_t threads, Source* source, double room, Watch& watch) {
     std::string text;
     watch.run([&] {
+        std::optional<Model> restored;
+        if (source && given.lacks_background) restored = with_background(given, source->reader->info().lattice);
+        const Model& model = restored ? *restored : given;
         LabelTable labels = model.labels;
         CheckOptions options = check_options(model, threads);
         options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
@@ -310,7 +325,7 @@ std::string compare_text(const Model& a, const Model& b, const OptionValues& opt
     return text;
 }
 
-void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels) {
+void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels, Watch& watch) {
     VoxeliseOptions options;
     const auto& [s, o] = std::pair(frame.spacing, frame.origin);
     options.lattice = {{static_cast<std::uint32_t>(labels.shape(2)), static_cast<std::uint32_t>(labels.shape(1)),
@@ -322,20 +337,23 @@ void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::ar
     options.background = model.background;
     auto* to = static_cast<std::byte*>(labels.mutable_data());
     const auto bytes = static_cast<std::size_t>(labels.itemsize());
-    const py::gil_scoped_release release;
-    Voxeliser voxeliser(model.mesh, options);
-    std::vector<Label> section(std::size_t{options.lattice.size[0]} * options.lattice.size[1]);
-    while (voxeliser.next(section))
-        for (const Label label : section) {
-            // The low bytes of a label, on a machine that is little endian.
-            const InputLabel input = is_exterior(label) ? outside : model.labels.input(label);
-            std::memcpy(to, &input, bytes);
-            to += bytes;
+    watch.run([&] {
+        Voxeliser voxeliser(model.mesh, options);
+        std::vector<Label> section(std::size_t{options.lattice.size[0]} * options.lattice.size[1]);
+        while (voxeliser.next(section)) {
+            watch.stop_if_cancelled();
+            for (const Label label : section) {
+                // The low bytes of a label, on a machine that is little endian.
+                const InputLabel input = is_exterior(label) ? outside : model.labels.input(label);
+                std::memcpy(to, &input, bytes);
+                to += bytes;
+            }
         }
-    if (voxeliser.contradictions() != 0)
-        throw Error(ErrorCode::kInput, "the surface is not closed: it contradicts itself at " +
-                                           std::to_string(voxeliser.contradictions()) +
-                                           " samples; check() lists the places");
+        if (voxeliser.contradictions() != 0)
+            throw Error(ErrorCode::kInput, "the surface is not closed: it contradicts itself at " +
+                                               std::to_string(voxeliser.contradictions()) +
+                                               " samples; check() lists the places");
+    });
 }
 
 }  // namespace regionmesh::python

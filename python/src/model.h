@@ -24,8 +24,9 @@ struct Model {
     LabelNames names;
     bool is_open = false;
     Space space = Space::kUnknown;
-    LabelColours colours = {};  // of some regions, given by the input
-    std::string report = {};    // JSON; empty where it was not checked yet
+    LabelColours colours = {};      // of some regions, given by the input
+    bool lacks_background = false;  // the exterior may stand for background 0
+    std::string report = {};        // JSON; empty where it was not checked yet
 };
 
 /// What a reconstruction takes besides its labels.
@@ -39,9 +40,13 @@ Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Wat
 
 /// With the background of the file where the options name none.
 Model load_model(const std::string& path, const OptionValues& options);
-/// `options` are those of the files: units. Returns the paths written.
-std::vector<std::string> save_model(const Model& model, const std::string& path, bool per_region,
-                                    const OptionValues& options);
+/// What was written, and how far the format moves points: a share of the mean edge.
+struct Saved {
+    std::vector<std::string> paths;
+    double rounded_share_of_edge = 0;
+};
+/// `options` are those of the files: units.
+Saved save_model(const Model& model, const std::string& path, bool per_region, const OptionValues& options);
 
 /// points, faces, labels and node types, read-only; the arrays own the memory.
 py::tuple arrays_of(const Model& model);
@@ -73,6 +78,6 @@ std::string check_text(const Model& model, std::uint32_t threads, Source* source
 std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch);
 
 /// Fills `labels` [z, y, x], of integers in memory order. Throws Error(kInput) for a surface that is not closed.
-void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels);
+void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::array& labels, Watch& watch);
 
 }  // namespace regionmesh::python

@@ -9,17 +9,24 @@
 #include "regionmesh/label_names_file.h"
 #include "regionmesh/process.h"
 #include "regionmesh/read_sections.h"
+#include "regionmesh/stop.h"
 #include "settings.h"
 #include "sources.h"
 
 namespace regionmesh::python {
 namespace {
 
+/// Messages name files, whose names need not be UTF-8.
 void raise_in_python(std::exception_ptr failure) {
     try {
         if (failure) std::rethrow_exception(failure);
     } catch (const Error& error) {
-        PyErr_SetString(error.code() == ErrorCode::kOutput ? PyExc_OSError : PyExc_ValueError, error.what());
+        const std::string_view text = error.what();
+        const auto message = py::reinterpret_steal<py::object>(
+            PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
+        PyErr_SetObject(error.code() == ErrorCode::kOutput ? PyExc_OSError : PyExc_ValueError, message.ptr());
+    } catch (const Stopped&) {  // by end_all()
+        PyErr_SetNone(PyExc_SystemExit);
     }
 }
 
@@ -101,7 +108,10 @@ void bind_runs(py::module_& module) {
         Watch watch(py::none{});
         return compare_text(a, b, options, watch);
     });
-    module.def("voxelise", voxelise);
+    module.def("voxelise", [](const Model& model, const Frame& frame, InputLabel outside, py::array& labels) {
+        Watch watch(py::none{});
+        voxelise(model, frame, outside, labels, watch);
+    });
 }
 
 Space space_of(const std::string& name) {
@@ -135,7 +145,11 @@ void bind_model(py::module_& module) {
             return labels;
         });
     module.def("load", load_model);
-    module.def("save", save_model);
+    module.def("save", [](const Model& model, const std::string& path, bool per_region, const OptionValues& options) {
+        const Saved saved = save_model(model, path, per_region, options);
+        std::vector<py::bytes> paths(saved.paths.begin(), saved.paths.end());  // which need not be UTF-8
+        return std::pair(paths, saved.rounded_share_of_edge);
+    });
     using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
                               decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
     using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, LabelColours, std::string>;
@@ -160,6 +174,8 @@ PYBIND11_MODULE(_core, module) {
     });
     module.def("volume_extensions", volume_extensions);
     module.def("read_names", [](const std::string& path) { return read_label_names(path); });
+    py::module_::import("atexit").attr("register")(py::cpp_function(Watch::end_all));
+    py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(Watch::forget_all));
     bind_sources(module);
     bind_runs(module);
     bind_model(module);

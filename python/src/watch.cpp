@@ -11,9 +11,37 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenNotes{50};
 
+/// The runs under way. Changed with the GIL held.
+std::vector<Watch*>& watches() {
+    static std::vector<Watch*> all;
+    return all;
+}
+
 }  // namespace
 
+class Watch::Listed {
+public:
+    explicit Listed(Watch& watch) : watch_(watch) { watches().push_back(&watch); }
+    ~Listed() { std::erase(watches(), &watch_); }
+    Listed(const Listed&) = delete;
+    Listed& operator=(const Listed&) = delete;
+
+private:
+    Watch& watch_;
+};
+
+void Watch::end_all() {
+    while (!watches().empty()) {
+        for (Watch* const watch : watches()) watch->is_cancelled_ = true;
+        const py::gil_scoped_release release;
+        std::this_thread::sleep_for(kBetweenNotes);
+    }
+}
+
+void Watch::forget_all() { watches().clear(); }
+
 void Watch::run(const std::function<void()>& work) {
+    const Listed listed(*this);
     std::exception_ptr failure, own;
     std::thread worker([&] {
         const StopScope scope(is_cancelled_);

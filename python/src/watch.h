@@ -33,6 +33,12 @@ public:
     /// throws.
     void run(const std::function<void()>& work);
 
+    /// Ends the runs of all threads: when the interpreter ends, it ends threads that wait for the GIL. Requires the
+    /// GIL.
+    static void end_all();
+    /// In a forked process, which has none of the threads.
+    static void forget_all();
+
     // For the work, on any thread.
     void note(const char* stage, std::uint64_t done, std::optional<std::uint64_t> total);
     void stop_if_cancelled() const {
@@ -45,6 +51,8 @@ private:
         std::uint64_t done = 0;
         std::optional<std::uint64_t> total;
     };
+
+    class Listed;  // while it runs
 
     void serve(std::exception_ptr& failure);
 

@@ -182,12 +182,6 @@ def test_an_oblique_mesh_keeps_its_box(grains):
         assert np.allclose(along.min(axis=0), 0, atol=1e-12) and np.allclose(along.max(axis=0), size, atol=1e-12)
 
 
-def test_samples_of_turned_lattices_are_not_known(grains):
-    turn = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
-    mesh = regionmesh.reconstruct(grains, background=None, direction=turn)
-    assert mesh.simplify(reduce=0.9).report["verdicts"]["samples"] == 0
-
-
 def test_improve_raises_quality(grains):
     mesh = regionmesh.reconstruct(grains, background=None, reduce=0.8)
     better = mesh.improve()
@@ -512,3 +506,103 @@ def test_voxelise_refuses_spacings_that_are_none(mesh):
     for place in ({"spacing": (float("nan"), 1, 1)}, {"spacing": (0, 1, 1)}, {"origin": (float("nan"), 0, 0)}):
         with pytest.raises(ValueError, match="voxelise"):
             mesh.voxelise(shape=(4, 4, 4), **place)
+
+
+# Sagittal, mirrored, and turned by an angle.
+DIRECTIONS = [
+    [[0, 1, 0], [1, 0, 0], [0, 0, 1]],
+    [[0, 0, 1], [1, 0, 0], [0, 1, 0]],
+    [[-1, 0, 0], [0, -1, 0], [0, 0, 1]],
+    [[-1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    [[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]],
+]
+
+
+@pytest.mark.parametrize("direction", DIRECTIONS)
+@pytest.mark.parametrize("background", [None, 0])
+def test_samples_and_box_are_kept_in_any_axes(grains, direction, background):
+    place = {"spacing": (1, 1.2, 2.1), "origin": (0.3, -7.7, 100.1), "direction": direction}
+    made = regionmesh.reconstruct(grains, background=background, **place)
+    assert made.check(grains)["samples_wrong"] == 0
+    for changed in made.simplify(reduce=0.8), made.improve(), made.simplify(reduce=0.5).simplify(reduce=0.5):
+        np.testing.assert_allclose(changed.bounds, made.bounds, atol=1e-9)
+        report = changed.check(grains)
+        assert (report["samples_wrong"], report["violations"]) == (0, [])
+    assert len(made.simplify(reduce=0.8)) < 0.5 * len(made)
+
+
+def test_a_mesh_of_an_array_is_checked_against_the_file(grains, tmp_path):
+    np.save(tmp_path / "v.npy", grains)
+    made = regionmesh.reconstruct(grains, spacing=(1, 2, 3))
+    assert made.check(tmp_path / "v.npy")["samples_wrong"] == 0
+    moved = regionmesh.reconstruct(grains, origin=(10, 0, 0))
+    with pytest.raises(ValueError, match="origin of the file is 0, 0, 0, that of the model 10, 0, 0"):
+        moved.check(tmp_path / "v.npy")
+    assert moved.check(grains)["samples_wrong"] == 0
+
+
+def test_labels_kept_are_kept_where_the_cut_is_the_whole(grains):
+    for cut in {"box": "-5:100,:,:"}, {"roi": ":,:,:"}, {"downsample": 1}:
+        made = regionmesh.reconstruct(grains, labels_to_keep=[1], **cut)
+        assert made.check(grains)["samples_wrong"] == 0
+
+
+def test_a_file_without_background_is_checked_as_the_program_does(tmp_path):
+    labels = np.zeros((8, 9, 10), np.uint8)
+    labels[2:6, 2:6, 2:6], labels[2:6, 2:6, 6:] = 1, 2  # one of them on a side of the box
+    made = regionmesh.reconstruct(labels)
+    made.save(tmp_path / "m.stl")
+    report = regionmesh.load(tmp_path / "m.stl").check(labels)
+    assert (report["samples_wrong"], report["violations"]) == (0, [])
+
+
+def test_a_volume_in_another_space_is_turned(grains, tmp_path):
+    header = (
+        "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: {} {} {}\nencoding: raw\n"
+        "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (3,4,5)\n\n"
+    ).format(*grains.shape[::-1])
+    (tmp_path / "v.nrrd").write_bytes(header.encode() + grains.astype(np.uint8).tobytes())
+    made = regionmesh.reconstruct(tmp_path / "v.nrrd")
+    assert made.space == "LPS"
+    turned = regionmesh.from_arrays(made.points * [-1, -1, 1], made.faces, made.labels)
+    turned.save(tmp_path / "m.ply")
+    text = (tmp_path / "m.ply").read_bytes().replace(b"ply\n", b"ply\n", 1)
+    (tmp_path / "m.ply").write_bytes(text.replace(b"comment exterior_label", b"comment SPACE=RAS\ncomment exterior_label"))
+    loaded = regionmesh.load(tmp_path / "m.ply")
+    assert loaded.space == "RAS"
+    assert loaded.check(tmp_path / "v.nrrd")["samples_wrong"] == 0
+    with pytest.warns(UserWarning, match="are in LPS and RAS"):
+        made.compare(loaded)
+
+
+def test_coarse_files_are_worth_a_warning(grains, tmp_path):
+    made = regionmesh.reconstruct(grains, origin=(1e7, 0, 0))
+    with pytest.warns(UserWarning, match="single precision"):
+        made.save(tmp_path / "m.dream3d")
+
+
+def test_shapes_of_voxels_are_numbers_of_samples(filled):
+    for shape in (1 << 32, 1, 1), (0, 2, 2), (-1, 2, 2):
+        with pytest.raises(ValueError, match="samples along each axis"):
+            filled.voxelise(shape=shape)
+    with pytest.raises(TypeError, match="like or shape"):
+        filled.voxelise(np.zeros((2, 2, 2), int), shape=(2, 2, 2))
+
+
+def test_names_of_files_need_no_utf8(filled, tmp_path):
+    path = os.path.join(os.fsencode(tmp_path), b"m\xff.ply")
+    assert filled.save(path) == [os.fsdecode(path)]
+    assert len(regionmesh.load(os.fsdecode(path))) == len(filled)
+    with pytest.raises(ValueError, match="null"):
+        filled.save("a\0b.vtp")
+    with pytest.raises(FileNotFoundError):
+        regionmesh.load(b"no\xff.vtp")
+
+
+def test_labels_of_the_other_byte_order_keep_their_values():
+    points, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    for order in "<>":
+        labels = np.array([((1 << 63) + 5, 0)] * 4, order + "u8")
+        assert regionmesh.from_arrays(points, faces, labels).regions["label"][0] == (1 << 63) + 5
+    with pytest.raises(TypeError, match="not a whole number"):
+        regionmesh.from_arrays(points, faces, [(7, 0)] * 4, exterior_label=1.5)

@@ -3,6 +3,7 @@
 import gc
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -76,6 +77,38 @@ def test_ctrl_c_ends_a_run_within_a_second(large, delay):
         while True:  # also where one run is done before the key is pressed
             regionmesh.reconstruct(large, background=None, reduce=0.9)
     assert time.monotonic() - pressed[0] < 1.0
+
+
+def test_ctrl_c_ends_voxelise(grains):
+    mesh = regionmesh.reconstruct(grains)
+    pressed = []
+
+    def press():
+        pressed.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(0.2, press).start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            mesh.voxelise(shape=(800, 800, 800), spacing=[1 / 40] * 3, dtype="u1")
+    assert time.monotonic() - pressed[0] < 1.0
+
+
+def test_runs_of_daemon_threads_end_with_the_interpreter():
+    script = """
+import threading, time
+import numpy as np, regionmesh
+labels = np.random.default_rng(1).integers(1, 60, (20, 20, 20)).astype("u1").repeat(4, 0).repeat(4, 1).repeat(4, 2)
+def run(made):
+    while True:
+        regionmesh.reconstruct(made(), background=None, sections=len(labels))
+for made in (lambda: iter(labels)), (lambda: iter(labels)):
+    threading.Thread(target=run, args=(made,), daemon=True).start()
+time.sleep(0.3)
+"""
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+        assert (ended.returncode, ended.stderr) == (0, "")
 
 
 def test_another_signal_handler_runs_meanwhile(grains):

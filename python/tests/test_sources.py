@@ -487,3 +487,10 @@ def test_small_regions_are_given_away(two_boxes):
     assert 9 not in regionmesh.reconstruct(labels, min_region=2).regions["label"]
     with pytest.raises(ValueError, match="min-region"):
         regionmesh.reconstruct((section for section in labels), sections=len(labels), min_region=2)
+
+
+def test_masked_arrays_are_refused(grains):
+    masked = np.ma.masked_array(grains, mask=grains == 2)
+    for labels in masked, list(masked):
+        with pytest.raises(TypeError, match="masked"):
+            regionmesh.reconstruct(labels)

@@ -1,6 +1,7 @@
 #include "blocks/manifest.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/fingerprint.h"
 #include "blocks/block_grid.h"
@@ -84,9 +85,33 @@ std::uint32_t colour_of(const std::string& text, const fs::path& path) {
     return *colour;
 }
 
-PieceEntry piece_of(const nlohmann::json& json) {
-    PieceEntry piece{json.at("pass"), json.at("vertices"), json.at("faces"), json.at("crc32")};
-    if (json.contains("collapses")) piece.collapses = json["collapses"];
+/// Whole numbers that fit in what they are read into.
+class WholeNumbers {
+public:
+    WholeNumbers(const nlohmann::json& json, const fs::path& path) : json_(json), path_(path) {}
+
+    template <class Number>
+    void get(const char* key, Number& number) const {
+        number = static_cast<Number>(formats::whole_number(path_, json_.at(key), std::numeric_limits<Number>::max()));
+    }
+    template <class Number>
+    void get(const char* key, std::optional<Number>& number) const {
+        if (json_.contains(key)) get(key, number.emplace());
+    }
+
+private:
+    const nlohmann::json& json_;
+    const fs::path& path_;
+};
+
+PieceEntry piece_of(const nlohmann::json& json, const fs::path& path) {
+    PieceEntry piece{};
+    const WholeNumbers numbers(json, path);
+    numbers.get("pass", piece.pass);
+    numbers.get("vertices", piece.vertices);
+    numbers.get("faces", piece.faces);
+    numbers.get("crc32", piece.checksum);
+    numbers.get("collapses", piece.collapses);
     return piece;
 }
 
@@ -98,35 +123,38 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     Lattice& lattice = manifest.lattice;
     manifest.is_in_place = json.at("in_place");
     manifest.source = json.at("source");
-    lattice.size = json.at("size");
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        lattice.size[axis] =
+            static_cast<std::uint32_t>(formats::whole_number(path, json.at("size").at(axis), kMostCells));
     lattice.spacing = vec_of(json.at("spacing"));
     lattice.origin = vec_of(json.at("origin"));
     lattice.direction = json.at("direction");
     manifest.sweep.axes = json.at("sweep");
     manifest.is_unsigned = json.at("unsigned_labels");
-    manifest.label_count = json.at("labels");
-    if (json.contains("labels_hash")) manifest.labels_hash = json["labels_hash"];
-    if (json.contains("samples_hash")) manifest.samples_hash = json["samples_hash"];
+    const WholeNumbers numbers(json, path);
+    numbers.get("labels", manifest.label_count);
+    numbers.get("labels_hash", manifest.labels_hash);
+    numbers.get("samples_hash", manifest.samples_hash);
     manifest.space = space_of(json.at("space"));
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
     if (json.contains("colours"))  // added to version 1
         for (const auto& pair : json.at("colours")) manifest.colours.emplace(pair.at(0), colour_of(pair.at(1), path));
     manifest.background = json.at("background").get<std::vector<InputLabel>>();
-    manifest.block_cells = json.at("block_cells");
-    manifest.shift = json.at("shift");
+    numbers.get("block_cells", manifest.block_cells);
+    numbers.get("shift", manifest.shift);
     manifest.scale_z = json.at("scale_z");
-    manifest.initial_faces = json.at("initial_faces");
-    manifest.passes = json.at("passes");
+    numbers.get("initial_faces", manifest.initial_faces);
+    numbers.get("passes", manifest.passes);
     manifest.is_complete = json.at("complete");
-    manifest.vertices = json.at("vertices");
-    manifest.faces = json.at("faces");
+    numbers.get("vertices", manifest.vertices);
+    numbers.get("faces", manifest.faces);
     manifest.stopped = json.at("stopped");
     manifest.error_bound = json.at("error_bound");
     if (json.contains("thresholds")) {
         const auto& [seams, first_log, second_log] = json["thresholds"].get<std::array<double, 3>>();
         manifest.thresholds = {seams, first_log, second_log};
     }
-    for (const auto& piece : json.at("pieces")) manifest.pieces.push_back(piece_of(piece));
+    for (const auto& piece : json.at("pieces")) manifest.pieces.push_back(piece_of(piece, path));
     return manifest;
 }
 

@@ -11,7 +11,7 @@
 namespace regionmesh::formats {
 namespace {
 
-constexpr double kNear = 1e-6;                   // of the extent
+constexpr double kNear = 0.01;                   // of the distance of places on a grid
 constexpr std::size_t kLeastProducts = 1 << 16;  // of one task
 constexpr double kLeastPivot = 1e-13;            // of the largest diagonal entry; smaller ones are rounding errors
 
@@ -70,19 +70,18 @@ private:
 double near_distance(const std::vector<HeightSample>& samples) {
     const auto [left, right] = std::ranges::minmax(samples, {}, &HeightSample::x);
     const auto [low, high] = std::ranges::minmax(samples, {}, &HeightSample::y);
-    return kNear * std::max(right.x - left.x, high.y - low.y);
+    return kNear * std::max(right.x - left.x, high.y - low.y) / std::sqrt(static_cast<double>(samples.size()));
 }
 
-Kriging::Kriging(std::vector<HeightSample> samples, std::uint32_t threads) : samples_(std::move(samples)) {
+Kriging::Kriging(std::vector<HeightSample> samples, double near, std::uint32_t threads) : samples_(std::move(samples)) {
     assert(!samples_.empty());
-    merge_near_samples();
+    merge_near_samples(near);
     solve(threads);
 }
 
-void Kriging::merge_near_samples() {
+void Kriging::merge_near_samples(double near) {
     const auto place = [](const HeightSample& s) { return std::tuple(s.x, s.y, s.z); };
     std::sort(samples_.begin(), samples_.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
-    const double near = near_distance(samples_);
     std::vector<HeightSample> kept;
     std::vector<double> counts;
     for (const HeightSample& sample : samples_) {

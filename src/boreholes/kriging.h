@@ -15,22 +15,22 @@ struct HeightSample {
 /// Most samples of one surface: the time to solve for the weights grows with the cube of their number.
 inline constexpr std::size_t kMostHeights = 3000;
 
-/// Below this distance two places count as one: a millionth of the larger of the extents along x and y.
+/// Below this distance two places count as one: a hundredth of the distance between as many places on a square grid of
+/// this extent. The slope between two holes side by side would otherwise tilt the surface far around them.
 double near_distance(const std::vector<HeightSample>& samples);
 
 /// The surface through the samples with the least variance of its error, for the power variogram r^1.5. It has no peaks
-/// at the samples, as the linear variogram makes them, and tends to the mean far from them. Samples nearer to each
-/// other than a millionth of the extent are one sample at their mean height.
+/// at the samples, as the linear variogram makes them, and tends to the mean far from them.
 class Kriging {
 public:
-    /// Requires 1 to kMostHeights samples with finite coordinates. `threads` as in parallel_for(); the result does not
-    /// depend on them.
-    explicit Kriging(std::vector<HeightSample> samples, std::uint32_t threads = 0);
+    /// Samples no farther from each other than `near` are one sample at their mean height. Requires 1 to kMostHeights
+    /// samples with finite coordinates. `threads` as in parallel_for(); the result does not depend on them.
+    Kriging(std::vector<HeightSample> samples, double near, std::uint32_t threads = 0);
 
     double at(double x, double y) const;
 
 private:
-    void merge_near_samples();
+    void merge_near_samples(double near);
     void solve(std::uint32_t threads);
 
     std::vector<HeightSample> samples_;

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::uint32_t kNoUnit = std::numeric_limits<std::uint32_t>::max();
 constexpr double kLeastOrder = 0.5;  // of the logged length
+constexpr double kMostGap = 0.01;    // of the shorter interval beside it: a boundary recorded twice
 
 /// The intervals of one hole, from its top down.
 using Hole = std::vector<const Interval*>;
@@ -214,18 +215,32 @@ public:
 
     bool is_empty() const { return logged_.empty(); }
 
-    /// The contact with the base of unit `rank`.
-    Contact contact(std::uint32_t rank) const {
+    /// Appends what the hole says about the base of unit `rank`.
+    void append_contacts(std::uint32_t rank, std::vector<Contact>& contacts) const {
         const std::size_t cut = cut_of(rank);
         if (cut == 0) {
             const Interval& first = *logged_[0].interval;
-            return {first.x, first.y, first.top, starts_at_ground_ ? ContactKind::kGround : ContactKind::kAtLeast};
+            contacts.push_back(
+                {first.x, first.y, first.top, starts_at_ground_ ? ContactKind::kGround : ContactKind::kAtLeast});
+            return;
         }
-        const Interval& above = *logged_[cut - 1].interval;
-        if (cut == logged_.size()) return {above.bottom_x, above.bottom_y, above.bottom, ContactKind::kAtMost};
-        const Interval& below = *logged_[cut].interval;
-        return {(above.bottom_x + below.x) / 2, (above.bottom_y + below.y) / 2, (above.bottom + below.top) / 2,
-                ContactKind::kAt};
+        const auto& [upper, rank_above] = logged_[cut - 1];
+        const Interval& above = *upper;
+        if (cut == logged_.size()) {
+            contacts.push_back({above.bottom_x, above.bottom_y, above.bottom, ContactKind::kAtMost});
+            return;
+        }
+        const auto& [lower, rank_below] = logged_[cut];
+        const Interval& below = *lower;
+        const double gap = below.from - (above.from + above.length);
+        if (rank_below > rank_above + 1 && gap > kMostGap * std::min(above.length, below.length)) {
+            // Units between them may lie where nothing was logged.
+            contacts.push_back({above.bottom_x, above.bottom_y, above.bottom, ContactKind::kAtMost});
+            contacts.push_back({below.x, below.y, below.top, ContactKind::kAtLeast});
+        } else {
+            contacts.push_back({(above.bottom_x + below.x) / 2, (above.bottom_y + below.y) / 2,
+                                (above.bottom + below.top) / 2, ContactKind::kAt});
+        }
     }
 
     double logged_length() const {
@@ -268,6 +283,15 @@ private:
     bool starts_at_ground_ = false;
 };
 
+/// The order of intervals along a hole is that of the units only on the way down.
+void require_downward(const Hole& hole, const DrillHoles& table) {
+    const double top = hole.front()->top, end = hole.back()->bottom;
+    if (end > top)
+        fail(table.path, fmt::format("row {}: hole '{}' leads upwards, from {} to {}; --layers takes holes drilled "
+                                     "downwards from the ground, leave it out",
+                                     hole.front()->row, shown(table.holes.text(hole.front()->hole)), top, end));
+}
+
 }  // namespace
 
 LayerOrder order_layers(const DrillHoles& table, const TableLabels& labels, const std::string& wanted) {
@@ -279,12 +303,13 @@ LayerOrder order_layers(const DrillHoles& table, const TableLabels& labels, cons
     order.contacts.resize(order.units.size() - 1);
     double logged = 0, ordered = 0;
     for (const Hole& hole : holes) {
+        require_downward(hole, table);
         const HoleContacts found(hole, rank_of);
         if (found.is_empty()) continue;
         logged += found.logged_length();
         ordered += found.ordered_length(order.units.size());
         for (std::uint32_t rank = 0; rank < order.contacts.size(); ++rank)
-            order.contacts[rank].push_back(found.contact(rank));
+            found.append_contacts(rank, order.contacts[rank]);
     }
     if (logged > 0) order.ordered_share = ordered / logged;
     if (order.ordered_share < kLeastOrder)

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMostUnits = 250;
 enum class ContactKind {
     kAt,       // the base is here
     kGround,   // the unit is missing at the top of the hole: its base is the ground
-    kAtMost,   // the hole ends in this unit or a younger one: the base is here or below
+    kAtMost,   // nothing was logged below this unit or a younger one: the base is here or below
     kAtLeast,  // the hole was not logged above here, and an older unit follows: the base is here or above
 };
 
@@ -29,7 +29,7 @@ struct Contact {
 
 struct LayerOrder {
     std::vector<std::uint32_t> units;            // numbers of TableLabels, from young to old
-    std::vector<std::vector<Contact>> contacts;  // with the base of each unit but the oldest; one for each hole
+    std::vector<std::vector<Contact>> contacts;  // with the base of each unit but the oldest; one or two for each hole
     double ordered_share =
         1;  // of the logged length: what lies in its unit when every hole has each unit once, in order
 };
@@ -38,7 +38,8 @@ struct LayerOrder {
 /// that are not to be modelled. "auto" minimises the number of pairs of intervals of a hole in which the older unit
 /// lies above, by moves of one unit at a time. Intervals of units that are not in the order, or without a unit, count
 /// as not logged. Where units repeat in a hole, the base of a unit lies where the most of the hole's length is in
-/// order. Throws Error(kInput) for an unknown unit, fewer than two units, more than kMostUnits.
+/// order. Throws Error(kInput) for an unknown unit, fewer than two units, more than kMostUnits, and a hole that leads
+/// upwards.
 LayerOrder order_layers(const DrillHoles& holes, const TableLabels& labels, const std::string& wanted);
 
 }  // namespace regionmesh::formats

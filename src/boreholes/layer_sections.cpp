@@ -163,6 +163,16 @@ void require_places(const std::filesystem::path& path, const DrillHoles& holes) 
     if (!holes.intervals.empty()) require_extent(path.string(), box);
 }
 
+/// A terrain that is nowhere above the model is that of another place, or in other coordinates.
+void require_overlap(const Terrain& terrain, const ColumnGrid& grid, const std::filesystem::path& path) {
+    for (std::uint32_t j = 0; j < grid.height; ++j)
+        for (std::uint32_t i = 0; i < grid.width; ++i)
+            if (terrain.at(grid.x + i * grid.dx, grid.y + j * grid.dy)) return;
+    fail(path, fmt::format("has no height in the model, which lies at x {} to {} and y {} to {}; give the grid of this "
+                           "place",
+                           grid.x, grid.x + (grid.width - 1) * grid.dx, grid.y, grid.y + (grid.height - 1) * grid.dy));
+}
+
 /// The labels of the air and of the units; sets type and names in `info`. Words get labels by age. Throws Error(kInput)
 /// where a unit would have the label of the air, or two the same.
 std::vector<InputLabel> labels_of(const TableLabels& labels, const LayerOrder& order, VolumeInfo& info) {
@@ -202,6 +212,7 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
     if (!layers.terrain.empty()) terrain.emplace(layers.terrain, layers.memory - info.held_bytes);
     const ColumnGrid grid{lattice.size[0],  lattice.size[1],   lattice.origin.x,
                           lattice.origin.y, lattice.spacing.x, lattice.spacing.y};
+    if (terrain) require_overlap(*terrain, grid, layers.terrain);
     const Ground ground(table.holes.collars, terrain ? &*terrain : nullptr, layers.threads);
     std::vector<double> heights = heights_of(ground, grid, layers.threads);
     info.lattice = lattices.find(std::ranges::max(heights));

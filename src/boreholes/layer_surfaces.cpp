@@ -21,11 +21,8 @@ bool are_near(const HeightSample& a, const HeightSample& b, double near) {
 
 /// Of the bounds at one place, the tightest of each kind; none where a sample has the height. Kriging takes the mean of
 /// samples at one place: a mean with a bound would satisfy neither.
-std::vector<Contact> tightest(const std::vector<Contact>& bounds, const std::vector<HeightSample>& samples) {
-    std::vector<HeightSample> places = samples;
-    for (const Contact& bound : bounds) places.push_back({bound.x, bound.y, bound.z});
-    if (places.empty()) return {};
-    const double near = near_distance(places);
+std::vector<Contact> tightest(const std::vector<Contact>& bounds, const std::vector<HeightSample>& samples,
+                              double near) {
     std::vector<Contact> kept;
     for (const Contact& bound : bounds) {
         const HeightSample place{bound.x, bound.y, bound.z};
@@ -53,10 +50,13 @@ Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground, std:
         else
             bounds.push_back(contact);
     }
-    bounds = tightest(bounds, samples);
+    std::vector<HeightSample> places = samples;
+    for (const Contact& bound : bounds) places.push_back({bound.x, bound.y, bound.z});
+    const double near = near_distance(places);
+    bounds = tightest(bounds, samples, near);
     if (samples.empty())
         for (const Contact& bound : std::exchange(bounds, {})) samples.push_back({bound.x, bound.y, bound.z});
-    Kriging base(samples, threads);
+    Kriging base(samples, near, threads);
     for (int round = 0; round < kMostRounds && !bounds.empty(); ++round) {
         const std::size_t count = bounds.size();
         std::erase_if(bounds, [&](const Contact& bound) {
@@ -66,7 +66,7 @@ Kriging base_of(const std::vector<Contact>& contacts, const Ground& ground, std:
             return !is_kept;
         });
         if (bounds.size() == count) break;
-        base = Kriging(samples, threads);
+        base = Kriging(samples, near, threads);
     }
     return base;
 }

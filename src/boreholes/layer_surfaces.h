@@ -33,8 +33,8 @@ struct LayerSurfaces {
 class Ground {
 public:
     /// Requires 1 to kMostHeights collars. `terrain` may be null.
-    Ground(std::vector<HeightSample> collars, const Terrain* terrain, std::uint32_t threads)
-        : between_(std::move(collars), threads), terrain_(terrain) {}
+    Ground(const std::vector<HeightSample>& collars, const Terrain* terrain, std::uint32_t threads)
+        : between_(collars, near_distance(collars), threads), terrain_(terrain) {}
 
     double at(double x, double y) const {
         if (const auto height = terrain_ ? terrain_->at(x, y) : std::nullopt) return *height;

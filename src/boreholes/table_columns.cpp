@@ -183,8 +183,8 @@ void ColumnFinder::refuse_without(const std::string& what) const {
     if (rows_.field_count() > 12) titles += ", ...";
     if (2 * numbers > rows_.field_count())
         rows_.refuse("is no header: it holds numbers; say which column is what: --columns 1,2,3,4 for x, y, z, label");
-    rows_.refuse(
-        fmt::format("has no {}, only {}; say which column is what: --columns x=COLUMN,label=COLUMN", what, titles));
+    rows_.refuse(fmt::format("has no {}, only {}; say which column is what: --columns {}=COLUMN,label=COLUMN", what,
+                             titles, has_collars_ ? "hole" : "x"));
 }
 
 }  // namespace

@@ -14,12 +14,15 @@ namespace {
 struct Part {
     VertexId farthest = kNoVertex;  // along the ray
     NestedVolumes volumes;
-    bool touches_box = false;
+    SideSet sides = 0;
     bool has_outer = false, has_inner = false;  // faces with the exterior, and others
 
-    /// A surface of nothing but faces with the exterior is closed: its outermost region is known, as that of a surface
-    /// without such faces. Others may end at the exterior.
-    bool has_outermost() const { return !touches_box && !(has_outer && has_inner); }
+    /// A surface of nothing but faces with the exterior is closed, on a hull that is no box, too: its outermost region
+    /// is known, as that of a surface without such faces inside the hull. Others may end at the exterior.
+    bool has_outermost() const {
+        if (has_outer && has_inner) return false;
+        return (has_outer ? sides & kBoxSides : sides) == 0;
+    }
 };
 
 /// By the smallest vertex of each part.
@@ -66,8 +69,8 @@ private:
 
     /// Second pass: finds the parts, and the farthest vertex of each along the ray.
     void gather_parts() {
-        const auto add = [&](Part& part, VertexId v, bool touches_box) {
-            part.touches_box |= touches_box;
+        const auto add = [&](Part& part, VertexId v, SideSet sides) {
+            part.sides |= sides;
             if (part.farthest == kNoVertex ||
                 dot(kNestingRay, mesh_.position(v)) > dot(kNestingRay, mesh_.position(part.farthest)))
                 part.farthest = v;
@@ -80,12 +83,12 @@ private:
                 if (!vertex.is_alive || vertex.star == kNoCorner) continue;
                 const std::uint32_t root = joined_.find(v);
                 if (!last || last->first != root) last = &*parts.try_emplace(root).first;
-                add(last->second, VertexId{v}, vertex.sides != 0);
+                add(last->second, VertexId{v}, vertex.sides);
             }
             return parts;
         };
         for_chunks(mesh_.vertex_end(), kCheckChunk, options_.threads, find, [&](const Parts& parts) {
-            for (const auto& [root, part] : parts) add(parts_[root], part.farthest, part.touches_box);
+            for (const auto& [root, part] : parts) add(parts_[root], part.farthest, part.sides);
         });
     }
 
@@ -100,7 +103,7 @@ private:
                 const std::uint32_t root = joined_.find(index(mesh_[f].vertices[0]));
                 if (!last || last->first != root) {
                     const Part& known = parts_.at(root);
-                    last = &*parts.try_emplace(root, Part{known.farthest, {}, known.touches_box}).first;
+                    last = &*parts.try_emplace(root, Part{known.farthest, {}, known.sides}).first;
                 }
                 add(f, last->second);
             }

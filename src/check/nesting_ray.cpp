@@ -11,6 +11,7 @@ Label outermost(const NestedVolumes& volumes) {
 
 NestingHit nesting_hit(const Mesh& mesh, FaceId f, Vec3 from) {
     const auto p = mesh.corners(f);
+    if (std::ranges::find(p, from) != p.end()) return {.distance = 0};
     const Vec3 e = p[1] - p[0], g = p[2] - p[0];
     const Vec3 h = cross(kNestingRay, g);
     const double d = dot(e, h);
@@ -19,12 +20,13 @@ NestingHit nesting_hit(const Mesh& mesh, FaceId f, Vec3 from) {
     const double u = dot(s, h) / d;
     const Vec3 q = cross(s, e);
     const double v = dot(kNestingRay, q) / d, t = dot(g, q) / d;
-    if (u < 0 || v < 0 || u + v > 1 || t <= 0) return {};
+    if (u < 0 || v < 0 || u + v > 1 || t < 0) return {};
     const bool along_normal = dot(cross(e, g), kNestingRay) > 0;
     return {t, mesh[f].labels[along_normal ? 0 : 1]};
 }
 
 bool is_nested(const CheckOptions& options, Label outermost, const NestingHit& nearest) {
+    if (nearest.distance == 0) return true;
     if (nearest.distance < HUGE_VAL)
         return nearest.label == outermost || (is_exterior(nearest.label) && is_exterior(outermost));
     return options.boundary_is_open || options.is_background(outermost) || is_exterior(outermost);

@@ -34,7 +34,7 @@ struct NestingHit {
     Label label = 0;  // of the region in front of the face
 };
 
-/// Where the ray from a point meets a face (Moeller and Trumbore 1997).
+/// Where the ray from a point meets a face (Moeller and Trumbore 1997); at distance 0 the point is on the face.
 NestingHit nesting_hit(const Mesh& mesh, FaceId f, Vec3 from);
 
 /// Calls search(Box) for pieces of the way of a ray, each as long as all before it, until one of them holds `nearest`,
@@ -51,7 +51,8 @@ void search_along(Vec3 from, double reach, const NestingHit& nearest, Search&& s
     }
 }
 
-/// Whether a part may lie where the ray from its farthest vertex says.
+/// Whether a part may lie where the ray from its farthest vertex says. One that touches another part there may: that is
+/// a violation of another kind.
 bool is_nested(const CheckOptions& options, Label outermost, const NestingHit& nearest);
 
 /// The sentence about a part that does not lie where its faces say.

@@ -49,11 +49,13 @@ const AngleBins kAngleBins;
 void QualitySum::add(const std::array<Vec3, 3>& p) {
     const Vec3 u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
     const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), twice_area = length(area_vector(p[0], p[1], p[2]));
-    const double q = quality_terms(0.5 * twice_area, uu, vv, ww).value();
+    const bool is_finite = std::isfinite(uu + vv + ww + twice_area);
+    const double q = is_finite ? quality_terms(0.5 * twice_area, uu, vv, ww).value() : 0;
     ++faces_;
     min_ = std::min(min_, q);
     sum_ += q;
     ++histogram_[std::clamp(int(q * 100), 0, int(histogram_.size()) - 1)];
+    if (!is_finite) return;
     const bool is_thin = twice_area < 1e-3 * std::max({uu, vv, ww});  // then each corner needs its own sine
     const auto sine = [&](Vec3 s, Vec3 t) { return is_thin ? length(cross(s, t)) : twice_area; };
     add_angle(sine(u, -w), dot(u, -w));

@@ -10,6 +10,7 @@
 #include "formats/registry.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
+#include "regionmesh/read_tetrahedra.h"
 #include "volume/chosen_sections.h"
 
 namespace regionmesh {
@@ -56,8 +57,9 @@ std::unique_ptr<SectionReader> open_one(const fs::path& path, const ReadOptions&
     }
     formats::require_readable(path, format);
     if (format && format->open_sections) return format->open_sections(path, options);
-    formats::fail(path, "unknown format '" + formats::extension(path) + "'; regionmesh reads " + volume_extensions() +
-                            " and directories of .png or .tif sections");
+    formats::fail(
+        path, "unknown format '" + formats::extension(path) + "'; volumes are read from " + volume_extensions() +
+                  " and directories of .png or .tif sections, points and tetrahedra from " + tetrahedron_extensions());
 }
 
 }  // namespace

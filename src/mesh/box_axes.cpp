@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kTolerance = 1e-6;  // of the size of the box: files may be of single precision
 constexpr double kParallel = 1e-3;   // small faces of such files are farther off than that
-constexpr SideSet kPlanes = 0b111111;
 
 template <class Visit>
 void for_outer_faces(const Mesh& mesh, Visit&& visit) {
@@ -98,43 +97,69 @@ BoxAxes::BoxAxes(Mesh& mesh) {
         const auto normals = find_normals(mesh);
         if (!normals) continue;
         set_axes(*normals);
+        origin_ = 0.5 * (along.low + along.high);
         note_positions(mesh);
         Box box;
         for_vertices(mesh, [&](VertexId v) { box.add(after_[index(v)]); });
-        const Vec3 size = box.high - box.low;
-        const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
-        std::vector<Side> sides;
-        if (!find_sides(mesh, box, tolerance, sides)) continue;
-        put_on_box(mesh, box, tolerance, sides);
+        if (turn(mesh, box)) return;
+    }
+}
+
+BoxAxes::BoxAxes(Mesh& mesh, const Lattice& lattice) {
+    if (lattice.is_axis_aligned()) {
+        samples_ = lattice;
         return;
     }
-    before_.clear(), after_.clear();
+    set_axes(lattice);
+    note_positions(mesh);
+    if (!turn(mesh, samples_->extent())) samples_.reset();
+}
+
+/// False, and nothing, where the mesh does not fit the box.
+bool BoxAxes::turn(Mesh& mesh, const Box& box) {
+    const Vec3 size = box.high - box.low;
+    const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
+    std::vector<Side> sides;
+    const bool fits = find_sides(mesh, box, tolerance, sides);
+    if (fits)
+        put_on_box(mesh, box, tolerance, sides);
+    else
+        before_.clear(), after_.clear();
+    return fits;
 }
 
 /// Each axis lies along an edge of the box, and takes the number of the coordinate that it is nearest to.
 void BoxAxes::set_axes(const std::array<Vec3, 3>& normals) {
-    struct Axis {
-        Vec3 along, normal;
-    };
-    std::vector<Axis> left;
+    std::array<Vec3, 3> along;
     for (std::size_t n = 0; n < 3; ++n) {
         const Vec3 edge = cross(normals[(n + 1) % 3], normals[(n + 2) % 3]);
-        left.push_back({edge / length(edge), normals[n]});
+        along[n] = edge / length(edge);
     }
+    const auto [order, are_reversed] = axes_by_coordinate(along);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto along = [&](const Axis& a) { return a.along[static_cast<int>(axis)]; };
-        const auto nearest = std::ranges::max_element(left, {}, [&](const Axis& a) { return std::abs(along(a)); });
-        axes_[axis] = along(*nearest) < 0 ? -nearest->along : nearest->along;
-        across_[axis] = nearest->normal;
-        left.erase(nearest);
+        axes_[axis] = are_reversed[axis] ? -along[order[axis]] : along[order[axis]];
+        across_[axis] = normals[order[axis]] / dot(normals[order[axis]], axes_[axis]);
     }
-    if (dot(cross(axes_[0], axes_[1]), axes_[2]) < 0) axes_[2] = -axes_[2];
-    for (std::size_t axis = 0; axis < 3; ++axis) across_[axis] = across_[axis] / dot(across_[axis], axes_[axis]);
+}
+
+/// The first sample along its axes becomes the origin.
+void BoxAxes::set_axes(const Lattice& lattice) {
+    const auto& d = lattice.direction;
+    const std::array along{Vec3{d[0], d[3], d[6]}, Vec3{d[1], d[4], d[7]}, Vec3{d[2], d[5], d[8]}};
+    set_axes({cross(along[1], along[2]), cross(along[2], along[0]), cross(along[0], along[1])});
+    const auto [order, are_reversed] = axes_by_coordinate(along);
+    std::array<double, 3> first{};
+    samples_ = Lattice{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t own = order[axis];
+        samples_->size[axis] = lattice.size[own];
+        samples_->spacing[static_cast<int>(axis)] = lattice.spacing[static_cast<int>(own)];
+        if (are_reversed[axis]) first[own] = lattice.size[own] - 1.0;
+    }
+    origin_ = lattice.place_of(first);
 }
 
 void BoxAxes::note_positions(const Mesh& mesh) {
-    const Box extent = extent_of(mesh, 1);
-    origin_ = 0.5 * (extent.low + extent.high);
     before_.resize(mesh.vertex_end());
     after_.resize(mesh.vertex_end());
     for_vertices(mesh, [&](VertexId v) {
@@ -180,7 +205,7 @@ void BoxAxes::put_on_box(Mesh& mesh, const Box& box, double tolerance, const std
         const Vertex& vertex = mesh[v];
         Vec3& p = after_[index(v)];
         SideSet own = vertex.sides;
-        if (is_outer[index(v)] || (own & (kPlanes | kOnHull)) != 0) {
+        if (is_outer[index(v)] || (own & (kBoxSides | kOnHull)) != 0) {
             const SideSet at = sides_at(std::span(&p, 1), box, tolerance);
             if (at != 0) own = static_cast<SideSet>((own & kPinned) | at);
             for (int plane = 0; plane < 6; ++plane)

@@ -11,6 +11,29 @@
 
 namespace regionmesh {
 
+/// Three axes of a box, in the order of the coordinates, and which of them point against theirs.
+struct AxesByCoordinate {
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    std::array<bool, 3> are_reversed{};
+};
+
+/// Each coordinate in turn gets the axis that runs along it most, of those left. They are right-handed.
+inline AxesByCoordinate axes_by_coordinate(const std::array<Vec3, 3>& along) {
+    AxesByCoordinate found;
+    auto& [axes, are_reversed] = found;
+    std::array<Vec3, 3> taken;
+    for (int coordinate = 0; coordinate < 3; ++coordinate) {
+        const auto next = axes.begin() + coordinate;
+        const auto nearest = std::ranges::max_element(next, axes.end(), {},
+                                                      [&](std::size_t n) { return std::abs(along[n][coordinate]); });
+        std::rotate(next, nearest, nearest + 1);
+        are_reversed[static_cast<std::size_t>(coordinate)] = along[*next][coordinate] < 0;
+        taken[static_cast<std::size_t>(coordinate)] = along[*next][coordinate] < 0 ? -along[*next] : along[*next];
+    }
+    if (dot(cross(taken[0], taken[1]), taken[2]) < 0) are_reversed[2] = !are_reversed[2];
+    return found;
+}
+
 /// The sides of the box whose planes contain all the points, within the tolerance: a length, 0 for exactly.
 template <class Points>
 SideSet sides_at(const Points& points, const Box& box, double tolerance) {

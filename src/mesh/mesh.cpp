@@ -180,6 +180,20 @@ void Mesh::flip_faces() {
         if (vertex.is_alive) turn(vertex.star);
 }
 
+void Mesh::rename_sides(const std::array<int, 6>& names) {
+    std::array<SideSet, kBoxSides + 1> renamed{};
+    for (std::size_t sides = 0; sides < renamed.size(); ++sides)
+        for (std::size_t side = 0; side < names.size(); ++side)
+            if (sides >> side & 1) renamed[sides] |= static_cast<SideSet>(1u << names[side]);
+    for (Vertex& vertex : vertices_)
+        vertex.sides = static_cast<SideSet>((vertex.sides & ~kBoxSides) | renamed[vertex.sides & kBoxSides]);
+    for (Face& face : faces_) {
+        Label& outer = face.labels[1];
+        if (face.vertices[0] == kNoVertex || !is_exterior(outer) || side_of(outer) == kHull) continue;
+        outer = exterior(names[static_cast<std::size_t>(side_of(outer))]);
+    }
+}
+
 std::vector<KeyedIndex> Mesh::vertices_along_curve(std::uint32_t threads) const {
     Box box;
     for (const Vertex& vertex : vertices_)

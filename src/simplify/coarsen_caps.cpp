@@ -13,7 +13,7 @@ namespace regionmesh {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-constexpr int kBoxSides = 6;
+constexpr int kSidesOfBox = 6;
 
 /// A sample of a side, by its indices along the two axes of the side.
 struct Node {
@@ -300,14 +300,14 @@ std::uint64_t most_cap_faces(const Lattice& lattice) {
 }
 
 std::uint64_t coarsen_caps(Chunk& chunk, std::span<const ChunkVertex> carried, const CapOptions& options) {
-    std::array<std::vector<std::uint32_t>, kBoxSides> faces;
+    std::array<std::vector<std::uint32_t>, kSidesOfBox> faces;
     for (std::uint32_t f = 0; f < chunk.faces.size(); ++f)
         for (const Label label : chunk.faces[f].labels)
-            if (is_exterior(label) && side_of(label) < kBoxSides) faces[side_of(label)].push_back(f);
+            if (is_exterior(label) && side_of(label) < kSidesOfBox) faces[side_of(label)].push_back(f);
     const ChunkVertices vertices(chunk, carried);
     std::vector<CapSide> sides;
-    for (int side = 0; side < kBoxSides; ++side) sides.emplace_back(chunk, vertices, options.lattice, side);
-    parallel_for(kBoxSides, options.threads, [&](std::uint32_t n) {
+    for (int side = 0; side < kSidesOfBox; ++side) sides.emplace_back(chunk, vertices, options.lattice, side);
+    parallel_for(kSidesOfBox, options.threads, [&](std::uint32_t n) {
         if (are_good_shapes(options, static_cast<int>(n))) sides[n].find_squares(faces[n]);
         faces[n] = {};
     });
@@ -316,7 +316,7 @@ std::uint64_t coarsen_caps(Chunk& chunk, std::span<const ChunkVertex> carried, c
         for (const CapSide& side : sides) removed += side.count_removed(levels);
         if (removed == 0) return 0;
         if (chunk.faces.size() - removed < options.least_faces) continue;
-        parallel_for(kBoxSides, options.threads, [&](std::uint32_t n) { sides[n].join(levels); });
+        parallel_for(kSidesOfBox, options.threads, [&](std::uint32_t n) { sides[n].join(levels); });
         compact(chunk);
         return removed;
     }

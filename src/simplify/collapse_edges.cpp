@@ -65,7 +65,7 @@ public:
                     .tree = tree_ ? &*tree_ : nullptr,
                     .rising = rising_ ? &*rising_ : nullptr,
                     .bounds = {.min_quality = options.min_quality},
-                    .limits = options.box ? common(bounds.limits, *options.box) : bounds.limits,
+                    .limits = limits_of(options, bounds),
                     .samples = options.samples ? &*options.samples : nullptr,
                     .max_error = options.max_error,
                     .log = bounds.log} {}
@@ -101,6 +101,17 @@ public:
     }
 
 private:
+    /// A vertex beyond the samples would turn back what lies behind it: they all keep their regions only inside.
+    static Box limits_of(const SimplifyOptions& options, const CollapseBounds& bounds) {
+        Box limits = options.box ? common(bounds.limits, *options.box) : bounds.limits;
+        if (options.samples) {
+            Lattice along_axes = *options.samples;
+            along_axes.direction = Lattice().direction;
+            limits = common(limits, along_axes.extent());
+        }
+        return limits;
+    }
+
     /// Returns the number of vertices that went.
     static std::uint32_t remove_flat(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds) {
         count_labels(mesh, bounds.threads);

@@ -13,6 +13,12 @@ std::int16_t in_normal_units(float x) {
     return static_cast<std::int16_t>(static_cast<int>(32768.5f + x * (1 / LatticeSamples::kNormalUnit)) - 32768);
 }
 
+/// Zero where the length is not a number above 0, as in lattices whose spacings differ by many powers of ten.
+Float3 unit_vector(Float3 v) {
+    const float size = length(v);
+    return size > 0 ? (1 / size) * v : Float3{};
+}
+
 /// Groups of sites in a block are one sheet above this cosine.
 constexpr float kJoins = 0.7f;
 
@@ -74,9 +80,11 @@ LatticeBlocks::LatticeBlocks(const LatticeFrame& frame, double block_size, int s
     size = {std::max(least, spacing.x), std::max(least, spacing.y), std::max(least, spacing.z)};
     per_size = {1 / size.x, 1 / size.y, 1 / size.z};
     constexpr double kMostUnits = 65000;
+    constexpr int kMostUnitBits = 31;  // positions have 32
     for (int axis = 0; axis < 3; ++axis) {
         cells_per_length_[axis] = kCells / size_along(axis);
-        while (std::ldexp(kMostUnits, unit_bits_[axis]) * LatticePoint::kStep < size_along(axis)) ++unit_bits_[axis];
+        int& bits = unit_bits_[axis];
+        while (bits < kMostUnitBits && std::ldexp(kMostUnits, bits) * LatticePoint::kStep < size_along(axis)) ++bits;
     }
     const auto unit_along = [&](int axis) {
         return std::ldexp(static_cast<float>(LatticePoint::kStep), unit_bits_[axis]);
@@ -181,7 +189,7 @@ void LatticeRow::make_samples(const LatticeSites& of, const LatticeBlocks& block
                 note(other.centroid);
             }
             const auto count = static_cast<float>(next - first);
-            if (next > first + 1) normal = (1 / length(normal)) * normal;
+            if (next > first + 1) normal = unit_vector(normal);
             const LatticePoint at = next > first + 1 ? site.centroid + (1 / count) * offset : site.centroid;
             if (lane == 4) {
                 samples.emplace_back();
@@ -209,7 +217,7 @@ void LatticeRow::place_fits(const LatticeSites& of, const LatticeBlocks& blocks)
         for (const Group& group : groups_of(own)) {
             fits.emplace_back().quadric.centre =
                 corner + blocks.from_units(own[0].position_of(0) + (1 / group.count) * group.position);
-            fits.back().quadric.normal = (1 / length(group.normal)) * group.normal;
+            fits.back().quadric.normal = unit_vector(group.normal);
         }
     }
     runs.back().fit = static_cast<std::uint32_t>(fits.size());

@@ -90,7 +90,7 @@ std::vector<double> Shells::volumes(const SurfaceWindow& window, const SlidingAr
 std::vector<std::uint32_t> Shells::inverted(const SurfaceWindow& window, const SlidingArray<Vec3>& positions) const {
     std::vector<double> now = volumes(window, positions);
     const auto is_inverted = [&](std::uint32_t shell) {
-        return now[shell] * before_[shell] <= 0 && before_[shell] != 0;
+        return before_[shell] > 0 ? now[shell] <= 0 : before_[shell] < 0 && now[shell] >= 0;
     };
     std::vector<std::uint32_t> faces;
     for (std::uint32_t f = 0; f < window.faces.end(); ++f)

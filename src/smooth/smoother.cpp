@@ -1,9 +1,9 @@
 #include "smooth/smoother.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
+#include "regionmesh/error.h"
 #include "regionmesh/process.h"
 
 namespace regionmesh {
@@ -47,8 +47,9 @@ bool Smoother::add(const Chunk& chunk, bool is_last, double next_low) {
 void Smoother::smooth_all(Mesh& mesh) {
     const std::vector<std::uint32_t> number = window_.add(mesh);
     resolver_.note_whole();
-    [[maybe_unused]] const bool is_done = work(true, HUGE_VAL);
-    assert(is_done);
+    if (!work(true, HUGE_VAL))
+        throw Error(ErrorCode::kInput,
+                    "smoothing: a region's volume is too small for a number; scale the coordinates, or do not smooth");
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
         if (mesh.is_alive(VertexId{v})) mesh[VertexId{v}].position = position(number[v]);
 }

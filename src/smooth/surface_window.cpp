@@ -3,12 +3,6 @@
 #include <cassert>
 
 namespace regionmesh {
-namespace {
-
-/// On all sides of the box at once: no coordinate may change.
-constexpr SideSet kAllSides = 0b111111;
-
-}  // namespace
 
 SurfaceWindow::SurfaceWindow() { starts_.push_back({0, 0}); }
 
@@ -44,7 +38,8 @@ std::vector<std::uint32_t> SurfaceWindow::add(const Mesh& mesh) {
         if (!mesh.is_alive(VertexId{v})) continue;
         number[v] = origin.end();
         origin.push_back(mesh.position(VertexId{v}));
-        sides.push_back(mesh[VertexId{v}].is_fixed ? kAllSides : mesh[VertexId{v}].sides);
+        sides.push_back(mesh[VertexId{v}].is_fixed ? kBoxSides  // no coordinate may change
+                                                   : mesh[VertexId{v}].sides);
     }
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
         if (!mesh.is_alive(FaceId{f})) continue;

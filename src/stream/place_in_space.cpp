@@ -1,8 +1,24 @@
 #include "stream/place_in_space.h"
 
 #include "mesh/alive.h"
+#include "mesh/box_sides.h"
 
 namespace regionmesh {
+namespace {
+
+/// What the sides of the lattice are in space, where the axes take the numbers of the coordinates near them.
+std::array<int, 6> sides_in_space(const Lattice& lattice) {
+    const auto& d = lattice.direction;
+    const auto [axes, are_reversed] =
+        axes_by_coordinate({Vec3{d[0], d[3], d[6]}, {d[1], d[4], d[7]}, {d[2], d[5], d[8]}});
+    std::array<int, 6> names{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t high = 0; high < 2; ++high)
+            names[2 * axes[axis] + high] = static_cast<int>(2 * axis + (are_reversed[axis] ? 1 - high : high));
+    return names;
+}
+
+}  // namespace
 
 void unscale_z(Mesh& mesh, double scale_z) {
     if (scale_z == 1) return;
@@ -20,6 +36,7 @@ void place_in_space(Mesh& mesh, const Lattice& lattice) {
     const double determinant =
         d[0] * (d[4] * d[8] - d[5] * d[7]) - d[1] * (d[3] * d[8] - d[5] * d[6]) + d[2] * (d[3] * d[7] - d[4] * d[6]);
     if (determinant < 0) mesh.flip_faces();
+    mesh.rename_sides(sides_in_space(lattice));
 }
 
 }  // namespace regionmesh

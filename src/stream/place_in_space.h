@@ -16,7 +16,8 @@ inline Lattice meshing_lattice(const Lattice& lattice) {
 /// Divides z by the power of two that it was multiplied by.
 void unscale_z(Mesh& mesh, double scale_z);
 
-/// Applies direction and origin of the lattice where the direction is not the identity. Flips the faces if it mirrors.
+/// Applies direction and origin of the lattice where the direction is not the identity. Flips the faces if it mirrors;
+/// sides of the box are afterwards those across the coordinates that they are nearest to.
 void place_in_space(Mesh& mesh, const Lattice& lattice);
 
 }  // namespace regionmesh

@@ -275,7 +275,10 @@ TEST(BlockRun, does_not_go_on_with_sizes_that_no_run_has) {
     for (const auto& [old, by] :
          {std::pair("\"block_cells\": 17", "\"block_cells\": 0"), std::pair("\"shift\":", "\"shift\": 17, \"was\":"),
           std::pair("\"size\": [", "\"size\": [4294967295,"), std::pair("\"size\": [", "\"size\": [1,"),
-          std::pair("\"sweep\": [", "\"sweep\": [1000000,"), std::pair("\"passes\":", "\"passes\": 99, \"was\":")}) {
+          std::pair("\"sweep\": [", "\"sweep\": [1000000,"), std::pair("\"passes\":", "\"passes\": 99, \"was\":"),
+          std::pair("\"passes\":", "\"passes\": 4294967297, \"was\":"),
+          std::pair("\"faces\":", "\"faces\": 1e30, \"was\":"),
+          std::pair("\"block_cells\": 17", "\"block_cells\": 17.5")}) {
         SCOPED_TRACE(by);
         const TestFolder folder;
         EXPECT_THROW(run_until(19, folder.path, volume, options_for(0.8)), Ended);

@@ -21,6 +21,8 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+constexpr double kNear = 1e-6;
+
 /// Bases of two units on a ground at 100: folded, 20 m and more apart, with dips of many beds' thickness.
 double upper(double x, double y) { return 60 + 12 * std::sin(x / 150) + 0.02 * y; }
 double lower(double x, double y) { return 30 + 12 * std::sin(x / 150) - 0.01 * y; }
@@ -102,12 +104,57 @@ TEST(KrigingSurface, goes_through_its_samples_and_stays_a_plane_of_one_height) {
     std::vector<HeightSample> samples;
     test::Random random(3);
     for (int n = 0; n < 60; ++n) samples.push_back({random.between(0, 9), random.between(0, 9), random.between(0, 9)});
-    const Kriging surface(samples);
+    const Kriging surface(samples, kNear);
     for (const auto& [x, y, z] : samples) EXPECT_NEAR(surface.at(x, y), z, 1e-9);
     for (HeightSample& sample : samples) sample.z = 7;
-    EXPECT_NEAR(Kriging(samples).at(4.5, 100), 7, 1e-9);
-    EXPECT_NEAR(Kriging({{1, 2, 3}}).at(50, 60), 3, 1e-12);
-    EXPECT_NEAR(Kriging({{1, 2, 3}, {1, 2, 5}, {4, 2, 8}}).at(1, 2), 4, 1e-9) << "mean of two heights at one place";
+    EXPECT_NEAR(Kriging(samples, kNear).at(4.5, 100), 7, 1e-9);
+    EXPECT_NEAR(Kriging({{1, 2, 3}}, kNear).at(50, 60), 3, 1e-12);
+    EXPECT_NEAR(Kriging({{1, 2, 3}, {1, 2, 5}, {4, 2, 8}}, kNear).at(1, 2), 4, 1e-9)
+        << "mean of two heights at one place";
+}
+
+TEST_F(Layers, holes_side_by_side_do_not_tilt_the_base) {
+    std::string rows;
+    for (const double x : {0, 1000})
+        for (const double y : {0, 1000}) rows += row(x, y, 0, 20, "sand") + row(x, y, 20, 100, "clay");
+    rows += row(500, 500, 0, 20, "sand") + row(500, 500, 20, 100, "clay");
+    rows += row(500.1, 500, 0, 21, "sand") + row(500.1, 500, 21, 100, "clay");
+    for (const auto& [x, y, base] : bases(*open(rows, kFine), 1)) EXPECT_NEAR(base, 79.75, 0.6) << x << ' ' << y;
+}
+
+TEST_F(Layers, units_may_lie_where_nothing_was_logged) {
+    std::string rows;
+    for (const double x : {0, 1000})
+        for (const double y : {0, 1000})
+            rows += row(x, y, 0, 20, "sand") + row(x, y, 20, 50, "clay") + row(x, y, 50, 100, "rock");
+    const auto at_middle = [&](const std::string& more, InputLabel label) {
+        for (const auto& [x, y, base] : bases(*open(rows + more, kFine), label))
+            if (x == 500 && y == 500) return base;
+        return std::nan("");
+    };
+    const std::string gap = row(500, 500, 0, 10, "sand") + row(500, 500, 60, 100, "rock");
+    EXPECT_NEAR(at_middle(gap, 1), 80, 0.3) << "as between the other holes";
+    EXPECT_NEAR(at_middle(gap, 2), 50, 0.3);
+    const std::string narrow = row(500, 500, 0, 10, "sand") + row(500, 500, 30, 100, "rock");
+    EXPECT_NEAR(at_middle(narrow, 1), 80, 0.3);
+    EXPECT_GE(at_middle(narrow, 2), 69.8) << "rock was logged from there on";
+    const std::string missing = row(500, 500, 0, 30, "sand") + row(500, 500, 30, 100, "rock");
+    EXPECT_NEAR(at_middle(missing, 1), 70, 0.3);
+    EXPECT_NEAR(at_middle(missing, 2), 70, 0.3) << "no clay here";
+}
+
+TEST_F(Layers, holes_that_lead_upwards_are_refused) {
+    put_text(path("holes.csv"), "hole,from,to,unit\nA,0,10,clay\nA,10,20,sand\nB,0,10,sand\nB,10,20,clay\n");
+    put_text(path("collars.csv"), "hole,x,y,z\nA,0,0,0\nB,50,0,20\n");
+    put_text(path("surveys.csv"), "hole,depth,azimuth,inclination\nA,0,0,170\nB,0,0,10\n");
+    TetrahedraOptions options;
+    options.collars = path("collars.csv"), options.surveys = path("surveys.csv");
+    try {
+        open_layers(path("holes.csv"), options, {});
+        FAIL() << "nothing thrown";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("row 2: hole 'A' leads upwards, from 0 to 19.69"));
+    }
 }
 
 TEST_F(Layers, bases_between_holes_are_near_the_known_surfaces_where_the_nearest_hole_is_far_off) {

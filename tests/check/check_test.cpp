@@ -230,6 +230,29 @@ TEST(Check, nesting_of_bodies_in_the_exterior) {
     EXPECT_THAT(found_in(bodies({5, 0.2, 0.3}, 0.5, exterior(0), 0)), Contains("nesting")) << "a hollow beside it";
 }
 
+TEST(Check, bodies_that_touch_do_not_lie_in_each_other) {
+    for (const Label outer : {exterior(0), exterior(kHull)}) {
+        Mesh mesh;
+        test::add_octahedron(mesh, {}, {3, 3, 3}, 0, outer);
+        test::add_octahedron(mesh, {6, 0, 0}, {3, 3, 3}, 1, outer);
+        if (outer == exterior(kHull)) test::for_vertices(mesh, [&](VertexId v) { mesh[v].sides = kOnHull; });
+        EXPECT_THAT(found_in(mesh), Contains("coincident_vertices"));
+        EXPECT_THAT(found_in(mesh), testing::Not(Contains("nesting")));
+    }
+}
+
+TEST(Check, nesting_of_bodies_with_a_hull) {
+    // A hull that is no box touches every body.
+    for (const bool is_nested : {false, true}) {
+        Mesh mesh;
+        test::add_octahedron(mesh, {}, {3, 3, 3}, 0, exterior(kHull));
+        test::add_octahedron(mesh, is_nested ? Vec3{0.1, 0.2, 0.3} : Vec3{5, 0.2, 0.3}, {0.5, 0.5, 0.5}, 1,
+                             exterior(kHull));
+        test::for_vertices(mesh, [&](VertexId v) { mesh[v].sides = kOnHull; });
+        EXPECT_EQ(found_in(mesh), is_nested ? std::set<std::string>{"nesting"} : std::set<std::string>{});
+    }
+}
+
 TEST(Check, nesting_finds_an_island_moved_into_the_wrong_region) {
     // Label 3 in the middle of 1; beside it a slab of 2.
     const test::TextVolume::Section plain{"1111122", "1111122", "1111122", "1111122", "1111122"};

@@ -11,6 +11,7 @@
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
+#include "regionmesh/voxelise.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -53,6 +54,12 @@ LabelledMesh from_file(const Reconstruction& made) {
 std::vector<Label> dense(const LabelTable& labels, const std::vector<InputLabel>& background) {
     std::vector<Label> all;
     for (const InputLabel label : background) all.push_back(labels.find(label).value());
+    return all;
+}
+
+std::vector<Vec3> positions(const Mesh& mesh) {
+    std::vector<Vec3> all;
+    test::for_vertices(mesh, [&](VertexId v) { all.push_back(mesh.position(v)); });
     return all;
 }
 
@@ -139,6 +146,75 @@ TEST(BoxAxes, what_stays_when_others_go_keeps_its_position) {
     EXPECT_GT(same, made.mesh.vertex_count() * 8 / 10);
 }
 
+/// The lattice turned by quarters, mirrored, oblique and sheared.
+std::vector<Lattice> turned_lattices() {
+    std::vector<Lattice> lattices;
+    for (const std::array<double, 9>& direction : {std::array<double, 9>{0, 1, 0, 1, 0, 0, 0, 0, 1},
+                                                   {0, 0, 1, 1, 0, 0, 0, 1, 0},
+                                                   {-1, 0, 0, 0, -1, 0, 0, 0, 1},
+                                                   {0, 0, -1, 0, 1, 0, 1, 0, 0},
+                                                   {1, 0, 0, 0, 1, 0, 0, 0, 1}})
+        lattices.push_back(
+            {.size = kSize, .spacing = {1, 1.2, 2.1}, .origin = {100.1, -20, 3}, .direction = direction});
+    for (const int shears : {0, 1, 2}) lattices.push_back(turned_lattice(shears));
+    return lattices;
+}
+
+TEST(BoxAxes, samples_of_any_lattice_are_kept) {
+    for (const Lattice& lattice : turned_lattices())
+        for (const std::vector<InputLabel>& background : {std::vector<InputLabel>{}, std::vector<InputLabel>{0}}) {
+            test::ArrayVolume volume = test::grain_volume(kSize, 5, 3);
+            volume.lattice() = lattice;
+            Reconstruction made = test::run(volume, {.decimate = false, .background = background});
+            const std::uint32_t faces = made.mesh.face_count();
+            {
+                const BoxAxes axes(made.mesh, lattice);
+                ASSERT_TRUE(axes.samples());
+                EXPECT_EQ(axes.is_oblique(), !lattice.is_axis_aligned());
+                const SimplifyResult done =
+                    simplify(made.mesh, {.target_faces = faces / 20, .samples = axes.samples()});
+                EXPECT_GT(done.verdicts[static_cast<int>(Verdict::kSamples)], 0u);
+                axes.restore(made.mesh);
+            }
+            EXPECT_LT(made.mesh.face_count(), faces / 2);
+            checked(made.mesh, made.background);
+            volume.rewind();
+            EXPECT_EQ(compare_samples(made.mesh, made.labels, made.background, volume).wrong, 0u);
+        }
+}
+
+TEST(BoxAxes, sides_are_those_of_the_axes_in_space_that_they_are_nearest_to) {
+    for (const Lattice& lattice : turned_lattices()) {
+        if (lattice.direction == turned_lattice(0).direction) break;  // below, coordinates are compared
+        test::ArrayVolume volume = test::grain_volume(kSize, 5, 3);
+        volume.lattice() = lattice;
+        const Reconstruction made = test::run(volume);
+        const Box box = lattice.extent();
+        test::for_vertices(made.mesh, [&](VertexId v) {
+            const Vec3 p = made.mesh.position(v);
+            for (int side = 0; side < 6; ++side)
+                EXPECT_EQ(made.mesh[v].sides >> side & 1, p[side / 2] == (side % 2 ? box.high : box.low)[side / 2]);
+        });
+        test::for_faces(made.mesh, [&](FaceId f) {
+            const auto [a, b, c] = made.mesh[f].vertices;
+            const Label outer = made.mesh[f].labels[1];
+            if (is_exterior(outer)) {
+                EXPECT_TRUE(made.mesh[a].sides & made.mesh[b].sides & made.mesh[c].sides & 1 << side_of(outer));
+            }
+        });
+    }
+}
+
+TEST(BoxAxes, a_lattice_beside_the_mesh_turns_nothing) {
+    Reconstruction made = model(CellKind::kCompact, {});
+    const std::vector<Vec3> before = positions(made.mesh);
+    Lattice other = turned_lattice(0);
+    other.origin.x += 1;
+    const BoxAxes axes(made.mesh, other);
+    EXPECT_FALSE(axes.samples() || axes.is_oblique());
+    EXPECT_EQ(positions(made.mesh), before);
+}
+
 TEST(BoxAxes, boxes_of_single_precision_are_found) {
     for (const int shears : {0, 1, 2}) {
         Reconstruction made = model(CellKind::kCompact, {}, shears);
@@ -170,12 +246,6 @@ Mesh hexagonal_bar() {
         add(1, next_high, high);
     }
     return test::shape(positions, faces);
-}
-
-std::vector<Vec3> positions(const Mesh& mesh) {
-    std::vector<Vec3> all;
-    test::for_vertices(mesh, [&](VertexId v) { all.push_back(mesh.position(v)); });
-    return all;
 }
 
 TEST(BoxAxes, other_models_are_left_alone) {

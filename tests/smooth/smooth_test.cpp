@@ -74,6 +74,14 @@ TEST(Smooth, taubin_keeps_the_volume_of_a_ball_and_laplacian_shrinks_it) {
     EXPECT_LT(volume_of(second, 1), 0.9 * before);
 }
 
+TEST(Smooth, shells_of_hardly_any_volume_are_smoothed) {
+    Mesh mesh = ball();
+    test::for_vertices(mesh, [&](VertexId v) { mesh[v].position.y *= 1e-200; });
+    const SmoothReport report = smooth(mesh, {.filter = SmoothFilter::kTaubin, .passes = 5});
+    EXPECT_EQ(report.vertices, mesh.vertex_count());
+    EXPECT_GT(report.largest_displacement, 0.05);
+}
+
 TEST(Smooth, moves_vertices_and_nothing_else) {
     for (SmoothFilter filter : kVertexFilters) {
         const Mesh before = noise();

@@ -9,6 +9,7 @@
 #include "regionmesh/regionmesh.h"
 #include "stream/footprint.h"
 #include "support/digest.h"
+#include "support/random.h"
 #include "support/runs.h"
 #include "support/strata_list.h"
 
@@ -43,6 +44,24 @@ TEST(Reconstruct, noise_of_2_4_and_256_labels_goes_down_by_90_percent_and_stays_
             EXPECT_LT(made.report.final_faces, made.report.initial_faces);
             EXPECT_GE(made.report.check.quality.min, 0.1);
         }
+}
+
+TEST(Reconstruct, no_vertex_leaves_the_box_where_background_leaves_it_open) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        test::Random random(seed);
+        const auto side = [&] { return 3 + random.below(6); };
+        const test::Size size{side(), side(), side()};
+        const Reconstruction made =
+            run(test::noise_volume(size, 2, seed), {.reduce = 0.7 + 0.3 * random.unit(), .background = {0}});
+        const Box box = Lattice{.size = size}.extent();
+        test::for_vertices(made.mesh, [&](VertexId v) {
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_GE(made.mesh.position(v)[axis], box.low[axis]) << seed;
+                EXPECT_LE(made.mesh.position(v)[axis], box.high[axis]) << seed;
+            }
+        });
+        EXPECT_EQ(made.report.samples->wrong, 0u) << seed;
+    }
 }
 
 TEST(Reconstruct, readers_begin_at_their_first_section_again) {

@@ -40,6 +40,11 @@ TEST(Range, models_are_sound_at_the_farthest_origin) {
 // Needles leave few collapses that keep their quality.
 TEST(Range, models_are_sound_at_very_different_spacings) { expect_sound_model({1, 1000, 1e6}, {}, 0.9); }
 
+TEST(Range, models_are_sound_where_spacings_differ_by_more_than_coordinates_hold) {
+    for (const Vec3 spacing : {Vec3{1e-4, 1e6, 1e6}, {1e-4, 1e-4, 4e6}, {1e-6, 1e4, 1}})
+        expect_sound_model(spacing, {}, 1.1);
+}
+
 TEST(Range, beyond_it_a_reader_of_ones_own_is_refused) {
     for (const double spacing : {1e-170, 1e-90, 1e103, 1e160}) {
         test::ArrayVolume volume = test::ball_volume({5, 5, 5}, 2);

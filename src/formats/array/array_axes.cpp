@@ -83,6 +83,7 @@ ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std
         if (std::ranges::count(axes.axis, static_cast<int>(i)) > 0 || shape[i] == 1) continue;
         const std::string what = (names[i].empty() ? "axis " + std::to_string(i) : "axis '" + names[i] + "'") +
                                  " has " + std::to_string(shape[i]) + " samples";
+        if (shape[i] == 0) fail(source, what + "; give a volume that has some");
         if (axes.has_layers) fail(source, what + "; another axis has more than one, too: save one volume");
         if (!options.layer) fail(source, what + "; choose one with --layer 0 to " + std::to_string(shape[i] - 1));
         if (*options.layer >= shape[i]) fail(source, what + "; there is no " + std::to_string(*options.layer));

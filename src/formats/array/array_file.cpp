@@ -211,7 +211,7 @@ std::vector<fs::path> numbered_files(const fs::path& header, std::string_view te
     }
     if (words.size() < 3) numbers[1] = numbers[0] + *count - 1;
     const auto [first, last, step] = numbers;
-    if (step == 0 || (last - first) / step < 0) refuse("never comes to its last number");
+    if (step == 0 || (step > 0 ? last < first : last > first)) refuse("never comes to its last number");
     if (static_cast<std::uint64_t>((last - first) / step) >= kMostFiles) refuse("stands for more than a million files");
     std::vector<fs::path> files;
     for (std::int64_t number = first; step > 0 ? number <= last : number >= last; number += step) {

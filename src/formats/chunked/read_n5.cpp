@@ -35,9 +35,7 @@ std::vector<Codec> parse_compression(const fs::path& metadata, const Json& attri
 }
 
 /// Lists of N5 have the fastest axis first.
-template <class Number>
-std::vector<Number> slowest_first(const Json& list) {
-    auto numbers = list.get<std::vector<Number>>();
+std::vector<std::uint64_t> slowest_first(std::vector<std::uint64_t> numbers) {
     std::ranges::reverse(numbers);
     return numbers;
 }
@@ -46,8 +44,8 @@ StoreArray parse_array(const fs::path& folder, const Json& attributes) {
     const fs::path metadata = folder / kFile;
     StoreArray array{.folder = folder, .attributes = attributes};
     reading(metadata, [&] {
-        array.shape = slowest_first<std::uint64_t>(attributes.at("dimensions"));
-        array.chunk = slowest_first<std::uint64_t>(attributes.at("blockSize"));
+        array.shape = slowest_first(whole_numbers(metadata, attributes.at("dimensions")));
+        array.chunk = slowest_first(whole_numbers(metadata, attributes.at("blockSize")));
         array.format = {.type = integer_type(metadata, attributes.at("dataType")), .is_big_endian = true};
         array.codecs = parse_compression(metadata, attributes);
     });

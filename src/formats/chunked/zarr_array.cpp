@@ -73,8 +73,8 @@ StoreArray parse_version_2(const fs::path& folder, const Json& json) {
     if (json.at("zarr_format") != 2)
         fail(metadata, "Zarr version " + json.at("zarr_format").dump() + "; 2 and 3 are read");
     StoreArray array{.folder = folder};
-    json.at("shape").get_to(array.shape);
-    json.at("chunks").get_to(array.chunk);
+    array.shape = whole_numbers(metadata, json.at("shape"));
+    array.chunk = whole_numbers(metadata, json.at("chunks"));
     array.file = array.chunk;
     array.format = parse_dtype(metadata, json.at("dtype"));
     array.fill = stored_sample(metadata, json.value("fill_value", Json()), array.format);
@@ -100,7 +100,7 @@ void apply_transpose(const fs::path& metadata, const Json& order, std::vector<in
     } else {
         if (order.size() != stored.size()) fail(metadata, "transpose has another number of axes; write it again");
         for (std::size_t i = 0; i < stored.size(); ++i) {
-            const auto from = order.at(i).get<std::uint64_t>();
+            const auto from = whole_number(metadata, order.at(i));
             if (from >= stored.size()) fail(metadata, "transpose names axis " + std::to_string(from));
             permuted[i] = stored[from];
         }
@@ -122,7 +122,7 @@ void parse_sharding(const fs::path& metadata, const Json& sharding, StoreArray& 
     if (array.is_sharded) fail(metadata, "shards lie in shards, which is not read; write it again with one level");
     if (array.stored != c_order(array.stored.size())) refuse_codec(metadata, "transpose before sharding_indexed");
     array.is_sharded = true;
-    sharding.at("chunk_shape").get_to(array.chunk);
+    array.chunk = whole_numbers(metadata, sharding.at("chunk_shape"));
     array.index_is_first = sharding.value("index_location", "end") == "start";
     for (const Json& codec : sharding.at("index_codecs")) {
         const std::string name = codec_name(codec);
@@ -168,13 +168,13 @@ ChunkNames parse_names(const fs::path& metadata, const Json& encoding) {
 StoreArray parse_version_3(const fs::path& folder, const Json& json) {
     const fs::path metadata = folder / "zarr.json";
     StoreArray array{.folder = folder};
-    json.at("shape").get_to(array.shape);
+    array.shape = whole_numbers(metadata, json.at("shape"));
     const Json& type = json.at("data_type");
     array.format.type = integer_type(metadata, type.is_string() ? type.get<std::string>() : type.dump());
     const Json& grid = json.at("chunk_grid");
     if (grid.at("name") != "regular")
         fail(metadata, "the chunk grid is " + grid.at("name").dump() + "; regular ones are read");
-    grid.at("configuration").at("chunk_shape").get_to(array.chunk);
+    array.chunk = whole_numbers(metadata, grid.at("configuration").at("chunk_shape"));
     array.file = array.chunk;
     array.stored = c_order(array.chunk.size());
     array.names = parse_names(metadata, json.at("chunk_key_encoding"));

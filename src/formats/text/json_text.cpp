@@ -1,8 +1,11 @@
 #include "formats/text/json_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <string_view>
+
+#include "formats/text/header_text.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -31,6 +34,31 @@ nlohmann::json parse_json(const std::filesystem::path& path, const std::string& 
     if (is_too_deep(text))
         fail(path, "the metadata are nested deeper than " + std::to_string(kMaxDepth) + "; check the file");
     return nlohmann::json::parse(text);
+}
+
+std::uint64_t whole_number(const std::filesystem::path& path, const nlohmann::json& json, std::uint64_t most) {
+    constexpr double kExact = 1ull << 53;
+    const auto refuse = [&] {
+        fail(path, "has " + shown(json.dump()) + " for a whole number" +
+                       (most < UINT64_MAX ? " up to " + std::to_string(most) : "") + "; write the file again");
+    };
+    std::uint64_t number = 0;
+    if (json.is_number_unsigned()) {
+        number = json.get<std::uint64_t>();
+    } else {
+        const double real = json.is_number_float() ? json.get<double>() : -1;
+        if (!(real >= 0 && real <= kExact && real == std::floor(real))) refuse();
+        number = static_cast<std::uint64_t>(real);
+    }
+    if (number > most) refuse();
+    return number;
+}
+
+std::vector<std::uint64_t> whole_numbers(const std::filesystem::path& path, const nlohmann::json& list) {
+    std::vector<std::uint64_t> numbers;
+    for (const nlohmann::json& number : list.get_ref<const nlohmann::json::array_t&>())
+        numbers.push_back(whole_number(path, number));
+    return numbers;
 }
 
 std::string problem_text(const nlohmann::json::exception& problem) {

@@ -1,10 +1,12 @@
 // JSON from files, which may be damaged.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/input_file.h"
 
@@ -17,6 +19,12 @@ nlohmann::json parse_json(const std::filesystem::path& path, const std::string& 
 /// Nothing where there is no such file. Throws Error(kInput) where it is no JSON, larger than 64 MiB or nested deeper
 /// than 100.
 std::optional<nlohmann::json> read_json(const std::filesystem::path& path);
+
+/// A whole number from 0 to `most`; 3.0 is one, too. Throws Error(kInput) that names the file.
+std::uint64_t whole_number(const std::filesystem::path& path, const nlohmann::json& json,
+                           std::uint64_t most = UINT64_MAX);
+/// A list of them. Throws nlohmann::json::exception where it is no list.
+std::vector<std::uint64_t> whole_numbers(const std::filesystem::path& path, const nlohmann::json& list);
 
 /// What is wrong, without the number that the library puts in front.
 std::string problem_text(const nlohmann::json::exception& problem);

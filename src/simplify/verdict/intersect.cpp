@@ -18,8 +18,7 @@ bool is_within_limits(const Collapse& collapse) {
 /// Would a face between two regions come to lie in a side of the box? A side without caps (open, or background) has no
 /// faces that it would meet, and flat stars are not searched: there it could later overlap other such faces.
 bool lies_down_on_side(const Mesh& mesh, const EdgeStar& star) {
-    constexpr SideSet kPlanes = (1 << kHull) - 1;  // a hull of another shape has no planes
-    const SideSet stays = mesh[star.stays].sides & kPlanes;
+    const SideSet stays = mesh[star.stays].sides & kBoxSides;
     if (stays == 0) return false;
     return std::any_of(star.faces.begin(), star.faces.end(), [&](const StarFace& f) {
         const auto& labels = mesh[f.face].labels;

@@ -204,6 +204,8 @@ TEST_F(ReadNrrdTest, data_files_that_do_not_fit_are_refused) {
                 AllOf(HasSubstr("gone.raw: no such file"), EndsWith("header, " + detached("gone.raw").string())));
     EXPECT_THAT(refusal({detached("LIST")}), HasSubstr("lists no files"));
     EXPECT_THAT(refusal({detached("z%d.raw 1 2 0")}), HasSubstr("never comes to its last number"));
+    EXPECT_THAT(refusal({detached("z%d.raw 8 7 5")}), HasSubstr("never comes to its last number"));
+    EXPECT_THAT(refusal({detached("z%d.raw 7 8 -5")}), HasSubstr("never comes to its last number"));
     EXPECT_THAT(refusal({detached("z%d.raw 1 9999999999 1")}), HasSubstr("more than a million files"));
     EXPECT_THAT(refusal({detached("z%d.raw 1 3 1")}), HasSubstr("z1.raw: no such file"));
     put_text(path("z1.raw"), std::string(30, 'a'));

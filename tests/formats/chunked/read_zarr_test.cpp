@@ -157,6 +157,19 @@ TEST_F(ReadZarrTest, labels_of_an_image_bring_names) {
     }
 }
 
+TEST_F(ReadZarrTest, sizes_are_whole_numbers) {
+    for (const char* number : {"5.5", "-5", "1e30", "\"5\"", "true"}) {
+        const fs::path store = changed("zarr2/bad/missing_int16.zarr", ".zarray", "\"shape\"",
+                                       "\"shape\": [" + std::string(number) + ", 4, 5], \"was\"");
+        EXPECT_THAT(refusal({store}), HasSubstr("for a whole number; write the file again")) << number;
+    }
+}
+
+TEST_F(ReadZarrTest, axes_without_samples_are_refused) {
+    const fs::path store = changed("ome/channels.zarr", "0/.zarray", "\"shape\"", "\"shape\": [0, 3, 4, 5], \"was\"");
+    EXPECT_THAT(refusal({store}), HasSubstr("has 0 samples; give a volume that has some"));
+}
+
 TEST_F(ReadZarrTest, negative_scale_mirrors_the_axis) {
     const Lattice lattice = open_sections({data("chunked/ome/flipped.zarr")})->info().lattice;
     EXPECT_EQ(lattice.spacing, (Vec3{0.5, 2, 5}));
@@ -250,8 +263,6 @@ TEST_F(ReadZarrTest, sizes_that_no_chunk_backs_are_refused_before_anything_is_al
     EXPECT_THAT(refuse(chunks, "\"chunks\": [ 20000000,"), HasSubstr("60 bytes cannot hold the 600000000 of a chunk"));
     EXPECT_THAT(refuse(shape, "\"shape\": [ 3000000000,"), HasSubstr("2^31"));
     EXPECT_THAT(refuse(shape, "\"shape\": [ 3, 3,"), HasSubstr("number of dimensions"));
-    EXPECT_THAT(refuse(shape, "\"shape\": [ -3,"), HasSubstr("2^31"));
-    EXPECT_THAT(refuse(shape, "\"shape\": [ \"3\","), HasSubstr("not as they should be"));
     EXPECT_THAT(refuse("\"zarr_format\": 2", "\"zarr_format\": 1"), HasSubstr("Zarr version 1"));
     EXPECT_THAT(refuse("{", ""), HasSubstr(".zarray: the metadata are not as they should be"));
     EXPECT_THAT(refuse("{", std::string(1000, '[')), HasSubstr("nested deeper"));

@@ -1,9 +1,13 @@
-#include "restore_background.h"
-
 #include <cmath>
+#include <system_error>
 #include <utility>
 
-namespace regionmesh::cli {
+#include "formats/registry.h"
+#include "regionmesh/lattice.h"
+#include "regionmesh/mesh_arrays.h"
+#include "regionmesh/mesh_file.h"
+
+namespace regionmesh {
 namespace {
 
 constexpr double kNear = 1e-5;  // samples; files of single precision move points by less
@@ -22,6 +26,15 @@ unsigned sides_at(const Lattice& lattice, Vec3 point) {
 
 }  // namespace
 
+bool lacks_background(const MeshFile& file, const std::filesystem::path& path, InputLabel background) {
+    std::error_code ignored;
+    if (formats::extension(path) != ".stl" && !std::filesystem::is_directory(path, ignored)) return false;
+    if (!file.background || !file.background->empty()) return false;
+    for (Label label = 0; label < file.labels.size(); ++label)
+        if (file.labels.input(label) == background) return false;
+    return true;
+}
+
 void restore_background(MeshFile& file, const Lattice& lattice, InputLabel background) {
     MeshArrays arrays = export_arrays(file.mesh, file.labels);
     for (std::size_t f = 0; f < arrays.faces.size(); ++f) {
@@ -37,4 +50,4 @@ void restore_background(MeshFile& file, const Lattice& lattice, InputLabel backg
     file.background = std::vector<InputLabel>{background};
 }
 
-}  // namespace regionmesh::cli
+}  // namespace regionmesh
