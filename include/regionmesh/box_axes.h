@@ -33,7 +33,8 @@ public:
     void restore(Mesh& mesh) const;
 
     bool is_oblique() const { return !sorted_.empty(); }
-    /// The lattice given, in the axes of the turned mesh. None without a lattice, or where the mesh is not on its box.
+    /// The lattice given, in the axes of the turned mesh; along the axes of space, as it is. None without a lattice, or
+    /// where the mesh was not turned because a face with the exterior is not on its box.
     const std::optional<Lattice>& samples() const { return samples_; }
 
 private:

@@ -1,7 +1,5 @@
 """Labels and their names."""
 
-import os
-
 from . import _core, _sources
 
 
@@ -19,7 +17,7 @@ def names_of(names):
     """Names by label: a dict, or the path of a table; None stays None."""
     if names is None:
         return None
-    if isinstance(names, (str, os.PathLike)):
+    if isinstance(names, _sources.PATHS):
         with _sources.missing_files(names):
             return _core.read_names(_sources.file_name(names))
     return {bits(label): _text(name) for label, name in dict(names).items()}

@@ -12,7 +12,8 @@ from ._mesh import Mesh
 def unpickle(points, faces, labels, node_types, state):
     model = _core.from_arrays(
         (points, faces, labels.view(np.int64), node_types),
-        (state["background"], state["order"], state["names"], state.get("colours", {}), state["space"]),
+        (state["background"], state["order"], state["names"], state.get("colours", {}), state["space"],
+         state.get("lacking")),
         state["exterior"], state["is_unsigned"], state["is_open"],
     )  # fmt: skip
     mesh = Mesh(model, state["lattice"])
@@ -123,7 +124,7 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     outside = [] if background is None else [background] if np.ndim(background) == 0 else list(background)
     model = _core.from_arrays(
         (points, faces.astype(np.uint32), np.ascontiguousarray(whole), None),
-        ([bits(label) for label in outside], [], names_of(names) or {}, {}, ""),
+        ([bits(label) for label in outside], [], names_of(names) or {}, {}, "", None),
         bits(exterior_label), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)

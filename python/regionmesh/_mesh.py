@@ -330,9 +330,12 @@ class Mesh:
 
     def _require_same_place(self, info, keys):
         """Files say where their samples lie: where those of the model do."""
-        for key in keys if "size" in (self._lattice or {}) else ():
+        if "size" not in (self._lattice or {}):
+            return
+        near = {"direction": 1e-6, "origin": 1e-6 * min(self._lattice["spacing"]) * max(self._lattice["size"])}
+        for key in keys:
             theirs, own = info[key], self._lattice[key]
-            if not np.allclose(theirs, own, rtol=1e-6, atol=1e-6 * min(self._lattice["spacing"])):
+            if not np.allclose(theirs, own, rtol=1e-6, atol=near.get(key, 0)):
                 theirs, own = (", ".join(f"{n:g}" for n in each) for each in (theirs, own))
                 raise ValueError(
                     f"labels: the {key} of the file is {theirs}, that of the model {own}; give the labels as an array"
@@ -353,17 +356,19 @@ class Mesh:
             raise TypeError("check(): origin and direction are those of the file; leave them out")
         paths = _sources.paths_of(labels)
         selection, kept, place = self._made()
-        reading = (self._lattice or {}).get("made", {}).get("reading")
-        if reading is None and given[0] is None and place[0] is not None:  # made from an array
+        suffix, reading = (self._lattice or {}).get("made", {}).get("reading", (None, []))
+        if suffix is None and given[0] is None and place[0] is not None:  # made from an array
             given = (place[0], None, None)
         spacing = _options.pairs("reconstruct", {"spacing": given[0]})
         spacing += [("space", self.space.lower())] if self.space else []
         selection = [pair for pair in selection if pair[0] != "spacing" or given[0] is None] + spacing
+        if suffix != _sources.suffix_of(paths):  # another kind of file is read in another way
+            reading = []
         with _sources.missing_files(*paths):
-            whole = [pair for pair in selection if pair[0] in ("spacing", "space")] + (reading or [])
-            source = _core.file_source(paths, whole, None)
-            if not self._is_chosen(source.info["size"]) and (selection + (reading or []) != whole or kept is not None):
-                source = _core.file_source(paths, selection + (reading or []), kept)
+            whole = [pair for pair in selection if pair[0] in ("spacing", "space")]
+            source = _core.file_source(paths, reading + whole, None)
+            if not self._is_chosen(source.info["size"]) and (selection != whole or kept is not None):
+                source = _core.file_source(paths, reading + selection, kept)
         keys = ("direction", "origin") if given[0] is not None else ("direction", "origin", "spacing")
         self._require_same_place(source.info, keys)
         return source
@@ -510,6 +515,7 @@ class Mesh:
             "names": self._model.names,
             "colours": self._model.colours,
             "space": self._model.space,
+            "lacking": self._model.lacking,
             "exterior": self._model.exterior_label,
             "is_unsigned": self._model.is_unsigned,
             "lattice": self._lattice,

@@ -48,7 +48,7 @@ def _whole(name, value):
 
 
 def _number(name, value):
-    if isinstance(value, str) and value == "auto":  # which some options take
+    if name == "scale_z" and isinstance(value, str) and value == "auto":
         return value
     if isinstance(value, (bool, str)):
         raise TypeError(f"{name}={value!r}: not a number")

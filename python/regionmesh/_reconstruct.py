@@ -30,7 +30,7 @@ def _from_files(labels, options, kept, names, progress):
         place = tuple(whole[key] for key in ("spacing", "origin", "direction"))
         model = _core.reconstruct_source(source, options, names, progress)
         made = _made(options, chosen, kept, place, whole["size"])
-        return Mesh(model, {**source.info, "made": {**made, "reading": _split(options, _OF_READING)}})
+        return Mesh(model, {**source.info, "made": {**made, "reading": (_sources.suffix_of(paths), _split(options, _OF_READING))}})
 
 
 def _made(options, chosen, kept, place, size):

@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+PATHS = (str, bytes, os.PathLike)
 _SLAB_BYTES = 64 << 20  # of sections that are read at once from an array in chunks
 
 
@@ -54,9 +55,9 @@ class Placed:
 
 def is_path(labels):
     """Whether the input names files: a path, or a list of paths."""
-    if isinstance(labels, (str, os.PathLike)):
+    if isinstance(labels, PATHS):
         return True
-    return isinstance(labels, (list, tuple)) and bool(labels) and all(isinstance(p, (str, os.PathLike)) for p in labels)
+    return isinstance(labels, (list, tuple)) and bool(labels) and all(isinstance(path, PATHS) for path in labels)
 
 
 def file_name(path):
@@ -69,7 +70,12 @@ def file_name(path):
 
 def paths_of(labels):
     """The paths as bytes."""
-    return [file_name(p) for p in ([labels] if isinstance(labels, (str, os.PathLike)) else labels)]
+    return [file_name(p) for p in ([labels] if isinstance(labels, PATHS) else labels)]
+
+
+def suffix_of(paths):
+    """The extension of the first of paths as bytes, in small letters."""
+    return os.path.splitext(paths[0])[1].lower()
 
 
 def _from_simpleitk(image):

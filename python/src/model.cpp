@@ -73,15 +73,15 @@ Model copy_of(const Model& model) {
             model.is_open,
             model.space,
             model.colours,
-            model.lacks_background};
+            model.lacking};
 }
 
 /// As it was before it went through a file without a background.
-Model with_background(const Model& model, const Lattice& lattice) {
+Model with_background(const Model& model, const Lattice& lattice, InputLabel background) {
     MeshFile file{.mesh = copy_of(model.mesh, model.labels), .labels = model.labels};
-    restore_background(file, lattice, 0);
+    restore_background(file, lattice, background);
     Model restored{std::move(file.mesh), std::move(file.labels), {}, model.names, model.is_open, model.space};
-    restored.background = {restored.labels.dense(0)};
+    restored.background = {restored.labels.dense(background)};
     return restored;
 }
 
@@ -180,7 +180,9 @@ Model load_model(const std::string& path, const OptionValues& options) {
     const py::gil_scoped_release release;
     MeshFile file = read_mesh(path, settings.surface);
     file.mesh.compact();
-    const bool lacks = !has_background(settings) && lacks_background(file, path, 0);
+    std::optional<InputLabel> lacking;
+    if (const auto& asked = settings.reconstruct.background; !asked.empty() && lacks_background(file, path, asked[0]))
+        lacking = asked[0];
     std::vector<Label> background;
     for (const InputLabel label :
          !has_background(settings) && file.background ? *file.background : settings.reconstruct.background)
@@ -188,7 +190,7 @@ Model load_model(const std::string& path, const OptionValues& options) {
     return {std::move(file.mesh),      std::move(file.labels),
             std::move(background),     std::move(file.names),
             !settings.reconstruct.cap, file.space,
-            std::move(file.colours),   lacks};
+            std::move(file.colours),   lacking};
 }
 
 Saved save_model(const Model& model, const std::string& path, bool per_region, const OptionValues& options) {
@@ -223,7 +225,7 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
     std::vector<Label> background;
     for (const InputLabel label : labels.background) background.push_back(made.labels.dense(label));
     return {std::move(made.mesh), std::move(made.labels), std::move(background), labels.names,
-            labels.is_open,       labels.space,           labels.colours};
+            labels.is_open,       labels.space,           labels.colours,        labels.lacking};
 }
 
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
@@ -297,7 +299,7 @@ std::string check_text(const Model& given, std::uint32_t threads, Source* source
     std::string text;
     watch.run([&] {
         std::optional<Model> restored;
-        if (source && given.lacks_background) restored = with_background(given, source->reader->info().lattice);
+        if (source && given.lacking) restored = with_background(given, source->reader->info().lattice, *given.lacking);
         const Model& model = restored ? *restored : given;
         LabelTable labels = model.labels;
         CheckOptions options = check_options(model, threads);

@@ -24,9 +24,9 @@ struct Model {
     LabelNames names;
     bool is_open = false;
     Space space = Space::kUnknown;
-    LabelColours colours = {};      // of some regions, given by the input
-    bool lacks_background = false;  // the exterior may stand for background 0
-    std::string report = {};        // JSON; empty where it was not checked yet
+    LabelColours colours = {};               // of some regions, given by the input
+    std::optional<InputLabel> lacking = {};  // a background that the exterior may stand for
+    std::string report = {};                 // JSON; empty where it was not checked yet
 };
 
 /// What a reconstruction takes besides its labels.
@@ -66,6 +66,7 @@ struct GivenLabels {
     bool is_open;
     Space space;
     LabelColours colours;
+    std::optional<InputLabel> lacking;
 };
 Model model_of(const GivenArrays& given, const GivenLabels& labels);
 

@@ -127,6 +127,7 @@ void bind_model(py::module_& module) {
         .def_readonly("names", &Model::names)
         .def_readonly("colours", &Model::colours)
         .def_readonly("is_open", &Model::is_open)
+        .def_readonly("lacking", &Model::lacking)
         .def_property_readonly("space", [](const Model& model) { return std::string(space_name(model.space)); })
         .def_property_readonly("is_unsigned", [](const Model& model) { return model.labels.is_unsigned(); })
         .def_property_readonly("exterior_label", [](const Model& model) { return model.labels.exterior_label(); })
@@ -152,13 +153,14 @@ void bind_model(py::module_& module) {
     });
     using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
                               decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
-    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, LabelColours, std::string>;
+    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, LabelColours, std::string,
+                              std::optional<InputLabel>>;
     module.def("from_arrays",
                [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned, bool is_open) {
                    const auto& [points, faces, labels, types] = arrays;
-                   const auto& [background, order, names, colours, space] = about;
+                   const auto& [background, order, names, colours, space, lacking] = about;
                    return model_of({points, faces, labels, types, exterior, is_unsigned},
-                                   {background, order, names, is_open, space_of(space), colours});
+                                   {background, order, names, is_open, space_of(space), colours, lacking});
                });
 }
 

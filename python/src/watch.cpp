@@ -10,6 +10,7 @@ namespace regionmesh::python {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenNotes{50};
+constexpr std::chrono::seconds kPatience{2};  // with an iterator or a callable that does not return
 
 /// The runs under way. Changed with the GIL held.
 std::vector<Watch*>& watches() {
@@ -31,7 +32,9 @@ private:
 };
 
 void Watch::end_all() {
-    while (!watches().empty()) {
+    const auto last = std::chrono::steady_clock::now() + kPatience;
+    while (!watches().empty() && std::chrono::steady_clock::now() < last) {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         for (Watch* const watch : watches()) watch->is_cancelled_ = true;
         const py::gil_scoped_release release;
         std::this_thread::sleep_for(kBetweenNotes);

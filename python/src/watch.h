@@ -33,8 +33,8 @@ public:
     /// throws.
     void run(const std::function<void()>& work);
 
-    /// Ends the runs of all threads: when the interpreter ends, it ends threads that wait for the GIL. Requires the
-    /// GIL.
+    /// Ends the runs of all threads: when the interpreter ends, it ends threads that wait for the GIL. Waits two
+    /// seconds at most. Requires the GIL.
     static void end_all();
     /// In a forked process, which has none of the threads.
     static void forget_all();

@@ -541,6 +541,14 @@ def test_a_mesh_of_an_array_is_checked_against_the_file(grains, tmp_path):
     assert moved.check(grains)["samples_wrong"] == 0
 
 
+def test_a_mesh_of_one_file_is_checked_against_another(grains, tmp_path):
+    grains.astype(np.uint8).tofile(tmp_path / "v.raw")
+    np.save(tmp_path / "v.npy", grains)
+    made = regionmesh.reconstruct(tmp_path / "v.raw", size=grains.shape[::-1], type="uint8")
+    for path in tmp_path / "v.raw", os.fsencode(tmp_path / "v.npy"):
+        assert made.check(path)["samples_wrong"] == 0
+
+
 def test_labels_kept_are_kept_where_the_cut_is_the_whole(grains):
     for cut in {"box": "-5:100,:,:"}, {"roi": ":,:,:"}, {"downsample": 1}:
         made = regionmesh.reconstruct(grains, labels_to_keep=[1], **cut)
@@ -552,8 +560,13 @@ def test_a_file_without_background_is_checked_as_the_program_does(tmp_path):
     labels[2:6, 2:6, 2:6], labels[2:6, 2:6, 6:] = 1, 2  # one of them on a side of the box
     made = regionmesh.reconstruct(labels)
     made.save(tmp_path / "m.stl")
-    report = regionmesh.load(tmp_path / "m.stl").check(labels)
-    assert (report["samples_wrong"], report["violations"]) == (0, [])
+    loaded = regionmesh.load(tmp_path / "m.stl")
+    regionmesh.reconstruct(np.where(labels == 0, 5, labels), background=5).save(tmp_path / "m5.stl")
+    of_5 = regionmesh.load(tmp_path / "m5.stl", background=5)
+    for model, volume in (loaded, labels), (of_5, np.where(labels == 0, 5, labels)):
+        for same in model, pickle.loads(pickle.dumps(model)):
+            report = same.check(volume)
+            assert (report["samples_wrong"], report["violations"]) == (0, [])
 
 
 def test_a_volume_in_another_space_is_turned(grains, tmp_path):

@@ -90,7 +90,7 @@ def test_ctrl_c_ends_voxelise(grains):
     threading.Timer(0.2, press).start()
     with pytest.raises(KeyboardInterrupt):
         while True:
-            mesh.voxelise(shape=(800, 800, 800), spacing=[1 / 40] * 3, dtype="u1")
+            mesh.voxelise(shape=(500, 500, 500), spacing=[1 / 25] * 3, dtype="u1")
     assert time.monotonic() - pressed[0] < 1.0
 
 
@@ -109,6 +109,25 @@ time.sleep(0.3)
     for _ in range(3):
         ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
         assert (ended.returncode, ended.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("waits", ["progress=lambda *_: time.sleep(1000)", "sections=20"])
+def test_the_interpreter_does_not_wait_for_what_never_returns(waits):
+    script = f"""
+import threading, time
+import numpy as np, regionmesh
+labels = np.zeros((20, 20, 20), "u1")
+labels[5:9] = 1
+def endless():
+    yield labels[0]
+    time.sleep(1000)
+run = lambda: regionmesh.reconstruct(labels if "progress" in {waits!r} else endless(), {waits})
+threading.Thread(target=run, daemon=True).start()
+time.sleep(0.5)
+"""
+    began = time.monotonic()
+    subprocess.run([sys.executable, "-c", script], capture_output=True, timeout=60)
+    assert time.monotonic() - began < 20
 
 
 def test_another_signal_handler_runs_meanwhile(grains):

@@ -11,7 +11,8 @@
 namespace regionmesh::formats {
 namespace {
 
-constexpr double kNear = 0.01;                   // of the distance of places on a grid
+constexpr double kNear = 0.01;  // of the distance to a neighbour
+constexpr std::size_t kNeighbour = 3;
 constexpr std::size_t kLeastProducts = 1 << 16;  // of one task
 constexpr double kLeastPivot = 1e-13;            // of the largest diagonal entry; smaller ones are rounding errors
 
@@ -68,9 +69,18 @@ private:
 }  // namespace
 
 double near_distance(const std::vector<HeightSample>& samples) {
-    const auto [left, right] = std::ranges::minmax(samples, {}, &HeightSample::x);
-    const auto [low, high] = std::ranges::minmax(samples, {}, &HeightSample::y);
-    return kNear * std::max(right.x - left.x, high.y - low.y) / std::sqrt(static_cast<double>(samples.size()));
+    if (samples.size() < 2) return 0;
+    const auto neighbour = static_cast<std::ptrdiff_t>(std::min(kNeighbour, samples.size() - 1));
+    std::vector<double> of_each, distances(samples.size());
+    for (const HeightSample& a : samples) {
+        for (std::size_t n = 0; n < samples.size(); ++n)
+            distances[n] = std::hypot(samples[n].x - a.x, samples[n].y - a.y);  // 0 to itself
+        std::nth_element(distances.begin(), distances.begin() + neighbour, distances.end());
+        of_each.push_back(distances[static_cast<std::size_t>(neighbour)]);
+    }
+    const auto middle = of_each.begin() + static_cast<std::ptrdiff_t>(of_each.size() / 2);
+    std::nth_element(of_each.begin(), middle, of_each.end());
+    return kNear * *middle;
 }
 
 Kriging::Kriging(std::vector<HeightSample> samples, double near, std::uint32_t threads) : samples_(std::move(samples)) {

@@ -15,8 +15,9 @@ struct HeightSample {
 /// Most samples of one surface: the time to solve for the weights grows with the cube of their number.
 inline constexpr std::size_t kMostHeights = 3000;
 
-/// Below this distance two places count as one: a hundredth of the distance between as many places on a square grid of
-/// this extent. The slope between two holes side by side would otherwise tilt the surface far around them.
+/// Below this distance two places count as one: a hundredth of the median distance from a place to its third neighbour,
+/// which neither pairs nor places far off decide. The slope between two holes side by side would otherwise tilt the
+/// surface far around them.
 double near_distance(const std::vector<HeightSample>& samples);
 
 /// The surface through the samples with the least variance of its error, for the power variogram r^1.5. It has no peaks

@@ -122,6 +122,18 @@ TEST_F(Layers, holes_side_by_side_do_not_tilt_the_base) {
     for (const auto& [x, y, base] : bases(*open(rows, kFine), 1)) EXPECT_NEAR(base, 79.75, 0.6) << x << ' ' << y;
 }
 
+TEST_F(Layers, one_hole_far_off_does_not_merge_the_others) {
+    std::string rows = row(200000, 0, 0, 20, "sand") + row(200000, 0, 20, 100, "clay");
+    std::vector<HeightSample> holes;
+    for (int n = 0; n < 100; ++n) holes.push_back({100.0 * (n % 10), 100.0 * (n / 10), 60.0 + n % 7});
+    for (const auto& [x, y, z] : holes) rows += row(x, y, 0, 100 - z, "sand") + row(x, y, 100 - z, 100, "clay");
+    for (const auto& [x, y, base] : bases(*open(rows, kFine), 1))
+        for (const auto& hole : holes)
+            if (hole.x == x && hole.y == y) {
+                EXPECT_NEAR(base, hole.z, 0.13) << x << ' ' << y;
+            }
+}
+
 TEST_F(Layers, units_may_lie_where_nothing_was_logged) {
     std::string rows;
     for (const double x : {0, 1000})
