@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// A vertex beyond the samples would turn back what lies behind it: they all keep their regions only inside.
+    /// Samples on the sides of their box keep their regions only while the surface stays in it.
     static Box limits_of(const SimplifyOptions& options, const CollapseBounds& bounds) {
         Box limits = options.box ? common(bounds.limits, *options.box) : bounds.limits;
         if (options.samples) {

@@ -29,10 +29,7 @@ unsigned sides_at(const Lattice& lattice, Vec3 point) {
 bool lacks_background(const MeshFile& file, const std::filesystem::path& path, InputLabel background) {
     std::error_code ignored;
     if (formats::extension(path) != ".stl" && !std::filesystem::is_directory(path, ignored)) return false;
-    if (!file.background || !file.background->empty()) return false;
-    for (Label label = 0; label < file.labels.size(); ++label)
-        if (file.labels.input(label) == background) return false;
-    return true;
+    return file.background && file.background->empty() && !file.labels.find(background);
 }
 
 void restore_background(MeshFile& file, const Lattice& lattice, InputLabel background) {
