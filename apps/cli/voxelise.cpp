@@ -38,10 +38,11 @@ int run_voxelise(const Settings& given) {
         contradictions = voxeliser.contradictions();
     }
     if (contradictions != 0)
-        throw Error(ErrorCode::kInput,
-                    fmt::format("{}: the surface is not closed: it contradicts itself at {} samples; regionmesh check "
-                                "lists the places",
-                                path, contradictions));
+        throw Error(
+            ErrorCode::kInput,
+            fmt::format("{}: the surface contradicts itself at {} samples: it is not closed, or its faces cross or are "
+                        "turned over; regionmesh check lists the places",
+                        path, contradictions));
     writer->commit();
     if (!settings.quiet)
         fmt::print("{}: {} x {} x {} samples\n", printable(settings.output), lattice.size[0], lattice.size[1],

@@ -210,9 +210,11 @@ std::string SegmentationFile::Parts::obstacle() {
     if (is_native()) {
         const std::uint64_t stored = pixels()->getLength(dataset().getOriginalXfer());
         const std::uint64_t needed = (frames * frame_bits() + 7) / 8;
-        if (stored >= needed) return "";
+        if (needed == 0 || stored == needed || stored == needed + needed % 2) return "";  // lengths are even
         return "holds " + std::to_string(stored) + " bytes of samples where " + std::to_string(needed) +
-               " are needed; the file is truncated, fetch it again";
+               " are needed; " +
+               (stored < needed ? "the file is truncated, fetch it again"
+                                : "its number of frames, rows or columns is wrong, export it again");
     }
     if (dataset().getOriginalXfer() != EXS_RLELossless || bits == 1) {
         return "its samples are compressed as " + std::string(syntax().getXferName()) +

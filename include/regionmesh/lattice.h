@@ -32,6 +32,22 @@ struct Lattice {
                 {corner & 1 ? size[0] - 1.0 : 0, corner & 2 ? size[1] - 1.0 : 0, corner & 4 ? size[2] - 1.0 : 0}));
         return box;
     }
+    /// The directions in which indices grow, of length 1.
+    std::array<Vec3, 3> axes() const {
+        const auto& d = direction;
+        return {Vec3{d[0], d[3], d[6]}, {d[1], d[4], d[7]}, {d[2], d[5], d[8]}};
+    }
+    /// Of the cell that the axes span: negative where they mirror.
+    double axes_volume() const {
+        const auto [x, y, z] = axes();
+        return dot(x, cross(y, z));
+    }
+    /// The same lattice before it is turned: its axes are those of coordinates.
+    Lattice along_axes() const {
+        Lattice lattice = *this;
+        lattice.direction = Lattice().direction;
+        return lattice;
+    }
     bool is_axis_aligned() const { return direction == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}; }
 };
 
@@ -40,9 +56,8 @@ struct Lattice {
 class IntoAxes {
 public:
     explicit IntoAxes(const Lattice& lattice) : origin_(lattice.origin) {
-        const auto& d = lattice.direction;
-        const Vec3 x{d[0], d[3], d[6]}, y{d[1], d[4], d[7]}, z{d[2], d[5], d[8]};
-        const double volume = dot(x, cross(y, z));
+        const auto [x, y, z] = lattice.axes();
+        const double volume = lattice.axes_volume();
         rows_ = {cross(y, z) / volume, cross(z, x) / volume, cross(x, y) / volume};
     }
     /// How far a place is from the first sample along each axis, as a length.

@@ -34,7 +34,8 @@ struct SmoothOptions {
     bool move_points = false;     // --smooth-points: quadruple points follow their lines
     double min_quality = 0.1;     // no face falls below this quality; faces already below it may stay below
     bool intersect_check = true;
-    std::uint32_t threads = 0;  // 0: one per core; the result does not depend on it
+    std::optional<Box> box = {};  // preserve_volumes() moves no vertex out of it
+    std::uint32_t threads = 0;    // 0: one per core; the result does not depend on it
 };
 
 /// What smoothing did.
@@ -85,9 +86,9 @@ using WantedVolumes = std::vector<std::optional<double>>;
 /// gradient of the volume, divided by the area around v. This is the smallest motion, in the mean square over the
 /// surface, that corrects all volumes to first order. The matrix couples regions that share an interface. Quadruple
 /// points move, too: on a coarse mesh a small region may have no other vertices. Vertices on the box stay on its
-/// sides. No region ends farther from its wanted volume than it began, beyond kVolumeTolerance. Uses
-/// min_quality, intersect_check and threads of the options. Throws Error(kUsage) for numbers out of range.
-/// Deterministic.
+/// sides, and no other moves beyond them, nor out of the box of the options. No region ends farther from its wanted
+/// volume than it began, beyond kVolumeTolerance. Uses min_quality, intersect_check, box and threads of the options.
+/// Throws Error(kUsage) for numbers out of range. Deterministic.
 PreserveReport preserve_volumes(Mesh& mesh, const WantedVolumes& wanted, const SmoothOptions& options);
 
 }  // namespace regionmesh

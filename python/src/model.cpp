@@ -352,9 +352,10 @@ void voxelise(const Model& model, const Frame& frame, InputLabel outside, py::ar
             }
         }
         if (voxeliser.contradictions() != 0)
-            throw Error(ErrorCode::kInput, "the surface is not closed: it contradicts itself at " +
+            throw Error(ErrorCode::kInput, "the surface contradicts itself at " +
                                                std::to_string(voxeliser.contradictions()) +
-                                               " samples; check() lists the places");
+                                               " samples: it is not closed, or its faces cross or are turned over; "
+                                               "check() lists the places");
     });
 }
 

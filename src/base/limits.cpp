@@ -34,10 +34,8 @@ void require_lattice(const std::string& what, const Lattice& lattice) {
         if (!is_length(lattice.spacing[axis], kMostLength))
             refuse(what, std::string("the spacing along ") + "xyz"[axis] + " is " + text_of(lattice.spacing[axis]) +
                              allowed(kMostLength) + "give the right one with --spacing X,Y,Z");
-    const std::array<double, 9>& d = lattice.direction;
-    const double volume = dot({d[0], d[3], d[6]}, cross({d[1], d[4], d[7]}, {d[2], d[5], d[8]}));
-    constexpr double kLeastVolume = 1e-6;  // of the cell that the directions span
-    if (!(std::abs(volume) >= kLeastVolume))
+    constexpr double kLeastVolume = 1e-6;
+    if (!(std::abs(lattice.axes_volume()) >= kLeastVolume))
         refuse(what, "the directions of the axes lie in one plane; give those of x, y, z as unit columns");
     const Vec3 spacing = lattice.spacing;
     const double least = std::min({spacing.x, spacing.y, spacing.z});

@@ -18,8 +18,9 @@ struct QualityTerms {
 
     /// Is the quality at least `bound`? Compares third powers.
     bool is_at_least(double bound) const { return area * area * area >= bound * bound * bound * product * product; }
-    double cube() const { return product > 0 ? area * area * area / (product * product) : 0.0; }
-    double value() const { return product > 0 ? area / std::cbrt(product * product) : 0.0; }
+    /// 0 where the square of the product is too small for a number, too.
+    double cube() const { return product * product > 0 ? area * area * area / (product * product) : 0.0; }
+    double value() const { return product * product > 0 ? area / std::cbrt(product * product) : 0.0; }
 };
 
 /// Terms of a triangle from its area and squared edge lengths.

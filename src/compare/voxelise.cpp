@@ -57,8 +57,7 @@ Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
     is_turned_ = !options.lattice.is_axis_aligned();
     rounding_ = is_single(mesh) ? kSingleRounding : is_turned_ ? kRounding : 0;
-    const auto& d = options.lattice.direction;
-    is_mirrored_ = dot(regionmesh::cross({d[0], d[3], d[6]}, {d[1], d[4], d[7]}), {d[2], d[5], d[8]}) < 0;
+    is_mirrored_ = options.lattice.axes_volume() < 0;
     find_sides(*lines);
     find_sections(threads);
     sort_faces();

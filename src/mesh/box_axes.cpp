@@ -142,12 +142,12 @@ void BoxAxes::set_axes(const std::array<Vec3, 3>& normals) {
     }
 }
 
-/// The first sample along its axes becomes the origin.
+/// The first sample along its axes becomes the origin. Which axes are reversed is found for those of the lattice: those
+/// that set_axes() finds from normals of a lattice that mirrors are all turned round.
 void BoxAxes::set_axes(const Lattice& lattice) {
-    const auto& d = lattice.direction;
-    const std::array along{Vec3{d[0], d[3], d[6]}, Vec3{d[1], d[4], d[7]}, Vec3{d[2], d[5], d[8]}};
-    set_axes({cross(along[1], along[2]), cross(along[2], along[0]), cross(along[0], along[1])});
-    const auto [order, are_reversed] = axes_by_coordinate(along);
+    const auto [x, y, z] = lattice.axes();
+    set_axes({cross(y, z), cross(z, x), cross(x, y)});
+    const auto [order, are_reversed] = axes_by_coordinate(lattice.axes());
     std::array<double, 3> first{};
     samples_ = Lattice{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -103,13 +103,8 @@ public:
 private:
     /// Samples on the sides of their box keep their regions only while the surface stays in it.
     static Box limits_of(const SimplifyOptions& options, const CollapseBounds& bounds) {
-        Box limits = options.box ? common(bounds.limits, *options.box) : bounds.limits;
-        if (options.samples) {
-            Lattice along_axes = *options.samples;
-            along_axes.direction = Lattice().direction;
-            limits = common(limits, along_axes.extent());
-        }
-        return limits;
+        const Box limits = options.box ? common(bounds.limits, *options.box) : bounds.limits;
+        return options.samples ? common(limits, options.samples->along_axes().extent()) : limits;
     }
 
     /// Returns the number of vertices that went.

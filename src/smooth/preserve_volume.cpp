@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/option_range.h"
 #include "base/triangle.h"
+#include "mesh/alive.h"
 #include "mesh/region_volumes.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/smooth.h"
@@ -69,6 +71,23 @@ void for_boundaries(const Mesh& mesh, const std::vector<bool>& marked, Visit&& v
             if (label < marked.size() && marked[label])
                 for (VertexId v : mesh[FaceId{f}].vertices) visit(v);
     }
+}
+
+/// The box of the options, and the planes of the sides that vertices lie on.
+Box limits_of(const Mesh& mesh, const std::optional<Box>& box) {
+    constexpr Vec3 kFar{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    Box limits = box.value_or(Box{-1 * kFar, kFar});
+    for_vertices(mesh, [&](VertexId v) {
+        for (int side = 0; side < 6; ++side) {
+            if (!(mesh[v].sides >> side & 1)) continue;
+            const double plane = mesh.position(v)[side / 2];
+            if (side % 2 == 0)
+                limits.low[side / 2] = std::max(limits.low[side / 2], plane);
+            else
+                limits.high[side / 2] = std::min(limits.high[side / 2], plane);
+        }
+    });
+    return limits;
 }
 
 /// Rounds that bring the volumes nearer to those wanted.
@@ -216,6 +235,10 @@ private:
         if (size > longest) step = longest / size * step;
         largest_displacement_ = std::max(largest_displacement_, std::min(size, longest));
         Vec3 to = from + step;
+        // A vertex that came in beyond them need not go back.
+        for (int axis = 0; axis < 3; ++axis)
+            to[axis] =
+                std::clamp(to[axis], std::min(limits_.low[axis], from[axis]), std::max(limits_.high[axis], from[axis]));
         keep_on_sides(kept_sides(v), from, to);
         return to;
     }
@@ -224,6 +247,7 @@ private:
     const WantedVolumes& wanted_;
     const SmoothOptions& options_;
     const std::vector<bool>& left_;
+    Box limits_ = limits_of(mesh_, options_.box);
     bool is_first_ = true;
     std::vector<std::uint8_t> rest_;  // rounds to sit out
     double edge_ = typical_edge(mesh_);

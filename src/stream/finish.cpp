@@ -27,14 +27,16 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
     result.report.error_bound = result.report.improved->error_bound;
 }
 
-void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log) {
+void restore_volumes(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.preserve_volume) return;
     const StageTimer timer = log.time("preserve volume");
     const std::vector<double>& before = result.report.unsmoothed_volumes;
     WantedVolumes wanted(before.begin(), before.end());
     for (Label label : result.background)
         if (label < wanted.size()) wanted[label].reset();
-    result.report.preserved = preserve_volumes(result.mesh, wanted, smooth_options(options, scale));
+    SmoothOptions own = smooth_options(options, shape.scale);
+    own.box = simplify_options(options, shape).box;
+    result.report.preserved = preserve_volumes(result.mesh, wanted, own);
     result.report.error_bound = largest_error_bound(result.mesh);
 }
 

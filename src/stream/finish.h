@@ -13,7 +13,7 @@ namespace regionmesh {
 void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
 /// Gives the regions the volumes that they had before smoothing and decimation, where the options ask for it.
-void restore_volumes(Reconstruction& result, const ReconstructOptions& options, double scale, RunLog& log);
+void restore_volumes(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
 /// Checks the mesh as it will be written, and compares it with the samples of the source.
 void check_result(Reconstruction& result, FaceSource& source, std::optional<LabelOracle> oracle,

@@ -136,7 +136,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     log.advance(WorkStage::kTrim, 1);
     improve_faces(result, options, shape, log);
     log.advance(WorkStage::kImprove, 1);
-    restore_volumes(result, options, shape.scale, log);
+    restore_volumes(result, options, shape, log);
     log.advance(WorkStage::kVolumes, 1);
     give_back_freed_memory();
     result.report.pinned_vertices = release_all(result.mesh);

@@ -8,9 +8,7 @@ namespace {
 
 /// What the sides of the lattice are in space, where the axes take the numbers of the coordinates near them.
 std::array<int, 6> sides_in_space(const Lattice& lattice) {
-    const auto& d = lattice.direction;
-    const auto [axes, are_reversed] =
-        axes_by_coordinate({Vec3{d[0], d[3], d[6]}, {d[1], d[4], d[7]}, {d[2], d[5], d[8]}});
+    const auto [axes, are_reversed] = axes_by_coordinate(lattice.axes());
     std::array<int, 6> names{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t high = 0; high < 2; ++high)
@@ -33,9 +31,7 @@ void place_in_space(Mesh& mesh, const Lattice& lattice) {
         p = lattice.origin + Vec3{d[0] * p.x + d[1] * p.y + d[2] * p.z, d[3] * p.x + d[4] * p.y + d[5] * p.z,
                                   d[6] * p.x + d[7] * p.y + d[8] * p.z};
     });
-    const double determinant =
-        d[0] * (d[4] * d[8] - d[5] * d[7]) - d[1] * (d[3] * d[8] - d[5] * d[6]) + d[2] * (d[3] * d[7] - d[4] * d[6]);
-    if (determinant < 0) mesh.flip_faces();
+    if (lattice.axes_volume() < 0) mesh.flip_faces();
     mesh.rename_sides(sides_in_space(lattice));
 }
 

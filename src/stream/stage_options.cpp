@@ -68,11 +68,7 @@ SimplifyOptions simplify_options(const ReconstructOptions& options, const Source
     own.bounds_regions = options.cap || shape.has_samples;
     if (options.keep_samples && shape.has_samples) own.samples = shape.lattice;
     own.placement = options.placement;
-    if (shape.has_samples) {
-        Lattice along_axes = shape.lattice;
-        along_axes.direction = Lattice().direction;  // meshes are turned at the end
-        own.box = along_axes.extent();
-    }
+    if (shape.has_samples) own.box = shape.lattice.along_axes().extent();  // meshes are turned at the end
     return own;
 }
 

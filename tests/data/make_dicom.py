@@ -234,6 +234,7 @@ def bad():
     changed(lambda d: setattr(d, "PerFrameFunctionalGroupsSequence", d.PerFrameFunctionalGroupsSequence[:4])).write(
         "bad", "groups.dcm")
     changed(lambda d: setattr(d, "PixelData", b"\0" * 4)).write("bad", "short.dcm")
+    changed(lambda d: setattr(d, "PixelData", b"\0" * 32)).write("bad", "long.dcm")
     changed(lambda d: setattr(d, "Rows", 0)).write("bad", "empty.dcm")
     large = label_map(16)
     large.set.PixelData = large.samples(RLE)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "mesh/alive.h"
 #include "mesh/region_volumes.h"
 #include "regionmesh/smooth.h"
 #include "smooth/guarded_move.h"
@@ -103,6 +104,24 @@ TEST(PreserveVolume, keeps_to_the_box) {
         }
     }
     EXPECT_NEAR(region_volumes(mesh)[0], 1.02 * before[0], 1e-6);
+}
+
+TEST(PreserveVolume, no_vertex_leaves_the_box) {
+    for (std::uint32_t seed = 0; seed < 30; ++seed) {
+        test::ArrayVolume volume = test::noise_volume({3, 4, 4}, 2, seed);
+        for (const CellKind cells : {CellKind::kTetrahedra, CellKind::kCompact}) {
+            const Reconstruction made =
+                test::run(volume, {.cells = cells, .preserve_volume = true, .decimate = false, .background = {0}});
+            for_vertices(made.mesh, [&](VertexId v) {
+                const Vec3 p = made.mesh.position(v);
+                for (int axis = 0; axis < 3; ++axis) {
+                    EXPECT_GE(p[axis], 0) << seed;
+                    EXPECT_LE(p[axis], axis == 0 ? 2 : 3) << seed;
+                }
+            });
+            test::expect_sound(made.report.check);
+        }
+    }
 }
 
 /// Six labels, dense and noisy: islands of few samples that volumes push through each other.

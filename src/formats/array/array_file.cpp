@@ -63,10 +63,12 @@ StreamPart part_of(const ArrayFile& array, const fs::path& path, std::uint64_t n
     const InputFile file(path);
     const std::uint64_t begin = samples_begin(array, file, needed);
     check_present(array, file, begin, needed);
-    return {[path, begin, encoding = array.encoding, type = array.sample.type,
+    return {[path, begin, needed, encoding = array.encoding, type = array.sample.type,
              skip = array.skipped_bytes]() -> std::unique_ptr<ByteStream> {
                 if (encoding == Encoding::kRaw) return std::make_unique<PlainStream>(InputFile(path), begin);
-                if (encoding == Encoding::kAscii) return std::make_unique<AsciiStream>(InputFile(path), type, begin);
+                if (encoding == Encoding::kAscii)
+                    return std::make_unique<AsciiStream>(InputFile(path), type,
+                                                         needed / sample_bytes(kAsciiFormat.type), begin);
                 auto stream = std::make_unique<DeflateStream>(InputFile(path), begin);
                 stream->skip(static_cast<std::uint64_t>(skip));  // if it cannot, the first read reports why
                 return stream;

@@ -79,7 +79,9 @@ StoreArray parse_version_2(const fs::path& folder, const Json& json) {
     array.format = parse_dtype(metadata, json.at("dtype"));
     array.fill = stored_sample(metadata, json.value("fill_value", Json()), array.format);
     array.stored = c_order(array.chunk.size());
-    if (json.value("order", "C") == "F") std::ranges::reverse(array.stored);
+    const std::string order = json.value("order", "C");
+    if (order != "C" && order != "F") fail(metadata, "the order '" + order + "' is neither C nor F");
+    if (order == "F") std::ranges::reverse(array.stored);
     const std::string separator = json.value("dimension_separator", ".");
     if (separator != "/" && separator != ".")
         fail(metadata, "the dimension_separator '" + separator + "' is neither / nor .");

@@ -71,6 +71,11 @@ std::optional<std::string_view> ByteReader::take_line() {
     return line;
 }
 
+void ByteReader::require_line_ends(std::string_view line) const {
+    if (line.find('\r') != std::string_view::npos)
+        fail_line("has carriage returns without line feeds; write the file with LF or CR LF as line ends");
+}
+
 std::optional<std::string_view> ByteReader::take_word() {
     const auto separates = [&](std::size_t at) { return separates_[static_cast<unsigned char>(buffer_[at])]; };
     for (;; drop(1)) {

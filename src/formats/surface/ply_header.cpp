@@ -91,7 +91,9 @@ PlyHeader read_ply_header(formats::ByteReader& file, FileSurface& surface) {
     PlyHeader header;
     // Checked before taking a line: other files may not have lines.
     if (file.size() < 4 || !file.peek(4).starts_with("ply")) file.fail("is no PLY file");
-    if (file.take_line() != "ply") file.fail("is no PLY file");
+    const std::string_view first = *file.take_line();
+    file.require_line_ends(first);
+    if (formats::trim(first) != "ply") file.fail("is no PLY file");
     bool has_format = false;
     while (file.size() - file.left() <= kLongestHeader) {
         const auto line = file.take_line();

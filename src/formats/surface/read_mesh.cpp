@@ -26,7 +26,16 @@ bool is_surface(const std::filesystem::path& path) {
     return format && format->read_surface;
 }
 
-/// The surfaces in a folder, in natural order of their names. Each is a region, called what the file is.
+/// Half a turn about z leads from RAS to LPS and back.
+void turn(FileSurface& surface, Space space) {
+    if (space == Space::kUnknown || space == surface.space) return;
+    if (surface.space != Space::kUnknown)
+        for (Vec3& point : surface.points) point = {-point.x, -point.y, point.z};
+    surface.space = space;
+}
+
+/// The surfaces in a folder, in natural order of their names. Each is a region, called what the file is. Files in
+/// another space than the first that names one are turned into it.
 FileSurface read_folder(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> paths;
     std::error_code error;
@@ -49,7 +58,8 @@ FileSurface read_folder(const std::filesystem::path& folder) {
         for (auto& labels : surface.labels) labels = {group, 0};
         surface.names.clear();
         surface.colours.clear();
-        if (all.space == Space::kUnknown) all.space = surface.space;
+        turn(surface, all.space);
+        all.space = surface.space;
         append(all, surface);
         if (all.points.size() > kMostVertices || all.faces.size() > kMostFaces)
             formats::fail(folder, "has more points or faces than a model can hold");
@@ -69,14 +79,6 @@ FileSurface read_surface(const std::filesystem::path& path) {
                       fmt::format("no such file or folder: use one of {}, or a folder of them", readable_extensions()));
     formats::fail(path, fmt::format("no model format that can be read has the extension '{}': use one of {}",
                                     path.extension().string(), readable_extensions()));
-}
-
-/// Half a turn about z leads from RAS to LPS and back.
-void turn(FileSurface& surface, Space space) {
-    if (space == Space::kUnknown || space == surface.space) return;
-    if (surface.space != Space::kUnknown)
-        for (Vec3& point : surface.points) point = {-point.x, -point.y, point.z};
-    surface.space = space;
 }
 
 MeshFile assemble(FileSurface&& surface) {

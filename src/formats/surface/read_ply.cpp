@@ -79,6 +79,7 @@ private:
     void take_element(const PlyElement& element, std::optional<std::size_t> list, PlyNumbers& numbers);
     void read_points(const PlyElement& element, PlyNumbers& numbers);
     void read_faces(const PlyElement& element, PlyNumbers& numbers);
+    void require_end(PlyEncoding encoding);
     LabelPlaces find_labels(const PlyElement& element);
     InputLabel label_at(const LabelPlaces& places, int side, std::uint64_t face) const;
 
@@ -179,6 +180,16 @@ void PlyReader::read_faces(const PlyElement& element, PlyNumbers& numbers) {
     if (!places.low[0]) groups_.put_labels(surface_);
 }
 
+/// Elements that the header does not know of would be left out.
+void PlyReader::require_end(PlyEncoding encoding) {
+    if (encoding == PlyEncoding::kText) {
+        if (const auto word = file_.take_word())
+            file_.fail_line(fmt::format("'{}' stands behind all that the header promises", formats::shown(*word)));
+    } else if (file_.left() > 0) {
+        file_.fail(fmt::format("has {} bytes more than its header promises", file_.left()));
+    }
+}
+
 FileSurface PlyReader::read() {
     const PlyHeader header = read_ply_header(file_, surface_);
     PlyNumbers numbers(file_, header.encoding);
@@ -198,9 +209,7 @@ FileSurface PlyReader::read() {
     }
     if (!has_points) file_.fail("has no vertices");
     if (!has_faces) file_.fail("has no faces behind its vertices");
-    const bool is_binary = header.encoding != PlyEncoding::kText;
-    if (is_binary && header.elements.back().name == "face" && file_.left() > 0)
-        file_.fail(fmt::format("has {} bytes more than its header promises", file_.left()));
+    if (header.elements.back().name == "face") require_end(header.encoding);
     return std::move(surface_);
 }
 

@@ -54,7 +54,8 @@ void read_text(formats::ByteReader& file, RegionGroups& groups, FileSurface& sur
         if (rest.find('\0') != std::string_view::npos)
             file.fail_line(
                 "is no text, and the file has not the size of a binary STL file with as many faces as it says");
-        const std::string_view word = formats::take_word(rest);
+        file.require_line_ends(rest);
+        const std::string word = formats::lower(formats::take_word(rest));
         if (word == "solid") {
             read_comment(surface, rest);
             rest = rest.substr(0, rest.find(" SPACE="));

@@ -20,7 +20,14 @@ bool AsciiStream::take_number() {
     }
     std::memcpy(number_, &*number, sizeof number_);
     number_place_ = 0;
+    ++taken_;
     return true;
+}
+
+bool AsciiStream::finish() {
+    if (taken_ < count_ || !words_.take_word()) return true;
+    problem_ = "more numbers follow than the size says; correct one of them";
+    return false;
 }
 
 std::size_t AsciiStream::read(std::span<std::byte> bytes) {
@@ -38,6 +45,7 @@ std::size_t AsciiStream::read(std::span<std::byte> bytes) {
 void AsciiStream::rewind() {
     words_.go_to(begin_, 0);
     number_place_ = sizeof number_;
+    taken_ = 0;
     problem_.clear();
 }
 

@@ -20,17 +20,22 @@ constexpr std::uint64_t most_ascii_samples(std::uint64_t letters) { return lette
 /// 2^63 - 1 the bits of an unsigned one. Numbers that the type does not hold are a problem.
 class AsciiStream final : public ByteStream {
 public:
-    AsciiStream(InputFile file, SampleType type, std::uint64_t begin = 0, std::uint64_t end = UINT64_MAX)
-        : type_(type), begin_(begin), words_(std::move(file), begin, end, kBlanksAndCommas) {}
+    /// The text from `begin` to `end` is to hold `count` numbers.
+    AsciiStream(InputFile file, SampleType type, std::uint64_t count, std::uint64_t begin = 0,
+                std::uint64_t end = UINT64_MAX)
+        : type_(type), count_(count), begin_(begin), words_(std::move(file), begin, end, kBlanksAndCommas) {}
 
     std::size_t read(std::span<std::byte> bytes) override;
     void rewind() override;
+    /// Once all numbers are read: with more of them, each row would begin at a wrong place.
+    bool finish() override;
     const std::string& problem() const override { return problem_; }
 
 private:
     bool take_number();
 
     SampleType type_;
+    std::uint64_t count_, taken_ = 0;
     std::uint64_t begin_;
     ByteReader words_;
     std::byte number_[8];

@@ -117,9 +117,10 @@ std::unique_ptr<SectionReader> open_vti(const std::filesystem::path& path, const
     const VtkArrayPlace place = xml.place_of(header.array);
     const std::uint64_t present = place.end - place.begin;
     if (place.form == Form::kAscii) {
-        if (most_ascii_samples(present) < needed / sample_bytes(header.type))
+        const std::uint64_t count = needed / sample_bytes(header.type);
+        if (most_ascii_samples(present) < count)
             xml.fail(header.array, "has fewer numbers than its extent needs; write the file again");
-        return open_stream(std::make_unique<AsciiStream>(InputFile(path), header.type, place.begin, place.end),
+        return open_stream(std::make_unique<AsciiStream>(InputFile(path), header.type, count, place.begin, place.end),
                            std::move(info), {.format = kAsciiFormat}, options);
     }
     const bool is_compressed = xml.encoding().is_compressed;

@@ -51,6 +51,16 @@ TEST_F(ReadNrrdTest, raw_files_sweep_along_every_axis_and_others_along_z) {
         EXPECT_THAT(info_of(data(std::string("nrrd/") + name)).can_sweep, ElementsAre(false, false, true));
 }
 
+TEST_F(ReadNrrdTest, text_has_as_many_numbers_as_its_sizes_say) {
+    const auto text = [&](const std::string& numbers) {
+        put_text(path("a.nrrd"), "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 2\nencoding: ascii\n\n" + numbers);
+        return Paths{path("a.nrrd")};
+    };
+    EXPECT_EQ(read_volume(text("1 2 3 4\n \n")).labels, (std::vector<InputLabel>{1, 2, 3, 4}));
+    EXPECT_THAT(refusal(text("1 2 3\n")), HasSubstr("the numbers end early"));
+    EXPECT_THAT(refusal(text("1 2 3 4\n5\n")), HasSubstr("more numbers follow than the size says"));
+}
+
 TEST_F(ReadNrrdTest, places_in_space_are_those_of_the_header) {
     expect_in_space(info_of(data("nrrd/flipped_uint8.nrrd")), {10, -20, 30}, {-0.5, 0, 0, 0, -0.75, 0, 0, 0, 2});
     for (const char* name : {"nrrd/oblique_uint16.nrrd", "nrrd/itk_uint16.nrrd"})

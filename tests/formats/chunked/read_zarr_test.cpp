@@ -165,6 +165,11 @@ TEST_F(ReadZarrTest, sizes_are_whole_numbers) {
     }
 }
 
+TEST_F(ReadZarrTest, unknown_order_is_refused) {
+    const fs::path store = changed("zarr2/bad/missing_int16.zarr", ".zarray", "\"order\": \"C\"", "\"order\": \"Q\"");
+    EXPECT_THAT(refusal({store}), HasSubstr("the order 'Q' is neither C nor F"));
+}
+
 TEST_F(ReadZarrTest, axes_without_samples_are_refused) {
     const fs::path store = changed("ome/channels.zarr", "0/.zarray", "\"shape\"", "\"shape\": [0, 3, 4, 5], \"was\"");
     EXPECT_THAT(refusal({store}), HasSubstr("has 0 samples; give a volume that has some"));

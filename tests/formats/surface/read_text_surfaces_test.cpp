@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <numbers>
+#include <tuple>
 
 #include "formats/surface/mesh_formats.h"
 #include "formats/surface/surfaces.h"
@@ -166,6 +169,80 @@ TEST_F(TextSurfaces, obj_errors_name_the_line) {
     EXPECT_EQ(read("m.obj", "# nothing\n").mesh.face_count(), 0u);
 }
 
+TEST_F(TextSurfaces, files_of_other_kinds_are_no_obj) {
+    EXPECT_THAT(failure_of("m.obj", "# a note\n\nhello, this is\nV 0 0 0\n"), HasSubstr("begins as line 3: 'hello,'"));
+    EXPECT_THAT(failure_of("m.obj", solid("a", tetrahedron({}, 1))), HasSubstr("'solid'"));
+    EXPECT_EQ(read("m.obj", "mtllib m.mtl\no a\nvn 0 0 1\ns off\n").mesh.face_count(), 0u);
+    // Words of its own in a file with points.
+    const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2 # below\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    EXPECT_EQ(read("m.obj", "shadow_obj none\n" + tetrahedron).mesh.face_count(), 4u);
+}
+
+TEST_F(TextSurfaces, line_ends_and_marks_of_other_programs) {
+    const std::string obj = "g region_5\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    const MeshFile marked = read("m.obj", "\xEF\xBB\xBF" + obj);
+    EXPECT_NEAR(volume_of(marked, 5), 1.0 / 6, 1e-12);
+    const auto with_ends = [](std::string text, const std::string& end) {
+        for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size())
+            text.replace(at, 1, end);
+        return text;
+    };
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const std::string stl = solid("a", tetrahedron({}, 1));
+    for (const auto& [name, text, faces] :
+         {std::tuple("m.obj", obj, 4u), std::tuple("m.ply", ply, 1u), std::tuple("m.stl", stl, 4u)}) {
+        EXPECT_EQ(read(name, with_ends(text, "\r\n")).mesh.face_count(), faces);
+        EXPECT_THAT(failure_of(name, with_ends(text, "\r")),
+                    HasSubstr("line 1: has carriage returns without line feeds"));
+    }
+    std::string capital = stl;
+    for (char& c : capital) c = static_cast<char>(std::toupper(c));
+    EXPECT_EQ(read("m.stl", capital).mesh.face_count(), 4u);
+    EXPECT_EQ(read("m.ply", "ply \t" + ply.substr(3)).mesh.face_count(), 1u);
+}
+
+TEST_F(TextSurfaces, polygons_back_to_back_are_cut_alike_wherever_they_begin) {
+    // Two prisms over the same polygon, on both sides of z = 0: corners 1 to n of each are those of the polygon.
+    for (const std::uint32_t n : {4u, 5u, 70u}) {
+        std::string points;
+        for (const double z : {0, 1, -1})
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const double angle = 2 * std::numbers::pi * k / n;
+                points += n == 4 ? fmt::format("v {} {} {}\n", int(k == 1 || k == 2), int(k >= 2),
+                                               z)  // both diagonals are equal
+                                 : fmt::format("v {} {} {}\n", std::cos(angle), std::sin(angle), z);
+            }
+        const auto polygon = [&](std::uint32_t ring, std::uint32_t first, bool is_turned) {
+            std::string line = "f";
+            for (std::uint32_t k = 0; k < n; ++k)
+                line += fmt::format(" {}", ring * n + (is_turned ? first + n - k : first + k) % n + 1);
+            return line + "\n";
+        };
+        const auto walls = [&](std::uint32_t ring) {
+            std::string lines;
+            for (std::uint32_t k = 0; k < n; ++k) {
+                const std::uint32_t next = (k + 1) % n, a = k + 1, b = next + 1, c = ring * n + b, d = ring * n + a;
+                lines +=
+                    ring == 1 ? fmt::format("f {} {} {} {}\n", a, b, c, d) : fmt::format("f {} {} {} {}\n", b, a, d, c);
+            }
+            return lines;
+        };
+        for (std::uint32_t first = 0; first < n; first += n < 10 ? 1 : 7) {
+            for (std::uint32_t other = 0; other < n; other += n < 10 ? 1 : 23) {
+                const MeshFile file =
+                    read("m.obj", points + "g upper\n" + polygon(0, first, true) + polygon(1, 0, false) + walls(1) +
+                                      "g lower\n" + polygon(0, other, false) + polygon(2, 0, true) + walls(2));
+                EXPECT_EQ(file.mesh.face_count(), 3 * (n - 2) + 4 * n) << n << ' ' << first << ' ' << other;
+                EXPECT_EQ(check(file.mesh).violation_count(), 0u) << n << ' ' << first << ' ' << other;
+                EXPECT_NEAR(volume_of(file, 1), volume_of(file, 2), 1e-12);
+                EXPECT_GT(volume_of(file, 1), 0.9);
+            }
+        }
+    }
+}
+
 TEST_F(TextSurfaces, ply_labels_have_many_names) {
     const auto text = [](const std::string& properties, const std::string& values) {
         return "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nelement camera 1\r\nproperty list uchar int dots\r\n"
@@ -182,7 +259,7 @@ TEST_F(TextSurfaces, ply_labels_have_many_names) {
     const FileSurface two = labels("property int label0\r\n" + list + "property short label1\r\n", "7 4 0 1 2 3 -1");
     EXPECT_EQ(two.points[3], (Vec3{0, 2, 0}));
     EXPECT_THAT(two.labels, ElementsAre(LabelPair{7, -1}, LabelPair{7, -1}));
-    EXPECT_THAT(two.faces, ElementsAre(std::array{0u, 1u, 2u}, std::array{0u, 2u, 3u}));
+    EXPECT_THAT(two.faces, ElementsAre(std::array{0u, 2u, 3u}, std::array{0u, 1u, 2u}));
     EXPECT_THAT(labels(list + "property int label_1\r\nproperty int label_2\r\n", "3 0 1 2 5 6").labels,
                 ElementsAre(LabelPair{5, 6}));
     EXPECT_THAT(labels(list + "property double region\r\n", "3 0 1 2 9").labels, ElementsAre(LabelPair{9, -1}));
@@ -193,6 +270,8 @@ TEST_F(TextSurfaces, ply_labels_have_many_names) {
     EXPECT_THAT(failure_of("m.ply", text(list, "3 0 one 2")),
                 HasSubstr("line 18: 'one' stands where a number belongs"));
     EXPECT_THAT(failure_of("m.ply", text("", "")), HasSubstr("list vertex_indices"));
+    EXPECT_THAT(failure_of("m.ply", text(list, "3 0 1 2\r\n3 0 2 3")),
+                HasSubstr("line 19: '3' stands behind all that the header promises"));
 }
 
 TEST_F(TextSurfaces, points_are_joined_within_a_distance_and_no_farther) {
@@ -248,6 +327,24 @@ TEST_F(TextSurfaces, a_folder_is_a_region_for_each_file) {
     EXPECT_EQ(read_mesh(path("parts")).labels.size(), 3u) << "a file in a folder is one region";
     std::filesystem::create_directory(path("empty"));
     EXPECT_THROW(read_mesh(path("empty")), Error);
+}
+
+TEST_F(TextSurfaces, files_of_a_folder_come_into_the_space_of_the_first_that_names_one) {
+    const Vec3 at{2, 3, 5};
+    std::filesystem::create_directory(path("parts"));
+    put_text(path("parts/1.stl"), solid("a SPACE=LPS", tetrahedron(at, 1)));
+    put_text(path("parts/2.stl"), solid("b SPACE=RAS", tetrahedron(at, 1)));
+    const auto low_of = [&](Space space) {
+        const MeshFile file = read_mesh(path("parts"), {.space = space});
+        EXPECT_EQ(file.space, space == Space::kUnknown ? Space::kLps : space);
+        Box first, second;
+        for (std::uint32_t f = 0; f < file.mesh.face_end(); ++f)
+            for (const Vec3 p : file.mesh.corners(FaceId{f}))
+                (file.labels.input(file.mesh[FaceId{f}].labels[0]) == 1 ? first : second).add(p);
+        return std::array{first.low, second.low};
+    };
+    EXPECT_THAT(low_of(Space::kUnknown), ElementsAre(Vec3{2, 3, 5}, Vec3{-3, -4, 5}));
+    EXPECT_THAT(low_of(Space::kRas), ElementsAre(Vec3{-3, -4, 5}, Vec3{2, 3, 5}));
 }
 
 TEST_F(TextSurfaces, damaged_texts_are_refused_or_read_but_never_crash) {

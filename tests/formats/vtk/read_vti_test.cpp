@@ -109,6 +109,8 @@ TEST_F(ReadVtiTest, bad_files_are_refused_and_say_why) {
                 HasSubstr("cannot hold the 2000000000000"));
     EXPECT_THAT(refusal({changed("ascii_uint16.vti", extent, "Piece Extent=\"0 4 0 3 0 99\"")}),
                 HasSubstr("fewer numbers than its extent needs"));
+    EXPECT_THAT(refusal({changed("ascii_uint16.vti", extent, "Piece Extent=\"0 3 0 3 0 2\"")}),
+                HasSubstr("more numbers follow than the size says"));
     EXPECT_THAT(refusal({changed("ascii_uint16.vti", "1 2 3", "1 2.5 3")}), HasSubstr("'2.5' is no label"));
     put_text(path("a.vti"), "<VTKFile><PolyData/></VTKFile>");
     EXPECT_THAT(refusal({path("a.vti")}), HasSubstr("is no VTK XML file with ImageData"));
