@@ -42,7 +42,8 @@ ArrayAxes unnamed_axes(const std::filesystem::path& source, const std::vector<st
     return axes;
 }
 
-/// Axes without a name beside others that have one are those that are left of x, y and z, the fastest first.
+/// Axes without a name beside others that have one are those that are left of x, y and z, the fastest first; where x or
+/// y is missing, so are axes with other names.
 ArrayAxes named_axes(const std::vector<std::string>& names) {
     ArrayAxes axes;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -52,7 +53,9 @@ ArrayAxes named_axes(const std::vector<std::string>& names) {
     if (std::ranges::all_of(axes.axis, [](int axis) { return axis < 0; })) return axes;
     for (std::size_t i = names.size(); i-- > 0;) {
         const auto free = std::ranges::find(axes.axis, -1);
-        if (names[i].empty() && free != axes.axis.end()) *free = static_cast<int>(i);
+        const bool is_taken = std::ranges::count(axes.axis, static_cast<int>(i)) > 0;
+        const bool lacks_plane = axes.axis[0] < 0 || axes.axis[1] < 0;
+        if (!is_taken && free != axes.axis.end() && (names[i].empty() || lacks_plane)) *free = static_cast<int>(i);
     }
     return axes;
 }

@@ -26,9 +26,10 @@ struct ArrayAxes {
     std::array<std::uint64_t, 3> along(const std::vector<std::uint64_t>& numbers, std::uint64_t otherwise = 1) const;
 };
 
-/// Axes named x, y and z are those; others are channels, times and the like. Without names the last three axes are z,
-/// y, x; if there are more than three, axes of one sample are dropped: at the end, then at the start, then between. An
-/// axis other than x, y, z with more than one sample needs options.layer; two are refused. Errors name the axis.
+/// Axes named x, y and z are those; others are channels, times and the like, or what is missing of x and y. Without
+/// names the last three axes are z, y, x; if there are more than three, axes of one sample are dropped: at the end,
+/// then at the start, then between. An axis other than x, y, z with more than one sample needs options.layer; two are
+/// refused. Errors name the axis.
 ArrayAxes choose_axes(const std::filesystem::path& source, const std::vector<std::uint64_t>& shape,
                       const std::vector<std::string>& names, const ReadOptions& options);
 

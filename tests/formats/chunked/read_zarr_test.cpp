@@ -144,6 +144,11 @@ TEST_F(ReadZarrTest, names_of_axes_may_be_capital_and_one_may_be_missing) {
         for (const std::string& other : {capital, std::string("null")})
             EXPECT_EQ(read_volume({changed(store, file, name, other)}).labels, volume.labels) << axis << other;
     }
+    for (const char* axis : {"x", "y"}) {
+        const std::string name = '"' + std::string(axis) + '"';
+        EXPECT_EQ(read_volume({changed(store, file, name, "\"lat\"")}).labels, volume.labels) << axis;
+    }
+    EXPECT_THAT(refusal({changed(store, file, "\"z\"", "\"lat\"")}), HasSubstr("axis 'lat' has"));
 }
 
 TEST_F(ReadZarrTest, labels_of_an_image_bring_names) {
