@@ -226,6 +226,7 @@ int run_blocks(const Settings& settings) {
     const BlockOptions blocks{.folder = folder_of(settings.output),
                               .block_cells = settings.block_cells.value_or(0),
                               .identity = identity_of(settings),
+                              .find_identity = [&] { return identity_of(settings); },
                               .output = settings.writing};
     ProgressLine line(settings.quiet || !tasks.is_first());
     const BlockReport report = reconstruct_blocks(

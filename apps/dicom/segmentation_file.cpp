@@ -210,11 +210,12 @@ std::string SegmentationFile::Parts::obstacle() {
     if (is_native()) {
         const std::uint64_t stored = pixels()->getLength(dataset().getOriginalXfer());
         const std::uint64_t needed = (frames * frame_bits() + 7) / 8;
-        if (needed == 0 || stored == needed || stored == needed + needed % 2) return "";  // lengths are even
+        if (needed == 0 || stored == needed || stored == needed + needed % 2) return "";  // odd ones get a byte
         return "holds " + std::to_string(stored) + " bytes of samples where " + std::to_string(needed) +
                " are needed; " +
-               (stored < needed ? "the file is truncated, fetch it again"
-                                : "its number of frames, rows or columns is wrong, export it again");
+               (stored < needed
+                    ? "the file is truncated, fetch it again"
+                    : "its number of frames, rows or columns is wrong, or frames are padded; export it again");
     }
     if (dataset().getOriginalXfer() != EXS_RLELossless || bits == 1) {
         return "its samples are compressed as " + std::string(syntax().getXferName()) +

@@ -29,6 +29,7 @@ struct BlockOptions {
     std::filesystem::path folder;   // of the model; its parent exists
     std::uint32_t block_cells = 0;  // along each axis; 0: from ReconstructOptions::memory
     RunIdentity identity = {};
+    std::function<RunIdentity()> find_identity = {};  // looks it up again once samples are read, where it may change
     OutputOptions output = {};
 };
 
@@ -74,7 +75,8 @@ void require_block_options(const ReconstructOptions& options);
 /// (docs/explanation/blocks.md). A run that was ended at any moment goes on: complete pieces are not made again. The
 /// bytes of the folder depend on the input and the options only, not on interruptions, threads or processes. Reads the
 /// input once, section by section. Throws Error(kInput) where the folder belongs to a run of another input or other
-/// options, Error(kOutput) where another run works in it, and whatever require_block_options() and the reader throw.
+/// options, or the input changed meanwhile, Error(kOutput) where another run works in it, and whatever
+/// require_block_options() and the reader throw.
 BlockReport reconstruct_blocks(const std::function<std::unique_ptr<SectionReader>()>& open,
                                const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,
                                const std::function<void(const BlockProgress&)>& on_progress = {});

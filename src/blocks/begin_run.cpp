@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <span>
@@ -274,22 +275,33 @@ std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const Reconstruc
     tasks.end_phase();
     if (read_manifest_together(blocks.folder, tasks).is_surveyed) return lock;
     if (!input) input.emplace(open, options);
-    const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
-    if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
-    if (tasks.is_first()) {
-        const Survey found =
-            boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder) : survey_whole(*input, blocks, on_progress);
-        try {
+    try {
+        const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
+        if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
+        if (tasks.is_first()) {
+            const Survey found =
+                boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder) : survey_whole(*input, blocks, on_progress);
             require_regions(found, *input, options);
+            require_unchanged(blocks);
             note_survey(found, *input, options, blocks);
-        } catch (const Error& error) {
-            // As if the input had been refused at once: another run may want the folder for other options.
-            if (error.code() != ErrorCode::kOutput) remove_survey(blocks.folder);
-            throw;
         }
+    } catch (const Error& error) {
+        // As if the input had been refused at once: another run may want the folder for other options.
+        if (tasks.is_first() && error.code() != ErrorCode::kOutput) remove_survey(blocks.folder);
+        throw;
     }
     tasks.end_phase();
     return lock;
+}
+
+void require_unchanged(const BlockOptions& blocks) {
+    if (!blocks.find_identity) return;
+    const RunIdentity now = blocks.find_identity();
+    const auto [was, is] = std::ranges::mismatch(blocks.identity, now);
+    if (was == blocks.identity.end() && is == now.end()) return;
+    const std::string& name = was != blocks.identity.end() ? was->first : is->first;
+    throw Error(ErrorCode::kInput,
+                blocks.folder.string() + ": " + name + " changed while it was read; remove the folder, and run again");
 }
 
 Manifest read_manifest_together(const fs::path& folder, BlockTasks& tasks) {

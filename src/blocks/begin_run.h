@@ -27,6 +27,9 @@ inline constexpr const char* kSurveyPart = "survey-";
                                                     const BlockOptions& blocks, BlockTasks& tasks,
                                                     const OnBlocks& on_progress);
 
+/// Throws Error(kInput) where the input is no longer as it was when the run began.
+void require_unchanged(const BlockOptions& blocks);
+
 /// The manifest of the folder. No process goes on, to write it anew, before all have read it. All of them call it.
 Manifest read_manifest_together(const std::filesystem::path& folder, BlockTasks& tasks);
 

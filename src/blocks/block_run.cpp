@@ -175,9 +175,10 @@ void BlockRun::run_pass(std::uint32_t pass, const char* stage, const std::vector
 }
 
 /// When all processes have come here: notes the pieces of a pass in the manifest. From then on those before them are
-/// not needed.
+/// not needed, nor the samples.
 void BlockRun::end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks) {
     tasks_.end_phase();
+    if (tasks_.is_first() && pass == 0 && manifest_.is_in_place) require_unchanged(blocks_);
     if (tasks_.is_first()) note_pieces(pass, blocks);
     tasks_.end_phase();
     manifest_ = *read_manifest(folder_);

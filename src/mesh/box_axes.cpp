@@ -142,8 +142,8 @@ void BoxAxes::set_axes(const std::array<Vec3, 3>& normals) {
     }
 }
 
-/// The first sample along its axes becomes the origin. Which axes are reversed is found for those of the lattice: those
-/// that set_axes() finds from normals of a lattice that mirrors are all turned round.
+/// The first sample along its axes becomes the origin. The axes are compared with the lattice's own: those that
+/// set_axes() finds from normals are all reversed where the lattice mirrors.
 void BoxAxes::set_axes(const Lattice& lattice) {
     const auto [x, y, z] = lattice.axes();
     set_axes({cross(y, z), cross(z, x), cross(x, y)});

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/box.h"
 #include "base/option_range.h"
 #include "base/triangle.h"
 #include "mesh/alive.h"
@@ -73,21 +74,26 @@ void for_boundaries(const Mesh& mesh, const std::vector<bool>& marked, Visit&& v
     }
 }
 
-/// The box of the options, and the planes of the sides that vertices lie on.
+/// Of the box of the options, and of the sides that vertices lie on: of each side the outermost, since those of an open
+/// model need not lie along the axes.
 Box limits_of(const Mesh& mesh, const std::optional<Box>& box) {
-    constexpr Vec3 kFar{HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    Box limits = box.value_or(Box{-1 * kFar, kFar});
+    Box limits;
     for_vertices(mesh, [&](VertexId v) {
         for (int side = 0; side < 6; ++side) {
             if (!(mesh[v].sides >> side & 1)) continue;
-            const double plane = mesh.position(v)[side / 2];
+            const int axis = side / 2;
+            const double place = mesh.position(v)[axis];
             if (side % 2 == 0)
-                limits.low[side / 2] = std::max(limits.low[side / 2], plane);
+                limits.low[axis] = std::min(limits.low[axis], place);
             else
-                limits.high[side / 2] = std::min(limits.high[side / 2], plane);
+                limits.high[axis] = std::max(limits.high[axis], place);
         }
     });
-    return limits;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (limits.low[axis] == HUGE_VAL) limits.low[axis] = -HUGE_VAL;
+        if (limits.high[axis] == -HUGE_VAL) limits.high[axis] = HUGE_VAL;
+    }
+    return box ? common(limits, *box) : limits;
 }
 
 /// Rounds that bring the volumes nearer to those wanted.
@@ -235,7 +241,7 @@ private:
         if (size > longest) step = longest / size * step;
         largest_displacement_ = std::max(largest_displacement_, std::min(size, longest));
         Vec3 to = from + step;
-        // A vertex that came in beyond them need not go back.
+        // A vertex that came in beyond the limits need not go back.
         for (int axis = 0; axis < 3; ++axis)
             to[axis] =
                 std::clamp(to[axis], std::min(limits_.low[axis], from[axis]), std::max(limits_.high[axis], from[axis]));

@@ -12,6 +12,8 @@
 #include "cli/program.h"
 #include "formats/vtk/vtk_numbers.h"
 #include "regionmesh/check.h"
+#include "regionmesh/error.h"
+#include "regionmesh/read_sections.h"
 #include "support/random.h"
 
 namespace regionmesh {
@@ -426,6 +428,51 @@ TEST_F(BlockProgram, refuses_an_input_without_cells_or_regions_and_leaves_nothin
     expect_refused(two + "--memory 1MB", "needs at least");
     EXPECT_TRUE(fs::is_empty(out("m")));
     EXPECT_EQ(run(two + "--quiet -o " + out("m/")).code, 0) << "the folder is as good as new";
+}
+
+TEST_F(BlockProgram, an_input_that_cannot_be_read_to_its_end_leaves_nothing) {
+    const std::string whole = text_of(data("nrrd/big_gzip_int16.nrrd"));
+    const std::string command = "reconstruct " + path("t.nrrd").string() + " --block-size 4 -o " + out("model");
+    put_text(path("t.nrrd"), whole.substr(0, whole.size() - 30));
+    const Ran refused = run(command);
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.error, testing::HasSubstr("ends early"));
+    EXPECT_TRUE(files_in("model").empty());
+    put_text(path("t.nrrd"), whole);
+    EXPECT_EQ(run(command).code, 0) << "the input was mended";
+}
+
+TEST_F(BlockProgram, an_input_that_changes_while_it_is_read_is_refused) {
+    grains("");  // writes grains.raw
+    const auto open = [&] {
+        ReadOptions options;
+        options.raw_size = {40, 40, 40};
+        options.raw_type = SampleType::kU8;
+        return open_sections({path("grains.raw")}, options);
+    };
+    // It is looked at once the labels are counted, and once the blocks are made.
+    for (const int change : {1, 2, 3}) {
+        fs::remove_all(out("model"));
+        int looked = 0;
+        const BlockOptions blocks{
+            .folder = out("model"), .block_cells = 14, .identity = {{"input", "old"}}, .find_identity = [&] {
+                return RunIdentity{{"input", ++looked == change ? "new" : "old"}};
+            }};
+        BlockTasks alone;
+        if (change == 3) {
+            EXPECT_NO_THROW(reconstruct_blocks(open, {.reduce = 0.75}, blocks, alone));
+            EXPECT_EQ(looked, 2);
+            continue;
+        }
+        try {
+            reconstruct_blocks(open, {.reduce = 0.75}, blocks, alone);
+            ADD_FAILURE() << "the change was not noticed";
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr("input changed while it was read"));
+        }
+        EXPECT_EQ(files_in("model").empty(), change == 1);
+        EXPECT_THROW(read_block_folder(out("model")), Error);
+    }
 }
 
 TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {

@@ -287,6 +287,14 @@ TEST_F(PrecomputedProgram, leaves_no_folder_that_could_be_taken_for_whole_when_i
         const Ran ran = run(command);
         EXPECT_EQ(ran.code, 1) << ran.error;
         EXPECT_FALSE(fs::exists(out("m.precomputed/info")));
+        for (const char* more : {"", " --sharded"}) {
+            if (std::string(format) == "legacy" && *more != 0) continue;
+            EXPECT_EQ(
+                run("convert " + out("model") + ' ' + out("new.precomputed") + " --precomputed " + format + more).code,
+                1);
+            for (const auto& entry : fs::recursive_directory_iterator(out("new.precomputed")))
+                EXPECT_FALSE(entry.is_regular_file()) << entry.path();
+        }
     }
 }
 

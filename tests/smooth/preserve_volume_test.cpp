@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include "mesh/alive.h"
@@ -122,6 +124,47 @@ TEST(PreserveVolume, no_vertex_leaves_the_box) {
             test::expect_sound(made.report.check);
         }
     }
+}
+
+TEST(PreserveVolume, no_vertex_passes_a_side_that_others_lie_on) {
+    for (std::uint32_t seed = 0; seed < 30; ++seed) {
+        const test::ArrayVolume volume = test::noise_volume({3, 4, 4}, 2, seed);
+        Reconstruction made = test::run(test::ArrayVolume(volume), {.cells = CellKind::kTetrahedra, .decimate = false});
+        std::array<bool, 6> has_vertices{};
+        for_vertices(made.mesh, [&](VertexId v) {
+            for (int side = 0; side < 6; ++side) has_vertices[side] |= (made.mesh[v].sides >> side & 1) != 0;
+        });
+        WantedVolumes wanted(made.report.unsmoothed_volumes.begin(), made.report.unsmoothed_volumes.end());
+        for (const Label label : made.background) wanted[label].reset();
+        preserve_volumes(made.mesh, wanted, {});
+        for_vertices(made.mesh, [&](VertexId v) {
+            for (int side = 0; side < 6; ++side) {
+                const double place = made.mesh.position(v)[side / 2];
+                if (!has_vertices[side]) continue;
+                if (side % 2 == 0)
+                    EXPECT_GE(place, 0) << seed;
+                else
+                    EXPECT_LE(place, side == 1 ? 2 : 3) << seed;
+            }
+        });
+    }
+}
+
+TEST(PreserveVolume, turned_open_models_need_no_more_rounds) {
+    const auto rounds_at = [](double degrees) {
+        test::ArrayVolume volume = test::grain_volume({16, 16, 16}, 6, 4);
+        Mesh mesh = test::run(volume, {.decimate = false, .cap = false, .background = {}}).mesh;
+        const std::vector<double> volumes = region_volumes(mesh);
+        WantedVolumes wanted(volumes.begin(), volumes.end());
+        for (auto& one : wanted) one = 1.01 * *one;
+        const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
+        for_vertices(mesh, [&](VertexId v) {
+            Vec3& p = mesh[v].position;
+            p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+        });
+        return preserve_volumes(mesh, wanted, {}).rounds;
+    };
+    EXPECT_LE(rounds_at(45), rounds_at(0) + 2);
 }
 
 /// Six labels, dense and noisy: islands of few samples that volumes push through each other.

@@ -12,9 +12,25 @@
 #include "formats/report/json_parts.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/output_file.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
+
+/// The new files of a folder, which go again unless all of them are written.
+class NewFiles {
+public:
+    NewFiles() = default;
+    ~NewFiles();
+    NewFiles(const NewFiles&) = delete;
+    NewFiles& operator=(const NewFiles&) = delete;
+
+    void commit(OutputFile& file, const std::filesystem::path& path);
+    void keep() { paths_.clear(); }
+
+private:
+    std::vector<std::filesystem::path> paths_;
+};
 
 /// What is written, and where.
 struct Precomputed {
@@ -23,6 +39,7 @@ struct Precomputed {
     LabelTable labels;
     std::vector<Label> background;  // dense
     PrecomputedOptions options;
+    NewFiles& files;
 
     /// Nanometres in a unit of the model.
     double nanometres() const { return options.metres * 1e9; }
@@ -33,7 +50,9 @@ struct Precomputed {
     /// The name of a region in Neuroglancer: a decimal number. Throws Error(kInput) for a negative label.
     std::string id(Label label) const;
     /// Writes a file of the folder.
-    void write(const std::filesystem::path& name, std::string_view content) const;
+    void write(const std::string& name, std::string_view content) const;
+    /// Gives a file of the folder its name.
+    void commit(OutputFile& file, const std::string& name) const { files.commit(file, output / name); }
 };
 
 /// The regions that were written, with their faces, the box of their vertices in nanometres, and what `info` says of

@@ -46,8 +46,22 @@ std::string Precomputed::id(Label label) const {
     return labels.text(input);
 }
 
-void Precomputed::write(const fs::path& name, std::string_view content) const {
-    write_text(output / name, content, options.output);
+void Precomputed::write(const std::string& name, std::string_view content) const {
+    OutputFile file(output / name, options.output);
+    file.write(content);
+    commit(file, name);
+}
+
+NewFiles::~NewFiles() {
+    std::error_code ignored;
+    for (const fs::path& path : paths_) fs::remove(path, ignored);
+}
+
+void NewFiles::commit(OutputFile& file, const fs::path& path) {
+    std::error_code missing;
+    const bool is_new = !fs::exists(path, missing);
+    file.commit();
+    if (is_new) paths_.push_back(path);
 }
 
 void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions) {
@@ -114,7 +128,8 @@ PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& outp
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
     std::vector<Label> background = dense_background(manifest.background, labels);
-    const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options};
+    NewFiles files;
+    const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options, files};
     for (Label label = 0; label < manifest.label_count; ++label)
         if (precomputed.is_region(label)) precomputed.id(label);  // refuses before the work
     if (std::error_code error; fs::remove(output / "info", error), error)
@@ -125,6 +140,7 @@ PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& outp
     write_viewer_state(precomputed, written);
     written.info["segment_properties"] = "names";
     precomputed.write("info", text_of(written.info));  // last: a folder without it is not taken for whole
+    files.keep();
     return {written.faces.size(), written.rounded_share_of_edge};
 }
 

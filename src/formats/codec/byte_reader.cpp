@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "formats/text/header_text.h"
+
 namespace regionmesh::formats {
 namespace {
 
@@ -72,8 +74,8 @@ std::optional<std::string_view> ByteReader::take_line() {
 }
 
 void ByteReader::require_line_ends(std::string_view line) const {
-    if (line.find('\r') != std::string_view::npos)
-        fail_line("has carriage returns without line feeds; write the file with LF or CR LF as line ends");
+    if (trim(line).find('\r') != std::string_view::npos)
+        fail_line("has carriage returns within; write the file with LF or CR LF as line ends");
 }
 
 std::optional<std::string_view> ByteReader::take_word() {

@@ -44,7 +44,7 @@ public:
     /// The next line, without its line end (LF or CR LF); none at the end of the file. Throws for a line of 16 MiB or
     /// more.
     std::optional<std::string_view> take_line();
-    /// Throws where a line of text has line ends inside that are none here: those of old Macs.
+    /// Throws where a line of text has the line ends of old Macs, which are none here. Those at its end are blanks.
     void require_line_ends(std::string_view line) const;
     /// The next run of bytes between separators; none at the end of the file.
     std::optional<std::string_view> take_word();

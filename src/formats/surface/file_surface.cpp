@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -25,9 +26,13 @@ public:
             const Vec3 p = points[corners[n % corners.size()]];
             return std::tuple(p.x, p.y, p.z);
         };
+        const auto before = [&](std::size_t n) { return place(n + corners.size() - 1); };
+        const auto neighbours = [&](std::size_t n) { return std::minmax({before(n), place(n + 1)}); };
+        // A polygon with a hole may pass its lowest point twice.
         for (std::size_t n = 1; n < corners.size(); ++n)
-            if (place(n) < place(first_)) first_ = n;
-        is_reversed_ = place(first_ + corners.size() - 1) < place(first_ + 1);
+            if (place(n) < place(first_) || (place(n) == place(first_) && neighbours(n) < neighbours(first_)))
+                first_ = n;
+        is_reversed_ = before(first_) < place(first_ + 1);
     }
     std::uint32_t operator[](std::size_t n) const {
         return corners_[(first_ + (is_reversed_ ? corners_.size() - n : n)) % corners_.size()];

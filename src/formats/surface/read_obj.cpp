@@ -60,7 +60,7 @@ private:
         if (word == "#") return read_comment(surface_, rest);
         const auto at = std::find(kGroupWords.begin(), kGroupWords.end(), word);
         if (at == kGroupWords.end()) {
-            // Programs have words of their own: these make no file of another kind, unless it has no points, either.
+            // Programs have words of their own: a file with points may have them.
             const bool is_known = word.empty() || word[0] == '#' || std::ranges::count(kOtherWords, word) > 0;
             if (!is_known && strange_.empty()) strange_ = fmt::format("line {}: '{}'", file_.lines(), shown(word));
             return;
@@ -88,7 +88,7 @@ private:
 
     FileSurface finish() {
         if (surface_.points.empty() && !strange_.empty())
-            file_.fail("is no OBJ file: it has no points, and no line of one begins as " + strange_);
+            file_.fail("is no OBJ file: it has no points, and a word of another kind of file in " + strange_);
         std::size_t kind = 0;
         while (kind + 1 < kGroupWords.size() && !has_[kind]) ++kind;
         for (std::size_t f = 0; f < kinds_.size(); ++f) surface_.labels[f] = {kinds_[f][kind], 0};

@@ -25,9 +25,10 @@ bool AsciiStream::take_number() {
 }
 
 bool AsciiStream::finish() {
-    if (taken_ < count_ || !words_.take_word()) return true;
-    problem_ = "more numbers follow than the size says; correct one of them";
-    return false;
+    const auto word = taken_ < count_ ? std::nullopt : words_.take_word();
+    if (word)
+        problem_ = "'" + shown(*word) + "' stands behind the last number that the size asks for; correct one of them";
+    return !word;
 }
 
 std::size_t AsciiStream::read(std::span<std::byte> bytes) {

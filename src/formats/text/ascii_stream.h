@@ -27,7 +27,7 @@ public:
 
     std::size_t read(std::span<std::byte> bytes) override;
     void rewind() override;
-    /// Once all numbers are read: with more of them, each row would begin at a wrong place.
+    /// False where anything is left behind the last number: with another size, each row begins at another place.
     bool finish() override;
     const std::string& problem() const override { return problem_; }
 

@@ -58,7 +58,7 @@ TEST_F(ReadNrrdTest, text_has_as_many_numbers_as_its_sizes_say) {
     };
     EXPECT_EQ(read_volume(text("1 2 3 4\n \n")).labels, (std::vector<InputLabel>{1, 2, 3, 4}));
     EXPECT_THAT(refusal(text("1 2 3\n")), HasSubstr("the numbers end early"));
-    EXPECT_THAT(refusal(text("1 2 3 4\n5\n")), HasSubstr("more numbers follow than the size says"));
+    EXPECT_THAT(refusal(text("1 2 3 4\n5\n")), HasSubstr("'5' stands behind the last number that the size asks for"));
 }
 
 TEST_F(ReadNrrdTest, places_in_space_are_those_of_the_header) {

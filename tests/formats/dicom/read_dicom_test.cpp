@@ -152,7 +152,7 @@ TEST(ReadDicom, what_is_not_a_regular_segmentation_is_refused_with_its_reason) {
         {"twice", "frames 1 and 2 both hold segment"},
         {"groups", "has 15 frames, but describes 4"},
         {"short", "holds 4 bytes of samples where 29 are needed; the file is truncated"},
-        {"long", "holds 32 bytes of samples where 29 are needed; its number of frames, rows or columns is wrong"},
+        {"long", "holds 32 bytes of samples where 29 are needed; its number of frames, rows or columns is wrong, or"},
         {"empty", "empty volume: 5 x 0 x 6 samples"},
         {"large", "is too small for the samples that it describes"},
         {"cut", "cannot be read as a DICOM file"},

@@ -110,7 +110,7 @@ TEST_F(ReadVtiTest, bad_files_are_refused_and_say_why) {
     EXPECT_THAT(refusal({changed("ascii_uint16.vti", extent, "Piece Extent=\"0 4 0 3 0 99\"")}),
                 HasSubstr("fewer numbers than its extent needs"));
     EXPECT_THAT(refusal({changed("ascii_uint16.vti", extent, "Piece Extent=\"0 3 0 3 0 2\"")}),
-                HasSubstr("more numbers follow than the size says"));
+                HasSubstr("stands behind the last number that the size asks for"));
     EXPECT_THAT(refusal({changed("ascii_uint16.vti", "1 2 3", "1 2.5 3")}), HasSubstr("'2.5' is no label"));
     put_text(path("a.vti"), "<VTKFile><PolyData/></VTKFile>");
     EXPECT_THAT(refusal({path("a.vti")}), HasSubstr("is no VTK XML file with ImageData"));
