@@ -22,8 +22,10 @@ endif()
 # without optimisation crashed (g++ 12).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_INTERPROCEDURAL_OPTIMIZATION)
     install(CODE "foreach(archive ${archives})
-        execute_process(COMMAND ${CMAKE_STRIP} --enable-deterministic-archives -R .gnu.lto_* -R .gnu.debuglto_* -N __gnu_lto_slim -N __gnu_lto_v1
-            \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/\${archive} COMMAND_ERROR_IS_FATAL ANY)
+        set(file \"${CMAKE_INSTALL_LIBDIR}/\${archive}\")
+        cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY \"\${CMAKE_INSTALL_PREFIX}\")
+        execute_process(COMMAND \"${CMAKE_STRIP}\" --enable-deterministic-archives -R .gnu.lto_* -R .gnu.debuglto_*
+            -N __gnu_lto_slim -N __gnu_lto_v1 \"\$ENV{DESTDIR}\${file}\" COMMAND_ERROR_IS_FATAL ANY)
     endforeach()")
 endif()
 install(DIRECTORY include/regionmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${without})

@@ -52,8 +52,9 @@ std::uint64_t hash_of(std::string_view text) {
     return hash;
 }
 
-/// "82131 bytes, changed 2023-11-14 22:13:20.500000000 UTC": a file that differs is another input.
-std::string state_of(const fs::path& path) {
+/// "82131 bytes, changed 2023-11-14 22:13:20.500000000 UTC": a file that differs is another input. Of what is in a
+/// folder, `own` is left out: the canonical paths of what the run writes.
+std::string state_of(const fs::path& path, const std::vector<fs::path>& own = {}) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return "missing";
     if (!S_ISDIR(status.st_mode))
@@ -61,11 +62,16 @@ std::string state_of(const fs::path& path) {
                            status.st_mtim.tv_nsec);
     std::uint64_t files = 0, bytes = 0, states = 0;
     std::error_code ignored;
-    for (const auto& entry : fs::recursive_directory_iterator(path, ignored)) {
-        if (!entry.is_regular_file(ignored)) continue;
-        ++files;
-        bytes += entry.file_size(ignored);
-        states += hash_of(entry.path().lexically_relative(path).string() + ' ' + state_of(entry.path()));
+    const fs::path root = own.empty() ? path : fs::weakly_canonical(path, ignored);
+    for (fs::recursive_directory_iterator at(root, ignored), end; at != end; at.increment(ignored)) {
+        const fs::directory_entry& entry = *at;
+        if (std::ranges::find(own, entry.path()) != own.end())
+            at.disable_recursion_pending();
+        else if (entry.is_regular_file(ignored)) {
+            ++files;
+            bytes += entry.file_size(ignored);
+            states += hash_of(entry.path().lexically_relative(root).string() + ' ' + state_of(entry.path()));
+        }
     }
     return fmt::format("{} files, {} bytes, state {:016x}", files, bytes, states);
 }
@@ -98,8 +104,11 @@ std::string text_of(const LabelNames& names, const LabelColours& colours) {
 /// name; the lattice; the names of labels, unless an option gives them; the values of other options.
 RunIdentity identity_of(const Settings& settings) {
     RunIdentity identity{{"version", REGIONMESH_VERSION}};
+    std::error_code ignored;
+    std::vector<fs::path> own{fs::weakly_canonical(folder_of(settings.output), ignored)};
+    if (!settings.log.empty()) own.push_back(fs::weakly_canonical(settings.log, ignored));
     const auto add = [&](const std::string& name, const fs::path& path, const std::string& inside = "") {
-        identity.emplace_back(name, fmt::format("{}{}, {}", path.filename().string(), inside, state_of(path)));
+        identity.emplace_back(name, fmt::format("{}{}, {}", path.filename().string(), inside, state_of(path, own)));
     };
     for (std::size_t n = 0; n < settings.inputs.size(); ++n) {
         const fs::path file = file_of_input(settings.inputs[n]);

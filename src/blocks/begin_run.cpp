@@ -275,9 +275,11 @@ std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const Reconstruc
     tasks.end_phase();
     if (read_manifest_together(blocks.folder, tasks).is_surveyed) return lock;
     if (!input) input.emplace(open, options);
+    const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
+    bool others_write = boxes.size() > 1 && tasks.processes() > 1;
     try {
-        const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
         if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
+        others_write = false;
         if (tasks.is_first()) {
             const Survey found =
                 boxes.size() > 1 ? join_parts(*input, boxes, blocks.folder) : survey_whole(*input, blocks, on_progress);
@@ -287,7 +289,7 @@ std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const Reconstruc
         }
     } catch (const Error& error) {
         // As if the input had been refused at once: another run may want the folder for other options.
-        if (tasks.is_first() && error.code() != ErrorCode::kOutput) remove_survey(blocks.folder);
+        if (tasks.is_first() && !others_write && error.code() != ErrorCode::kOutput) remove_survey(blocks.folder);
         throw;
     }
     tasks.end_phase();
@@ -300,8 +302,8 @@ void require_unchanged(const BlockOptions& blocks) {
     const auto [was, is] = std::ranges::mismatch(blocks.identity, now);
     if (was == blocks.identity.end() && is == now.end()) return;
     const std::string& name = was != blocks.identity.end() ? was->first : is->first;
-    throw Error(ErrorCode::kInput,
-                blocks.folder.string() + ": " + name + " changed while it was read; remove the folder, and run again");
+    throw Error(ErrorCode::kInput, blocks.folder.string() + ": " + name +
+                                       " changed while it was read; run again when nothing writes to it");
 }
 
 Manifest read_manifest_together(const fs::path& folder, BlockTasks& tasks) {

@@ -178,10 +178,22 @@ void BlockRun::run_pass(std::uint32_t pass, const char* stage, const std::vector
 /// not needed, nor the samples.
 void BlockRun::end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks) {
     tasks_.end_phase();
-    if (tasks_.is_first() && pass == 0 && manifest_.is_in_place) require_unchanged(blocks_);
-    if (tasks_.is_first()) note_pieces(pass, blocks);
+    if (tasks_.is_first()) {
+        if (pass == 0 && manifest_.is_in_place) require_samples_unchanged();
+        note_pieces(pass, blocks);
+    }
     tasks_.end_phase();
     manifest_ = *read_manifest(folder_);
+}
+
+/// Pieces of samples that changed on the way must not be found by a run that has the first ones again.
+void BlockRun::require_samples_unchanged() {
+    try {
+        require_unchanged(blocks_);
+    } catch (const Error&) {
+        remove_passes_before(1);
+        throw;
+    }
 }
 
 void BlockRun::note_pieces(std::uint32_t pass, const std::vector<std::uint32_t>& blocks) {

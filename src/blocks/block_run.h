@@ -46,6 +46,7 @@ private:
     void note_cut(std::uint32_t pass);
     void note_pieces(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
     void end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& blocks);
+    void require_samples_unchanged();
     void remove_passes_before(std::uint32_t pass);
     void reconstruct_pass();
     void sweep_blocks(const BlockGrid& blocks, IndexBox sweep, std::uint32_t done);

@@ -74,24 +74,23 @@ void for_boundaries(const Mesh& mesh, const std::vector<bool>& marked, Visit&& v
     }
 }
 
-/// Of the box of the options, and of the sides that vertices lie on: of each side the outermost, since those of an open
-/// model need not lie along the axes.
+/// Of the box of the options, and of the sides that vertices lie on: how far these vertices reach, since the sides of
+/// an open model need not lie along the axes.
 Box limits_of(const Mesh& mesh, const std::optional<Box>& box) {
     Box limits;
+    SideSet sides = 0;
     for_vertices(mesh, [&](VertexId v) {
-        for (int side = 0; side < 6; ++side) {
-            if (!(mesh[v].sides >> side & 1)) continue;
-            const int axis = side / 2;
+        sides |= mesh[v].sides;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(mesh[v].sides >> (2 * axis) & 3)) continue;
             const double place = mesh.position(v)[axis];
-            if (side % 2 == 0)
-                limits.low[axis] = std::min(limits.low[axis], place);
-            else
-                limits.high[axis] = std::max(limits.high[axis], place);
+            limits.low[axis] = std::min(limits.low[axis], place);
+            limits.high[axis] = std::max(limits.high[axis], place);
         }
     });
     for (int axis = 0; axis < 3; ++axis) {
-        if (limits.low[axis] == HUGE_VAL) limits.low[axis] = -HUGE_VAL;
-        if (limits.high[axis] == -HUGE_VAL) limits.high[axis] = HUGE_VAL;
+        if (!(sides >> (2 * axis) & 1)) limits.low[axis] = -HUGE_VAL;
+        if (!(sides >> (2 * axis + 1) & 1)) limits.high[axis] = HUGE_VAL;
     }
     return box ? common(limits, *box) : limits;
 }

@@ -36,7 +36,7 @@ std::string manifest_of(const std::string& shard, const ShardLayout& layout, std
 }
 
 TEST_F(Shards, find_every_id_in_its_shard_and_minishard) {
-    NewFiles written;
+    NewFiles written(path(""));
     Precomputed precomputed{{}, path(""), {}, LabelTable(true), {}, {}, written};
     const ShardLayout layout{.minishard_bits = 2, .shard_bits = 5};
     std::map<std::array<std::uint64_t, 3>, Label> order;

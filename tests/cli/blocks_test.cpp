@@ -470,9 +470,20 @@ TEST_F(BlockProgram, an_input_that_changes_while_it_is_read_is_refused) {
         } catch (const Error& error) {
             EXPECT_THAT(error.what(), testing::HasSubstr("input changed while it was read"));
         }
-        EXPECT_EQ(files_in("model").empty(), change == 1);
+        const auto left = files_in("model");
+        EXPECT_EQ(left.empty(), change == 1);
+        for (const auto& [name, bytes] : left) EXPECT_FALSE(name.ends_with(".piece")) << name;
         EXPECT_THROW(read_block_folder(out("model")), Error);
     }
+}
+
+TEST_F(BlockProgram, the_folder_and_the_log_may_lie_in_the_folder_of_the_input) {
+    const fs::path sections = path("sections");
+    fs::create_directory(sections);
+    for (const char* name : {"1.png", "2.png", "3.png"}) fs::copy_file(data("png/gray8/s1.png"), sections / name);
+    const std::string command =
+        "reconstruct " + sections.string() + " --block-size 4 -o " + (sections / "model").string() + "/";
+    EXPECT_EQ(run(command + " --log " + (sections / "run.log").string()).code, 0);
 }
 
 TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {

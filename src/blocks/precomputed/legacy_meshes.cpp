@@ -66,7 +66,7 @@ WrittenRegions write_legacy_meshes(const Precomputed& precomputed) {
             file.write(bytes_of(count));
             file.write(bytes_of(fragment.positions));
             file.write(bytes_of(fragment.corners));
-            precomputed.commit(file, name);
+            precomputed.files.commit(file, name);
             lists[label].push_back(name);
             written.faces[label] += fragment.corners.size() / 3;
         }

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "blocks/manifest.h"
@@ -20,16 +21,18 @@ namespace regionmesh {
 /// The new files of a folder, which go again unless all of them are written.
 class NewFiles {
 public:
-    NewFiles() = default;
+    explicit NewFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
     ~NewFiles();
     NewFiles(const NewFiles&) = delete;
     NewFiles& operator=(const NewFiles&) = delete;
 
-    void commit(OutputFile& file, const std::filesystem::path& path);
-    void keep() { paths_.clear(); }
+    /// Gives a file of the folder its name.
+    void commit(OutputFile& file, const std::string& name);
+    void keep() { names_.clear(); }
 
 private:
-    std::vector<std::filesystem::path> paths_;
+    std::filesystem::path folder_;
+    std::vector<std::string> names_;
 };
 
 /// What is written, and where.
@@ -51,8 +54,6 @@ struct Precomputed {
     std::string id(Label label) const;
     /// Writes a file of the folder.
     void write(const std::string& name, std::string_view content) const;
-    /// Gives a file of the folder its name.
-    void commit(OutputFile& file, const std::string& name) const { files.commit(file, output / name); }
 };
 
 /// The regions that were written, with their faces, the box of their vertices in nanometres, and what `info` says of

@@ -25,7 +25,7 @@ public:
         file_->write(bytes);
     }
     void add_manifest(Label region, std::string_view bytes) override {
-        if (file_) precomputed_.commit(*file_, precomputed_.id(region));
+        if (file_) precomputed_.files.commit(*file_, precomputed_.id(region));
         file_.reset();
         precomputed_.write(precomputed_.id(region) + ".index", bytes);
     }
@@ -90,7 +90,7 @@ private:
             index.push_back(file_->size() - index_bytes());
         }
         file_->overwrite(0, bytes_of(index));
-        precomputed_.commit(*file_, layout_.file(shard_));
+        precomputed_.files.commit(*file_, layout_.file(shard_));
         file_.reset();
         entries_.clear();
     }

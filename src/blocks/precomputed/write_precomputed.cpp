@@ -49,19 +49,19 @@ std::string Precomputed::id(Label label) const {
 void Precomputed::write(const std::string& name, std::string_view content) const {
     OutputFile file(output / name, options.output);
     file.write(content);
-    commit(file, name);
+    files.commit(file, name);
 }
 
 NewFiles::~NewFiles() {
     std::error_code ignored;
-    for (const fs::path& path : paths_) fs::remove(path, ignored);
+    for (const std::string& name : names_) fs::remove(folder_ / name, ignored);
 }
 
-void NewFiles::commit(OutputFile& file, const fs::path& path) {
+void NewFiles::commit(OutputFile& file, const std::string& name) {
     std::error_code missing;
-    const bool is_new = !fs::exists(path, missing);
+    const bool is_new = !fs::exists(folder_ / name, missing);
     file.commit();
-    if (is_new) paths_.push_back(path);
+    if (is_new) names_.push_back(name);
 }
 
 void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions) {
@@ -128,7 +128,7 @@ PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& outp
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
     std::vector<Label> background = dense_background(manifest.background, labels);
-    NewFiles files;
+    NewFiles files(output);
     const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options, files};
     for (Label label = 0; label < manifest.label_count; ++label)
         if (precomputed.is_region(label)) precomputed.id(label);  // refuses before the work

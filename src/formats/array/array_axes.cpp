@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
 
 namespace regionmesh::formats {
 namespace {
+
+/// Names of axes that are none of space.
+constexpr std::array<std::string_view, 6> kNoPlaces{"", "c", "channel", "t", "time", "component"};
 
 std::string shape_text(const std::vector<std::uint64_t>& shape) {
     std::string text;
@@ -42,8 +47,8 @@ ArrayAxes unnamed_axes(const std::filesystem::path& source, const std::vector<st
     return axes;
 }
 
-/// Axes without a name beside others that have one are those that are left of x, y and z, the fastest first; where x or
-/// y is missing, so are axes with other names.
+/// Axes without a name beside others that have one are those that are left of x, y and z, the fastest first. If x or y
+/// is still missing, axes with other names take their place.
 ArrayAxes named_axes(const std::vector<std::string>& names) {
     ArrayAxes axes;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -51,12 +56,18 @@ ArrayAxes named_axes(const std::vector<std::string>& names) {
         if (names[i].size() == 1 && known != std::string::npos) axes.axis[known] = static_cast<int>(i);
     }
     if (std::ranges::all_of(axes.axis, [](int axis) { return axis < 0; })) return axes;
-    for (std::size_t i = names.size(); i-- > 0;) {
-        const auto free = std::ranges::find(axes.axis, -1);
-        const bool is_taken = std::ranges::count(axes.axis, static_cast<int>(i)) > 0;
-        const bool lacks_plane = axes.axis[0] < 0 || axes.axis[1] < 0;
-        if (!is_taken && free != axes.axis.end() && (names[i].empty() || lacks_plane)) *free = static_cast<int>(i);
-    }
+    const auto fill = [&](auto&& may_stand) {
+        for (std::size_t i = names.size(); i-- > 0;) {
+            const auto free = std::ranges::find(axes.axis, -1);
+            const bool is_taken = std::ranges::count(axes.axis, static_cast<int>(i)) > 0;
+            if (free != axes.axis.end() && !is_taken && may_stand(lower(names[i]))) *free = static_cast<int>(i);
+        }
+    };
+    fill([](const std::string& name) { return name.empty(); });
+    fill([&](const std::string& name) {
+        const bool is_missing = axes.axis[0] < 0 || axes.axis[1] < 0;
+        return is_missing && std::ranges::find(kNoPlaces, name) == kNoPlaces.end();
+    });
     return axes;
 }
 

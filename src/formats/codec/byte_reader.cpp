@@ -75,7 +75,7 @@ std::optional<std::string_view> ByteReader::take_line() {
 
 void ByteReader::require_line_ends(std::string_view line) const {
     if (trim(line).find('\r') != std::string_view::npos)
-        fail_line("has carriage returns within; write the file with LF or CR LF as line ends");
+        fail_line("has carriage returns within a line; write the file with LF or CR LF as line ends");
 }
 
 std::optional<std::string_view> ByteReader::take_word() {
