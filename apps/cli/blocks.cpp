@@ -64,14 +64,12 @@ std::string state_of(const fs::path& path, const std::vector<fs::path>& own = {}
     std::error_code ignored;
     const fs::path root = own.empty() ? path : fs::weakly_canonical(path, ignored);
     for (fs::recursive_directory_iterator at(root, ignored), end; at != end; at.increment(ignored)) {
-        const fs::directory_entry& entry = *at;
-        if (std::ranges::find(own, entry.path()) != own.end())
-            at.disable_recursion_pending();
-        else if (entry.is_regular_file(ignored)) {
-            ++files;
-            bytes += entry.file_size(ignored);
-            states += hash_of(entry.path().lexically_relative(root).string() + ' ' + state_of(entry.path()));
-        }
+        const bool is_own = std::ranges::find(own, at->path()) != own.end();
+        if (is_own) at.disable_recursion_pending();
+        if (is_own || !at->is_regular_file(ignored)) continue;
+        ++files;
+        bytes += at->file_size(ignored);
+        states += hash_of(at->path().lexically_relative(root).string() + ' ' + state_of(at->path()));
     }
     return fmt::format("{} files, {} bytes, state {:016x}", files, bytes, states);
 }

@@ -276,7 +276,7 @@ std::unique_ptr<FolderLock> begin_run(const OpenSections& open, const Reconstruc
     if (read_manifest_together(blocks.folder, tasks).is_surveyed) return lock;
     if (!input) input.emplace(open, options);
     const std::vector<IndexBox> boxes = input->boxes(options, tasks.processes());
-    bool others_write = boxes.size() > 1 && tasks.processes() > 1;
+    bool others_write = boxes.size() > 1 && tasks.processes() > 1;  // parts of the survey
     try {
         if (boxes.size() > 1) survey_parts(open, boxes, input->survey, blocks, tasks, on_progress);
         others_write = false;

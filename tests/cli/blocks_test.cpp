@@ -481,9 +481,9 @@ TEST_F(BlockProgram, the_folder_and_the_log_may_lie_in_the_folder_of_the_input) 
     const fs::path sections = path("sections");
     fs::create_directory(sections);
     for (const char* name : {"1.png", "2.png", "3.png"}) fs::copy_file(data("png/gray8/s1.png"), sections / name);
-    const std::string command =
-        "reconstruct " + sections.string() + " --block-size 4 -o " + (sections / "model").string() + "/";
-    EXPECT_EQ(run(command + " --log " + (sections / "run.log").string()).code, 0);
+    const Ran ran = run("reconstruct " + sections.string() + " --block-size 4 --log " +
+                        (sections / "run.log").string() + " -o " + (sections / "model").string() + "/");
+    EXPECT_EQ(ran.code, 0) << ran.error;
 }
 
 TEST_F(BlockProgram, refuses_what_blocks_do_not_have) {

@@ -14,7 +14,7 @@ namespace regionmesh::formats {
 namespace {
 
 /// Names of axes that are none of space.
-constexpr std::array<std::string_view, 6> kNoPlaces{"", "c", "channel", "t", "time", "component"};
+constexpr std::array<std::string_view, 5> kNoPlaces{"c", "channel", "t", "time", "component"};
 
 std::string shape_text(const std::vector<std::uint64_t>& shape) {
     std::string text;

@@ -13,9 +13,7 @@
 namespace regionmesh {
 namespace {
 
-using formats::shown;
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+using formats::kByteOrderMark, formats::shown;
 
 /// The words that begin a group; the first of these that the file has decides.
 constexpr std::array<std::string_view, 3> kGroupWords{"g", "o", "usemtl"};
