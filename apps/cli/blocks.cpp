@@ -182,8 +182,9 @@ bool writes_blocks(const Settings& settings) {
     return settings.block_cells || settings.output.ends_with('/') || is_block_folder(settings.output);
 }
 
-bool is_written_in_pieces(const std::string& output) {
-    return folder_of(output).extension() == ".pvtp" || is_precomputed(output);
+bool is_written_in_pieces(const Settings& settings) {
+    return folder_of(settings.output).extension() == ".pvtp" ||
+           (is_precomputed(settings.output) && is_block_folder(settings.models.front()));
 }
 
 bool is_precomputed(const std::string& output) { return folder_of(output).extension() == ".precomputed"; }
@@ -210,7 +211,7 @@ void make_block_folder(const Settings& settings) {
             if (std::error_code missing;
                 !(file == "-" && is_model) && file.find(':') == std::string::npos && !fs::exists(file, missing))
                 return;  // the command says so, and leaves nothing behind
-    if (is_for_viewer) require_fit_of_pieces(settings);
+    if (is_for_viewer && is_written_in_pieces(settings)) require_fit_of_pieces(settings);
     std::error_code error;
     for (const fs::path& path : {folder, folder / "names"}) {
         if (path != folder && !is_for_viewer) continue;

@@ -9,8 +9,8 @@ namespace regionmesh::cli {
 /// Whether the output of reconstruct is a folder of pieces: --block-size is given, or --output names a folder.
 bool writes_blocks(const Settings& settings);
 
-/// Whether convert writes this output piece by piece: .pvtp, and folders .precomputed.
-bool is_written_in_pieces(const std::string& output);
+/// Whether convert writes the output piece by piece: .pvtp, and folders .precomputed of a folder of pieces.
+bool is_written_in_pieces(const Settings& settings);
 
 /// A folder for Neuroglancer.
 bool is_precomputed(const std::string& output);

@@ -56,14 +56,50 @@ void require_short_names(const std::string& path, const std::string& text) {
     }
 }
 
+std::string trimmed(const std::string& text) {
+    constexpr const char* kBlank = " \t\r\"'";
+    const std::size_t first = text.find_first_not_of(kBlank);
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+/// As options have it.
+std::string option_name(std::string name) {
+    std::ranges::replace(name, '_', '-');
+    return name;
+}
+
+Error given_again(const std::string& path, const std::string& name) {
+    return {ErrorCode::kUsage, path + ": " + name + " is given twice; leave one of them out"};
+}
+
+/// CLI11 joins the values of a name that lines behind each other have, and passes over what has no name.
+void require_own_names(const std::string& path, const std::string& text) {
+    std::istringstream lines(text);
+    std::string last;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t end = std::min(line.find_first_of("=]#[,"), line.size());
+        if (end == line.size() || line[end] != '=') {
+            if (trimmed(line).starts_with('[')) last.clear();
+            continue;
+        }
+        const std::string name = option_name(trimmed(line.substr(0, end)));
+        if (name.empty())
+            throw Error(ErrorCode::kUsage, path + ": \"" + trimmed(line) + "\" has no name; give NAME = VALUE");
+        const OptionSpec* const option = find_option(name);
+        if (name == last && !(option && option->repeats)) throw given_again(path, name);
+        last = name;
+    }
+}
+
 std::vector<CLI::ConfigItem> items_in(const std::string& path) {
     std::ifstream stream(path);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
     if (std::error_code ignored; !stream || std::filesystem::is_directory(path, ignored))
         throw Error(ErrorCode::kInput, path + ": cannot be read; check the path");
+    std::string text(std::istreambuf_iterator<char>(stream), {});
     if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     require_no_number_sign_in_quotes(path, text);
     require_short_names(path, text);
+    require_own_names(path, text);
     std::istringstream again(text);
     try {
         return CLI::ConfigTOML().from_config(again);
@@ -80,7 +116,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 OptionValues values_in(const std::string& path, const CommandSpec& command) {
     OptionValues values;
-    for (CLI::ConfigItem& item : items_in(path)) {
+    for (const CLI::ConfigItem& item : items_in(path)) {
         if (item.name == "++" || item.name == "--") continue;  // start and end of a table
         const std::string table = item.parents.empty() ? "" : item.parents.front();
         if (!table.empty() && std::ranges::find(command_table(), table, &CommandSpec::name) == command_table().end())
@@ -88,12 +124,14 @@ OptionValues values_in(const std::string& path, const CommandSpec& command) {
                         fmt::format("{}: [{}]: no command has this name; tables are named after commands, such as [{}]",
                                     path, table, command.name));
         if (!table.empty() && table != command.name) continue;
-        std::ranges::replace(item.name, '_', '-');
-        const OptionSpec* const option = find_option(item.name);
-        if (option && option->repeats)
-            for (const std::string& text : item.inputs) values.emplace_back(item.name, text);
+        const std::string name = option_name(item.name);
+        const OptionSpec* const option = find_option(name);
+        const bool repeats = option && option->repeats;
+        if (!repeats && has(values, name)) throw given_again(path, name);
+        if (repeats)
+            for (const std::string& text : item.inputs) values.emplace_back(name, text);
         else
-            values.emplace_back(item.name, joined(item.inputs));
+            values.emplace_back(name, joined(item.inputs));
     }
     return values;
 }

@@ -16,54 +16,74 @@ namespace regionmesh::cli {
 namespace {
 
 constexpr std::array<std::string_view, 3> kOfPrecomputed{"precomputed", "levels", "sharded"};
+constexpr std::array<std::string_view, 1> kOfFiles{"per-region"};
 
-/// Throws Error(kUsage) for options of a folder .precomputed with another output. A model that is missing is said
-/// first.
+/// Throws Error(kUsage) for options of a folder .precomputed with another output, and the other way round. A model that
+/// is missing is said first.
 void require_fit_of_output(const Settings& settings) {
-    if (is_precomputed(settings.output) || !std::filesystem::exists(settings.models.front())) return;
+    if (is_precomputed(settings.output))
+        return refuse_options(settings, kOfFiles, "is for files .stl, .obj and .ply, and --output is a folder");
+    if (!std::filesystem::exists(settings.models.front())) return;
     refuse_options(settings, kOfPrecomputed, "is for an output such as model.precomputed");
 }
 
-/// From a folder of pieces, without the whole model in memory. Whether the output is of such a format.
-bool convert_pieces(const Settings& settings) {
-    const std::string& folder = settings.models.front();
-    if (!is_written_in_pieces(settings.output)) return false;
+PrecomputedOptions precomputed_options(const Settings& settings, Described described) {
+    return {.metres = settings.metres.value_or(1),
+            .is_legacy = settings.precomputed_is_legacy,
+            .is_sharded = settings.precomputed_is_sharded,
+            .levels = settings.precomputed_levels,
+            .names = std::move(described.names),
+            .colours = std::move(described.colours),
+            .output = model_writing(settings)};
+}
+
+void print_regions(const Settings& settings, const PrecomputedResult& made) {
+    warn_of_rounding(settings.output, made.rounded_share_of_edge, "give --precomputed multi");
+    if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(made.regions, "region"));
+}
+
+/// From a folder of pieces, without the whole model in memory.
+void convert_pieces(const Settings& settings) {
     require_fit_of_pieces(settings);
-    auto [names, colours] = describe(settings, {}, {});
-    if (settings.output.ends_with(".pvtp")) {
-        const VtpPiecesOptions options{
-            .names = std::move(names), .colours = std::move(colours), .output = settings.writing};
-        const std::size_t files = write_vtp_pieces(folder, settings.output, options).size();
-        if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
-    } else {
-        const PrecomputedOptions options{.metres = settings.metres.value_or(1),
-                                         .is_legacy = settings.precomputed_is_legacy,
-                                         .is_sharded = settings.precomputed_is_sharded,
-                                         .levels = settings.precomputed_levels,
-                                         .names = std::move(names),
-                                         .colours = std::move(colours),
-                                         .output = settings.writing};
-        const PrecomputedResult made = write_precomputed(folder, settings.output, options);
-        warn_of_rounding(settings.output, made.rounded_share_of_edge, "give --precomputed multi");
-        if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(made.regions, "region"));
+    const std::string& folder = settings.models.front();
+    Described described = describe(settings, {}, {});
+    if (is_precomputed(settings.output)) {
+        print_regions(settings,
+                      write_precomputed(folder, settings.output, precomputed_options(settings, std::move(described))));
+        return;
     }
-    return true;
+    const VtpPiecesOptions options{
+        .names = std::move(described.names), .colours = std::move(described.colours), .output = settings.writing};
+    const std::size_t files = write_vtp_pieces(folder, settings.output, options).size();
+    if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
 }
 
 }  // namespace
 
 int run_convert(const Settings& given) {
     require_fit_of_output(given);
-    if (convert_pieces(given)) return kGood;
-    require_outputs(given);
+    if (is_written_in_pieces(given)) {
+        convert_pieces(given);
+        return kGood;
+    }
+    is_precomputed(given.output) ? require_tables(given) : require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     BoxAxes(file.mesh).restore(file.mesh);  // which finds the sides of an oblique box
     const CheckOptions options = check_options(settings, file.labels);
-    const auto [names, colours] = describe(settings, file.names, file.colours);
+    Described described = describe(settings, file.names, file.colours);
+    const Model model{file.mesh, file.labels, options.background, described.names, described.colours, file.space};
     OutputFiles files(model_writing(settings));
-    const auto written =
-        write_model(settings, {file.mesh, file.labels, options.background, names, colours, file.space}, files);
+    if (is_precomputed(settings.output)) {
+        write_tables(settings, model, files);
+        PrecomputedOptions writing = precomputed_options(settings, std::move(described));
+        writing.background = options.background;
+        writing.boundary_is_open = options.boundary_is_open;
+        print_regions(settings, write_precomputed(std::move(file.mesh), file.labels, settings.output, writing));
+        files.commit();
+        return kGood;
+    }
+    const auto written = write_model(settings, model, files);
     files.commit();
     print_region_files(settings, written);
     if (!settings.quiet)

@@ -28,6 +28,10 @@ void require_outputs(const Settings& settings) {
     require_writable_mesh(
         settings.output,
         {.per_region = settings.per_region, .boundary_is_open = !settings.reconstruct.cap, .output = settings.writing});
+    require_tables(settings);
+}
+
+void require_tables(const Settings& settings) {
     if (!settings.names.empty()) read_label_names(settings.names);
     for (const std::string& file : {settings.report, settings.regions, settings.interfaces, settings.lines})
         if (!file.empty()) require_writable(file, settings.writing);

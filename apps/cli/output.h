@@ -12,6 +12,8 @@ namespace regionmesh::cli {
 
 /// Throws Error where the model, the table of names or the report could not be written or read: before the work.
 void require_outputs(const Settings& settings);
+/// The same without the model.
+void require_tables(const Settings& settings);
 
 /// What the input says about its labels.
 struct Described {

@@ -13,6 +13,8 @@
 
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"
+#include "regionmesh/label_table.h"
+#include "regionmesh/mesh.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/reconstruct.h"
@@ -139,6 +141,8 @@ struct PrecomputedOptions {
     LabelNames names = {};      // of regions; empty: those in the folder
     LabelColours colours = {};  // of some regions; empty: those in the folder. The viewer chooses the others
     OutputOptions output = {};
+    std::vector<Label> background = {};  // of a model in memory, whose box was perhaps not capped
+    bool boundary_is_open = false;
 };
 
 struct PrecomputedResult {
@@ -160,6 +164,10 @@ struct PrecomputedResult {
 /// parent of `output`. Throws Error(kInput) for a negative label, which is no id there, and Error(kOutput) for
 /// multi-resolution in a build without Draco.
 PrecomputedResult write_precomputed(const std::filesystem::path& folder, const std::filesystem::path& output,
+                                    const PrecomputedOptions& options = {});
+
+/// The same of a model in memory. Faces of violations stay at all levels.
+PrecomputedResult write_precomputed(Mesh mesh, const LabelTable& labels, const std::filesystem::path& output,
                                     const PrecomputedOptions& options = {});
 
 /// The whole model of a complete folder, in memory: vertices and faces in the order of the pieces, shared vertices

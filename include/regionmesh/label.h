@@ -8,6 +8,15 @@ namespace regionmesh {
 /// A label of the input, bit for bit. Unsigned 64-bit labels keep their bits (see LabelTable).
 using InputLabel = std::int64_t;
 
+/// Their numeric order.
+struct InputLabelOrder {
+    bool is_unsigned = false;
+
+    bool operator()(InputLabel a, InputLabel b) const {
+        return is_unsigned ? static_cast<std::uint64_t>(a) < static_cast<std::uint64_t>(b) : a < b;
+    }
+};
+
 /// A dense label: regions are numbered from 0 in order of first appearance; the exteriors have the highest numbers.
 using Label = std::uint32_t;
 

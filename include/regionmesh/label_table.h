@@ -45,9 +45,7 @@ public:
         return is_unsigned_ ? std::to_string(static_cast<std::uint64_t>(label)) : std::to_string(label);
     }
     /// Numeric order of labels, signed or unsigned as in the input.
-    bool less(InputLabel a, InputLabel b) const {
-        return is_unsigned_ ? static_cast<std::uint64_t>(a) < static_cast<std::uint64_t>(b) : a < b;
-    }
+    bool less(InputLabel a, InputLabel b) const { return InputLabelOrder{is_unsigned_}(a, b); }
 
 private:
     std::unordered_map<InputLabel, Label> dense_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "regionmesh/vec3.h"
@@ -64,6 +65,15 @@ public:
     Vec3 operator()(Vec3 place) const {
         const Vec3 from = place - origin_;
         return {dot(rows_[0], from), dot(rows_[1], from), dot(rows_[2], from)};
+    }
+    /// The sums of what is added up for a place, without signs: rounding loses a share of these.
+    Vec3 magnitude(Vec3 place) const {
+        const auto sum = [&](Vec3 row) {
+            double all = 0;
+            for (int n = 0; n < 3; ++n) all += std::abs(row[n]) * (std::abs(place[n]) + std::abs(origin_[n]));
+            return all;
+        };
+        return {sum(rows_[0]), sum(rows_[1]), sum(rows_[2])};
     }
 
 private:

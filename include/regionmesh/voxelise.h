@@ -79,6 +79,7 @@ private:
     };
 
     void find_sides(SampleLines& lines);
+    Vec3 in_sweep(Vec3 p) const;
     Vec3 in_lines(VertexId v) const;
     Vec3 place(VertexId v) const;
     void find_sections(std::uint32_t threads);

@@ -355,6 +355,8 @@ class Mesh:
         if given[1] is not None or given[2] is not None:
             raise TypeError("check(): origin and direction are those of the file; leave them out")
         paths = _sources.paths_of(labels)
+        if _core.kind_of_input(paths) == "tetrahedra":
+            raise ValueError(f"check(): {paths[0]} holds points or tetrahedra; give a volume, or run regionmesh check")
         selection, kept, place = self._made()
         suffix, reading = (self._lattice or {}).get("made", {}).get("reading", (None, []))
         if suffix is None and given[0] is None and place[0] is not None:  # made from an array
@@ -459,32 +461,47 @@ class Mesh:
         _core.voxelise(self._model, where, bits(outside), result)
         return result
 
-    def save(self, path, *, per_region=False, units="m"):
+    def save(self, path, *, per_region=False, units="m", precomputed=None, levels=None, sharded=False):
         """Write the model; the extension selects the format (docs/files.md).
 
         Parameters
         ----------
         path : path
-            .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .3mf .dream3d
+            .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .3mf .dream3d, or a folder .precomputed for
+            Neuroglancer (docs/neuroglancer.md), whose parent exists.
         per_region : bool
             .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
             name.
         units : {"m", "mm", "um", "nm"}
-            The unit of length of the model: .glb files are in metres and are scaled, .3mf files say the unit.
+            The unit of length of the model: .glb files are in metres and .precomputed in nanometres, and are scaled;
+            .3mf files say the unit.
+        precomputed : {"multi", "legacy"}, optional
+            .precomputed: levels of detail compressed by Draco (the default), or the model, not compressed.
+        levels : int, optional
+            .precomputed, multi: levels of detail; by default from the number of faces.
+        sharded : bool
+            .precomputed, multi: few large files instead of two for each region.
 
         Returns
         -------
         list of str
-            The files written.
+            The files written, or the folder.
 
         Raises
         ------
         OSError
             For another extension, and where the file cannot be written.
+        ValueError
+            For options that are not for such a file.
         """
-        if not isinstance(units, str):
-            raise TypeError(f"units={units!r}: not a text")
-        pairs = [("units", units)]
+        pairs = _options.output_pairs({"units": units}, "save")
+        of_folder = {"precomputed": precomputed, "levels": levels, "sharded": sharded or None}
+        given = _options.output_pairs(of_folder, "save")
+        is_folder = os.path.splitext(os.path.normpath(os.fsdecode(path)))[1] == ".precomputed"
+        if given and not is_folder or per_region and is_folder:
+            option = "per_region" if is_folder else given[0][0]
+            raise ValueError(f"save: {option} is not for {os.fsdecode(path)!r}")
+        pairs += given
         paths, share = _core.save(self._model, _sources.file_name(path), bool(per_region), pairs)
         if share > _COARSE:
             warnings.warn(

@@ -132,12 +132,21 @@ def pairs(command, options, function=None):
     ValueError
         For a value out of range, with the line of the command line.
     """
-    known = rows(command)
+    return _pairs(rows(command), options, function or command)
+
+
+def output_pairs(options, function):
+    """Return options about the files to write as pairs() does."""
+    known = {_keyword(row["name"]): row for row in _core.option_rows("convert") if row["group"] == "Output"}
+    return _pairs(known, options, function)
+
+
+def _pairs(known, options, function):
     result = []
     for keyword, value in options.items():
         row = known.get(keyword)
         if row is None:
-            raise TypeError(f"{function or command}() got an unexpected keyword argument '{keyword}'")
+            raise TypeError(f"{function}() got an unexpected keyword argument '{keyword}'")
         if keyword == "background":
             result += _background_pairs(value)
             continue

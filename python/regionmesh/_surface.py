@@ -1,5 +1,6 @@
 """Parts of a model as surfaces of their own."""
 
+import operator
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,7 @@ class Surface(NamedTuple):
 
 def region(mesh, label):
     """Faces around a region, outward."""
-    first, second = (mesh.labels == label).T
+    first, second = np.equal(mesh.labels, operator.index(label)).T
     face_ids = np.flatnonzero(first | second)
     if not len(face_ids):
         raise KeyError(label)

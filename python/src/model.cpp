@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "regionmesh/blocks.h"
 #include "regionmesh/box_axes.h"
 #include "regionmesh/census.h"
 #include "regionmesh/check.h"
@@ -23,6 +24,8 @@
 
 namespace regionmesh::python {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Sets the result of a run; frees what the run alone needed.
 Model model_from(Reconstruction made, const LabelNames& names, bool is_open, Space space = Space::kUnknown,
@@ -141,6 +144,28 @@ std::vector<InputLabel> background_of(const Model& model) {
     return background;
 }
 
+/// Without a / at its end.
+fs::path folder_of(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
+
+/// A folder for Neuroglancer.
+Saved save_precomputed(const Model& model, const fs::path& folder, const Settings& settings) {
+    std::error_code error;
+    for (const fs::path& made : {folder, folder / "names"})
+        if (!fs::is_directory(made, error)) fs::create_directory(made, error);
+    if (error) throw Error(ErrorCode::kOutput, folder.string() + ": cannot be made: " + error.message());
+    const PrecomputedOptions options{.metres = settings.metres.value_or(1),
+                                     .is_legacy = settings.precomputed_is_legacy,
+                                     .is_sharded = settings.precomputed_is_sharded,
+                                     .levels = settings.precomputed_levels,
+                                     .names = model.names,
+                                     .colours = model.colours,
+                                     .background = model.background,
+                                     .boundary_is_open = model.is_open};
+    Mesh mesh = copy_of(model.mesh, model.labels);
+    const PrecomputedResult made = write_precomputed(std::move(mesh), model.labels, folder, options);
+    return {{folder.string()}, made.rounded_share_of_edge};
+}
+
 }  // namespace
 
 Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
@@ -196,6 +221,7 @@ Model load_model(const std::string& path, const OptionValues& options) {
 Saved save_model(const Model& model, const std::string& path, bool per_region, const OptionValues& options) {
     const Settings settings = settings_from(options);
     const py::gil_scoped_release release;
+    if (folder_of(path).extension() == ".precomputed") return save_precomputed(model, folder_of(path), settings);
     const WriteOptions writing{.background = model.background,
                                .names = model.names,
                                .colours = model.colours,

@@ -1,6 +1,7 @@
 """What a mesh knows and what can be done with it."""
 
 import copy
+import json
 import os
 import pickle
 
@@ -42,6 +43,8 @@ def test_a_region_is_closed_and_outward(filled):
 def test_a_region_that_is_not_there(filled):
     with pytest.raises(KeyError):
         filled.region(999)
+    with pytest.raises(TypeError):
+        filled.region("x")
 
 
 def test_an_interface_has_two_directions(filled):
@@ -271,6 +274,12 @@ def test_voxelise_like_a_list(filled):
     assert (filled.voxelise(like=filled.voxelise().tolist()) == filled.voxelise()).all()
 
 
+def test_check_refuses_points_and_tetrahedra(filled, tmp_path):
+    (tmp_path / "points.csv").write_text("x,y,z,label\n0,0,0,1\n")
+    with pytest.raises(ValueError, match="points.csv holds points or tetrahedra; give a volume"):
+        filled.check(tmp_path / "points.csv")
+
+
 def test_check_refuses_other_volumes(filled, grains, tmp_path):
     with pytest.raises(ValueError, match="19 x 20 x 20 samples along x, y, z, the model was made from 20 x 20 x 20"):
         filled.check(grains[:, :, 1:])
@@ -381,6 +390,26 @@ def test_save_returns_the_files_and_scales_to_metres(two_boxes, tmp_path):
     assert b'"scale":[0.001,0.001,0.001]' in (tmp_path / "m.glb").read_bytes()
     with pytest.raises(ValueError, match="--units"):
         made.save(tmp_path / "m.glb", units="furlong")
+
+
+def test_save_writes_folders_for_neuroglancer(two_boxes, tmp_path):
+    made = regionmesh.reconstruct(two_boxes, names={1: "left lung"})
+    folder = tmp_path / "m.precomputed"
+    assert made.save(folder, units="um", levels=2) == [str(folder)]
+    assert json.loads((folder / "info").read_text())["@type"] == "neuroglancer_multilod_draco"
+    names = json.loads((folder / "names" / "info").read_text())["inline"]
+    assert names["ids"] == ["1", "2"] and names["properties"][0]["values"] == ["left lung", "2"]
+    assert (folder / "1.index").exists() and not (folder / "0.index").exists()
+    made.save(f"{tmp_path}/s.precomputed/", sharded=True)
+    assert json.loads((tmp_path / "s.precomputed" / "info").read_text())["sharding"]["hash"] == "identity"
+    made.save(tmp_path / "l.precomputed", precomputed="legacy")
+    fragment = np.fromfile(tmp_path / "l.precomputed" / "1:0:0", np.float32, 3, offset=4)
+    assert np.abs(made.points * 1e9 - fragment).max(axis=1).min() < 1e3
+    for options, name in (({"levels": 2}, "m.vtp"), ({"per_region": True}, "m.precomputed"), ({"levels": 9}, folder)):
+        with pytest.raises(ValueError, match="levels|per_region"):
+            made.save(tmp_path / name, **options)
+    with pytest.raises(OSError, match="cannot be made"):
+        made.save(tmp_path / "missing" / "m.precomputed")
 
 
 def test_arrays_in_and_out(filled):

@@ -264,7 +264,8 @@ private:
         };
         if (sides.size() == 1 && !may_be_open) say(ViolationKind::kOpenEdge, "one face");
         if (sides.size() > 2) say(ViolationKind::kOverfullEdge, std::to_string(sides.size()) + " faces");
-        if (sides.size() == 2 && turn != 0)
+        // Where it may end, two faces may bound two parts of the region.
+        if (sides.size() == 2 && turn != 0 && !may_be_open)
             say(ViolationKind::kOrientation, "its two faces pass it in the same direction");
     }
 

@@ -22,7 +22,9 @@ constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 /// The same where a coordinate is stored in single precision.
 constexpr double kSingleRounding = std::numeric_limits<float>::epsilon() / 2;
 
-double size(Vec3 p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
+/// Share of the spacing by which a vertex is moved at most: in lattices along the axes, where a coordinate that was
+/// rounded once is known, and in turned ones.
+constexpr double kMostMoved = 1e-3, kMostMovedInTurned = 0.25;
 
 /// Room for rounding, in samples: positions of crossings and of samples are rounded a few times.
 double doubt(double coordinate, double spacing) {
@@ -72,6 +74,7 @@ void Voxeliser::find_sides(SampleLines& lines) {
     };
     Box box = box_of([&](VertexId v) { return in_lines(v); });
     if (box.low.x > box.high.x) return;
+    const Vec3 origin = in_sweep(options_.lattice.origin);
     for (int axis = 0; axis < 3; ++axis)
         for (int end = 0; end < 2; ++end) {
             const double coordinate = end == 0 ? box.low[axis] : box.high[axis];
@@ -79,7 +82,7 @@ void Voxeliser::find_sides(SampleLines& lines) {
             const double side = sides_[axis][end] = lines.at(axis, static_cast<std::uint32_t>(n));
             // A lattice that is not the model's has samples there whose coordinates were rounded in another way.
             const double near =
-                kOnSide * lines.spacing(axis) + kRounding * (std::abs(coordinate) + size(options_.lattice.origin));
+                kOnSide * lines.spacing(axis) + kRounding * (std::abs(coordinate) + std::abs(origin[axis]));
             if (side != coordinate && std::abs(side - coordinate) < near) rounding_ = std::max(rounding_, kRounding);
         }
     if (rounding_ != 0) box = box_of([&](VertexId v) { return place(v); });
@@ -87,21 +90,25 @@ void Voxeliser::find_sides(SampleLines& lines) {
 }
 
 /// In the axes of the sweep: the line of samples along x, sections along z.
-Vec3 Voxeliser::in_lines(VertexId v) const {
-    const Vec3 p = is_turned_ ? into_axes_(mesh_.position(v)) : mesh_.position(v);
+Vec3 Voxeliser::in_sweep(Vec3 p) const {
     const auto& axes = options_.sweep.axes;
     return {p[axes[0]], p[axes[1]], p[axes[2]]};
+}
+
+Vec3 Voxeliser::in_lines(VertexId v) const {
+    return in_sweep(is_turned_ ? into_axes_(mesh_.position(v)) : mesh_.position(v));
 }
 
 /// The same, with coordinates at the ends of the model that were rounded put back.
 Vec3 Voxeliser::place(VertexId v) const {
     Vec3 p = in_lines(v);
     if (rounding_ == 0) return p;
-    const double rounding = rounding_ * (size(mesh_.position(v)) + size(options_.lattice.origin));
+    const Vec3 lost = rounding_ * in_sweep(into_axes_.magnitude(mesh_.position(v)));
     for (int axis = 0; axis < 3; ++axis) {
-        const double near = kOnSide * lines_->spacing(axis) + rounding;
+        const double spacing = lines_->spacing(axis), most = (is_turned_ ? kMostMovedInTurned : kMostMoved) * spacing;
+        const double near = kOnSide * spacing + std::min(lost[axis], most);
         for (const double side : sides_[axis])
-            if (std::abs(p[axis] - side) < near) p[axis] = side;
+            if (std::abs(p[axis] - side) < near || (!is_turned_ && p[axis] == static_cast<float>(side))) p[axis] = side;
     }
     return p;
 }

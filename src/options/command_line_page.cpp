@@ -21,7 +21,8 @@ constexpr std::string_view kConventions = R"(```
 - Exit codes: 0 good; 1 the input cannot be used, or the output cannot be written; 2 usage: an unknown option, a value
   that the option does not take, or options that contradict each other; 3 the model has violations;
   4 `--preserve-volume` left a region off its volume.
-- An error is one line on stderr: what is wrong, where, and what to do. A failed run leaves no file behind.
+- An error is one line on stderr: what is wrong, where, and what to do. A run that fails before its results are complete
+  leaves no file behind.
 - Progress is shown on a terminal only. The summary goes to stdout; `--quiet` suppresses both. A file to write may be a
   device or a pipe: `check model.vtp --quiet --json /dev/stdout | jq .violation_counts`.
 - *Length* is the unit of the spacing of a volume, or of the points of a surface.

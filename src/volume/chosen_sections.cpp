@@ -89,12 +89,12 @@ private:
 };
 
 /// The label of the most samples; of several one other than `rest`, then the smallest. Sorts `block`.
-InputLabel majority(std::vector<InputLabel>& block, InputLabel rest) {
-    std::sort(block.begin(), block.end());
+InputLabel majority(std::vector<InputLabel>& block, InputLabel rest, InputLabelOrder order) {
+    std::sort(block.begin(), block.end(), order);
     InputLabel best = block.front();
     std::ptrdiff_t most = 0;
     for (auto from = block.begin(); from != block.end();) {
-        const auto to = std::upper_bound(from, block.end(), *from);
+        const auto to = std::upper_bound(from, block.end(), *from, order);
         if (to - from > most || (to - from == most && best == rest)) {
             most = to - from;
             best = *from;
@@ -150,7 +150,7 @@ private:
                 const auto from = slab_[s].begin() + std::ptrdiff_t{row} * width;
                 block_.insert(block_.end(), from + u * along_u, from + u_end);
             }
-        return majority(block_, rest_);
+        return majority(block_, rest_, {info_.type == SampleType::kU64});
     }
 
     ReaderPointer reader_;

@@ -17,7 +17,8 @@ public:
         : reader_(std::move(reader)),
           info_(reader_->info()),
           numbers_(reader_->section_width(), reader_->section_height()),
-          section_(std::size_t{section_width()} * section_height()) {
+          section_(std::size_t{section_width()} * section_height()),
+          small_({info_.type == SampleType::kU64}) {
         if (!info_.can_rewind)
             throw Error(ErrorCode::kInput, info_.source +
                                                ": small regions are found by reading the input several times, "
@@ -25,7 +26,7 @@ public:
         count_samples(min_samples);
         measure_interfaces();
         labels_ = small_.resolve(min_samples);
-        small_ = {};
+        small_ = SmallRegions({});
         restart();
         constexpr std::uint64_t kLayers = 2 * (sizeof(InputLabel) + sizeof(std::uint32_t));
         info_.held_bytes = (info_.held_bytes ? info_.held_bytes : section_.size() * sizeof(InputLabel)) +

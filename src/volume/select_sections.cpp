@@ -73,9 +73,8 @@ ReaderPointer cropped(ReaderPointer reader, const Selection& selection) {
 }
 
 bool is_in(InputLabel label, const LabelRange& range, bool is_unsigned) {
-    if (!is_unsigned) return range.first <= label && label <= range.last;
-    const auto bits = [](InputLabel value) { return static_cast<std::uint64_t>(value); };
-    return bits(range.first) <= bits(label) && bits(label) <= bits(range.last);
+    const InputLabelOrder less{is_unsigned};
+    return !less(label, range.first) && !less(range.last, label);
 }
 
 /// Ranges that no volume has.

@@ -20,7 +20,9 @@ InputLabel SmallRegions::nearest_label(const Region& region) const {
     std::map<InputLabel, double> areas = region.large;
     for (const auto& [other, area] : region.small) areas[regions_[other].label] += area;
     return std::max_element(areas.begin(), areas.end(),
-                            [](const auto& a, const auto& b) { return a.second < b.second; })
+                            [&](const auto& a, const auto& b) {
+                                return a.second < b.second || (a.second == b.second && less_(b.first, a.first));
+                            })
         ->first;
 }
 

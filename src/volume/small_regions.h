@@ -14,6 +14,8 @@ namespace regionmesh {
 /// Small regions, their sizes in samples and the areas of their interfaces.
 class SmallRegions {
 public:
+    /// Of labels in this order.
+    explicit SmallRegions(InputLabelOrder order) : less_(order) {}
     /// Returns the number of the region.
     std::uint32_t add(InputLabel label, std::uint64_t samples);
     std::size_t size() const { return regions_.size(); }
@@ -38,6 +40,7 @@ private:
     void absorb(std::uint32_t region, std::uint32_t other);
     void make_large(std::uint32_t region);
 
+    InputLabelOrder less_;
     std::vector<Region> regions_;
     std::set<std::pair<std::uint64_t, std::uint32_t>> queue_;  // samples and number
 };

@@ -37,12 +37,13 @@ std::string manifest_of(const std::string& shard, const ShardLayout& layout, std
 
 TEST_F(Shards, find_every_id_in_its_shard_and_minishard) {
     NewFiles written(path(""));
-    Precomputed precomputed{{}, path(""), {}, LabelTable(true), {}, {}, written};
+    LabelTable labels(true);
+    const Precomputed precomputed{{}, path(""), labels, {}, {}, written};
     const ShardLayout layout{.minishard_bits = 2, .shard_bits = 5};
     std::map<std::array<std::uint64_t, 3>, Label> order;
     for (std::uint64_t n = 0; n < 300; ++n) {
         const std::uint64_t id = n * n * n + (n % 7 == 0 ? std::uint64_t{1} << 63 : 0);
-        const Label label = precomputed.labels.dense(static_cast<InputLabel>(id));
+        const Label label = labels.dense(static_cast<InputLabel>(id));
         order[{layout.shard(id), layout.minishard(id), id}] = label;
     }
     const auto files = shards_of_regions(precomputed, layout);

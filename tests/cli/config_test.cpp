@@ -92,6 +92,11 @@ TEST_F(Config, that_is_wrong_is_refused_in_one_line) {
     refused(whole() + "a.b = 1\n", 2, "run.toml: [a]: no command has this name");
     refused(whole() + "reduce = \"x\"\n", 2, "run.toml: --reduce x: not a share");
     refused(whole() + "reduce = \"5%\"\ntarget-faces = 10\n", 2, "--reduce and --target-faces: ");
+    refused(whole() + "reduce = \"5%\"\nreduce = \"6%\"\n", 2, "run.toml: reduce is given twice");
+    refused(whole() + "labels = [1]\nlabels = [2]\n", 2, "run.toml: labels is given twice");
+    refused(whole() + "labels = [1]\nsmooth = \"off\"\nlabels = [2]\n", 2, "run.toml: labels is given twice");
+    refused(whole() + "min_quality = 0.1\n[reconstruct]\nmin-quality = 0.2\n", 2, "min-quality is given twice");
+    refused(whole() + "= 5\n", 2, "has no name; give NAME = VALUE");
     refused("reduce = \"5%\"\n", 2, "input is required");
     refused("input = [\"a.npy\"]\n", 2, "--output is required");
     refused("input = [\"a#b.npy\"]\n", 1, "run.toml: line 1: a value with #");

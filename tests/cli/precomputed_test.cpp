@@ -1,5 +1,6 @@
 // Folders for Neuroglancer, as a user makes them.
 #include <cmath>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -139,14 +140,16 @@ bool lies_in_one_chunk(const DecodedFace& face) {
     return true;
 }
 
-TEST_F(PrecomputedProgram, level_0_is_the_model_with_every_face_once) {
-    make_precomputed("--levels 3");
-    const MeshFile model = read_block_folder(out("model"));
+/// By its id.
+using RegionOf = std::function<DecodedRegion(const std::string&)>;
+
+/// Of level 0.
+void expect_every_face_once(const MeshFile& model, const RegionOf& region_of) {
     std::size_t whole = 0, cut = 0;
     for (const RegionReport& report : check(model.mesh).regions) {
         const std::string id = model.labels.text(model.labels.input(report.label));
         SCOPED_TRACE(id);
-        const DecodedRegion region = decoded("m", id);
+        const DecodedRegion region = region_of(id);
         std::multiset<DecodedFace> found;
         for (const DecodedFace& face : region.faces(0)) found.insert(turned(face));
         std::set<DecodedPoint> corners;
@@ -170,6 +173,11 @@ TEST_F(PrecomputedProgram, level_0_is_the_model_with_every_face_once) {
     }
     EXPECT_GT(whole, 1000u);
     EXPECT_GT(cut, 100u);
+}
+
+TEST_F(PrecomputedProgram, level_0_is_the_model_with_every_face_once) {
+    make_precomputed("--levels 3");
+    expect_every_face_once(read_block_folder(out("model")), [&](const std::string& id) { return decoded("m", id); });
 }
 
 TEST_F(PrecomputedProgram, coarser_levels_are_closed_smaller_and_fit_together) {
@@ -270,6 +278,56 @@ TEST_F(PrecomputedProgram, shards_hold_the_same_bytes) {
     }
 }
 
+TEST_F(PrecomputedProgram, of_a_model_in_one_file_holds_what_its_pieces_do) {
+    make_precomputed("--levels 3");
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("model.vtp")).code, 0);
+    const Ran ran =
+        run("convert " + out("model.vtp") + ' ' + out("w.precomputed") + " --no-background --units um --levels 3");
+    ASSERT_EQ(ran.code, 0) << ran.error;
+    EXPECT_EQ(json_of("w.precomputed/info"), json_of("m.precomputed/info"));
+    const auto ids_of = [&](const std::string& name) {
+        return json_of(name + ".precomputed/names/info")["inline"]["ids"].get<std::set<std::string>>();
+    };
+    EXPECT_EQ(ids_of("w"), ids_of("m"));
+    expect_every_face_once(read_mesh(out("model.vtp")), [&](const std::string& id) { return decoded("w", id); });
+    for (const std::string& id : ids_of("w")) {
+        SCOPED_TRACE(id);
+        const DecodedRegion region = decoded("w", id);
+        ASSERT_EQ(region.levels.size(), 3u);
+        for (std::size_t level = 1; level < 3; ++level) {
+            EXPECT_LT(region.faces(level).size(), region.faces(level - 1).size() * 2 / 3);
+            EXPECT_TRUE(is_closed(region.faces(level))) << level;
+            EXPECT_NEAR(volume_of(region, level), volume_of(region, 0), 0.1 * volume_of(region, 0)) << level;
+        }
+    }
+    ASSERT_EQ(
+        run("convert " + out("model.vtp") + ' ' + out("l.precomputed") + " --background 0 --precomputed legacy").code,
+        0);
+    EXPECT_EQ(json_of("l.precomputed/2:0")["fragments"], nlohmann::json::array({"2:0:0"}));
+    EXPECT_FALSE(fs::exists(out("l.precomputed/0:0")));  // background
+}
+
+TEST_F(PrecomputedProgram, of_a_model_in_an_oblique_box_is_closed_at_all_levels) {
+    const test::ArrayVolume volume = test::grain_volume({24, 24, 24}, 8, 3);
+    const std::string labels(volume.labels().begin(), volume.labels().end());
+    put_text(path("grains.nrrd"),
+             "NRRD0004\ntype: uint8\ndimension: 3\nspace dimension: 3\nsizes: 24 24 24\nencoding: raw\n"
+             "space directions: (0.8,0.6,0) (-0.6,0.8,0) (0,0,1)\nspace origin: (5,-3,11)\n\n" +
+                 labels);
+    ASSERT_EQ(
+        run("reconstruct " + path("grains.nrrd").string() + " --smooth light --no-background -o " + out("oblique.vtp"))
+            .code,
+        0);
+    ASSERT_EQ(run("convert " + out("oblique.vtp") + ' ' + out("o.precomputed") + " --no-background --levels 3").code,
+              0);
+    for (const std::string id : json_of("o.precomputed/names/info")["inline"]["ids"])
+        for (std::size_t level = 0; level < 3; ++level) {
+            const DecodedRegion region = decoded("o", id);
+            EXPECT_TRUE(is_closed(region.faces(level))) << id << ' ' << level;
+            EXPECT_NEAR(volume_of(region, level), volume_of(region, 0), 0.1 * volume_of(region, 0)) << id;
+        }
+}
+
 TEST_F(PrecomputedProgram, leaves_no_folder_that_could_be_taken_for_whole_when_it_fails) {
     for (const char* format : {"legacy", "multi"}) {
         SCOPED_TRACE(format);
@@ -303,6 +361,7 @@ TEST_F(PrecomputedProgram, refuses_options_without_effect) {
     for (const auto& [options, said] :
          {std::pair("m.precomputed --precomputed legacy --sharded", "legacy meshes have neither"),
           std::pair("m.precomputed --precomputed legacy --levels 2", "legacy meshes have neither"),
+          std::pair("m.precomputed --per-region", "--per-region: is "),
           std::pair("m.vtp --sharded", "--sharded: is for an output such as model.precomputed"),
           std::pair("m.pvtp --levels 2", "--levels: is for an output such as model.precomputed")}) {
         const Ran ran = run("convert " + out("model") + ' ' + out(options));

@@ -84,6 +84,25 @@ TEST(Voxelise, positions_rounded_to_single_precision_leave_no_sample_on_a_side_o
     }
 }
 
+TEST(Voxelise, far_from_the_origin_only_what_was_rounded_is_put_back) {
+    // Whole numbers and halves, as of unsmoothed models, are numbers of single precision without being rounded.
+    for (const double mirror : {1.0, -1.0})
+        for (const double offset : {0.0, 0.3}) {
+            ArrayVolume volume = test::grain_volume({12, 11, 10}, 12, 3);
+            volume.spaced({10, 10, 1});
+            volume.lattice().origin = {512345 + offset, 5912345 + offset, -20};
+            volume.lattice().direction = {mirror, 0, 0, 0, mirror, 0, 0, 0, 1};
+            expect_lossless(volume, plain());
+            volume.rewind();
+            Reconstruction made = reconstruct(volume, plain());
+            round_to_single(made.mesh);
+            volume.rewind();
+            const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);
+            EXPECT_EQ(found.wrong, 0u) << mirror << ' ' << offset;
+            EXPECT_EQ(found.contradictions, 0u) << mirror << ' ' << offset;
+        }
+}
+
 /// A lattice of `size` samples, whose sample 0 is sample `first` of the volume.
 void expect_lossless_in(const Lattice& part, const std::array<int, 3>& first, const ArrayVolume& volume,
                         const Reconstruction& made) {

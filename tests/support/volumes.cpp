@@ -59,6 +59,11 @@ ArrayVolume& ArrayVolume::once() {
     return *this;
 }
 
+ArrayVolume& ArrayVolume::unsigned_labels() {
+    info_.type = SampleType::kU64;
+    return *this;
+}
+
 TextVolume::TextVolume(const std::vector<Section>& sections)
     : ArrayVolume(
           volume_of({static_cast<std::uint32_t>(sections[0][0].size()), static_cast<std::uint32_t>(sections[0].size()),

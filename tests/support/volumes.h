@@ -31,6 +31,8 @@ public:
     ArrayVolume& spaced(Vec3 spacing);
     /// As a pipe: the sections can be read once.
     ArrayVolume& once();
+    /// The labels are unsigned 64-bit numbers.
+    ArrayVolume& unsigned_labels();
 
     const Size& size() const { return info_.lattice.size; }
     InputLabel at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const;

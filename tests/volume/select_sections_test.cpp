@@ -166,6 +166,17 @@ TEST(SelectSections, small_neighbours_grow_together) {
     EXPECT_EQ(result_of(rows({"33"}), {.min_region = 9}), "33");
 }
 
+TEST(SelectSections, of_several_labels_the_smallest_wins_by_its_sign) {
+    // -1 has the bits of the largest unsigned label.
+    const auto volume = [] { return ArrayVolume({5, 1, 1}, {-1, -1, 7, 3, 3}); };
+    const Selection small{.min_region = 2}, blocks{.downsample = {4, 1, 1}};
+    EXPECT_EQ(result_of(volume(), small), "---33");
+    EXPECT_EQ(result_of(volume().unsigned_labels(), small), "--333");
+    const auto tie = [] { return ArrayVolume({4, 1, 1}, {-1, -1, 3, 3}); };
+    EXPECT_EQ(result_of(tie(), blocks), "-");
+    EXPECT_EQ(result_of(tie().unsigned_labels(), blocks), "3");
+}
+
 TEST(SelectSections, samples_are_connected_as_in_the_mesh) {
     // Kuhn's tetrahedra have the diagonal from low to high, not the other.
     EXPECT_EQ(result_of(rows({"2220", "2122", "2212", "2222"}), {.min_region = 2}), "2222 2122 2212 2222");

@@ -4,8 +4,6 @@
 #include <map>
 #include <string_view>
 
-#include "blocks/join.h"
-#include "blocks/piece_mesh.h"
 #include "blocks/precomputed/precomputed.h"
 #include "mesh/edge_rounding.h"
 
@@ -48,19 +46,17 @@ std::string_view bytes_of(const std::vector<T>& items) {
 
 }  // namespace
 
-WrittenRegions write_legacy_meshes(const Precomputed& precomputed) {
-    const Manifest& manifest = precomputed.manifest;
+WrittenRegions write_legacy_meshes(const Precomputed& precomputed, ModelLevels& model) {
     std::map<Label, Json> lists;
     WrittenRegions written;
     EdgeRounding rounding;
-    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
-        if (manifest.pieces[block].faces == 0) continue;
-        const Mesh mesh = mesh_of(read_entry(manifest, precomputed.folder, block), manifest);
+    std::uint32_t part = 0;
+    model.visit(1, [&](std::uint32_t, const Mesh& mesh) {
         for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v)
             written.box.add(mesh.position(VertexId{v}) * precomputed.nanometres());
         rounding.add(mesh);
         for (const auto& [label, fragment] : fragments_of(mesh, precomputed)) {
-            const std::string name = fmt::format("{}:0:{}", precomputed.id(label), block);
+            const std::string name = fmt::format("{}:0:{}", precomputed.id(label), part);
             OutputFile file(precomputed.output / name, precomputed.options.output);
             const std::vector<std::uint32_t> count{static_cast<std::uint32_t>(fragment.positions.size() / 3)};
             file.write(bytes_of(count));
@@ -70,7 +66,8 @@ WrittenRegions write_legacy_meshes(const Precomputed& precomputed) {
             lists[label].push_back(name);
             written.faces[label] += fragment.corners.size() / 3;
         }
-    }
+        ++part;
+    });
     for (const auto& [label, names] : lists)
         precomputed.write(precomputed.id(label) + ":0", text_of(Json{{"fragments", names}}));
     written.info = {{"@type", "neuroglancer_legacy_mesh"}};

@@ -10,13 +10,10 @@
 #include <unordered_map>
 
 #include "base/external_sort.h"
-#include "blocks/join.h"
 #include "blocks/precomputed/chunk_grid.h"
 #include "blocks/precomputed/draco_fragment.h"
-#include "blocks/precomputed/levels.h"
 #include "blocks/precomputed/precomputed.h"
 #include "blocks/precomputed/region_files.h"
-#include "stream/place_in_space.h"
 
 namespace regionmesh {
 namespace {
@@ -53,7 +50,7 @@ struct SortedFace {
 /// Regions in the order of shard, minishard and id.
 class RegionOrder {
 public:
-    RegionOrder(const Precomputed& precomputed, ShardLayout layout) : ranks_(precomputed.manifest.label_count) {
+    RegionOrder(const Precomputed& precomputed, ShardLayout layout) : ranks_(precomputed.labels.size()) {
         for (Label label = 0; label < ranks_.size(); ++label)
             if (precomputed.is_region(label)) labels_.push_back(label);
         std::ranges::sort(labels_, {}, [&](Label label) {
@@ -70,25 +67,11 @@ private:
     std::vector<Label> labels_;
 };
 
-/// The box of the model in nanometres. Reads the headers of the pieces.
-Box box_of(const Precomputed& precomputed) {
-    const Manifest& manifest = precomputed.manifest;
-    Mesh corners;
-    for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block) {
-        const PieceEntry& entry = manifest.pieces[block];
-        if (entry.faces == 0) continue;
-        const Box box = read_piece_header(piece_path(precomputed.folder, entry.pass, block)).box;
-        for (int n = 0; n < 8; ++n)
-            corners.add_vertex(
-                {(n & 1 ? box.high : box.low).x, (n & 2 ? box.high : box.low).y, (n & 4 ? box.high : box.low).z});
-    }
-    unscale_z(corners, manifest.scale_z);
-    place_in_space(corners, manifest.lattice);
-    Box box;
-    for (std::uint32_t v = 0; v < corners.vertex_end(); ++v)
-        box.add(corners.position(VertexId{v}) * precomputed.nanometres());
-    if (box.is_empty()) box = {{0, 0, 0}, {1, 1, 1}};
-    return box;
+/// The box of the model in nanometres.
+Box box_of(const ModelLevels& model, double nanometres) {
+    const Box box = model.box();
+    if (box.is_empty()) return {{0, 0, 0}, {1, 1, 1}};
+    return {box.low * nanometres, box.high * nanometres};
 }
 
 /// Chunks of such a size that the last level has one.
@@ -165,18 +148,18 @@ private:
 
 class MultiResolutionWriter {
 public:
-    explicit MultiResolutionWriter(const Precomputed& precomputed)
+    MultiResolutionWriter(const Precomputed& precomputed, ModelLevels& model)
         : precomputed_(precomputed),
-          levels_(precomputed.options.levels > 0 ? precomputed.options.levels
-                                                 : level_count(precomputed.manifest.faces)),
-          layout_(precomputed.options.is_sharded ? shard_layout(precomputed.manifest.label_count) : ShardLayout{}),
+          model_(model),
+          levels_(precomputed.options.levels > 0 ? precomputed.options.levels : level_count(model.faces())),
+          layout_(precomputed.options.is_sharded ? shard_layout(precomputed.labels.size()) : ShardLayout{}),
           order_(precomputed, layout_),
-          grid_(grid_over(box_of(precomputed), levels_)),
+          grid_(grid_over(box_of(model, precomputed.nanometres()), levels_)),
           area_(levels_),
           count_(levels_) {}
 
     WrittenRegions write() {
-        for_each_level(precomputed_, levels_, [&](std::uint32_t level, const Mesh& mesh) { take(level, mesh); });
+        model_.visit(levels_, [&](std::uint32_t level, const Mesh& mesh) { take(level, mesh); });
         faces_.finish();
         const auto files =
             precomputed_.options.is_sharded ? shards_of_regions(precomputed_, layout_) : files_of_regions(precomputed_);
@@ -268,6 +251,7 @@ private:
     }
 
     const Precomputed& precomputed_;
+    ModelLevels& model_;
     std::uint32_t levels_;
     ShardLayout layout_;
     RegionOrder order_;
@@ -281,8 +265,8 @@ private:
 
 }  // namespace
 
-WrittenRegions write_multi_resolution_meshes(const Precomputed& precomputed) {
-    return MultiResolutionWriter(precomputed).write();
+WrittenRegions write_multi_resolution_meshes(const Precomputed& precomputed, ModelLevels& model) {
+    return MultiResolutionWriter(precomputed, model).write();
 }
 
 }  // namespace regionmesh

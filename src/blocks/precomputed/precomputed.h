@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "blocks/manifest.h"
+#include "blocks/precomputed/levels.h"
 #include "formats/report/json_parts.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/label_table.h"
@@ -37,17 +37,14 @@ private:
 
 /// What is written, and where.
 struct Precomputed {
-    std::filesystem::path folder, output;
-    Manifest manifest;
-    LabelTable labels;
+    std::filesystem::path source, output;  // the first one for messages
+    const LabelTable& labels;
     std::vector<Label> background;  // dense
-    PrecomputedOptions options;
+    PrecomputedOptions options;     // with the names and colours to write
     NewFiles& files;
 
     /// Nanometres in a unit of the model.
     double nanometres() const { return options.metres * 1e9; }
-    /// Those given now, or else those in the folder.
-    const LabelColours& colours() const { return options.colours.empty() ? manifest.colours : options.colours; }
     /// Not the exterior, not background.
     bool is_region(Label label) const;
     /// The name of a region in Neuroglancer: a decimal number. Throws Error(kInput) for a negative label.
@@ -65,11 +62,11 @@ struct WrittenRegions {
     double rounded_share_of_edge = 0;  // as PrecomputedResult has it
 };
 
-/// Single-resolution: NAME:0 and one fragment for each piece.
-WrittenRegions write_legacy_meshes(const Precomputed& precomputed);
+/// Single-resolution: ID:0 and one fragment for each part of the model.
+WrittenRegions write_legacy_meshes(const Precomputed& precomputed, ModelLevels& model);
 
 /// Multi-resolution: ID and ID.index, or shards. Throws Error(kOutput) in a build without Draco.
-WrittenRegions write_multi_resolution_meshes(const Precomputed& precomputed);
+WrittenRegions write_multi_resolution_meshes(const Precomputed& precomputed, ModelLevels& model);
 
 /// The names of the regions, `names/info`, and `state.json`, a state of the viewer.
 void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions);

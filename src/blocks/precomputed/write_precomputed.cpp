@@ -42,7 +42,7 @@ std::string Precomputed::id(Label label) const {
         throw Error(ErrorCode::kInput,
                     fmt::format("{}: label {} is negative, and ids in Neuroglancer are not; give the region another "
                                 "label with --merge when you reconstruct",
-                                folder.string(), input));
+                                source.string(), input));
     return labels.text(input);
 }
 
@@ -65,8 +65,7 @@ void NewFiles::commit(OutputFile& file, const std::string& name) {
 }
 
 void write_segment_names(const Precomputed& precomputed, const WrittenRegions& regions) {
-    const LabelNames& names =
-        precomputed.options.names.empty() ? precomputed.manifest.names : precomputed.options.names;
+    const LabelNames& names = precomputed.options.names;
     Json ids = Json::array(), values = Json::array();
     for (const auto& [label, faces] : regions.faces) {
         const auto name = names.find(precomputed.labels.input(label));
@@ -74,7 +73,7 @@ void write_segment_names(const Precomputed& precomputed, const WrittenRegions& r
         values.push_back(name == names.end() ? precomputed.id(label) : name->second);
     }
     Json properties = Json::array({{{"id", "label"}, {"type", "label"}, {"values", values}}});
-    if (const LabelColours& given = precomputed.colours(); !given.empty()) {
+    if (const LabelColours& given = precomputed.options.colours; !given.empty()) {
         Json colours = Json::array();
         for (const auto& [label, faces] : regions.faces) {
             const auto colour = given.find(precomputed.labels.input(label));
@@ -109,8 +108,8 @@ void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& re
     }
     for (const Label label : largest_regions(regions)) {
         segments.push_back(precomputed.id(label));
-        const auto colour = precomputed.colours().find(precomputed.labels.input(label));
-        if (colour != precomputed.colours().end()) colours[precomputed.id(label)] = hex_of(colour->second);
+        const auto colour = precomputed.options.colours.find(precomputed.labels.input(label));
+        if (colour != precomputed.options.colours.end()) colours[precomputed.id(label)] = hex_of(colour->second);
     }
     const Json layer{
         {"type", "segmentation"},       {"source", "precomputed://http://localhost:8080/" + in_url(name.string())},
@@ -124,24 +123,45 @@ void write_viewer_state(const Precomputed& precomputed, const WrittenRegions& re
                                              {"layout", "3d"}}));
 }
 
-PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& options) {
-    const Manifest manifest = read_complete_manifest(folder);
-    LabelTable labels = read_labels(manifest, folder);
-    std::vector<Label> background = dense_background(manifest.background, labels);
-    NewFiles files(output);
-    const Precomputed precomputed{folder, output, manifest, std::move(labels), std::move(background), options, files};
-    for (Label label = 0; label < manifest.label_count; ++label)
+namespace {
+
+PrecomputedResult write(const Precomputed& precomputed, ModelLevels& model) {
+    for (Label label = 0; label < precomputed.labels.size(); ++label)
         if (precomputed.is_region(label)) precomputed.id(label);  // refuses before the work
-    if (std::error_code error; fs::remove(output / "info", error), error)
-        throw Error(ErrorCode::kOutput, (output / "info").string() + ": cannot be replaced: " + error.message());
-    WrittenRegions written =
-        options.is_legacy ? write_legacy_meshes(precomputed) : write_multi_resolution_meshes(precomputed);
+    const fs::path info = precomputed.output / "info";
+    if (std::error_code error; fs::remove(info, error), error)
+        throw Error(ErrorCode::kOutput, info.string() + ": cannot be replaced: " + error.message());
+    WrittenRegions written = precomputed.options.is_legacy ? write_legacy_meshes(precomputed, model)
+                                                           : write_multi_resolution_meshes(precomputed, model);
     write_segment_names(precomputed, written);
     write_viewer_state(precomputed, written);
     written.info["segment_properties"] = "names";
     precomputed.write("info", text_of(written.info));  // last: a folder without it is not taken for whole
-    files.keep();
+    precomputed.files.keep();
     return {written.faces.size(), written.rounded_share_of_edge};
+}
+
+}  // namespace
+
+PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& given) {
+    const Manifest manifest = read_complete_manifest(folder);
+    LabelTable labels = read_labels(manifest, folder);
+    const std::vector<Label> background = dense_background(manifest.background, labels);
+    PrecomputedOptions options = given;
+    if (options.names.empty()) options.names = manifest.names;
+    if (options.colours.empty()) options.colours = manifest.colours;
+    NewFiles files(output);
+    return write({folder, output, labels, background, options, files}, *levels_of_folder(folder, manifest));
+}
+
+PrecomputedResult write_precomputed(Mesh mesh, const LabelTable& labels, const fs::path& output,
+                                    const PrecomputedOptions& options) {
+    const CheckOptions checks{.boundary_is_open = options.boundary_is_open,
+                              .background = options.background,
+                              .threads = options.output.threads};
+    NewFiles files(output);
+    return write({output, output, labels, options.background, options, files},
+                 *levels_of_mesh(std::move(mesh), checks));
 }
 
 }  // namespace regionmesh
