@@ -58,6 +58,28 @@ void convert_pieces(const Settings& settings) {
     if (!settings.quiet) fmt::print("{}: {}\n", printable(settings.output), counted(files - 1, "piece"));
 }
 
+/// From a model in memory.
+void convert_whole(const Settings& settings, MeshFile& file, const CheckOptions& options) {
+    Described described = describe(settings, file.names, file.colours);
+    OutputFiles files(model_writing(settings));
+    const Model model{file.mesh, file.labels, options.background, described.names, described.colours, file.space};
+    if (!is_precomputed(settings.output)) {
+        const auto written = write_model(settings, model, files);
+        files.commit();
+        print_region_files(settings, written);
+        if (!settings.quiet)
+            fmt::print("{}: {} faces, {} vertices\n", printable(settings.output), file.mesh.face_count(),
+                       file.mesh.vertex_count());
+        return;
+    }
+    write_tables(settings, model, files);
+    PrecomputedOptions writing = precomputed_options(settings, std::move(described));
+    writing.background = options.background;
+    writing.boundary_is_open = options.boundary_is_open;
+    print_regions(settings, write_precomputed(std::move(file.mesh), file.labels, settings.output, writing));
+    files.commit();
+}
+
 }  // namespace
 
 int run_convert(const Settings& given) {
@@ -71,24 +93,7 @@ int run_convert(const Settings& given) {
     const Settings settings = settings_for(given, file);
     BoxAxes(file.mesh).restore(file.mesh);  // which finds the sides of an oblique box
     const CheckOptions options = check_options(settings, file.labels);
-    Described described = describe(settings, file.names, file.colours);
-    const Model model{file.mesh, file.labels, options.background, described.names, described.colours, file.space};
-    OutputFiles files(model_writing(settings));
-    if (is_precomputed(settings.output)) {
-        write_tables(settings, model, files);
-        PrecomputedOptions writing = precomputed_options(settings, std::move(described));
-        writing.background = options.background;
-        writing.boundary_is_open = options.boundary_is_open;
-        print_regions(settings, write_precomputed(std::move(file.mesh), file.labels, settings.output, writing));
-        files.commit();
-        return kGood;
-    }
-    const auto written = write_model(settings, model, files);
-    files.commit();
-    print_region_files(settings, written);
-    if (!settings.quiet)
-        fmt::print("{}: {} faces, {} vertices\n", printable(settings.output), file.mesh.face_count(),
-                   file.mesh.vertex_count());
+    convert_whole(settings, file, options);
     return kGood;
 }
 
