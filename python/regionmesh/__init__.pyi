@@ -116,6 +116,9 @@ class Mesh:
         *,
         per_region: bool = False,
         units: Literal["m", "mm", "um", "nm"] = "m",
+        precomputed: Literal["multi", "legacy"] | None = None,
+        levels: int | None = None,
+        sharded: bool = False,
     ) -> list[str]: ...
     def to_vtk(self) -> Any: ...
     def to_pyvista(self) -> Any: ...

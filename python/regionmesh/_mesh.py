@@ -356,7 +356,8 @@ class Mesh:
             raise TypeError("check(): origin and direction are those of the file; leave them out")
         paths = _sources.paths_of(labels)
         if _core.kind_of_input(paths) == "tetrahedra":
-            raise ValueError(f"check(): {paths[0]} holds points or tetrahedra; give a volume, or run regionmesh check")
+            path = os.fsdecode(paths[0])
+            raise ValueError(f"check(): {path} holds points or tetrahedra; give a volume, or run regionmesh check")
         selection, kept, place = self._made()
         suffix, reading = (self._lattice or {}).get("made", {}).get("reading", (None, []))
         if suffix is None and given[0] is None and place[0] is not None:  # made from an array

@@ -44,6 +44,7 @@ _OF_NAME = {
     "b": "int", "threads": "int", "other": "Mesh", "like": "Any", "shape": "Sequence[int] | None",
     "dtype": "npt.DTypeLike | None", "outside": "int", "per_region": "bool", "labels": "Any",
     "keep_samples": "bool", "min_quality": "float", "units": 'Literal["m", "mm", "um", "nm"]',
+    "precomputed": 'Literal["multi", "legacy"] | None', "levels": "int | None", "sharded": "bool",
 }  # fmt: skip
 _RETURNS = {
     "reconstruct": "Mesh", "load": "Mesh", "from_arrays": "Mesh", "region": "Surface", "interface": "Surface",
