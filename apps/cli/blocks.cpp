@@ -211,13 +211,16 @@ void make_block_folder(const Settings& settings) {
             if (std::error_code missing;
                 !(file == "-" && is_model) && file.find(':') == std::string::npos && !fs::exists(file, missing))
                 return;  // the command says so, and leaves nothing behind
-    if (is_for_viewer && is_written_in_pieces(settings)) require_fit_of_pieces(settings);
-    std::error_code error;
-    for (const fs::path& path : {folder, folder / "names"}) {
-        if (path != folder && !is_for_viewer) continue;
-        if (!fs::is_directory(path, error)) fs::create_directory(path, error);
+    if (is_for_viewer) {
+        const std::string& model = settings.models.front();
+        if (is_written_in_pieces(settings))
+            require_fit_of_pieces(settings);
+        else if (!fs::is_directory(model) && !has_extension(model, readable_extensions()))
+            return;
+        return make_precomputed_folder(folder);
     }
-    if (error)
+    std::error_code error;
+    if (!fs::is_directory(folder, error) && !fs::create_directory(folder, error))
         throw Error(ErrorCode::kOutput, settings.output + ": cannot be made: " + error.message() +
                                             "; name a folder in one that exists and may be written");
 }

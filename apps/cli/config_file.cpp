@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include "arguments.h"
@@ -72,17 +73,20 @@ Error given_again(const std::string& path, const std::string& name) {
     return {ErrorCode::kUsage, path + ": " + name + " is given twice; leave one of them out"};
 }
 
-/// CLI11 joins the values of a name that lines behind each other have, and passes over what has no name.
+/// CLI11 joins the values of a name that lines behind each other have, and passes over what has no name. To it a line
+/// that begins with ; is a comment.
 void require_own_names(const std::string& path, const std::string& text) {
     std::istringstream lines(text);
     std::string last;
     for (std::string line; std::getline(lines, line);) {
         const std::size_t end = std::min(line.find_first_of("=]#[,"), line.size());
-        if (end == line.size() || line[end] != '=') {
+        const bool is_comment = trimmed(line).starts_with(';');
+        if (is_comment || end == line.size() || line[end] != '=') {
             if (trimmed(line).starts_with('[')) last.clear();
             continue;
         }
-        const std::string name = option_name(trimmed(line.substr(0, end)));
+        std::string name = option_name(trimmed(line.substr(0, end)));
+        std::erase_if(name, [](char c) { return c == '"' || c == '\''; });
         if (name.empty())
             throw Error(ErrorCode::kUsage, path + ": \"" + trimmed(line) + "\" has no name; give NAME = VALUE");
         const OptionSpec* const option = find_option(name);
@@ -116,6 +120,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 OptionValues values_in(const std::string& path, const CommandSpec& command) {
     OptionValues values;
+    std::set<std::string> names;  // in their tables
     for (const CLI::ConfigItem& item : items_in(path)) {
         if (item.name == "++" || item.name == "--") continue;  // start and end of a table
         const std::string table = item.parents.empty() ? "" : item.parents.front();
@@ -123,11 +128,12 @@ OptionValues values_in(const std::string& path, const CommandSpec& command) {
             throw Error(ErrorCode::kUsage,
                         fmt::format("{}: [{}]: no command has this name; tables are named after commands, such as [{}]",
                                     path, table, command.name));
-        if (!table.empty() && table != command.name) continue;
         const std::string name = option_name(item.name);
         const OptionSpec* const option = find_option(name);
-        const bool repeats = option && option->repeats;
-        if (!repeats && has(values, name)) throw given_again(path, name);
+        const bool repeats = option && option->repeats, is_for_command = table.empty() || table == command.name;
+        const bool is_new = names.insert(table + '.' + name).second && !(is_for_command && has(values, name));
+        if (!repeats && !is_new) throw given_again(path, name);
+        if (!is_for_command) continue;
         if (repeats)
             for (const std::string& text : item.inputs) values.emplace_back(name, text);
         else

@@ -22,7 +22,8 @@ constexpr std::array<std::string_view, 1> kOfFiles{"per-region"};
 /// is missing is said first.
 void require_fit_of_output(const Settings& settings) {
     if (is_precomputed(settings.output))
-        return refuse_options(settings, kOfFiles, "is for files .stl, .obj and .ply, and --output is a folder");
+        return refuse_options(settings, kOfFiles,
+                              "is for files .stl, .obj and .ply, and a folder .precomputed is written");
     if (!std::filesystem::exists(settings.models.front())) return;
     refuse_options(settings, kOfPrecomputed, "is for an output such as model.precomputed");
 }
@@ -76,6 +77,7 @@ void convert_whole(const Settings& settings, MeshFile& file, const CheckOptions&
     PrecomputedOptions writing = precomputed_options(settings, std::move(described));
     writing.background = options.background;
     writing.boundary_is_open = options.boundary_is_open;
+    writing.source = settings.models.front();
     print_regions(settings, write_precomputed(std::move(file.mesh), file.labels, settings.output, writing));
     files.commit();
 }

@@ -141,8 +141,10 @@ struct PrecomputedOptions {
     LabelNames names = {};      // of regions; empty: those in the folder
     LabelColours colours = {};  // of some regions; empty: those in the folder. The viewer chooses the others
     OutputOptions output = {};
-    std::vector<Label> background = {};  // of a model in memory, whose box was perhaps not capped
-    bool boundary_is_open = false;
+    // Of a model in memory:
+    std::vector<Label> background = {};
+    bool boundary_is_open = false;  // its box was not capped
+    std::string source = {};        // what messages call it
 };
 
 struct PrecomputedResult {
@@ -151,8 +153,11 @@ struct PrecomputedResult {
     double rounded_share_of_edge = 0;
 };
 
+/// Makes the folder, and `names` in it, unless they are there. Throws Error(kOutput).
+void make_precomputed_folder(const std::filesystem::path& output);
+
 /// Writes the regions of a complete folder, but the background, as meshes for Neuroglancer: a folder that its data
-/// source `precomputed` reads. Requires the folder `output` and `names` in it. Coordinates are in nanometres.
+/// source `precomputed` reads. Requires what make_precomputed_folder(output) makes. Coordinates are in nanometres.
 ///   multi-resolution  level 0 is the model cut along the walls of chunks, its positions rounded to 1/65535 of a chunk;
 ///                     each further level has about an eighth of the faces and does not keep samples in their regions.
 ///                     Fragments are compressed by Draco, without loss. All regions of a level fit together. Holds one

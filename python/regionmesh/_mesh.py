@@ -496,9 +496,11 @@ class Mesh:
             For options that are not for such a file.
         """
         pairs = _options.output_pairs({"units": units}, "save")
-        of_folder = {"precomputed": precomputed, "levels": levels, "sharded": sharded or None}
+        of_folder = {"precomputed": precomputed, "levels": levels, "sharded": None if sharded is False else sharded}
         given = _options.output_pairs(of_folder, "save")
-        is_folder = os.path.splitext(os.path.normpath(os.fsdecode(path)))[1] == ".precomputed"
+        folder = os.path.normpath(os.fsdecode(path))
+        is_folder = os.path.splitext(folder)[1] == ".precomputed"
+        path = folder if is_folder else path
         if given and not is_folder or per_region and is_folder:
             option = "per_region" if is_folder else given[0][0]
             raise ValueError(f"save: {option} is not for {os.fsdecode(path)!r}")

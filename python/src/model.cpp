@@ -144,15 +144,9 @@ std::vector<InputLabel> background_of(const Model& model) {
     return background;
 }
 
-/// Without a / at its end.
-fs::path folder_of(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
-
 /// A folder for Neuroglancer.
 Saved save_precomputed(const Model& model, const fs::path& folder, const Settings& settings) {
-    std::error_code error;
-    for (const fs::path& made : {folder, folder / "names"})
-        if (!fs::is_directory(made, error)) fs::create_directory(made, error);
-    if (error) throw Error(ErrorCode::kOutput, folder.string() + ": cannot be made: " + error.message());
+    make_precomputed_folder(folder);
     const PrecomputedOptions options{.metres = settings.metres.value_or(1),
                                      .is_legacy = settings.precomputed_is_legacy,
                                      .is_sharded = settings.precomputed_is_sharded,
@@ -160,7 +154,8 @@ Saved save_precomputed(const Model& model, const fs::path& folder, const Setting
                                      .names = model.names,
                                      .colours = model.colours,
                                      .background = model.background,
-                                     .boundary_is_open = model.is_open};
+                                     .boundary_is_open = model.is_open,
+                                     .source = "save"};
     Mesh mesh = copy_of(model.mesh, model.labels);
     const PrecomputedResult made = write_precomputed(std::move(mesh), model.labels, folder, options);
     return {{folder.string()}, made.rounded_share_of_edge};
@@ -221,7 +216,7 @@ Model load_model(const std::string& path, const OptionValues& options) {
 Saved save_model(const Model& model, const std::string& path, bool per_region, const OptionValues& options) {
     const Settings settings = settings_from(options);
     const py::gil_scoped_release release;
-    if (folder_of(path).extension() == ".precomputed") return save_precomputed(model, folder_of(path), settings);
+    if (fs::path(path).extension() == ".precomputed") return save_precomputed(model, path, settings);
     const WriteOptions writing{.background = model.background,
                                .names = model.names,
                                .colours = model.colours,

@@ -264,9 +264,17 @@ private:
         };
         if (sides.size() == 1 && !may_be_open) say(ViolationKind::kOpenEdge, "one face");
         if (sides.size() > 2) say(ViolationKind::kOverfullEdge, std::to_string(sides.size()) + " faces");
-        // Where it may end, two faces may bound two parts of the region.
-        if (sides.size() == 2 && turn != 0 && !may_be_open)
+        if (sides.size() == 2 && turn != 0 && !(options_.is_background(label) && is_beside_hull(v, w, sides)))
             say(ViolationKind::kOrientation, "its two faces pass it in the same direction");
+    }
+
+    /// At an edge of a hull that is no box, two parts of the background may end, each between a face and the hull.
+    bool is_beside_hull(VertexId v, VertexId w, std::span<const Use> sides) const {
+        if ((mesh_[v].sides & mesh_[w].sides & 1u << kHull) == 0) return false;
+        return std::ranges::none_of(sides, [&](const Use& use) {
+            const auto& labels = pages_[use.side / 2].labels;
+            return is_exterior(labels[0]) || is_exterior(labels[1]);
+        });
     }
 
     /// The faces of a region at a vertex must be one fan, joined by the edges between them.

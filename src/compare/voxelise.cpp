@@ -22,8 +22,11 @@ constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 /// The same where a coordinate is stored in single precision.
 constexpr double kSingleRounding = std::numeric_limits<float>::epsilon() / 2;
 
-/// Share of the spacing by which a vertex is moved at most: in lattices along the axes, where a coordinate that was
-/// rounded once is known, and in turned ones.
+/// The same for several roundings: of the lattice, and of what a program computed from it.
+constexpr double kRoundings = 4;
+
+/// Share of the spacing by which a vertex is moved at most by these, and by one rounding in a turned lattice. In a
+/// lattice along the axes a coordinate that was rounded once is known, however far it is.
 constexpr double kMostMoved = 1e-3, kMostMovedInTurned = 0.25;
 
 /// Room for rounding, in samples: positions of crossings and of samples are rounded a few times.
@@ -105,8 +108,9 @@ Vec3 Voxeliser::place(VertexId v) const {
     if (rounding_ == 0) return p;
     const Vec3 lost = rounding_ * in_sweep(into_axes_.magnitude(mesh_.position(v)));
     for (int axis = 0; axis < 3; ++axis) {
-        const double spacing = lines_->spacing(axis), most = (is_turned_ ? kMostMovedInTurned : kMostMoved) * spacing;
-        const double near = kOnSide * spacing + std::min(lost[axis], most);
+        const double spacing = lines_->spacing(axis);
+        const double once = is_turned_ ? std::min(lost[axis], kMostMovedInTurned * spacing) : 0;
+        const double near = kOnSide * spacing + std::max(once, std::min(kRoundings * lost[axis], kMostMoved * spacing));
         for (const double side : sides_[axis])
             if (std::abs(p[axis] - side) < near || (!is_turned_ && p[axis] == static_cast<float>(side))) p[axis] = side;
     }

@@ -137,7 +137,7 @@ Rows argument_rows() {
         file_option({.name = "from", .help = surface, .group = "Arguments", .commands = kConvert, .is_argument = true},
                     models),
         file_option({.name = "to",
-                     .help = written_help(),
+                     .help = converted_help(),
                      .group = "Arguments",
                      .commands = kConvert,
                      .is_argument = true,

@@ -34,5 +34,7 @@ Rows run_rows();
 
 /// "model to write: .vtp ...".
 std::string_view written_help();
+/// The same for convert, which writes folders, too.
+std::string_view converted_help();
 
 }  // namespace regionmesh

@@ -23,6 +23,12 @@ std::string_view written_help() {
     return text;
 }
 
+std::string_view converted_help() {
+    static const std::string text =
+        std::string(written_help()) + "; a folder .precomputed; .pvtp of a folder of pieces";
+    return text;
+}
+
 Rows output_rows() {
     constexpr std::string_view kGroup = "Output";
     constexpr std::uint32_t kAllWriters = kWriters | kConvert | kVoxelise | kCheck | kCompare | kInfo;

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 
 #include "base/box.h"
+#include "support/meshes.h"
 #include "support/runs.h"
 #include "support/shapes.h"
 
@@ -251,6 +253,37 @@ TEST(Check, nesting_of_bodies_with_a_hull) {
         test::for_vertices(mesh, [&](VertexId v) { mesh[v].sides = kOnHull; });
         EXPECT_EQ(found_in(mesh), is_nested ? std::set<std::string>{"nesting"} : std::set<std::string>{});
     }
+}
+
+TEST(Check, the_background_may_end_twice_at_an_edge_of_a_hull) {
+    // Tetrahedra round the edge 0-1: two of the background, each beside another label and a gap.
+    LabelledPoints points{.positions = {{0, 0, 0}, {0, 0, 1}}, .labels = {}};
+    for (const double degrees : {0, 50, 100, 180, 230, 280}) {
+        const double angle = degrees * std::numbers::pi / 180;
+        points.positions.push_back({std::cos(angle), std::sin(angle), 0});
+    }
+    using Labels = std::array<InputLabel, 4>;
+    for (const Labels& labels : {Labels{0, 1, 0, 2}, Labels{0, 1, 2, 0}}) {
+        test::ArrayMesh mesh(points, {{{0, 1, 2, 3}, labels[0]},
+                                      {{0, 1, 3, 4}, labels[1]},
+                                      {{0, 1, 5, 6}, labels[2]},
+                                      {{0, 1, 6, 7}, labels[3]}});
+        ReconstructOptions options;
+        options.smooth.passes = 0;
+        options.background = {0};
+        const Reconstruction made = reconstruct(mesh, options);
+        EXPECT_EQ(made.report.check.violation_count(), 0u) << labels[1] << labels[2] << labels[3];
+        EXPECT_EQ(made.report.check.regions.size(), 2u);
+    }
+}
+
+TEST(Check, a_face_turned_over_at_an_open_side_is_found) {
+    // The side of a tetrahedron, which lies in the side of the box.
+    auto faces = test::tetrahedron_faces();
+    std::swap(faces[0].v[0], faces[0].v[1]);
+    Mesh mesh = shape(test::kTetrahedronCorners, faces);
+    for (const VertexId v : mesh[FaceId{0}].vertices) mesh[v].sides = 1;
+    EXPECT_EQ(count(check(mesh, {.boundary_is_open = true}), ViolationKind::kOrientation), 6u);  // edges and labels
 }
 
 TEST(Check, nesting_finds_an_island_moved_into_the_wrong_region) {

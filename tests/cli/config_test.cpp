@@ -96,6 +96,8 @@ TEST_F(Config, that_is_wrong_is_refused_in_one_line) {
     refused(whole() + "labels = [1]\nlabels = [2]\n", 2, "run.toml: labels is given twice");
     refused(whole() + "labels = [1]\nsmooth = \"off\"\nlabels = [2]\n", 2, "run.toml: labels is given twice");
     refused(whole() + "min_quality = 0.1\n[reconstruct]\nmin-quality = 0.2\n", 2, "min-quality is given twice");
+    refused(whole() + "labels = [1]\n; labels\n; x = 1\nlabels = [2]\n", 2, "labels is given twice");
+    refused(whole() + "[check]\nthreads = 1\n\nquiet = true\nthreads = 2\n", 2, "threads is given twice");
     refused(whole() + "= 5\n", 2, "has no name; give NAME = VALUE");
     refused("reduce = \"5%\"\n", 2, "input is required");
     refused("input = [\"a.npy\"]\n", 2, "--output is required");
@@ -112,6 +114,7 @@ TEST_F(Config, with_a_byte_order_mark_is_read) {
 
 TEST_F(Config, with_a_comment_is_read) {
     EXPECT_EQ(run("reconstruct --config " + toml(whole() + "reduce = \"5%\"  # it's a test \n")).code, 0);
+    EXPECT_EQ(run("reconstruct --config " + toml(whole() + "; smooth = 1\n; smooth = 2\n; = 3\n")).code, 0);
 }
 
 }  // namespace

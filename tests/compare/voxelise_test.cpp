@@ -103,6 +103,29 @@ TEST(Voxelise, far_from_the_origin_only_what_was_rounded_is_put_back) {
         }
 }
 
+TEST(Voxelise, a_lattice_of_single_precision_is_that_of_the_model) {
+    // As NIfTI has it: spacings and origins are rounded, and so is the model, from the numbers before or after.
+    for (const double sine : {0.0, 0.6})
+        for (const double origin : {0.0, -17.3}) {
+            ArrayVolume volume = test::grain_volume({4, 57, 3}, 12, 3);
+            volume.spaced({0.3, 0.3, 0.7});
+            Lattice& lattice = volume.lattice();
+            const double cosine = std::sqrt(1 - sine * sine);
+            lattice.origin = {origin, origin, origin};
+            lattice.direction = {cosine, -sine, 0, sine, cosine, 0, 0, 0, 1};
+            Reconstruction made = reconstruct(volume, plain());
+            round_to_single(made.mesh);
+            for (int axis = 0; axis < 3; ++axis) {
+                lattice.spacing[axis] = static_cast<float>(lattice.spacing[axis]);
+                lattice.origin[axis] = static_cast<float>(lattice.origin[axis]);
+            }
+            volume.rewind();
+            const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);
+            EXPECT_EQ(found.wrong, 0u) << sine << ' ' << origin;
+            EXPECT_EQ(found.contradictions, 0u) << sine << ' ' << origin;
+        }
+}
+
 /// A lattice of `size` samples, whose sample 0 is sample `first` of the volume.
 void expect_lossless_in(const Lattice& part, const std::array<int, 3>& first, const ArrayVolume& volume,
                         const Reconstruction& made) {

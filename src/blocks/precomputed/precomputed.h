@@ -37,7 +37,8 @@ private:
 
 /// What is written, and where.
 struct Precomputed {
-    std::filesystem::path source, output;  // the first one for messages
+    std::string source;  // for messages
+    std::filesystem::path output;
     const LabelTable& labels;
     std::vector<Label> background;  // dense
     PrecomputedOptions options;     // with the names and colours to write

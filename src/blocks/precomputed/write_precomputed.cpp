@@ -41,8 +41,8 @@ std::string Precomputed::id(Label label) const {
     if (!labels.is_unsigned() && input < 0)
         throw Error(ErrorCode::kInput,
                     fmt::format("{}: label {} is negative, and ids in Neuroglancer are not; give the region another "
-                                "label with --merge when you reconstruct",
-                                source.string(), input));
+                                "label, as reconstruct does with --merge",
+                                source, input));
     return labels.text(input);
 }
 
@@ -143,6 +143,15 @@ PrecomputedResult write(const Precomputed& precomputed, ModelLevels& model) {
 
 }  // namespace
 
+void make_precomputed_folder(const fs::path& output) {
+    for (const fs::path& folder : {output, output / "names"}) {
+        std::error_code error;
+        if (!fs::is_directory(folder, error) && !fs::create_directory(folder, error))
+            throw Error(ErrorCode::kOutput, folder.string() + ": cannot be made: " + error.message() +
+                                                "; name a folder in one that exists and may be written");
+    }
+}
+
 PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& given) {
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
@@ -151,7 +160,7 @@ PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& outp
     if (options.names.empty()) options.names = manifest.names;
     if (options.colours.empty()) options.colours = manifest.colours;
     NewFiles files(output);
-    return write({folder, output, labels, background, options, files}, *levels_of_folder(folder, manifest));
+    return write({folder.string(), output, labels, background, options, files}, *levels_of_folder(folder, manifest));
 }
 
 PrecomputedResult write_precomputed(Mesh mesh, const LabelTable& labels, const fs::path& output,
@@ -160,7 +169,7 @@ PrecomputedResult write_precomputed(Mesh mesh, const LabelTable& labels, const f
                               .background = options.background,
                               .threads = options.output.threads};
     NewFiles files(output);
-    return write({output, output, labels, options.background, options, files},
+    return write({options.source, output, labels, options.background, options, files},
                  *levels_of_mesh(std::move(mesh), checks));
 }
 
