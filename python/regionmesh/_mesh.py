@@ -335,7 +335,8 @@ class Mesh:
         near = {"direction": 1e-6, "origin": 1e-6 * min(self._lattice["spacing"]) * max(self._lattice["size"])}
         for key in keys:
             theirs, own = info[key], self._lattice[key]
-            if not np.allclose(theirs, own, rtol=1e-6, atol=near.get(key, 0)):
+            rounding = np.finfo(np.float32).eps if key == "origin" else 1e-6
+            if not np.allclose(theirs, own, rtol=rounding, atol=near.get(key, 0)):
                 theirs, own = (", ".join(f"{n:g}" for n in each) for each in (theirs, own))
                 raise ValueError(
                     f"labels: the {key} of the file is {theirs}, that of the model {own}; give the labels as an array"

@@ -570,6 +570,21 @@ def test_a_mesh_of_an_array_is_checked_against_the_file(grains, tmp_path):
     assert moved.check(grains)["samples_wrong"] == 0
 
 
+def test_a_file_that_lies_elsewhere_is_refused_far_from_the_origin(grains, tmp_path):
+    made = regionmesh.reconstruct(grains, origin=(512345, 5912345, 0))
+    header = "NRRD0004\ntype: uint8\ndimension: 3\nspace dimension: 3\nsizes: {} {} {}\nencoding: raw\n"
+    header = header.format(*grains.shape[::-1])
+    header += "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: ({},{},0)\n\n"
+    for shift in 0, 2:
+        origin = header.format(512345, 5912345 + shift)
+        (tmp_path / "v.nrrd").write_bytes(origin.encode() + grains.astype(np.uint8).tobytes())
+        if shift == 0:
+            assert made.check(tmp_path / "v.nrrd")["samples_wrong"] == 0
+        else:
+            with pytest.raises(ValueError, match="the origin of the file"):
+                made.check(tmp_path / "v.nrrd")
+
+
 def test_a_mesh_of_one_file_is_checked_against_another(grains, tmp_path):
     grains.astype(np.uint8).tofile(tmp_path / "v.raw")
     np.save(tmp_path / "v.npy", grains)
