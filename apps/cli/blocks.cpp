@@ -220,7 +220,8 @@ void make_block_folder(const Settings& settings) {
         return make_precomputed_folder(folder);
     }
     std::error_code error;
-    if (!fs::is_directory(folder, error) && !fs::create_directory(folder, error))
+    if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);  // or another process does
+    if (error)
         throw Error(ErrorCode::kOutput, settings.output + ": cannot be made: " + error.message() +
                                             "; name a folder in one that exists and may be written");
 }
