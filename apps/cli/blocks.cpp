@@ -219,11 +219,7 @@ void make_block_folder(const Settings& settings) {
             return;
         return make_precomputed_folder(folder);
     }
-    std::error_code error;
-    if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);  // or another process does
-    if (error)
-        throw Error(ErrorCode::kOutput, settings.output + ": cannot be made: " + error.message() +
-                                            "; name a folder in one that exists and may be written");
+    make_folder(folder);
 }
 
 void share_blocks(BlockTasks& tasks) { shared_tasks = &tasks; }

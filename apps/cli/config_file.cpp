@@ -9,6 +9,7 @@
 #include <iterator>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "arguments.h"
 #include "regionmesh/error.h"
@@ -22,12 +23,17 @@ bool has(const OptionValues& values, std::string_view name) {
     return std::ranges::any_of(values, [&](const auto& value) { return value.first == name; });
 }
 
-/// CLI11 takes "#" for the start of a comment wherever it is.
-void require_no_number_sign_in_quotes(const std::string& path, const std::string& text) {
+/// Calls visit(line, number) for each line, numbered from 1.
+template <class Visit>
+void for_lines(const std::string& text, Visit&& visit) {
     std::istringstream lines(text);
     int number = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
+    for (std::string line; std::getline(lines, line);) visit(line, ++number);
+}
+
+/// CLI11 takes "#" for the start of a comment wherever it is.
+void require_no_number_sign_in_quotes(const std::string& path, const std::string& text) {
+    for_lines(text, [&](const std::string& line, int number) {
         char quote = 0;
         for (const char c : line) {
             if (quote && c == '#')
@@ -37,16 +43,13 @@ void require_no_number_sign_in_quotes(const std::string& path, const std::string
             if (quote ? c == quote : c == '"' || c == '\'') quote = quote ? 0 : c;
             if (!quote && c == '#') break;
         }
-    }
+    });
 }
 
 /// CLI11 takes time and memory that grow with the square of the parts of a name.
 void require_short_names(const std::string& path, const std::string& text) {
     constexpr std::ptrdiff_t kMostParts = 100;
-    std::istringstream lines(text);
-    int number = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
+    for_lines(text, [&](const std::string& line, int number) {
         const std::size_t end = std::min(line.find_first_of("=]#\"'"), line.size());
         const bool is_name = line.find('[') < end || (end < line.size() && line[end] == '=');
         if (is_name && std::count(line.begin(), line.begin() + end, '.') > kMostParts)
@@ -54,11 +57,11 @@ void require_short_names(const std::string& path, const std::string& text) {
                         fmt::format("{}: line {}: a name of more than {} parts; tables are named after commands, such "
                                     "as [reconstruct]",
                                     path, number, kMostParts));
-    }
+    });
 }
 
 std::string trimmed(const std::string& text) {
-    constexpr const char* kBlank = " \t\r\"'";
+    constexpr const char* kBlank = " \t\r";
     const std::size_t first = text.find_first_not_of(kBlank);
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
@@ -76,23 +79,19 @@ Error given_again(const std::string& path, const std::string& name) {
 /// CLI11 joins the values of a name that lines behind each other have, and passes over what has no name. To it a line
 /// that begins with ; is a comment.
 void require_own_names(const std::string& path, const std::string& text) {
-    std::istringstream lines(text);
     std::string last;
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t end = std::min(line.find_first_of("=]#[,"), line.size());
-        const bool is_comment = trimmed(line).starts_with(';');
-        if (is_comment || end == line.size() || line[end] != '=') {
-            if (trimmed(line).starts_with('[')) last.clear();
-            continue;
-        }
-        std::string name = option_name(trimmed(line.substr(0, end)));
+    for_lines(text, [&](const std::string& line, int) {
+        const std::string content = trimmed(line);
+        if (content.starts_with('[')) last.clear();
+        const std::size_t end = content.find_first_of("=]#[,");
+        if (content.starts_with(';') || end == std::string::npos || content[end] != '=') return;
+        std::string name = option_name(trimmed(content.substr(0, end)));
         std::erase_if(name, [](char c) { return c == '"' || c == '\''; });
-        if (name.empty())
-            throw Error(ErrorCode::kUsage, path + ": \"" + trimmed(line) + "\" has no name; give NAME = VALUE");
+        if (name.empty()) throw Error(ErrorCode::kUsage, path + ": \"" + content + "\" has no name; give NAME = VALUE");
         const OptionSpec* const option = find_option(name);
         if (name == last && !(option && option->repeats)) throw given_again(path, name);
         last = name;
-    }
+    });
 }
 
 std::vector<CLI::ConfigItem> items_in(const std::string& path) {
@@ -120,7 +119,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 OptionValues values_in(const std::string& path, const CommandSpec& command) {
     OptionValues values;
-    std::set<std::string> names;  // in their tables
+    std::set<std::pair<std::string, std::string>> names;  // by table; that of the command is ""
     for (const CLI::ConfigItem& item : items_in(path)) {
         if (item.name == "++" || item.name == "--") continue;  // start and end of a table
         const std::string table = item.parents.empty() ? "" : item.parents.front();
@@ -131,7 +130,7 @@ OptionValues values_in(const std::string& path, const CommandSpec& command) {
         const std::string name = option_name(item.name);
         const OptionSpec* const option = find_option(name);
         const bool repeats = option && option->repeats, is_for_command = table.empty() || table == command.name;
-        const bool is_new = names.insert(table + '.' + name).second && !(is_for_command && has(values, name));
+        const bool is_new = names.emplace(is_for_command ? "" : table, name).second;
         if (!repeats && !is_new) throw given_again(path, name);
         if (!is_for_command) continue;
         if (repeats)

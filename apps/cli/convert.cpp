@@ -29,13 +29,10 @@ void require_fit_of_output(const Settings& settings) {
 }
 
 PrecomputedOptions precomputed_options(const Settings& settings, Described described) {
-    return {.metres = settings.metres.value_or(1),
-            .is_legacy = settings.precomputed_is_legacy,
-            .is_sharded = settings.precomputed_is_sharded,
-            .levels = settings.precomputed_levels,
-            .names = std::move(described.names),
-            .colours = std::move(described.colours),
-            .output = model_writing(settings)};
+    PrecomputedOptions options = regionmesh::precomputed_options(settings);
+    options.names = std::move(described.names);
+    options.colours = std::move(described.colours);
+    return options;
 }
 
 void print_regions(const Settings& settings, const PrecomputedResult& made) {
@@ -90,7 +87,10 @@ int run_convert(const Settings& given) {
         convert_pieces(given);
         return kGood;
     }
-    is_precomputed(given.output) ? require_tables(given) : require_outputs(given);
+    if (is_precomputed(given.output))
+        require_tables(given);
+    else
+        require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     BoxAxes(file.mesh).restore(file.mesh);  // which finds the sides of an oblique box

@@ -88,6 +88,9 @@ private:
 /// else.
 void require_writable(const std::filesystem::path& path, const OutputOptions& options = {}, bool per_region = false);
 
+/// Makes the folder unless it is there, or another process makes it meanwhile. Throws Error(kOutput).
+void make_folder(const std::filesystem::path& folder);
+
 /// For programs, called once before the first thread starts: SIGINT, SIGTERM and SIGHUP remove the temporary files of
 /// all outputs, then end the process as they do by default. Signals that the process ignores stay ignored. A commit is
 /// not interrupted.

@@ -37,8 +37,8 @@ struct VoxeliseOptions {
 /// An oblique lattice has its vertices turned into the axes of the lattice first; there the coordinates are rounded. So
 /// vertices within 1e-9 spacings of samples on a side of the box of the model are moved to where these lie, and also
 /// where a side of the model and samples of another lattice differ by rounding alone. If all coordinates are numbers of
-/// single precision, as in .dream3d and binary .stl files, so are vertices within its rounding of such samples, which
-/// is that of their coordinate along the axis (docs/voxelise.md).
+/// single precision, as in .dream3d and binary .stl files, so are vertices that its rounding may have moved away from
+/// such samples (docs/voxelise.md says how far).
 class Voxeliser {
 public:
     /// Holds a reference to the mesh. Memory: 8 bytes a face, 8 bytes a vertex, and the crossings of the sections

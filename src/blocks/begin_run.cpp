@@ -200,12 +200,6 @@ void remove_survey(const fs::path& folder) {
     for (const fs::path& file : files) fs::remove(file, ignored);
 }
 
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);
-    if (error) throw Error(ErrorCode::kOutput, folder.string() + ": cannot be made: " + error.message());
-}
-
 /// Writes a manifest that says which run the folder belongs to.
 void take_folder(const BlockOptions& blocks) {
     // A run that was killed here has left a part of its manifest.

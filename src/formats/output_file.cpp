@@ -245,4 +245,12 @@ void require_writable(const fs::path& path, const OutputOptions& options, bool p
     const OutputFile probe(path, options);
 }
 
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);
+    if (error)
+        throw Error(ErrorCode::kOutput, folder.string() + ": cannot be made: " + error.message() +
+                                            "; name a folder in one that exists and may be written");
+}
+
 }  // namespace regionmesh

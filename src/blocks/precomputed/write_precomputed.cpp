@@ -144,13 +144,8 @@ PrecomputedResult write(const Precomputed& precomputed, ModelLevels& model) {
 }  // namespace
 
 void make_precomputed_folder(const fs::path& output) {
-    for (const fs::path& folder : {output, output / "names"}) {
-        std::error_code error;
-        if (!fs::is_directory(folder, error)) fs::create_directory(folder, error);
-        if (error)
-            throw Error(ErrorCode::kOutput, folder.string() + ": cannot be made: " + error.message() +
-                                                "; name a folder in one that exists and may be written");
-    }
+    make_folder(output);
+    make_folder(output / "names");
 }
 
 PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& given) {
