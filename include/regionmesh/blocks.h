@@ -141,7 +141,7 @@ struct PrecomputedOptions {
     LabelNames names = {};      // of regions; empty: those in the folder
     LabelColours colours = {};  // of some regions; empty: those in the folder. The viewer chooses the others
     OutputOptions output = {};
-    // Of a model in memory:
+    // A folder says these itself:
     std::vector<Label> background = {};
     bool boundary_is_open = false;  // its box was not capped
     std::string source = {};        // what messages call it

@@ -38,7 +38,7 @@ std::string manifest_of(const std::string& shard, const ShardLayout& layout, std
 TEST_F(Shards, find_every_id_in_its_shard_and_minishard) {
     NewFiles written(path(""));
     LabelTable labels(true);
-    const Precomputed precomputed{"", path(""), labels, {}, {}, written};
+    const Precomputed precomputed{path(""), labels, {}, written};
     const ShardLayout layout{.minishard_bits = 2, .shard_bits = 5};
     std::map<std::array<std::uint64_t, 3>, Label> order;
     for (std::uint64_t n = 0; n < 300; ++n) {

@@ -37,11 +37,9 @@ private:
 
 /// What is written, and where.
 struct Precomputed {
-    std::string source;  // for messages
     std::filesystem::path output;
     const LabelTable& labels;
-    std::vector<Label> background;  // dense
-    PrecomputedOptions options;     // with the names and colours to write
+    PrecomputedOptions options;  // with what a folder says itself
     NewFiles& files;
 
     /// Nanometres in a unit of the model.

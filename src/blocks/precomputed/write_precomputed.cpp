@@ -33,7 +33,7 @@ std::vector<Label> largest_regions(const WrittenRegions& regions) {
 }  // namespace
 
 bool Precomputed::is_region(Label label) const {
-    return !is_exterior(label) && std::ranges::find(background, label) == background.end();
+    return !is_exterior(label) && std::ranges::find(options.background, label) == options.background.end();
 }
 
 std::string Precomputed::id(Label label) const {
@@ -42,7 +42,7 @@ std::string Precomputed::id(Label label) const {
         throw Error(ErrorCode::kInput,
                     fmt::format("{}: label {} is negative, and ids in Neuroglancer are not; give the region another "
                                 "label, as reconstruct does with --merge",
-                                source, input));
+                                options.source, input));
     return labels.text(input);
 }
 
@@ -151,12 +151,13 @@ void make_precomputed_folder(const fs::path& output) {
 PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& output, const PrecomputedOptions& given) {
     const Manifest manifest = read_complete_manifest(folder);
     LabelTable labels = read_labels(manifest, folder);
-    const std::vector<Label> background = dense_background(manifest.background, labels);
     PrecomputedOptions options = given;
+    options.background = dense_background(manifest.background, labels);
+    options.source = folder.string();
     if (options.names.empty()) options.names = manifest.names;
     if (options.colours.empty()) options.colours = manifest.colours;
     NewFiles files(output);
-    return write({folder.string(), output, labels, background, options, files}, *levels_of_folder(folder, manifest));
+    return write({output, labels, options, files}, *levels_of_folder(folder, manifest));
 }
 
 PrecomputedResult write_precomputed(Mesh mesh, const LabelTable& labels, const fs::path& output,
@@ -165,8 +166,7 @@ PrecomputedResult write_precomputed(Mesh mesh, const LabelTable& labels, const f
                               .background = options.background,
                               .threads = options.output.threads};
     NewFiles files(output);
-    return write({options.source, output, labels, options.background, options, files},
-                 *levels_of_mesh(std::move(mesh), checks));
+    return write({output, labels, options, files}, *levels_of_mesh(std::move(mesh), checks));
 }
 
 }  // namespace regionmesh
