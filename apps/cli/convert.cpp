@@ -29,10 +29,13 @@ void require_fit_of_output(const Settings& settings) {
 }
 
 PrecomputedOptions precomputed_options(const Settings& settings, Described described) {
-    PrecomputedOptions options = regionmesh::precomputed_options(settings);
-    options.names = std::move(described.names);
-    options.colours = std::move(described.colours);
-    return options;
+    return {.metres = settings.metres.value_or(1),
+            .is_legacy = settings.precomputed_is_legacy,
+            .is_sharded = settings.precomputed_is_sharded,
+            .levels = settings.precomputed_levels,
+            .names = std::move(described.names),
+            .colours = std::move(described.colours),
+            .output = model_writing(settings)};
 }
 
 void print_regions(const Settings& settings, const PrecomputedResult& made) {

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "regionmesh/blocks.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/page.h"
@@ -157,8 +156,6 @@ bool has_target(const Settings& settings);
 /// How to simplify and to smooth a whole model; without a target simplify() keeps all faces.
 SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh);
 SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh);
-/// Names, colours and what is known of the model are left to the caller.
-PrecomputedOptions precomputed_options(const Settings& settings);
 
 /// How to read drill holes as layers.
 LayerOptions layer_options(const Settings& settings);

@@ -147,12 +147,15 @@ std::vector<InputLabel> background_of(const Model& model) {
 /// A folder for Neuroglancer.
 Saved save_precomputed(const Model& model, const fs::path& folder, const Settings& settings) {
     make_precomputed_folder(folder);
-    PrecomputedOptions options = precomputed_options(settings);
-    options.names = model.names;
-    options.colours = model.colours;
-    options.background = model.background;
-    options.boundary_is_open = model.is_open;
-    options.source = "save";
+    const PrecomputedOptions options{.metres = settings.metres.value_or(1),
+                                     .is_legacy = settings.precomputed_is_legacy,
+                                     .is_sharded = settings.precomputed_is_sharded,
+                                     .levels = settings.precomputed_levels,
+                                     .names = model.names,
+                                     .colours = model.colours,
+                                     .background = model.background,
+                                     .boundary_is_open = model.is_open,
+                                     .source = "save"};
     Mesh mesh = copy_of(model.mesh, model.labels);
     const PrecomputedResult made = write_precomputed(std::move(mesh), model.labels, folder, options);
     return {{folder.string()}, made.rounded_share_of_edge};

@@ -37,16 +37,6 @@ SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh) {
     return options;
 }
 
-PrecomputedOptions precomputed_options(const Settings& settings) {
-    PrecomputedOptions options{.metres = settings.metres.value_or(1),
-                               .is_legacy = settings.precomputed_is_legacy,
-                               .is_sharded = settings.precomputed_is_sharded,
-                               .levels = settings.precomputed_levels,
-                               .output = settings.writing};
-    options.output.threads = settings.reconstruct.threads;
-    return options;
-}
-
 SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh) {
     SmoothOptions options = settings.reconstruct.smooth;
     options.min_quality = settings.reconstruct.min_quality;
