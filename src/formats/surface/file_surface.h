@@ -40,10 +40,8 @@ struct FileSurface {
 /// Throws Error(kInput) naming the file where a coordinate is not finite, or the model would have too many vertices.
 void add_point(FileSurface& surface, Vec3 point, const std::filesystem::path& path);
 
-/// Adds a polygon of three or more corners as triangles with these labels: splits a quad along its shorter diagonal,
-/// other polygons into a fan from their lowest corner (by x, y, z), or in halves where they have many corners. Which
-/// corner comes first in the file makes no difference, nor the direction. Throws Error(kInput) naming the file where
-/// the model would have too many faces.
+/// Adds a polygon of three or more corners as triangles with these labels, cut as by cut_polygon(). Throws
+/// Error(kInput) naming the file where the model would have too many faces.
 void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, const std::array<InputLabel, 2>& labels,
                  const std::filesystem::path& path);
 

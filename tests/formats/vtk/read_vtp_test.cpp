@@ -96,8 +96,8 @@ TEST_F(ReadVtp, polygons_are_cut_and_each_triangle_has_their_labels) {
     const FileSurface surface = read_vtp(path("m.vtp"));
     using Face = std::array<std::uint32_t, 3>;
     using Pair = std::array<InputLabel, 2>;
-    EXPECT_THAT(surface.faces, testing::ElementsAre(Face{0, 1, 3}, Face{3, 1, 2}, Face{0, 1, 3}, Face{3, 1, 2},
-                                                    Face{5, 0, 1}, Face{5, 1, 2}, Face{5, 2, 3}));
+    EXPECT_THAT(surface.faces, testing::ElementsAre(Face{3, 1, 2}, Face{0, 1, 3}, Face{3, 1, 2}, Face{0, 1, 3},
+                                                    Face{3, 5, 0}, Face{3, 0, 1}, Face{1, 2, 3}));
     EXPECT_THAT(surface.labels, testing::ElementsAre(Pair{1, 2}, Pair{1, 2}, Pair{3, 4}, Pair{3, 4}, Pair{5, 6},
                                                      Pair{5, 6}, Pair{5, 6}));
 }
