@@ -20,8 +20,9 @@ if(REGIONMESH_WITH_PYTHON AND REGIONMESH_SYSTEM_PACKAGE)
     math(EXPR next_python "${Python_VERSION_MINOR} + 1")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
         "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy, regionmesh (= ${PROJECT_VERSION})")
-    set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python module: arrays of labels in, checked surface models of
-all regions out, with numpy arrays for points, faces and labels.")
+    set(CPACK_DEBIAN_PYTHON_DESCRIPTION "checked surface models of labelled arrays (Python module)
+Arrays of labels in, surface models of all regions out, with numpy arrays for
+points, faces and labels.")
 endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${REGIONMESH_MAINTAINER}")
@@ -30,20 +31,21 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME regionmesh)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "regionmesh reads segmented scans, atlases and stacks of sections, and writes
-one checked triangle mesh in which neighbouring regions share their faces.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "checked surface models of labelled volumes
+regionmesh reads segmented scans, atlases and stacks of sections, and writes
+one triangle mesh in which neighbouring regions share their faces.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libregionmesh-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "zlib1g-dev, libtiff-dev, libpng-dev, libblosc-dev, libzstd-dev, liblz4-dev, libcsv-dev, libdeflate-dev, libminizip-dev, libdraco-dev, libpugixml-dev, libfmt-dev, libgmp-dev, libmpfr-dev, libtbb-dev")
-set(CPACK_DEBIAN_DEV_DESCRIPTION "C++ library: static libraries, headers and the files that CMake's
-find_package reads.")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "checked surface models of labelled volumes (C++ library)
+Static libraries, headers and the files that CMake's find_package reads.")
 
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME regionmesh-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
-set(CPACK_DEBIAN_DOC_DESCRIPTION "Documentation: the pages of regionmesh as Markdown, with
-pictures, and examples in C++.")
+set(CPACK_DEBIAN_DOC_DESCRIPTION "checked surface models of labelled volumes (documentation)
+The pages of regionmesh as Markdown, with pictures, and examples in C++.")
 
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc/docs COMPONENT doc)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc COMPONENT doc)

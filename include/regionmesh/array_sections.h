@@ -65,7 +65,7 @@ struct ArrayOptions {
 /// A reader of the array's sections. The array must outlive it and stay unchanged; the reader holds no copy, so
 /// ReconstructOptions::memory does not include the array. Labels of unsigned 64-bit arrays keep their bits. Throws
 /// Error(kInput) for an array without data or samples, a type that is no integer of whole bytes, spacing that is not
-/// positive, or a direction or origin that is not finite.
+/// positive, a direction or origin that is not finite, or directions that are not of length 1, to a thousandth.
 std::unique_ptr<SectionReader> open_array(const LabelArray& array, const ArrayOptions& options = {});
 
 }  // namespace regionmesh

@@ -66,8 +66,9 @@ public:
     }
     /// New elements are copies of `value`.
     void resize(std::uint32_t size, const T& value = T{}) {
+        const T copy = value;
         reserve(size);
-        for (std::uint32_t i = size_; i < size; ++i) data_[i] = value;
+        for (std::uint32_t i = size_; i < size; ++i) data_[i] = copy;
         size_ = size;
     }
     /// New elements have no value yet.

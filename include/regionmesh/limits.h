@@ -36,8 +36,8 @@ inline constexpr double kMostExtent = 1e20;
 /// 1/4096 of the smallest spacing everywhere in the volume.
 inline constexpr double kMostSpacings = 0x1p40;
 
-/// Throws Error(kInput) where spacing, origin or extent lie outside these bounds, or are no numbers; `what` names the
-/// volume.
+/// Throws Error(kInput) where spacing, origin or extent lie outside these bounds, or are no numbers, and where there
+/// are no samples; `what` names the volume.
 void require_lattice(const std::string& what, const Lattice& lattice);
 
 /// The same for the bounding box of a model or of points that is not empty.

@@ -31,11 +31,12 @@ struct SimplifyOptions {
     bool bounds_regions = false;  // asserts that each face has its first label behind it and its second in front of
                                   // it, everywhere; collapses are then tested faster, with the same result
     PlacementKind placement = PlacementKind::kQuadric;
-    std::optional<Lattice> samples = {};     // no sample of it changes its region, no merged vertex leaves its box; its
-                                             // direction is not looked at (box_axes.h turns a mesh into its axes)
-    std::optional<Box> box = {};             // no merged vertex leaves it; for models that no faces close on its sides
-    std::uint32_t threads = 0;               // at work at a time; 0: one per core. The result is the same
-    std::function<void()> on_progress = {};  // called now and then, on the calling thread
+    std::optional<Lattice> samples = {};  // no sample of it changes its region, no merged vertex leaves its box; its
+                                          // direction is not looked at (box_axes.h turns a mesh into its axes)
+    std::optional<Box> box = {};          // no merged vertex leaves it; for models that no faces close on its sides
+    std::uint32_t threads = 0;            // at work at a time; 0: one per core. The result is the same
+    /// Called now and then, on the calling thread, with the number of faces that are left; in tiles, before the pass.
+    std::function<void(std::uint64_t faces)> on_progress = {};
 };
 
 enum class StopReason { kTarget, kMaxError, kTopology };

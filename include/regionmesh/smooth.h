@@ -20,11 +20,13 @@ enum class SmoothFilter {
     kNifpms,     // one pass onto the tangent planes nearby (Jones, Durand, Desbrun 2003): keeps features
 };
 
+inline constexpr std::uint32_t kMostSmoothPasses = 100'000;
+
 /// The words are those of the command line.
 struct SmoothOptions {
     SmoothFilter filter = SmoothFilter::kAuto;
-    std::uint32_t passes = 20;    // sweeps over all vertices; Taubin: every second one uses mu; NIFPMS: one is
-                                  // enough; kLattice: any number but 0 is the same; 0: no smoothing
+    std::uint32_t passes = 20;    // sweeps over all vertices, at most kMostSmoothPasses; Taubin: every second one uses
+                                  // mu; NIFPMS: one is enough; kLattice: any number but 0 is the same; 0: none
     double reach = 0;             // kLattice: largest blocks, in finest spacings: 2, 4, 8, 16; 0: from the spacing
     double lambda = 0.6;          // share of the way to the mean of the neighbours
     double mu_per_lambda = 1.02;  // mu = - mu_per_lambda * lambda (Bade et al. 2006)

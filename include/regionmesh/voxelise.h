@@ -42,7 +42,8 @@ struct VoxeliseOptions {
 class Voxeliser {
 public:
     /// Holds a reference to the mesh. Memory: 8 bytes a face, 8 bytes a vertex, and the crossings of the sections
-    /// filled at a time. Faces are sorted on at most `threads` threads (0: one per core).
+    /// filled at a time. Faces are sorted on at most `threads` threads (0: one per core). Throws Error(kInput) for a
+    /// lattice that require_lattice() refuses.
     Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads = 1);
 
     /// Fills the labels of the next section, size[axes[0]] * size[axes[1]] samples with axes[0] fastest; kNoRegion

@@ -33,6 +33,7 @@ _OF_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so
 _SOURCES = (
     "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "pyproject.toml",
     "apps", "cmake", "docs", "examples", "include", "src", "python", "script", "viewer/dist/page.html",
+    "viewer/three.LICENSE",
 )  # fmt: skip
 
 
@@ -84,6 +85,24 @@ def _shared_libraries(files):
         for name, path in re.findall(r"(\S+) => (/\S+)", lines):
             if not _OF_SYSTEM.match(name):
                 found[name] = Path(path)
+    return found
+
+
+def _notices(folder, libraries):
+    """Licences of what is compiled in, and of the Debian packages that the libraries come from, by file."""
+    found = {}
+    if (folder / "copyright").exists():
+        found["compiled-in"] = (folder / "copyright").read_bytes()
+    # Packages of before /lib became a link to /usr/lib list their files there.
+    real = [str(path.resolve()) for path in libraries]
+    names = real + [path.removeprefix("/usr") for path in real]
+    if not shutil.which("dpkg-query") or not names:
+        return found
+    listed = subprocess.run(["dpkg-query", "-S", *names], capture_output=True, text=True).stdout
+    for package in re.findall(r"^([^:, ]+)", listed, re.MULTILINE):
+        notice = Path("/usr/share/doc") / package / "copyright"
+        if notice.exists():
+            found[package] = notice.read_bytes()
     return found
 
 
@@ -152,11 +171,14 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     wheel.add(f"regionmesh/{module.name}", module.read_bytes(), 0o755)
     for program in programs:
         wheel.add(f"regionmesh/bin/{program.name}", program.read_bytes(), 0o755)
-    for library, path in sorted(_shared_libraries([module, *programs]).items()):
+    libraries = _shared_libraries([module, *programs])
+    for library, path in sorted(libraries.items()):
         wheel.add(f"regionmesh/lib/{library}", path.read_bytes(), 0o755)
     info = f"regionmesh-{_version()}.dist-info"
     for file, data in _info().items():
         wheel.add(f"{info}/{file}", data)
+    for name, data in sorted(_notices(folder, libraries.values()).items()):
+        wheel.add(f"{info}/licenses/{name}", data)
     wheel.close(info)
     return name
 

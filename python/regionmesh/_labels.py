@@ -5,8 +5,11 @@ from . import _core, _sources
 
 def bits(label):
     """A label as a signed number of 64 bits; unsigned ones keep their bits."""
-    value = int(label)
-    if value != label:
+    try:
+        value = int(label)
+    except (TypeError, ValueError):
+        value = None
+    if value is None or value != label:
         raise TypeError(f"label {label!r}: not a whole number")
     if not -(1 << 63) <= value < 1 << 64:
         raise ValueError(f"label {value}: more than 64 bits")

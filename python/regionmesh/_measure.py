@@ -35,7 +35,7 @@ def interfaces(mesh):
         "first": pairs[:, 0],
         "second": pairs[:, 1],
         "faces": np.bincount(rows, minlength=len(pairs)),
-        "area": np.bincount(rows, areas, minlength=len(pairs)),
+        "area": np.bincount(rows, areas, minlength=len(pairs)).astype(float),  # of no row it has integers
     }
 
 

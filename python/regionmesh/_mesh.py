@@ -423,7 +423,7 @@ class Mesh:
         Parameters
         ----------
         like : array_like, optional
-            A volume [z, y, x] with the shape and type of the result.
+            A volume [z, y, x] with the shape and type of the result; uint8 for bool.
         shape : (3,) sequence of int, optional
             Samples along z, y, x. Default: those the model was made from.
         spacing, origin, direction : optional
@@ -447,7 +447,8 @@ class Mesh:
             raise TypeError("voxelise: give like or shape, not both")
         if like is not None:
             like = like if hasattr(like, "shape") else np.asarray(like)
-            shape, dtype = like.shape, like.dtype if dtype is None else dtype
+            of_like = np.uint8 if like.dtype == bool else like.dtype
+            shape, dtype = like.shape, of_like if dtype is None else dtype
         if shape is None and "size" in own:
             shape = own["size"][::-1]
         if shape is None or len(shape) != 3:

@@ -2,6 +2,7 @@
 
 import contextlib
 import itertools
+import operator
 import os
 import sys
 import tempfile
@@ -25,6 +26,8 @@ def frame(spacing, origin, direction):
 def _vector(name, value, default):
     if value is None:
         return default
+    if isinstance(value, (str, bytes)):
+        raise TypeError(f"{name}={value!r}: not three numbers")
     try:
         vector = tuple(float(item) for item in value)
     except (TypeError, ValueError):
@@ -225,8 +228,13 @@ def _spooled(sections, first):
 def _iterated(labels, sections):
     """An array or the calls for an iterable of sections."""
     count = len(labels) if hasattr(labels, "__len__") else sections
-    if count is not None and not 0 <= count < 1 << 31:
-        raise ValueError(f"sections={count}: not a number of sections")
+    if count is not None:
+        try:
+            count = operator.index(count)
+        except TypeError:
+            raise TypeError(f"sections={count!r}: not a whole number") from None
+        if not 0 <= count < 1 << 31:
+            raise ValueError(f"sections={count}: not a number of sections")
     rest = iter(labels)
     first = next(rest, None)
     if first is None:
@@ -236,8 +244,8 @@ def _iterated(labels, sections):
     if count is None:
         return _spooled(rest, first)
     sequence = labels if hasattr(labels, "__len__") else None
-    calls = _IteratorCalls(rest, first, int(count), sequence)
-    size = (first.shape[1], first.shape[0], int(count))
+    calls = _IteratorCalls(rest, first, count, sequence)
+    size = (first.shape[1], first.shape[0], count)
     return calls.next, (calls.rewind if sequence is not None else None), size, _type_name(first.dtype)
 
 
@@ -262,8 +270,8 @@ def opened(labels, sections=None):
     """An input that is no path, with its place: `data` is an array, or the calls for its sections."""
     own = placed(labels)
     data = own.data
-    if sections is not None and (hasattr(data, "shape") or hasattr(data, "__array__")):
-        raise ValueError("sections: is for iterators; leave it out, an array has a number of sections")
+    if sections is not None and any(hasattr(data, name) for name in ("shape", "__array__", "__len__")):
+        raise ValueError("sections: is for iterators; leave it out, arrays and lists have a number of sections")
     if _is_sliced(data):
         data = _calls_of(data)
     elif not isinstance(data, np.ndarray) and hasattr(data, "__array__"):

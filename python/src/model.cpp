@@ -266,7 +266,7 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
         const std::uint64_t before = made.mesh.face_count();
         std::optional<std::uint64_t> gone;  // known where the target is a number of faces
         if (simplify_with.target_faces > 0) gone = before - simplify_with.target_faces;
-        simplify_with.on_progress = [&] { watch.note("decimate", before - made.mesh.face_count(), gone); };
+        simplify_with.on_progress = [&](std::uint64_t faces) { watch.note("decimate", before - faces, gone); };
         {
             const Timer timer(report.seconds["decimate"]);
             const SimplifyResult done = simplify(made.mesh, simplify_with);

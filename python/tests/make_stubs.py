@@ -13,7 +13,7 @@ _HEAD = '''"""Types of the package. Written by python/tests/make_stubs.py."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,8 @@ import numpy.typing as npt
 __version__: str
 
 _Path = str | PathLike[str]
+_Int = SupportsIndex
+_Vector = Sequence[float] | npt.NDArray[Any]
 _Progress = bool | Callable[[str, int, int | None], object]
 
 class Surface(NamedTuple):
@@ -32,19 +34,20 @@ class Surface(NamedTuple):
 '''
 
 _OF_KIND = {
-    "flag": "bool", "count": "int", "label": "int", "number": "float", "share": "float | str", "bytes": "int | str",
-    "text": "str", "file": "_Path", "counts": "Sequence[int]", "numbers": "Sequence[float]",
+    "flag": "bool", "count": "_Int", "label": "_Int", "number": "float", "share": "float | str", "bytes": "_Int | str",
+    "text": "str", "file": "_Path", "counts": "Sequence[_Int]", "numbers": "Sequence[float]",
 }  # fmt: skip
 _OF_NAME = {
-    "spacing": "Sequence[float] | None", "origin": "Sequence[float] | None", "direction": "npt.ArrayLike | None",
-    "names": "Mapping[int, str] | _Path | None", "labels_to_keep": "Iterable[int] | None", "sections": "int | None",
-    "progress": "_Progress | None", "background": "int | Iterable[int] | None", "smooth": "str | int | bool | None",
-    "path": "_Path", "points": "npt.ArrayLike", "faces": "npt.ArrayLike", "exterior_label": "int",
-    "weld": "float | None", "orient": "bool", "boundary": 'Literal["cap", "open"]', "label": "int", "a": "int",
-    "b": "int", "threads": "int", "other": "Mesh", "like": "Any", "shape": "Sequence[int] | None",
-    "dtype": "npt.DTypeLike | None", "outside": "int", "per_region": "bool", "labels": "Any",
+    "spacing": "_Vector | None", "origin": "_Vector | None", "direction": "npt.ArrayLike | None",
+    "names": "Mapping[int, str] | _Path | None", "labels_to_keep": "Iterable[_Int] | None", "sections": "_Int | None",
+    "progress": "_Progress | None", "background": "_Int | Iterable[_Int] | None", "smooth": "str | _Int | bool | None",
+    "path": "_Path", "points": "npt.ArrayLike", "faces": "npt.ArrayLike", "exterior_label": "_Int",
+    "weld": "float | None", "orient": "bool", "boundary": 'Literal["cap", "open"]', "label": "_Int", "a": "_Int",
+    "b": "_Int", "threads": "_Int", "other": "Mesh", "like": "Any", "shape": "Sequence[_Int] | None",
+    "dtype": "npt.DTypeLike | None", "outside": "_Int", "per_region": "bool", "labels": "Any",
     "keep_samples": "bool", "min_quality": "float", "units": 'Literal["m", "mm", "um", "nm"]',
-    "precomputed": 'Literal["multi", "legacy"] | None', "levels": "int | None", "sharded": "bool",
+    "downsample": "str | _Int | None", "scale_z": 'float | Literal["auto"] | None',
+    "precomputed": 'Literal["multi", "legacy"] | None', "levels": "_Int | None", "sharded": "bool",
 }  # fmt: skip
 _RETURNS = {
     "reconstruct": "Mesh", "load": "Mesh", "from_arrays": "Mesh", "region": "Surface", "interface": "Surface",
@@ -62,8 +65,8 @@ _COMMANDS = {"reconstruct": "reconstruct", "simplify": "decimate", "smooth": "sm
 def _type_of(name, parameter, options):
     row = options.get(name)
     if parameter.default == "file":
-        return 'int | Iterable[int] | Literal["file"] | None'
-    if row is None or name in ("spacing", "background", "smooth"):
+        return '_Int | Iterable[_Int] | Literal["file"] | None'
+    if row is None or name in ("spacing", "background", "smooth", "downsample", "scale_z"):
         return _OF_NAME[name]
     if row["words"]:
         return "Literal[" + ", ".join(f'"{word}"' for word in row["words"]) + "] | None"

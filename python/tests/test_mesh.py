@@ -270,6 +270,12 @@ def test_reports_of_changes_do_not_repeat_dice(grains):
         assert (changed.regions["voxels"] == made.regions["voxels"]).all()
 
 
+def test_voxelise_like_a_mask(two_boxes):
+    again = regionmesh.reconstruct(two_boxes > 0).voxelise(like=two_boxes > 0)
+    assert again.dtype == np.uint8
+    np.testing.assert_array_equal(again, two_boxes > 0)
+
+
 def test_voxelise_like_a_list(filled):
     assert (filled.voxelise(like=filled.voxelise().tolist()) == filled.voxelise()).all()
 

@@ -68,14 +68,24 @@ def test_a_wheel_brings_the_libraries_that_it_loads(wheel, tmp_path):
     run(sys.executable, "-m", "zipfile", "-e", wheel, tmp_path)
     (module,) = (tmp_path / "regionmesh").glob("_core*.so")
     brought = str(tmp_path / "regionmesh")
-    for file in (module, tmp_path / "regionmesh/bin/regionmesh"):
+    for file in (module, *(tmp_path / "regionmesh/bin").iterdir()):
         file.chmod(0o755)
         lines = run("ldd", file).stdout.splitlines()
         # libjpeg is loaded by libtiff, which knows nothing of the wheel.
-        found = [line for line in lines if any(name in line for name in ("libtbb", "libgmp", "libfmt", "libjpeg"))]
-        assert len(found) == 4
+        names = {"regionmesh-hdf5": ["libhdf5", "libsz"], "regionmesh-dicom": ["libdcmseg", "libicuuc"]}
+        names = names.get(file.name, ["libtbb", "libgmp", "libfmt", "libjpeg"])
+        found = [line for line in lines if any(name in line for name in names)]
+        assert len(found) >= len(names), file
         for line in found:
             assert brought in line
+
+
+def test_a_wheel_holds_the_licences_of_what_it_brings(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        texts = {Path(name).name: archive.read(name) for name in archive.namelist() if ".dist-info/licenses/" in name}
+    assert b"three.js" in texts["compiled-in"] and b"pybind11" in texts["compiled-in"]
+    if Path("/usr/share/doc/libgmp10/copyright").exists():
+        assert b"Free Software Foundation" in texts["libgmp10"]
 
 
 def test_pip_installs_the_wheel(wheel, tmp_path):
@@ -115,7 +125,7 @@ def backend():
 def test_metadata_is_that_of_the_wheel_without_a_build(backend, wheel, tmp_path):
     folder = backend.prepare_metadata_for_build_wheel(tmp_path)
     with zipfile.ZipFile(wheel) as archive:
-        held = {name for name in archive.namelist() if name.startswith(f"{folder}/")}
+        held = {name for name in archive.namelist() if name.startswith(f"{folder}/") and "/licenses/" not in name}
         assert held == {f"{folder}/{path.name}" for path in (tmp_path / folder).iterdir()} | {f"{folder}/RECORD"}
         for path in (tmp_path / folder).iterdir():
             assert archive.read(f"{folder}/{path.name}") == path.read_bytes()
@@ -129,3 +139,7 @@ def test_an_archive_of_sources_holds_what_a_build_needs(backend, tmp_path):
                  "viewer/dist/page.html", "docs/files.md", "examples/CMakeLists.txt"):
         assert f"{base}/{path}" in listed
     assert not [path for path in listed if "__pycache__" in path]
+    run("tar", "-xzf", tmp_path / name, "-C", tmp_path)
+    parts = [f"-DREGIONMESH_{part}=OFF" for part in ("TESTS", "DELAUNAY", "WITH_HDF5", "WITH_DICOM")]
+    done = run("cmake", "-S", tmp_path / base, "-B", tmp_path / "build", "-DREGIONMESH_WITH_PYTHON=ON", *parts)
+    assert done.returncode == 0, done.stderr

@@ -202,6 +202,11 @@ def test_other_numbers_of_sections_than_announced_are_refused(two_boxes):
     for count in -1, 1 << 33:
         with pytest.raises(ValueError, match=f"sections={count}: not a number of sections"):
             regionmesh.reconstruct(iter(two_boxes), sections=count)
+    for count in 13.5, "13":
+        with pytest.raises(TypeError, match="not a whole number"):
+            regionmesh.reconstruct(iter(two_boxes), sections=count)
+    with pytest.raises(ValueError, match="sections: is for iterators"):
+        regionmesh.reconstruct(list(two_boxes), sections=5)
 
 
 def test_sections_of_several_types_are_refused(two_boxes):
@@ -218,6 +223,8 @@ def test_sections_of_several_types_are_refused(two_boxes):
         ({"names": {1: "\ud800"}}, ValueError, "no UTF-8"),
         ({"labels_to_keep": [2**70]}, ValueError, "more than 64 bits"),
         ({"spacing": "1,1,1"}, TypeError, "spacing='1,1,1': not three numbers"),
+        ({"spacing": "125"}, TypeError, "spacing='125': not three numbers"),
+        ({"labels_to_keep": ["a"]}, TypeError, "label 'a': not a whole number"),
     ],
 )
 def test_values_that_are_none_are_refused_in_one_line(two_boxes, options, error, said):

@@ -37,6 +37,10 @@ void require_lattice(const std::string& what, const Lattice& lattice) {
     constexpr double kLeastVolume = 1e-6;
     if (!(std::abs(lattice.axes_volume()) >= kLeastVolume))
         refuse(what, "the directions of the axes lie in one plane; give those of x, y, z as unit columns");
+    const auto& [x, y, z] = lattice.size;
+    if (x == 0 || y == 0 || z == 0)
+        refuse(what, "has " + std::to_string(x) + " x " + std::to_string(y) + " x " + std::to_string(z) +
+                         " samples; give at least one along each axis");
     const Vec3 spacing = lattice.spacing;
     const double least = std::min({spacing.x, spacing.y, spacing.z});
     for (int row = 0; row < 3; ++row) {

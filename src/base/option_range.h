@@ -20,4 +20,10 @@ inline constexpr OptionRange kQualityRange{0, 0.26, "0 to 0.26"};  // an equilat
 /// Throws Error(kUsage) for a number out of range, and for NaN.
 void require_number(const char* option, double number, const OptionRange& range);
 
+/// Throws Error(kUsage) for a value that is none of an enumeration's, which begins at 0 and ends with `last`.
+template <class Enum>
+void require_choice(const char* option, Enum choice, Enum last) {
+    require_number(option, static_cast<double>(choice), {0, static_cast<double>(last), "its enumeration"});
+}
+
 }  // namespace regionmesh

@@ -9,6 +9,7 @@
 #include "base/parallel_for.h"
 #include "base/parallel_invoke.h"
 #include "mesh/sample_lines.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
@@ -57,6 +58,7 @@ bool is_single(const Mesh& mesh) {
 
 Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads)
     : mesh_(mesh), options_(options), into_axes_(options.lattice) {
+    require_lattice("lattice", options.lattice);
     const auto lines = std::make_shared<SampleLines>(lines_of(options));
     lines_ = lines;
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);

@@ -11,7 +11,7 @@ namespace {
 /// Up to the quality of an equilateral face, which is 0.2595 (base/triangle.h).
 constexpr Range kQualities{0, 0.26};
 
-constexpr Range kPasses{0, 100'000}, kSampleCounts{1, 1e9}, kShareRange{0, 1}, kRoom{0, 8},
+constexpr Range kPasses{0, kMostSmoothPasses}, kSampleCounts{1, 1e9}, kShareRange{0, 1}, kRoom{0, 8},
     kLengths{kLeastLength, kMostLength};
 
 /// Passes of taubin, laplacian and nifpms, and largest blocks of lattice.

@@ -168,7 +168,7 @@ private:
             note_level(halves_.least_rank());
             try_half(halves_.take());
         }
-        if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress();
+        if (options_.on_progress && (++steps_ & 0x3FFF) == 0) options_.on_progress(mesh_.face_count());
     }
 
     void note_level(double rank) {

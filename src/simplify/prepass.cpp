@@ -25,7 +25,7 @@ std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
     marks_.begin_sweep();
     std::uint32_t removed = 0;
     for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
-        if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress();
+        if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress(mesh_.face_count());
         if (!may_go(VertexId{v})) continue;
         if (try_to_remove(VertexId{v}, verdicts))
             ++removed;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "base/option_range.h"
@@ -51,11 +52,17 @@ bool simplify_by_tiles(Mesh& mesh, const SimplifyOptions& options, SimplifyResul
                                  .free_share = share > kFreeFrom ? share * kFreeMargin : 1,
                                  .threads = options.threads,
                                  .simplify = options}};
+    std::uint64_t left = chunk.faces.size();
+    if (options.on_progress)
+        passes.tiles.on_share = [&, caller = std::this_thread::get_id()](double) {
+            if (std::this_thread::get_id() == caller) options.on_progress(left);
+        };
     if (share * kTileMargin < 1) {
         const PassResult done = simplify_below(chunk, plan, passes);
         result.verdicts = done.verdicts;
         result.tile_passes = done.passes;
     }
+    left = chunk.faces.size();
     passes.tiles.free_share = 1;
     const PassResult done = simplify_in_passes(chunk, plan, passes);
     add(result.verdicts, done.verdicts);
@@ -72,6 +79,7 @@ void require_in_range(const SimplifyOptions& options) {
     require_number("min_quality", options.min_quality, kQualityRange);
     require_number("perturbation", options.perturbation, kNotNegative);
     require_number("scale", options.scale, kPositive);
+    require_choice("placement", options.placement, PlacementKind::kLindstromTurk);
     if (options.samples) require_lattice("samples", *options.samples);
 }
 

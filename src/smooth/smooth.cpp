@@ -17,6 +17,8 @@ void require_in_range(const SmoothOptions& options) {
     if (std::ranges::find(kBlocks, options.reach) == std::end(kBlocks))
         throw Error(ErrorCode::kUsage, "smooth.reach: " + std::to_string(options.reach) +
                                            " is none of 0, 2, 4, 8 and 16; give one of them");
+    require_choice("smooth.filter", options.filter, SmoothFilter::kNifpms);
+    require_number("smooth.passes", options.passes, {0, kMostSmoothPasses, "0 to 100000"});
     require_number("smooth.lambda", options.lambda, {0, 1, "0 to 1"});
     require_number("smooth.mu_per_lambda", options.mu_per_lambda, kNotNegative);
     require_number("smooth.scale", options.scale, kPositive);

@@ -122,8 +122,8 @@ void SimplifyStage::trim(std::uint64_t goal, double safe_high, bool is_last) {
                                 .threads = options_.threads,
                                 .is_large = true};
     const std::uint64_t held = mesh_.face_count();
-    own.on_progress = [&] {
-        const auto gone = static_cast<double>(held - mesh_.face_count());
+    own.on_progress = [&](std::uint64_t faces) {
+        const auto gone = static_cast<double>(held - faces);
         if (is_last && held > goal) log_.advance(WorkStage::kTrim, gone / static_cast<double>(held - goal));
         log_.report_progress(is_last ? "decimate" : "reconstruct");
     };

@@ -17,6 +17,8 @@ void require_in_range(const ReconstructOptions& options) {
     if (options.reduce) require_number("reduce", *options.reduce, {0, 1, "0 to 1"});
     if (options.max_error) require_number("max_error", *options.max_error, kNotNegativeOrInfinite);
     require_room(options.room);
+    require_choice("cells", options.cells, CellKind::kTetrahedra);
+    require_choice("placement", options.placement, PlacementKind::kLindstromTurk);
     if (options.strips_per_chunk == 0) throw Error(ErrorCode::kUsage, "strips_per_chunk: 0; give at least 1");
     require_number("min_quality", options.min_quality, kQualityRange);
     require_number("perturbation", options.perturbation, kNotNegative);

@@ -77,6 +77,9 @@ private:
     std::uint32_t section_ = 0;
 };
 
+/// Directions in files are rounded, to six digits and more.
+constexpr double kNearUnit = 1e-3;
+
 void require_usable(const LabelArray& array, const ArrayOptions& options) {
     const auto refuse = [&](const std::string& text) { throw Error(ErrorCode::kInput, options.name + ": " + text); };
     const auto& [x, y, z] = array.size;
@@ -87,6 +90,9 @@ void require_usable(const LabelArray& array, const ArrayOptions& options) {
     if (!copy_of(array.type)) refuse("samples are single bits; give an array of 8, 16, 32 or 64-bit integers");
     for (const double entry : options.direction)
         if (!std::isfinite(entry)) refuse("direction is not finite; give nine numbers");
+    for (const Vec3 axis : Lattice{.direction = options.direction}.axes())
+        if (std::abs(length(axis) - 1) > kNearUnit)
+            refuse("the columns of direction are not of length 1; give lengths as spacing");
 }
 
 }  // namespace

@@ -47,10 +47,11 @@ TEST(FlatArray, grows_and_keeps_what_it_holds) {
     EXPECT_EQ(array.bytes(), 40u);
 }
 
-TEST(FlatArray, can_push_its_own_element_while_it_grows) {
+TEST(FlatArray, can_repeat_its_own_element_while_it_grows) {
     FlatArray<int> array;
     array.push_back(42);
     for (int n = 0; n < 5000; ++n) array.push_back(array[0]);
+    array.resize(100'000, array[0]);
     EXPECT_TRUE(std::all_of(array.begin(), array.end(), [](int x) { return x == 42; }));
 }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "regionmesh/error.h"
 #include "regionmesh/reconstruct.h"
 #include "support/meshes.h"
 #include "support/volumes.h"
@@ -266,6 +267,12 @@ TEST(Voxelise, a_surface_with_a_hole_contradicts_itself) {
     volume.rewind();
     const SampleAgreement found = compare_samples(made.mesh, made.labels, made.background, volume);
     EXPECT_GT(found.wrong, 0u);
+}
+
+TEST(Voxelise, refuses_a_lattice_without_samples) {
+    const Mesh mesh;
+    EXPECT_THROW(Voxeliser(mesh, {.lattice = {}}), Error);
+    EXPECT_THROW(Voxeliser(mesh, {.lattice = {.size = {2, 0, 2}}}), Error);
 }
 
 }  // namespace

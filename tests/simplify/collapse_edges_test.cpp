@@ -319,7 +319,7 @@ TEST(CollapseEdges, reports_progress) {
     Mesh mesh = grains();
     int calls = 0;
     SimplifyOptions options;
-    options.on_progress = [&] { ++calls; };
+    options.on_progress = [&](std::uint64_t) { ++calls; };
     const std::uint32_t before = mesh.face_count();
     collapse_edges(mesh, options);
     EXPECT_GT(calls, 0);

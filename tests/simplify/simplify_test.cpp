@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <set>
+#include <stdexcept>
+#include <vector>
 
 #include "regionmesh/mesh.h"
 #include "simplify/tuning.h"
@@ -39,6 +43,23 @@ TEST(Simplify, large_meshes_reach_the_target_in_tiles_and_stay_sound) {
     EXPECT_GE(mesh.face_count(), before / 10 - 6) << "one collapse takes a few faces";
     EXPECT_GT(done.bytes, mesh.bytes());
     test::expect_sound(check(mesh));
+}
+
+TEST(Simplify, says_how_many_faces_are_left_and_ends_where_that_is_not_wanted) {
+    Mesh mesh = large();
+    SimplifyOptions told{.target_faces = mesh.face_count() / 10, .threads = 1};
+    std::vector<std::uint64_t> left;
+    told.on_progress = [&](std::uint64_t faces) { left.push_back(faces); };
+    const std::uint32_t before = mesh.face_count();
+    simplify(mesh, told);
+    EXPECT_GT(left.size(), 10u) << "in tiles, too";
+    EXPECT_EQ(left.front(), before);
+    EXPECT_TRUE(std::ranges::is_sorted(left, std::greater()));
+    EXPECT_GE(left.back(), mesh.face_count());
+
+    mesh = large();
+    told.on_progress = [](std::uint64_t) { throw std::runtime_error("enough"); };
+    EXPECT_THROW(simplify(mesh, told), std::runtime_error);
 }
 
 TEST(Simplify, keeps_all_strata) {

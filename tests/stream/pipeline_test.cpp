@@ -133,6 +133,10 @@ TEST(Reconstruct, options_out_of_range_are_refused) {
     }
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.max_error = std::nan(""); }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.reach = 3; }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.passes = kMostSmoothPasses + 1; }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.smooth.filter = SmoothFilter(9); }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.cells = CellKind(77); }));
+    EXPECT_TRUE(refused([](ReconstructOptions& o) { o.placement = PlacementKind(-1); }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.strips_per_chunk = 0; }));
     EXPECT_TRUE(refused([](ReconstructOptions& o) { o.scale_z = std::nan(""); }));
 }

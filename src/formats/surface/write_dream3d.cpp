@@ -21,8 +21,8 @@ namespace {
 using namespace formats;
 
 constexpr std::array<char, 8> kMesh{'R', 'M', 'H', '5', 'M', 'S', 'H', '1'};
-constexpr std::size_t kPiece = 1 << 16;     // numbers sent, or bytes received, at a time
-constexpr int kWrongInput = 1, kUsage = 2;  // exit codes
+constexpr std::size_t kPiece = 1 << 16;                       // numbers sent, or bytes received, at a time
+constexpr int kWrongInput = 1, kUsage = 2, kNotLoaded = 127;  // exit codes; the last one is the loader's
 
 /// The format has signed 32-bit labels; -1 is the exterior.
 void require_labels(const LabelTable& labels) {
@@ -97,10 +97,12 @@ private:
     if (code == kWrongInput || code == kUsage)
         throw Error(ErrorCode::kOutput, fmt::format("{} failed with exit code {} ({}); is it of another version?",
                                                     path.string(), code, ending.last_words));
+    const std::string why =
+        code == kNotLoaded ? fmt::format(" ({}): one of its libraries is missing, or", ending.last_words) : ":";
     throw Error(ErrorCode::kOutput,
-                fmt::format("{} ended before the .dream3d file was complete: the HDF5 library needs more memory; end "
+                fmt::format("{} ended before the .dream3d file was complete{} the HDF5 library needs more memory; end "
                             "other programs, set a lower target, or write another format",
-                            path.string()));
+                            path.string(), why));
 }
 
 void write_model(const FileView& view, OutputFile& file) {

@@ -111,6 +111,8 @@ TEST_F(WriterTest, dream3d_of_a_helper_that_crashes_or_is_another_program_is_ref
     EXPECT_THAT(said_with("cat > /dev/null; printf '\\011\\0\\0\\0\\0\\0\\0\\0half'\n"), HasSubstr("needs more memory"))
         << "four bytes of nine, and exit code 0";
     EXPECT_THAT(said_with("echo 'cannot' >&2; exit 2\n"), HasSubstr("failed with exit code 2 (cannot)"));
+    EXPECT_THAT(said_with("echo 'no library' >&2; exit 127\n"),
+                HasSubstr("(no library): one of its libraries is missing"));
     EXPECT_FALSE(std::filesystem::exists(path("m.dream3d")));
 }
 
