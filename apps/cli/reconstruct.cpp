@@ -32,10 +32,11 @@ void print_memory(const ReconstructOptions& options, const Report& report) {
             say("held {} faces, more than --face-budget {}: it is below what the target, topology or --max-error leave",
                 grouped(report.peak_faces), grouped(*options.face_budget));
     } else if (is_far_above(report.peak_bytes, options.memory)) {
-        const bool is_at_target = report.stopped == to_string(StopReason::kTarget);
+        const bool is_held =
+            report.stopped == to_string(StopReason::kTopology) || report.stopped == to_string(StopReason::kMaxError);
         say("used more than --memory, {} MB: {}", grouped(options.memory / 1000000),
-            is_at_target ? "this surface takes more than the plan counts for one of so many faces"
-                         : "the faces left by topology or --max-error are not known before the work");
+            is_held ? "the faces left by topology or --max-error are not known before the work"
+                    : "this surface takes more than the plan counts for one of so many faces");
     }
 }
 

@@ -177,8 +177,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     info = f"regionmesh-{_version()}.dist-info"
     for file, data in _info().items():
         wheel.add(f"{info}/{file}", data)
-    for name, data in sorted(_notices(folder, libraries.values()).items()):
-        wheel.add(f"{info}/licenses/{name}", data)
+    for package, data in sorted(_notices(folder, libraries.values()).items()):
+        wheel.add(f"{info}/licenses/{package}", data)
     wheel.close(info)
     return name
 

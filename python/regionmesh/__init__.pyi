@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,8 @@ import numpy.typing as npt
 __version__: str
 
 _Path = str | PathLike[str]
+_Int = SupportsIndex
+_Vector = Sequence[float] | npt.NDArray[Any]
 _Progress = bool | Callable[[str, int, int | None], object]
 
 class Surface(NamedTuple):
@@ -51,14 +53,14 @@ class Mesh:
     def regions(self) -> dict[str, npt.NDArray[Any]]: ...
     @property
     def interfaces(self) -> dict[str, npt.NDArray[Any]]: ...
-    def region(self, label: int) -> Surface: ...
-    def interface(self, a: int, b: int) -> Surface: ...
+    def region(self, label: _Int) -> Surface: ...
+    def interface(self, a: _Int, b: _Int) -> Surface: ...
     def simplify(
         self,
         *,
         keep_samples: bool = True,
         progress: _Progress | None = None,
-        target_faces: int | None = None,
+        target_faces: _Int | None = None,
         reduce: float | str | None = None,
         max_error: float | None = None,
         perturbation: float | None = None,
@@ -66,20 +68,20 @@ class Mesh:
         min_quality: float | None = None,
         improve: bool | None = None,
         intersect_check: bool | None = None,
-        threads: int | None = None,
+        threads: _Int | None = None,
     ) -> Mesh: ...
     def improve(
         self,
         *,
         min_quality: float = 0.1,
         keep_samples: bool = True,
-        threads: int = 0,
+        threads: _Int = 0,
         progress: _Progress | None = None,
     ) -> Mesh: ...
     def smooth(
         self,
         *,
-        smooth: str | int | bool | None = None,
+        smooth: str | _Int | bool | None = None,
         smooth_filter: Literal["auto", "lattice", "taubin", "laplacian", "nifpms", "none"] | None = None,
         smooth_lambda: float | None = None,
         smooth_points: bool | None = None,
@@ -87,28 +89,28 @@ class Mesh:
         preserve_volume: bool | None = None,
         min_quality: float | None = None,
         intersect_check: bool | None = None,
-        threads: int | None = None,
+        threads: _Int | None = None,
     ) -> Mesh: ...
     def check(
         self,
         labels: Any = None,
         *,
-        spacing: Sequence[float] | None = None,
-        origin: Sequence[float] | None = None,
+        spacing: _Vector | None = None,
+        origin: _Vector | None = None,
         direction: npt.ArrayLike | None = None,
-        threads: int = 0,
+        threads: _Int = 0,
     ) -> dict[str, Any]: ...
-    def compare(self, other: Mesh, *, samples: int | None = None, threads: int | None = None) -> dict[str, Any]: ...
+    def compare(self, other: Mesh, *, samples: _Int | None = None, threads: _Int | None = None) -> dict[str, Any]: ...
     def voxelise(
         self,
         like: Any = None,
         *,
-        shape: Sequence[int] | None = None,
-        spacing: Sequence[float] | None = None,
-        origin: Sequence[float] | None = None,
+        shape: Sequence[_Int] | None = None,
+        spacing: _Vector | None = None,
+        origin: _Vector | None = None,
         direction: npt.ArrayLike | None = None,
         dtype: npt.DTypeLike | None = None,
-        outside: int = 0,
+        outside: _Int = 0,
     ) -> npt.NDArray[Any]: ...
     def save(
         self,
@@ -117,54 +119,54 @@ class Mesh:
         per_region: bool = False,
         units: Literal["m", "mm", "um", "nm"] = "m",
         precomputed: Literal["multi", "legacy"] | None = None,
-        levels: int | None = None,
+        levels: _Int | None = None,
         sharded: bool = False,
     ) -> list[str]: ...
     def to_vtk(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
     def to_meshio(self) -> Any: ...
-    def to_trimesh(self, label: int) -> Any: ...
+    def to_trimesh(self, label: _Int) -> Any: ...
     def __len__(self) -> int: ...
 
 def reconstruct(
     labels: Any,
     *,
-    spacing: Sequence[float] | None = None,
-    origin: Sequence[float] | None = None,
+    spacing: _Vector | None = None,
+    origin: _Vector | None = None,
     direction: npt.ArrayLike | None = None,
     names: Mapping[int, str] | _Path | None = None,
-    labels_to_keep: Iterable[int] | None = None,
-    sections: int | None = None,
+    labels_to_keep: Iterable[_Int] | None = None,
+    sections: _Int | None = None,
     progress: _Progress | None = None,
     sweep: Literal["auto", "x", "y", "z"] | None = None,
-    layer: int | None = None,
-    max_work: int | None = None,
+    layer: _Int | None = None,
+    max_work: _Int | None = None,
     external_files: bool | None = None,
-    size: Sequence[int] | None = None,
+    size: Sequence[_Int] | None = None,
     type: str | None = None,
     roi: str | None = None,
     box: str | None = None,
-    downsample: str | None = None,
-    min_region: int | None = None,
+    downsample: str | _Int | None = None,
+    min_region: _Int | None = None,
     columns: str | None = None,
     step: float | None = None,
     layers: str | None = None,
     collars: _Path | None = None,
     surveys: _Path | None = None,
     terrain: _Path | None = None,
-    scale_z: float | None = None,
+    scale_z: float | Literal["auto"] | None = None,
     array: str | None = None,
     hull: bool | None = None,
-    background: int | Iterable[int] | None = None,
+    background: _Int | Iterable[_Int] | None = None,
     boundary: Literal["cap", "open"] | None = None,
     cells: Literal["auto", "compact", "tetrahedra"] | None = None,
-    target_faces: int | None = None,
+    target_faces: _Int | None = None,
     reduce: float | str | None = None,
     max_error: float | None = None,
     perturbation: float | None = None,
     placement: Literal["quadric", "lindstrom-turk"] | None = None,
     decimate: bool | None = None,
-    smooth: str | int | bool | None = None,
+    smooth: str | _Int | bool | None = None,
     smooth_filter: Literal["auto", "lattice", "taubin", "laplacian", "nifpms", "none"] | None = None,
     smooth_lambda: float | None = None,
     room: float | None = None,
@@ -174,14 +176,14 @@ def reconstruct(
     improve: bool | None = None,
     keep_samples: bool | None = None,
     intersect_check: bool | None = None,
-    memory: int | str | None = None,
-    face_budget: int | None = None,
-    threads: int | None = None,
+    memory: _Int | str | None = None,
+    face_budget: _Int | None = None,
+    threads: _Int | None = None,
 ) -> Mesh: ...
 def load(
     path: _Path,
     *,
-    background: int | Iterable[int] | Literal["file"] | None = "file",
+    background: _Int | Iterable[_Int] | Literal["file"] | None = "file",
     weld: float | None = None,
     orient: bool = False,
     boundary: Literal["cap", "open"] = "cap",
@@ -191,8 +193,8 @@ def from_arrays(
     faces: npt.ArrayLike,
     labels: Any,
     *,
-    background: int | Iterable[int] | None = 0,
-    exterior_label: int = -1,
+    background: _Int | Iterable[_Int] | None = 0,
+    exterior_label: _Int = -1,
     names: Mapping[int, str] | _Path | None = None,
     boundary: Literal["cap", "open"] = "cap",
 ) -> Mesh: ...

@@ -99,7 +99,7 @@ std::uint64_t MshElements::node_count(std::uint64_t tag) const {
     }
     stream_.fail(fmt::format("element {} is {}: {}", tag, found ? found->name : fmt::format("of type {}", type_),
                              !found || found->is_curved
-                                 ? "write the mesh with elements of first order, gmsh -order 1"
+                                 ? "mesh the geometry again with elements of first order, gmsh -order 1"
                                  : "split the cells into tetrahedra; Gmsh meshes without recombining make them"));
 }
 

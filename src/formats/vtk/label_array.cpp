@@ -80,8 +80,8 @@ std::size_t choose_label_array(const std::filesystem::path& path, std::span<cons
                                    shown(wanted), arrays[*best].components, list_of(arrays)));
         return *best;
     }
-    if (integers.size() == 1) return integers[0];
     if (best) return *best;
+    if (integers.size() == 1) return integers[0];
     fail(path, fmt::format("{}; say which with --array NAME; its arrays: {}",
                            integers.empty() ? "has no array of integers that could be labels"
                                             : "has several arrays of integers, and no name that means regions",

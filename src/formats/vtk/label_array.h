@@ -23,9 +23,9 @@ struct MeshArray {
 /// The rank of a name among those that usually mean regions, the most specific first; none for other names.
 std::optional<std::size_t> region_rank(std::string_view name);
 
-/// The array named `wanted`, that of cells before that of points. Where `wanted` is empty: the only array of integers
-/// that is no numbering of nodes or cells; otherwise the array with the best region_rank, which may have reals. Never
-/// an array of several components. Throws Error(kInput) that lists the arrays.
+/// The array named `wanted`, that of cells before that of points. Where `wanted` is empty: the array with the best
+/// region_rank, integers before reals; otherwise the only array of integers that is no numbering of nodes or cells.
+/// Never an array of several components. Throws Error(kInput) that lists the arrays.
 std::size_t choose_label_array(const std::filesystem::path& path, std::span<const MeshArray> arrays,
                                const std::string& wanted);
 

@@ -221,8 +221,9 @@ TEST_F(ReadMshMesh, other_solids_are_refused_by_name) {
         failure(replaced(kMesh2, "4 4 2 9 2 10 5 20 7", "4 5 2 9 2 10 5 20 7 1 2 3 4")),
         "line 16: element 4 is a hexahedron: split the cells into tetrahedra; Gmsh meshes without recombining make "
         "them");
-    EXPECT_THAT(failure(replaced(kMesh2, "4 4 2 9", "4 11 2 9")),
-                HasSubstr("element 4 is a tetrahedron of 10 nodes: write the mesh with elements of first order"));
+    EXPECT_THAT(
+        failure(replaced(kMesh2, "4 4 2 9", "4 11 2 9")),
+        HasSubstr("element 4 is a tetrahedron of 10 nodes: mesh the geometry again with elements of first order"));
     EXPECT_THAT(failure(replaced(kMesh2, "4 4 2 9", "4 99 2 9")), HasSubstr("element 4 is of type 99: "));
 }
 

@@ -82,6 +82,8 @@ TEST_F(ReadVtuMesh, the_array_whose_name_means_regions_has_the_labels) {
     EXPECT_THAT(labels_of(*open_text(grid(piece(ids + other + region)))), ElementsAre(1, -1));
     EXPECT_TRUE(open_text(grid(piece(region)))->info().is_unsigned);
     EXPECT_THAT(labels_of(*open_text(grid(piece(ids + real)))), ElementsAre(4, 1000));
+    EXPECT_THAT(labels_of(*open_text(grid(piece(other + real)))), ElementsAre(4, 1000)) << "no guess against a name";
+    EXPECT_THAT(labels_of(*open_text(grid(piece(real + region)))), ElementsAre(1, -1));
     EXPECT_THAT(labels_of(*open_text(grid(piece(ids + other + region)), {.array = "GlobalIds"})), ElementsAre(0, 1));
     EXPECT_EQ(
         failure(grid(piece(other + array("type=\"Int8\" Name=\"part\"", "1 2")))),
