@@ -7,7 +7,7 @@ def bits(label):
     """A label as a signed number of 64 bits; unsigned ones keep their bits."""
     try:
         value = int(label)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         value = None
     if value is None or value != label:
         raise TypeError(f"label {label!r}: not a whole number")

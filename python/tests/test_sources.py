@@ -225,6 +225,7 @@ def test_sections_of_several_types_are_refused(two_boxes):
         ({"spacing": "1,1,1"}, TypeError, "spacing='1,1,1': not three numbers"),
         ({"spacing": "125"}, TypeError, "spacing='125': not three numbers"),
         ({"labels_to_keep": ["a"]}, TypeError, "label 'a': not a whole number"),
+        ({"labels_to_keep": [float("inf")]}, TypeError, "label inf: not a whole number"),
     ],
 )
 def test_values_that_are_none_are_refused_in_one_line(two_boxes, options, error, said):
