@@ -29,7 +29,7 @@ from pathlib import Path
 _ROOT = Path(__file__).resolve().parents[2]
 _PACKAGE = _ROOT / "python" / "regionmesh"
 # On every system with an interpreter and apt.
-_OF_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+))\.so")
+_OF_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|gcc_s|stdc\+\+))\.so")
 _SOURCES = (
     "CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "pyproject.toml",
     "apps", "cmake", "docs", "examples", "include", "src", "python", "script", "viewer/dist/page.html",

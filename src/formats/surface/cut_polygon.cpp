@@ -110,6 +110,7 @@ private:
         std::size_t before, after;
     };
     static constexpr double kNoEar = std::numeric_limits<double>::infinity();
+    static constexpr double kNeedle = 1e-4;  // of the length of the cut: more than rounding to single precision leaves
 
     /// Positive where the path a b c turns to the left.
     double turn(std::size_t a, std::size_t b, std::size_t c) const {
@@ -117,16 +118,19 @@ private:
         return (q.u - p.u) * (r.v - p.v) - (q.v - p.v) * (r.u - p.u);
     }
 
-    /// Squared length of the edge that cuts off corner n.
+    /// Squared length of the edge that cuts off corner n, and far more for a needle: a corner on a straight side, which
+    /// is convex by rounding alone, goes last.
     double cut_of(std::size_t n) const {
         const auto [a, c] = links_[n];
-        if (!(turn(a, n, c) > 0)) return kNoEar;
+        const double twice_area = turn(a, n, c);
+        if (!(twice_area > 0)) return kNoEar;
         for (const std::size_t other : not_convex_) {
             const Place& p = places_[other];
             if (p == places_[a] || p == places_[n] || p == places_[c]) continue;
             if (turn(a, n, other) >= 0 && turn(n, c, other) >= 0 && turn(c, a, other) >= 0) return kNoEar;
         }
-        return length2(corners_.point(a) - corners_.point(c));
+        const double cut = length2(corners_.point(a) - corners_.point(c));
+        return twice_area < kNeedle * cut ? cut * 1e12 : cut;
     }
 
     const CornersInOrder& corners_;

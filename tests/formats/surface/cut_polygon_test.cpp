@@ -124,6 +124,22 @@ TEST(CutPolygon, convex_quads_are_cut_along_the_shorter_diagonal) {
     }
 }
 
+TEST(CutPolygon, rounded_corners_on_straight_sides_make_no_needles) {
+    for (int n = 0; n < 50; ++n) {
+        const double turn = 0.1 + 0.025 * n;
+        const Vec3 u{std::cos(turn), std::sin(turn), 0.3}, v{-std::sin(turn), std::cos(turn), 0.2};
+        std::vector<Vec3> points;
+        for (const auto& [x, y] : {std::array{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 3}, {2, 3}, {1, 3}, {0, 3}, {0, 1}}) {
+            const Vec3 p = double(x) * u + double(y) * v;
+            points.push_back({float(p.x), float(p.y), float(p.z)});
+        }
+        Triangles triangles;
+        cut_polygon(points, Corners{0, 1, 2, 3, 4, 5, 6, 7, 8}, triangles);
+        for (const auto& [a, b, c] : triangles)
+            EXPECT_GT(length(cross(points[b] - points[a], points[c] - points[a])), 0.1) << turn;
+    }
+}
+
 TEST(CutPolygon, polygons_that_are_none_become_as_many_triangles) {
     const std::vector<Vec3> points{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}, {3, 3, 0}};
     for (const Corners& corners : {Corners{0, 1, 2, 3}, Corners{0, 1, 4, 5}, Corners{0, 0, 0, 0},
