@@ -35,7 +35,8 @@ struct SimplifyOptions {
                                           // direction is not looked at (box_axes.h turns a mesh into its axes)
     std::optional<Box> box = {};          // no merged vertex leaves it; for models that no faces close on its sides
     std::uint32_t threads = 0;            // at work at a time; 0: one per core. The result is the same
-    /// Called now and then, on the calling thread, with the number of faces that are left; in tiles, before the pass.
+    /// Called now and then, on the calling thread, with the number of faces that are left; while tiles are simplified,
+    /// with that before each of the two stages.
     std::function<void(std::uint64_t faces)> on_progress = {};
 };
 
