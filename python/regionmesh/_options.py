@@ -38,13 +38,18 @@ def rows(command):
     return found
 
 
-def _whole(name, value):
+def whole(name, value):
+    """Return the value as an int; TypeError where it is no whole number."""
     if isinstance(value, bool):
         raise TypeError(f"{name}={value!r}: not a whole number")
     try:
-        return str(operator.index(value))
+        return operator.index(value)
     except TypeError:
         raise TypeError(f"{name}={value!r}: not a whole number") from None
+
+
+def _whole(name, value):
+    return str(whole(name, value))
 
 
 def _number(name, value):

@@ -2,7 +2,6 @@
 
 import contextlib
 import itertools
-import operator
 import os
 import sys
 import tempfile
@@ -10,6 +9,7 @@ import tempfile
 import numpy as np
 
 from . import _core
+from ._options import whole
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 PATHS = (str, bytes, os.PathLike)
@@ -229,10 +229,7 @@ def _iterated(labels, sections):
     """An array or the calls for an iterable of sections."""
     count = len(labels) if hasattr(labels, "__len__") else sections
     if count is not None:
-        try:
-            count = operator.index(count)
-        except TypeError:
-            raise TypeError(f"sections={count!r}: not a whole number") from None
+        count = whole("sections", count)
         if not 0 <= count < 1 << 31:
             raise ValueError(f"sections={count}: not a number of sections")
     rest = iter(labels)

@@ -78,6 +78,8 @@ def test_a_wheel_brings_the_libraries_that_it_loads(wheel, tmp_path):
         assert len(found) >= len(names), file
         for line in found:
             assert brought in line
+    # A part of the C library that fits no other version of it.
+    assert not list((tmp_path / "regionmesh/lib").glob("libresolv*"))
 
 
 def test_a_wheel_holds_the_licences_of_what_it_brings(wheel):

@@ -97,12 +97,14 @@ private:
     if (code == kWrongInput || code == kUsage)
         throw Error(ErrorCode::kOutput, fmt::format("{} failed with exit code {} ({}); is it of another version?",
                                                     path.string(), code, ending.last_words));
-    const std::string why =
-        code == kNotLoaded ? fmt::format(" ({}): one of its libraries is missing, or", ending.last_words) : ":";
+    if (code == kNotLoaded)
+        throw Error(ErrorCode::kOutput, fmt::format("{} could not begin ({}): one of its libraries is missing, or the "
+                                                    "HDF5 library needs more memory; write another format",
+                                                    path.string(), ending.last_words));
     throw Error(ErrorCode::kOutput,
-                fmt::format("{} ended before the .dream3d file was complete{} the HDF5 library needs more memory; end "
+                fmt::format("{} ended before the .dream3d file was complete: the HDF5 library needs more memory; end "
                             "other programs, set a lower target, or write another format",
-                            path.string(), why));
+                            path.string()));
 }
 
 void write_model(const FileView& view, OutputFile& file) {
