@@ -19,9 +19,12 @@ constexpr std::size_t kGreyValues = 24;
 constexpr std::uint64_t kGreySamples = 200'000;  // that are not background: enough to judge
 constexpr std::uint32_t kGreySections = 1000;
 
-bool is_given(const Settings& settings, std::string_view name) {
-    return std::ranges::any_of(settings.given, [&](const auto& option) { return option.first == name; });
+const std::string* given(const Settings& settings, std::string_view name) {
+    const auto found = std::ranges::find(settings.given, name, &std::pair<std::string, std::string>::first);
+    return found == settings.given.end() ? nullptr : &found->second;
 }
+
+bool is_given(const Settings& settings, std::string_view name) { return given(settings, name) != nullptr; }
 
 /// Input labels on the faces: all that the input has, unless one fills it.
 std::set<InputLabel> labels_on(const Mesh& mesh, const LabelTable& labels) {
@@ -92,6 +95,21 @@ void warn_of_absent_labels(const Settings& settings, const Mesh& mesh, const Lab
         const std::string last = range.first == range.last ? "" : '-' + labels.text(range.last);
         if (!occurs) warn_of("labels", labels.text(range.first) + last);
     }
+}
+
+void warn_of_passes(const Settings& settings) {
+    const SmoothOptions& smooth = settings.reconstruct.smooth;
+    const bool is_lattice = smooth.filter == SmoothFilter::kAuto || smooth.filter == SmoothFilter::kLattice;
+    if (smooth.passes == 0 || !is_lattice) return;
+    const auto warn_of = [](const std::string& option, const char* what) {
+        warn(fmt::format("{}: the filter lattice {}; --smooth-filter taubin follows it", option, what));
+    };
+    const std::string* const much = given(settings, "smooth");
+    const bool is_number = much && much->find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && smooth.passes != SmoothOptions{}.passes)
+        warn_of("--smooth " + *much, "has no passes, and smooths as with normal (light and strong differ)");
+    if (smooth.move_points) warn_of("--smooth-points", "moves quadruple points without it");
+    if (is_given(settings, "smooth-lambda")) warn_of("--smooth-lambda", "does not use it");
 }
 
 void warn_of_grey_scale(const Settings& settings, SectionReader& reader) {

@@ -16,6 +16,9 @@ void require_regions(const Settings& settings, const CheckReport& report);
 /// least one face.
 void warn_of_absent_labels(const Settings& settings, const Mesh& mesh, const LabelTable& labels);
 
+/// Warns of options for filters with passes where the lattice filter smooths. `settings` are of sections.
+void warn_of_passes(const Settings& settings);
+
 /// Warns where the sections look like a grey-scale image: many values, and samples that differ from all four neighbours
 /// in their section, which labels have few of. Reads sections until it has seen enough, at most kGreySections, and
 /// rewinds before and after; does nothing where the reader cannot.

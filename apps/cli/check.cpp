@@ -51,7 +51,6 @@ bool has_samples(const Settings& settings) {
 std::optional<LabelOracle> oracle_of(const Settings& settings, LabelTable& labels) {
     if (settings.sections.empty()) return {};
     const CensusOptions census = census_options(settings);
-    require_fit(settings, settings.sections);
     if (is_lattice(settings, settings.sections))
         return translate(count_labels(*open_modelled(settings), census), labels);
     return translate(count_labels(*open_tetrahedra(settings.sections.front(), settings.tetrahedra), census), labels);
@@ -125,6 +124,7 @@ bool needs_whole(const Settings& settings) {
 }  // namespace
 
 int run_check(const Settings& given) {
+    require_fit(given, given.sections);
     require_readable_twice(given);
     require_page(given.html, given.writing);
     const std::string& path = given.models.front();

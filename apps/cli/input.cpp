@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "advice.h"
 #include "messages.h"
 #include "regionmesh/blocks.h"
 
@@ -29,7 +30,10 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
     static std::once_flag once;
     auto reader = open_lattice(settings, inputs);
     const VolumeInfo& info = reader->info();
-    if (!info.warning.empty()) std::call_once(once, [&] { warn(info.source + ": " + info.warning); });
+    std::call_once(once, [&] {
+        if (!info.warning.empty()) warn(info.source + ": " + info.warning);
+        warn_of_passes(settings);
+    });
     return reader;
 }
 

@@ -19,8 +19,8 @@ WantedVolumes volumes_of(const CheckReport& report) {
     return volumes;
 }
 
-/// Smooths, and reports it as reconstruct does. `before` is the check of the mesh as it came.
-Report smoothed(const Settings& settings, Mesh& mesh, const CheckReport& before) {
+/// Smooths, and reports it as reconstruct does. `before` is the check of the mesh in these axes.
+Report smoothed(const Settings& settings, Mesh& mesh, const BoxAxes& axes, const CheckReport& before) {
     Report report;
     report.initial_faces = report.final_faces = mesh.face_count();
     report.initial_vertices = report.final_vertices = mesh.vertex_count();
@@ -29,6 +29,7 @@ Report smoothed(const Settings& settings, Mesh& mesh, const CheckReport& before)
         const Timer timer(report.seconds["smooth"]);
         report.smoothing = smooth(mesh, smooth_options(settings, mesh));
     }
+    report.smoothing.scale_volumes(axes.volume_factor());
     report.unsmoothed_volumes = report.smoothing.volume_before;
     if (settings.reconstruct.preserve_volume) {
         const Timer timer(report.seconds["preserve volume"]);
@@ -55,7 +56,7 @@ int run_smooth(const Settings& given) {
     const CheckReport before = check(file.mesh, options);
     const LockedPart fixed = before.violation_count() > 0 ? lock_violations(file.mesh, options) : LockedPart{};
     if (!settings.reconstruct.cap) fix_rims(file.mesh);
-    Report report = smoothed(settings, file.mesh, before);
+    Report report = smoothed(settings, file.mesh, axes, before);
     axes.restore(file.mesh);
     report.check = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);

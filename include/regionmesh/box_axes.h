@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -31,6 +32,9 @@ public:
     BoxAxes(Mesh& mesh, const Lattice& lattice);
     /// Turns the mesh back. Vertices that did not move get the positions of before.
     void restore(Mesh& mesh) const;
+
+    /// How many times as large restore() makes volumes: 1 but for rounding, unless the box is sheared.
+    double volume_factor() const { return is_oblique() ? std::abs(dot(axes_[0], cross(axes_[1], axes_[2]))) : 1; }
 
     bool is_oblique() const { return !sorted_.empty(); }
     /// The lattice given, in the axes of the turned mesh; along the axes of space, as it is. None without a lattice, or

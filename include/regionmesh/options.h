@@ -169,7 +169,8 @@ std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std:
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);
 
-/// Throws Error(kUsage) where an option that was given does not apply to the input, or for two tables or meshes.
+/// Throws Error(kUsage) where an option that was given does not apply to the input, for two tables or meshes, and for
+/// options of inputs where there is none.
 void require_fit(const Settings& settings, const std::vector<std::string>& inputs);
 
 /// The options in a report, which the same command takes again: `options` of report_json(). Throws Error(kInput) for a

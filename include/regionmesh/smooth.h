@@ -57,6 +57,9 @@ struct SmoothReport {
     double filter_seconds = 0, guard_seconds = 0;
     std::vector<double> volume_before, volume_after;  // by dense label, length^3
     std::optional<Vec3> apex;                         // of the cones whose sums the volumes are
+
+    /// For a mesh that is moved to its place in space: its volumes are then `factor` times as large.
+    void scale_volumes(double factor);
 };
 
 /// With kTaubin, kLaplacian or kNifpms. Moves the vertices in place, except fixed ones; ids stay the same. Runs the

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -128,7 +129,8 @@ struct SampleAgreement {
         }
     };
     std::vector<Counts> regions;  // by dense label of the table; background labels are counted with the first of them
-    /// Over all regions: 2 sum |A and B| / sum (|A| + |B|).
+    std::optional<Label> background;  // the first of them
+    /// Over all regions but the background: 2 sum |A and B| / sum (|A| + |B|).
     double dice() const;
 };
 

@@ -306,6 +306,7 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
             const Timer timer(report.seconds["smooth"]);
             report.smoothing = smooth(made.mesh, smooth_with);
         }
+        report.smoothing.scale_volumes(axes.volume_factor());
         report.unsmoothed_volumes = report.smoothing.volume_before;
         if (settings.reconstruct.preserve_volume)
             report.preserved = preserve_volumes(made.mesh, volumes_of(before), smooth_with);

@@ -281,10 +281,11 @@ void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t fir
 
 double SampleAgreement::dice() const {
     Counts all;
-    for (const Counts& region : regions) {
-        all.in_sections += region.in_sections;
-        all.in_model += region.in_model;
-        all.in_both += region.in_both;
+    for (std::size_t label = 0; label < regions.size(); ++label) {
+        if (label == background) continue;
+        all.in_sections += regions[label].in_sections;
+        all.in_model += regions[label].in_model;
+        all.in_both += regions[label].in_both;
     }
     return all.dice();
 }
@@ -305,11 +306,13 @@ void count_runs(SampleAgreement& counts, const std::vector<Label>& background, s
         (in_model == in_section ? counts.regions[in_section].in_both : counts.wrong) += run;
     }
     counts.samples += given.size();
+    if (!background.empty()) counts.background = background.front();
 }
 
 void add(SampleAgreement& sum, const SampleAgreement& part) {
     sum.samples += part.samples;
     sum.wrong += part.wrong;
+    if (part.background) sum.background = part.background;
     sum.regions.resize(std::max(sum.regions.size(), part.regions.size()));
     for (std::size_t n = 0; n < part.regions.size(); ++n) {
         sum.regions[n].in_sections += part.regions[n].in_sections;

@@ -282,7 +282,7 @@ Rows tetrahedra_rows() {
                     [](Settings& s) { return &s.terrain; }),
         special_option({.name = "scale-z",
                         .help = "compute with z times this factor, rounded to a power of two; the model is not scaled. "
-                                "auto: from the holes, and with --layers",
+                                "auto: from the spacing, or from the holes; the default with --layers",
                         .group = kGroup,
                         .commands = kVolumeCommands,
                         .value = "auto|NUMBER",

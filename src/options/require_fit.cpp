@@ -56,6 +56,15 @@ void require_consistent_smoothing(const Settings& settings) {
         if (given(settings, name)) refuse_both(off, name, "nothing is smoothed");
 }
 
+/// Options that say how an input is read, where `check` is given none.
+void require_no_reading(const Settings& settings) {
+    for (const auto& [name, text] : settings.given)
+        if (const OptionSpec& option = *find_option(name); option.inputs != kAnyInput)
+            throw Error(ErrorCode::kUsage, fmt::format("{}: says how sections are read, and there are none; give "
+                                                       "--sections, too",
+                                                       typed(option, text)));
+}
+
 /// Options of a table that need layers, and one that they do not take.
 void require_layers(const Settings& settings, InputKind kind) {
     if (kind != kTableInput) return;
@@ -102,7 +111,7 @@ InputKind kind_of_input(const std::vector<std::string>& inputs) {
 }
 
 void require_fit(const Settings& settings, const std::vector<std::string>& inputs) {
-    if (inputs.empty()) return;
+    if (inputs.empty()) return require_no_reading(settings);
     const InputKind kind = kind_of_input(inputs);
     if (kind != kVolumeInput && inputs.size() > 1)
         throw Error(ErrorCode::kUsage, inputs[1] + ": one table or mesh at a time; give one");

@@ -92,13 +92,14 @@ Rows decimation_rows() {
 Rows smoothing_rows() {
     constexpr std::string_view kGroup = "Smoothing";
     return {
-        special_option({.name = "smooth",
-                        .help = "how much: off, light, normal, strong, or a number of passes; 0: none",
-                        .group = kGroup,
-                        .commands = kSmoothers,
-                        .value = "WORD|PASSES",
-                        .default_text = "normal"},
-                       OptionKind::kText, choose_strength),
+        special_option(
+            {.name = "smooth",
+             .help = "how much: off, light, normal, strong, or a number of passes, of which lattice has none; 0: off",
+             .group = kGroup,
+             .commands = kSmoothers,
+             .value = "WORD|PASSES",
+             .default_text = "normal"},
+            OptionKind::kText, choose_strength),
         word_option(
             {.name = "smooth-filter",
              .help = "lattice (sections only) makes surfaces smooth and keeps every sample; taubin keeps volumes "
@@ -123,7 +124,7 @@ Rows smoothing_rows() {
              .inputs = kVolumeInput | kTableInput},
             [](Settings& s) { return &s.reconstruct.room; }, kRoom),
         option({.name = "smooth-points",
-                .help = "quadruple points move along their lines, instead of not at all",
+                .help = "quadruple points move along their lines, instead of not at all; lattice moves them without it",
                 .group = kGroup,
                 .commands = kSmoothers},
                [](Settings& s) { return &s.reconstruct.smooth.move_points; }),

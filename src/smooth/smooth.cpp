@@ -33,6 +33,11 @@ void require_no_lattice(const SmoothOptions& options) {
                     "--smooth-filter lattice: only sections have a lattice to keep vertices in; use taubin");
 }
 
+void SmoothReport::scale_volumes(double factor) {
+    for (std::vector<double>* volumes : {&volume_before, &volume_after})
+        for (double& volume : *volumes) volume *= factor;
+}
+
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options) {
     if (options.passes == 0) return {};
     require_in_range(options);

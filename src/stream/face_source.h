@@ -72,6 +72,8 @@ public:
     virtual LabelOracle oracle() const = 0;
     /// Moves the finished mesh to its place in space.
     virtual void place(Mesh& mesh) const = 0;
+    /// How many times as large place() makes volumes.
+    virtual double volume_factor() const { return 1 / shape().scale_z; }
     /// False where the input has no samples or can be read only once, and for a mesh that is open at the box.
     virtual bool can_compare() const { return false; }
     /// Reads the input again, and compares its samples with the finished mesh. Requires can_compare().

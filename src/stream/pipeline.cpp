@@ -141,10 +141,8 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     give_back_freed_memory();
     result.report.pinned_vertices = release_all(result.mesh);
     source.place(result.mesh);
-    SmoothReport& smoothing = result.report.smoothing;
-    for (std::vector<double>* volumes :
-         {&result.report.unsmoothed_volumes, &smoothing.volume_before, &smoothing.volume_after})
-        for (double& volume : *volumes) volume /= shape.scale_z;
+    for (double& volume : result.report.unsmoothed_volumes) volume *= source.volume_factor();
+    result.report.smoothing.scale_volumes(source.volume_factor());
     result.mesh.compact();  // so that ids in the report are the numbers of points and faces in the written file
     const auto check = [&] { check_result(result, source, std::move(plan.oracle), options, log); };
     const auto hand_on = [&] {

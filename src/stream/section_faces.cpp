@@ -80,6 +80,8 @@ void SectionFaces::place(Mesh& mesh) const {
     place_in_space(mesh, reader_.info().lattice);
 }
 
+double SectionFaces::volume_factor() const { return std::abs(reader_.info().lattice.axes_volume()) / shape_.scale_z; }
+
 SampleAgreement SectionFaces::compare(const Mesh& mesh, std::uint32_t threads) {
     window_.reset();
     mesher_.reset();

@@ -32,6 +32,7 @@ public:
     const std::vector<Label>& background() const override { return background_; }
     LabelOracle oracle() const override { return census_->oracle(); }
     void place(Mesh& mesh) const override;
+    double volume_factor() const override;
     bool can_compare() const override { return options_.cap && reader_.info().can_rewind; }
     SampleAgreement compare(const Mesh& mesh, std::uint32_t threads) override;
 

@@ -52,6 +52,24 @@ TEST_F(Usage, options_that_contradict_each_other_are_refused_by_name) {
     EXPECT_EQ(run(reconstruct_ball("--face-budget 1000 --memory 1GB --memory-limit hard")).code, 0);
 }
 
+TEST_F(Usage, options_that_the_lattice_filter_does_not_follow_are_a_warning) {
+    const auto said = [&](const std::string& options) { return run(reconstruct_ball(options)).error; };
+    EXPECT_THAT(said("--smooth 50"), HasSubstr("warning: --smooth 50: the filter lattice has no passes"));
+    EXPECT_THAT(said("--smooth-points"), HasSubstr("warning: --smooth-points: "));
+    EXPECT_THAT(said("--smooth-lambda 0.3"), HasSubstr("warning: --smooth-lambda: "));
+    for (const char* options : {"--smooth 20", "--smooth light", "--smooth 0", "--smooth off",
+                                "--smooth-filter taubin --smooth 50 --smooth-points --smooth-lambda 0.3"})
+        EXPECT_EQ(said(options), "") << options;
+}
+
+TEST_F(Usage, a_check_without_sections_takes_no_options_of_them) {
+    const std::string model = path("m.vtp").string();
+    ASSERT_EQ(run("reconstruct " + of("ball") + " -o " + model).code, 0);
+    expect_refusal("check " + model + " --labels 1-3", 2, "--labels 1-3: ");
+    expect_refusal("check " + model + " --room 0.4", 2, "--room 0.4: ");
+    EXPECT_EQ(run("check " + model + " --background 0").code, 0);
+}
+
 TEST_F(Usage, sections_that_a_check_reads_twice_are_not_read_from_standard_input) {
     const std::string model = path("m.vtp").string();
     ASSERT_EQ(run("reconstruct " + of("ball") + " -o " + model).code, 0);

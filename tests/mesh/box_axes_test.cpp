@@ -98,6 +98,7 @@ void expect_box_kept(CellKind cells, const std::vector<InputLabel>& background, 
     const std::uint32_t faces = mesh.face_count();
     const BoxAxes axes(mesh);
     EXPECT_TRUE(axes.is_oblique());
+    EXPECT_NEAR(axes.volume_factor(), std::pow(0.8, shears), 1e-9);
     if (is_smoothed)
         smooth(mesh, {.filter = SmoothFilter::kTaubin, .passes = 10});
     else

@@ -57,5 +57,18 @@ TEST(ScaleZ, volumes_of_the_report_are_not_scaled) {
     }
 }
 
+TEST(ShearedVolume, volumes_of_the_report_are_those_in_space) {
+    test::ArrayVolume volume = test::grain_volume({12, 11, 10}, 5, 3);
+    volume.lattice().direction = {1, 0.6, 0, 0, 0.8, 0.6, 0, 0, -0.8};
+    const Reconstruction made = test::run(volume, {.scale_z = 4, .decimate = false, .background = {}});
+    double unsmoothed = 0;
+    for (const RegionReport& region : made.report.check.regions) {
+        EXPECT_NEAR(made.report.smoothing.volume_after[region.label], region.volume, 1e-9 * region.volume);
+        EXPECT_EQ(made.report.smoothing.volume_before[region.label], made.report.unsmoothed_volumes[region.label]);
+        unsmoothed += made.report.unsmoothed_volumes[region.label];
+    }
+    EXPECT_NEAR(unsmoothed, 11 * 10 * 9 * 0.64, 1e-9);
+}
+
 }  // namespace
 }  // namespace regionmesh
