@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "messages.h"
+#include "output.h"
 
 namespace regionmesh::cli {
 namespace {
@@ -18,13 +19,6 @@ constexpr double kGreyShare = 0.25;
 constexpr std::size_t kGreyValues = 24;
 constexpr std::uint64_t kGreySamples = 200'000;  // that are not background: enough to judge
 constexpr std::uint32_t kGreySections = 1000;
-
-const std::string* given(const Settings& settings, std::string_view name) {
-    const auto found = std::ranges::find(settings.given, name, &std::pair<std::string, std::string>::first);
-    return found == settings.given.end() ? nullptr : &found->second;
-}
-
-bool is_given(const Settings& settings, std::string_view name) { return given(settings, name) != nullptr; }
 
 /// Input labels on the faces: all that the input has, unless one fills it.
 std::set<InputLabel> labels_on(const Mesh& mesh, const LabelTable& labels) {
@@ -68,26 +62,31 @@ struct GreyCount {
 void require_regions(const Settings& settings, const CheckReport& report) {
     if (!report.regions.empty()) return;
     const ReconstructOptions& options = settings.reconstruct;
-    std::string why = "it has one label only, which has no face with --boundary open; give --boundary cap";
+    const std::string what = options.room > 0 ? "what --room left of it" : "it";
+    std::string why = what + " has one label only, which has no face with --boundary open; give --boundary cap";
     if (options.cap) {
-        why = "all of it is background";
-        why += is_given(settings, "labels") ? ": it has none of the --labels; regionmesh info lists those that it has"
-                                            : "; give another --background, or --no-background";
+        why = "all of " + what + " is background";
+        why += given_text(settings, "labels") ? ": it has none of the --labels; regionmesh info lists those that it has"
+                                              : "; give another --background, or --no-background";
     }
     throw Error(ErrorCode::kInput, settings.inputs.front() + ": there is no region to model: " + why);
 }
 
 void warn_of_absent_labels(const Settings& settings, const Mesh& mesh, const LabelTable& labels) {
-    const bool has_background = is_given(settings, "background"), has_labels = is_given(settings, "labels");
+    const bool has_background = given_text(settings, "background"), has_labels = given_text(settings, "labels");
     if (!has_background && !has_labels) return;
     const std::set<InputLabel> found = labels_on(mesh, labels);
     const auto warn_of = [&](const char* option, const std::string& label) {
         warn(fmt::format("--{} {}: {} has no such label; regionmesh info lists those that it has", option, label,
                          settings.inputs.front()));
     };
-    if (has_background)
+    if (has_background) {
+        std::vector<InputLabel> absent;
         for (const InputLabel label : settings.reconstruct.background)
-            if (!found.contains(label)) warn_of("background", labels.text(label));
+            if (!found.contains(label)) absent.push_back(label);
+        const std::string more = absent.size() > 1 ? fmt::format(" and {} more", grouped(absent.size() - 1)) : "";
+        if (!absent.empty()) warn_of("background", labels.text(absent.front()) + more);
+    }
     for (const LabelRange& range : settings.volume.select.labels) {
         const bool occurs = std::ranges::any_of(found, [&](InputLabel label) {
             return !labels.less(label, range.first) && !labels.less(range.last, label);
@@ -104,12 +103,12 @@ void warn_of_passes(const Settings& settings) {
     const auto warn_of = [](const std::string& option, const char* what) {
         warn(fmt::format("{}: the filter lattice {}; --smooth-filter taubin follows it", option, what));
     };
-    const std::string* const much = given(settings, "smooth");
+    const std::string* const much = given_text(settings, "smooth");
     const bool is_number = much && much->find_first_not_of("0123456789") == std::string::npos;
     if (is_number && smooth.passes != SmoothOptions{}.passes)
         warn_of("--smooth " + *much, "has no passes, and smooths as with normal (light and strong differ)");
     if (smooth.move_points) warn_of("--smooth-points", "moves quadruple points without it");
-    if (is_given(settings, "smooth-lambda")) warn_of("--smooth-lambda", "does not use it");
+    if (given_text(settings, "smooth-lambda")) warn_of("--smooth-lambda", "does not use it");
 }
 
 void warn_of_grey_scale(const Settings& settings, SectionReader& reader) {

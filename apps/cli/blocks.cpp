@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
 #include "memory_watch.h"
@@ -141,32 +142,20 @@ void require_fit_of_blocks(const Settings& settings) {
                     settings.inputs.front() + ": blocks are for sections; name a file for the model in --output");
 }
 
-/// Sections with the names that --names gives.
-class DescribedReader final : public SectionReader {
-public:
-    DescribedReader(std::unique_ptr<SectionReader> reader, const Settings& settings)
-        : reader_(std::move(reader)), info_(reader_->info()) {
-        auto [names, colours] = describe(settings, info_.names, info_.colours);
-        info_.names = std::move(names);
-        info_.colours = std::move(colours);
-    }
-    const VolumeInfo& info() const override { return info_; }
-    bool next(std::span<InputLabel> section) override { return reader_->next(section); }
-    void rewind() override { reader_->rewind(); }
-    bool crop(const IndexBox& box) override {
-        if (!reader_->crop(box)) return false;
-        info_.lattice = cropped(info_.lattice, box);
-        return true;
-    }
-
-private:
-    std::unique_ptr<SectionReader> reader_;
-    VolumeInfo info_;
-};
+/// The volume, with the names that --names gives.
+std::unique_ptr<SectionReader> open_described(const Settings& settings) {
+    auto reader = open_volume(settings, settings.inputs);
+    VolumeInfo info = reader->info();
+    auto [names, colours] = describe(settings, info.names, info.colours);
+    info.names = std::move(names);
+    info.colours = std::move(colours);
+    return describe_sections(std::move(reader), std::move(info));
+}
 
 void print_summary(const Settings& settings, const BlockReport& report) {
-    if (report.stopped == "topology" || report.stopped == "max_error")
-        say("decimation ended by {}, with {}", report.stopped == "topology" ? "topology or quality" : "--max-error",
+    if (report.stopped == StopReason::kTopology || report.stopped == StopReason::kMaxError)
+        say("decimation ended by {}, with {}",
+            report.stopped == StopReason::kTopology ? "topology or quality" : "--max-error",
             counted(report.final_faces, "face"));
     say("made: {}, {} (from {} faces), in {} of up to {} cells; {} made{} and {} found complete",
         counted(report.final_faces, "face"), counted(report.final_vertices, "vertex"), grouped(report.initial_faces),
@@ -238,8 +227,7 @@ int run_blocks(const Settings& settings) {
                               .output = settings.writing};
     ProgressLine line(settings.quiet || !tasks.is_first());
     const BlockReport report = reconstruct_blocks(
-        [&] { return std::make_unique<DescribedReader>(open_volume(settings, settings.inputs), settings); },
-        settings.reconstruct, blocks, tasks,
+        [&] { return open_described(settings); }, settings.reconstruct, blocks, tasks,
         [&](const BlockProgress& progress) {
             Progress shown;
             shown.stage = progress.stage;
@@ -249,7 +237,10 @@ int run_blocks(const Settings& settings) {
             line.show(shown);
         });
     line.clear();
-    if (tasks.is_first()) print_summary(settings, report);
+    if (tasks.is_first()) {
+        warn_of_passes(settings);
+        print_summary(settings, report);
+    }
     return kGood;
 }
 

@@ -1,7 +1,6 @@
-#include <fmt/core.h>
-
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
 #include "page_output.h"
 #include "printable.h"
@@ -18,27 +17,13 @@ std::unique_ptr<SectionReader> open_modelled(const Settings& settings) {
     return clean_sections(open_volume(settings, settings.sections), options.room, options.threads);
 }
 
-/// The oracle in the dense labels of the model's table; labels that the model does not have are added to it.
-template <class AnyCensus>
-LabelOracle translate(const AnyCensus& census, LabelTable& labels) {
-    LabelOracle oracle = census.oracle;
-    std::vector<std::int64_t> euler;
-    for (Label dense = 0; dense < oracle.euler.size(); ++dense) {
-        const Label in_model = labels.dense(census.labels.input(dense));
-        if (in_model >= euler.size()) euler.resize(in_model + 1, 0);
-        euler[in_model] = oracle.euler[dense];
-    }
-    oracle.euler = std::move(euler);
-    return oracle;
-}
-
 void print_findings(const std::string& name, const CheckReport& report) {
-    fmt::print("{}: {}, {} with an interface, {} inside, lowest quality {:.3f}, mean {:.3f}\n", printable(name),
-               counted(report.regions.size(), "region"), counted(report.region_pairs, "pair"),
-               counted(report.quadruple_points_inside, "quadruple point"), report.quality.min, report.quality.mean);
-    if (report.regions.empty()) fmt::print("it has no regions: nothing was checked\n");
+    say("{}: {}, {} with an interface, {} inside, lowest quality {:.3f}, mean {:.3f}", printable(name),
+        counted(report.regions.size(), "region"), counted(report.region_pairs, "pair"),
+        counted(report.quadruple_points_inside, "quadruple point"), report.quality.min, report.quality.mean);
+    if (report.regions.empty()) say("it has no regions: nothing was checked");
     print_violations(report, kListed);
-    if (report.violation_count() == 0) fmt::print("no violations\n");
+    if (report.violation_count() == 0) say("no violations");
     print_orient_hint(report);
 }
 
@@ -51,9 +36,9 @@ bool has_samples(const Settings& settings) {
 std::optional<LabelOracle> oracle_of(const Settings& settings, LabelTable& labels) {
     if (settings.sections.empty()) return {};
     const CensusOptions census = census_options(settings);
-    if (is_lattice(settings, settings.sections))
-        return translate(count_labels(*open_modelled(settings), census), labels);
-    return translate(count_labels(*open_tetrahedra(settings.sections.front(), settings.tetrahedra), census), labels);
+    const auto in_labels = [&](const auto& counted) { return relabelled(counted.oracle, counted.labels, labels); };
+    if (is_lattice(settings, settings.sections)) return in_labels(count_labels(*open_modelled(settings), census));
+    return in_labels(count_labels(*open_tetrahedra(settings.sections.front(), settings.tetrahedra), census));
 }
 
 /// Sections are read for the labels, and again where there are samples to compare.
@@ -68,7 +53,7 @@ std::optional<SampleAgreement> compare_with_sections(const Settings& settings, M
                                                      const CheckOptions& options) {
     if (!has_samples(settings)) return {};
     const auto reader = open_modelled(settings);
-    return compare_samples(file.mesh, file.labels, options.background, *reader);
+    return compare_samples(file.mesh, file.labels, options.background, *reader, options.threads);
 }
 
 /// Is the background of the volume the exterior of the model?
@@ -78,40 +63,28 @@ bool has_exterior_for_background(const Settings& settings, const MeshFile& file)
            lacks_background(file, settings.models.front(), background.front());
 }
 
-void print_samples(const SampleAgreement& samples) {
-    if (samples.wrong == 0)
-        fmt::print("every one of {} samples keeps its label\n", samples.samples);
-    else
-        fmt::print("{} of {} samples lie in another region; Dice {:.6f}\n", samples.wrong, samples.samples,
-                   samples.dice());
-}
-
 /// Piece by piece: memory never holds the model.
 int check_folder(const Settings& given) {
     const std::string& path = given.models.front();
     MeshFile file = describe_block_folder(path);
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
-    options.threads = settings.reconstruct.threads;
     std::optional<SampleAgreement> samples;
     if (!settings.sections.empty()) {
         const auto reader = open_modelled(settings);
-        options.oracle = translate(count_labels(*reader, census_options(settings)), file.labels);
+        const Census census = count_labels(*reader, census_options(settings));
+        options.oracle = relabelled(census.oracle, census.labels, file.labels);
         if (!has_lattice_of(path, reader->info()))
             throw Error(ErrorCode::kInput, settings.sections.front() + ": its samples do not lie where those of " +
                                                path + " do; give the volume that the model was made from");
-        if (has_samples(settings)) {
-            samples = compare_block_samples(path, file.labels, options.background, *reader);
-        }
+        if (has_samples(settings)) samples = compare_block_samples(path, file.labels, options.background, *reader);
     }
     const CheckReport report = check_block_folder(path, options);
     if (!settings.json.empty())
         write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr),
                    settings.writing);
-    if (!settings.quiet) {
-        print_findings(path, report);
-        if (samples) print_samples(*samples);
-    }
+    print_findings(path, report);
+    if (samples) say("{}", samples_text(*samples, settings.reconstruct.room > 0));
     return exit_code(report);
 }
 
@@ -138,7 +111,6 @@ int run_check(const Settings& given) {
     }
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
-    options.threads = settings.reconstruct.threads;
     options.oracle = oracle_of(settings, file.labels);
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
@@ -151,10 +123,8 @@ int run_check(const Settings& given) {
         write_page(settings.html, {page_model(path, model)},
                    page_options(kCheck, settings, json, options.oracle.has_value()), files);
     files.commit();
-    if (!settings.quiet) {
-        print_findings(path, report);
-        if (samples) print_samples(*samples);
-    }
+    print_findings(path, report);
+    if (samples) say("{}", samples_text(*samples, settings.reconstruct.room > 0));
     return exit_code(report);
 }
 

@@ -34,16 +34,6 @@ struct Texts {
     }
 };
 
-/// "lowest quality of a face (faces; at least 0; default 0.1)".
-std::string description_of(const OptionSpec& spec) {
-    std::string notes;
-    const auto note = [&](const std::string& text) { notes += (notes.empty() ? " (" : "; ") + text; };
-    if (!spec.unit.empty()) note(std::string(spec.unit));
-    if (!spec.range.empty()) note(spec.range);
-    if (!spec.default_text.empty()) note("default " + spec.default_text);
-    return std::string(spec.help) + notes + (notes.empty() ? "" : ")");
-}
-
 void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Texts& texts) {
     texts.spec = &spec;
     const std::string flags = spec.letter ? std::string{'-', spec.letter} + ',' + spec.flag() : spec.flag();

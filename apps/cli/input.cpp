@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <mutex>
 
-#include "advice.h"
 #include "messages.h"
 #include "regionmesh/blocks.h"
 
@@ -30,10 +29,7 @@ std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::
     static std::once_flag once;
     auto reader = open_lattice(settings, inputs);
     const VolumeInfo& info = reader->info();
-    std::call_once(once, [&] {
-        if (!info.warning.empty()) warn(info.source + ": " + info.warning);
-        warn_of_passes(settings);
-    });
+    if (!info.warning.empty()) std::call_once(once, [&] { warn(info.source + ": " + info.warning); });
     return reader;
 }
 
@@ -79,6 +75,7 @@ Settings settings_for(const Settings& settings, const MeshFile& file) {
 CheckOptions check_options(const Settings& settings, LabelTable& labels) {
     CheckOptions options;
     options.boundary_is_open = !settings.reconstruct.cap;
+    options.threads = settings.reconstruct.threads;
     for (InputLabel label : settings.reconstruct.background) options.background.push_back(labels.dense(label));
     options.label_text = [&labels](Label label) { return labels.text(labels.input(label)); };
     return options;

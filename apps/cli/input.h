@@ -13,8 +13,7 @@
 
 namespace regionmesh::cli {
 
-/// open_lattice(), with warnings of what the reader decided and of options without effect: once in a run, which may
-/// open its input several times.
+/// open_lattice(), with a warning of what the reader decided: once in a run, which may open its input several times.
 std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::vector<std::string>& inputs);
 
 /// Calls visit(reader) with the reader of the input, of either kind, and returns the result. Throws Error(kUsage) for

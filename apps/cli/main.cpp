@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -126,12 +125,30 @@ void let_writes_fail() {
 }
 
 void add_commands(CLI::App& app, bool has_config, Action& action) {
-    // In the order of command_table().
-    constexpr int (*kRuns[])(const Settings&) = {run_reconstruct, run_decimate, run_smooth,   run_check, run_convert,
-                                                 run_compare,     run_info,     run_voxelise, run_view};
-    assert(std::size(kRuns) == command_table().size());
-    for (std::size_t n = 0; n < std::size(kRuns); ++n)
-        add_command(app, command_table()[n], kRuns[n], has_config, action);
+    const auto run_of = [](Command command) {
+        switch (command) {
+            case kReconstruct:
+                return run_reconstruct;
+            case kDecimate:
+                return run_decimate;
+            case kSmooth:
+                return run_smooth;
+            case kCheck:
+                return run_check;
+            case kConvert:
+                return run_convert;
+            case kCompare:
+                return run_compare;
+            case kInfo:
+                return run_info;
+            case kVoxelise:
+                return run_voxelise;
+            case kView:
+                break;
+        }
+        return run_view;
+    };
+    for (const CommandSpec& spec : command_table()) add_command(app, spec, run_of(spec.command), has_config, action);
 }
 
 /// Options that are not in help texts: each prints docs/reference/command-line.md, the page for man(1), or a script for

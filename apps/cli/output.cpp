@@ -135,27 +135,29 @@ void print_violations(const CheckReport& report, int listed) {
     }
 }
 
+std::string samples_text(const SampleAgreement& samples, bool has_room) {
+    if (samples.wrong == 0)
+        return fmt::format("every one of {} samples keeps its label{}", grouped(samples.samples),
+                           has_room ? ", or the one that --room gave it" : "");
+    return fmt::format("{} of {} samples lie in another region, Dice {:.6f}", grouped(samples.wrong),
+                       grouped(samples.samples), samples.dice());
+}
+
 void print_certificate(const Report& run) {
     const CheckReport& report = run.check;
-    const std::optional<SampleAgreement>& samples = run.samples;
     std::string text = report.violation_count() == 0 ? "no violations" : counts_text(report);
-    if (samples)
-        text += samples->wrong == 0
-                    ? fmt::format("; every one of {} samples keeps its label{}", grouped(samples->samples),
-                                  run.samples_in_room > 0 ? ", or the one that --room gave it" : "")
-                    : fmt::format("; {} of {} samples lie in another region, Dice {:.6f}", grouped(samples->wrong),
-                                  grouped(samples->samples), samples->dice());
+    if (run.samples) text += "; " + samples_text(*run.samples, run.samples_in_room > 0);
     say("checked: {}", text);
 }
 
 void print_stop(const Settings& settings, const Report& report) {
     const char* reason = nullptr;
-    if (report.stopped == "topology")
+    if (report.stopped == StopReason::kTopology)
         reason = settings.inputs.empty() || !is_lattice(settings, settings.inputs)
                      ? "every further collapse would change topology, or fold, cross or degrade faces"
                      : "every further collapse would change topology, fold, cross or degrade faces, "
                        "or carry samples into other regions";
-    if (report.stopped == "max_error") reason = "every further collapse would exceed --max-error";
+    if (report.stopped == StopReason::kMaxError) reason = "every further collapse would exceed --max-error";
     const ReconstructOptions& asked = settings.reconstruct;
     const bool is_missed = asked.target_faces || asked.reduce;
     if (!reason || (settings.quiet && !is_missed)) return;
@@ -170,10 +172,11 @@ void print_orient_hint(const CheckReport& report) {
         say("faces with opposite orientations: --orient turns them");
 }
 
-void print_fixed_part(const LockedPart& fixed, const CheckReport& before, const CheckReport& after) {
+void print_locked_part(const ModelChange& change) {
+    const CheckReport &before = change.before, &after = change.report.check;
     if (before.violation_count() > 0)
-        say("{} vertices and {} faces not changed, because of violations in the input: {}", fixed.vertices, fixed.faces,
-            counts_text(before));
+        say("{} vertices and {} faces not changed, because of violations in the input: {}", change.locked.vertices,
+            change.locked.faces, counts_text(before));
     print_orient_hint(before);
     for (int kind = 0; kind < kViolationKindCount; ++kind)
         if (after.counts[kind] > before.counts[kind])

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "regionmesh/change_model.h"
 #include "regionmesh/formats.h"
 #include "regionmesh/options.h"
 #include "regionmesh/regionmesh.h"
@@ -70,6 +71,8 @@ void print_improved(const Report& report);
 
 /// Prints "violation KIND: COUNT" for each kind found, and at most `listed` findings of each.
 void print_violations(const CheckReport& report, int listed);
+/// How many samples lie in the region of their label, or of the one that --room gave them.
+std::string samples_text(const SampleAgreement& samples, bool has_room);
 /// One line on what was proved: violations, and samples that lie in another region.
 void print_certificate(const Report& report);
 
@@ -80,6 +83,6 @@ void print_stop(const Settings& settings, const Report& report);
 void print_orient_hint(const CheckReport& report);
 
 /// Prints which part of an invalid model was not changed, and which violations became more.
-void print_fixed_part(const LockedPart& fixed, const CheckReport& before, const CheckReport& after);
+void print_locked_part(const ModelChange& change);
 
 }  // namespace regionmesh::cli

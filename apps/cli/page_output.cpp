@@ -32,7 +32,6 @@ std::string command_line_of(Command command, const Settings& settings) {
     std::string line = "regionmesh " + std::string(spec_of(command).name);
     for (const auto& [name, text] : made_by(command, settings).options) {
         const OptionSpec& option = *find_option(name);
-        if (option.kind == OptionKind::kFlag && text != "true") continue;
         if (!option.is_argument) line += ' ' + option.flag();
         if (option.kind != OptionKind::kFlag) line += ' ' + quoted(text);
     }
@@ -45,6 +44,7 @@ PageOptions page_options(Command command, const Settings& settings, std::string 
     options.command_line = command_line_of(command, settings);
     options.report = std::move(report);
     options.has_labels = has_labels;
+    options.boundary_is_open = !settings.reconstruct.cap;
     if (command == kReconstruct || command == kDecimate) {
         options.min_quality = settings.reconstruct.min_quality;
         options.max_error = settings.reconstruct.max_error;

@@ -32,8 +32,7 @@ void print_memory(const ReconstructOptions& options, const Report& report) {
             say("held {} faces, more than --face-budget {}: it is below what the target, topology or --max-error leave",
                 grouped(report.peak_faces), grouped(*options.face_budget));
     } else if (is_far_above(report.peak_bytes, options.memory)) {
-        const bool is_held =
-            report.stopped == to_string(StopReason::kTopology) || report.stopped == to_string(StopReason::kMaxError);
+        const bool is_held = report.stopped == StopReason::kTopology || report.stopped == StopReason::kMaxError;
         say("used more than --memory, {} MB: {}", grouped(options.memory / 1000000),
             is_held ? "the faces left by topology or --max-error are not known before the work"
                     : "this surface takes more than the plan counts for one of so many faces");
@@ -167,6 +166,7 @@ int run_reconstruct(const Settings& settings) {
     Reconstruction made = reconstruct_input(settings, notes, write);
     require_regions(settings, made.report.check);
     warn_of_absent_labels(settings, made.mesh, made.labels);
+    if (is_lattice(settings, settings.inputs)) warn_of_passes(settings);
     Report& report = made.report;
     report.seconds["write"] = writing;
     const Model model{made.mesh, made.labels, made.background, names, colours, notes.space};

@@ -1,9 +1,9 @@
-#include <fmt/core.h>
-
 #include "commands.h"
 #include "input.h"
+#include "messages.h"
 #include "output.h"
 #include "page_output.h"
+#include "printable.h"
 
 namespace regionmesh::cli {
 
@@ -12,19 +12,16 @@ int run_view(const Settings& given) {
     const std::string& path = given.models.front();
     MeshFile file = read_model(path, given.surface);
     const Settings settings = settings_for(given, file);
-    CheckOptions options = check_options(settings, file.labels);
-    options.threads = settings.reconstruct.threads;
+    const CheckOptions options = check_options(settings, file.labels);
     const CheckReport report = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);
     OutputFiles files(settings.writing);
     write_page(settings.output, {page_model(path, {file.mesh, file.labels, options.background, names, colours})},
                page_options(kView, settings, check_json(report, file.labels, names), false), files);
     files.commit();
-    if (!settings.quiet) {
-        fmt::print("{}: {}, {}, {}\n", settings.output, counted(file.mesh.face_count(), "face"),
-                   counted(report.regions.size(), "region"), counted(report.violation_count(), "violation"));
-        print_violations(report, 0);
-    }
+    say("{}: {}, {}, {}", printable(settings.output), counted(file.mesh.face_count(), "face"),
+        counted(report.regions.size(), "region"), counted(report.violation_count(), "violation"));
+    print_violations(report, 0);
     return kGood;
 }
 

@@ -64,7 +64,7 @@ struct BlockReport {
     std::uint32_t pieces = 0, block_cells = 0;  // of the last pass
     std::uint64_t initial_faces = 0, final_faces = 0, final_vertices = 0;
     std::uint32_t made = 0, found = 0;  // pieces of all passes: by this process, and complete from an earlier run
-    std::string stopped;                // as Report::stopped
+    StopReason stopped = StopReason::kNoneAsked;
     double error_bound = 0;
     std::uint64_t peak_bytes = 0;  // of this process
     double seconds = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 #include "regionmesh/vec3.h"
 
@@ -108,6 +109,11 @@ enum class Space { kUnknown, kRas, kLps };
 /// "RAS" or "LPS"; empty for kUnknown.
 constexpr const char* space_name(Space space) {
     return space == Space::kRas ? "RAS" : space == Space::kLps ? "LPS" : "";
+}
+
+/// The space of that name; kUnknown for any other text.
+constexpr Space space_named(std::string_view name) {
+    return name == "RAS" ? Space::kRas : name == "LPS" ? Space::kLps : Space::kUnknown;
 }
 
 /// The order in which a volume is read: section s lies at index s of axis `axes[2]`; inside it, `axes[0]` runs fastest.

@@ -1,5 +1,5 @@
-// The largest sizes that 32-bit ids, and what is packed into them, can hold. Each limit is defined here and nowhere
-// else.
+// The largest sizes that 32-bit ids, and what is packed into them, can hold, and the memory that work may take. Each
+// limit is defined here and nowhere else.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +35,9 @@ inline constexpr double kMostExtent = 1e20;
 /// Largest ratio of a coordinate, and of a spacing, to the smallest spacing. Numbers of 53 binary digits then resolve
 /// 1/4096 of the smallest spacing everywhere in the volume.
 inline constexpr double kMostSpacings = 0x1p40;
+
+/// Bytes that work is planned for where nothing else is asked.
+inline constexpr std::uint64_t kDefaultMemory = std::uint64_t{2} << 30;
 
 /// Throws Error(kInput) where spacing, origin or extent lie outside these bounds, or are no numbers, and where there
 /// are no samples; `what` names the volume.

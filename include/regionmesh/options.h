@@ -53,7 +53,7 @@ struct Settings {
     std::optional<std::uint32_t> block_cells = {};  // BlockOptions::block_cells; the output is then a folder
     bool memory_is_hard = false;                    // the program ends rather than exceed reconstruct.memory
 
-    OptionValues given;  // set by apply_options()
+    OptionValues given;  // set by apply_options(), without flags that are "false"
 };
 
 /// Kind of the value of an option: how it is written as text, and its type in a binding.
@@ -147,6 +147,9 @@ std::filesystem::path file_of_input(const std::string& input);
 /// temporary files, start the helper programs. Looks at the files.
 SandboxRules sandbox_rules(const Settings& settings);
 
+/// The text of an option that was given; null where it was not.
+const std::string* given_text(const Settings& settings, std::string_view name);
+
 /// Whether --background or --no-background is given: a model file may say what its background is.
 bool has_background(const Settings& settings);
 
@@ -179,6 +182,12 @@ OptionValues options_of_report(const std::string& path, const CommandSpec& comma
 
 /// Placeholder of the value in help texts: "COUNT", "auto|x|y|z"; empty for flags.
 std::string value_name(const OptionSpec& option);
+
+/// "lowest quality of a face (faces; at least 0; default 0.1)": help, unit, range and default.
+std::string description_of(const OptionSpec& option);
+
+/// "reconstruct, info": the commands of a set of bits.
+std::string names_of_commands(std::uint32_t commands);
 
 /// A page for man(1), in the language of groff.
 std::string manual_page();

@@ -31,6 +31,7 @@ struct PageOptions {
     std::string command_line = {};  // as typed
     std::string report = {};        // JSON text of report_json(), check_json() or compare_json(); may be empty
     bool has_labels = false;        // the report compares the topology with the labels of the input
+    bool boundary_is_open = false;  // regions are open at the box
     std::optional<double> min_quality = {};  // bound that decimation kept for changed faces
     std::optional<double> max_error = {};    // bound on the error of decimation, a length
     std::uint32_t preview_faces = 500'000;   // a model with more faces is simplified for the page

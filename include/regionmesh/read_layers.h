@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "regionmesh/limits.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
 #include "regionmesh/section_reader.h"
@@ -22,9 +23,9 @@ struct LayerOptions {
     std::array<LengthRange, 3> box{};    // of the model; without a bound: that of the holes, and a margin
     std::filesystem::path terrain = {};  // ESRI ASCII grid of the heights of the ground; none: between the collars
     SweepChoice sweep = SweepChoice::kAuto;
-    std::uint64_t memory = std::uint64_t{2} << 30;  // most bytes of the heights of all surfaces and of the terrain
-    std::uint64_t max_work = kMostWork;             // samples, and evaluations of the surfaces
-    std::uint32_t threads = 0;                      // 0: one per core. The result does not depend on it
+    std::uint64_t memory = kDefaultMemory;  // most bytes of the heights of all surfaces and of the terrain
+    std::uint64_t max_work = kMostWork;     // samples, and evaluations of the surfaces
+    std::uint32_t threads = 0;              // 0: one per core. The result does not depend on it
 };
 
 /// What open_layers() found.

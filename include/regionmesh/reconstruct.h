@@ -9,6 +9,7 @@
 
 #include "regionmesh/census.h"
 #include "regionmesh/label_table.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/report.h"
 #include "regionmesh/section_reader.h"
@@ -40,7 +41,7 @@ struct ReconstructOptions {
     bool intersect_check = true;
     bool cap = true;                                // --boundary cap; false: open
     std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
-    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes that the work is planned for (docs/memory.md)
+    std::uint64_t memory = kDefaultMemory;          // bytes that the work is planned for (docs/memory.md)
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of deriving it from memory
     std::uint32_t threads = 0;                      // 0: one per core. The result does not depend on it
     std::uint32_t strips_per_chunk = 1;  // strips meshed before they are merged; decimation in tiles sets its own

@@ -9,6 +9,7 @@
 
 #include "regionmesh/check.h"
 #include "regionmesh/improve.h"
+#include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
 #include "regionmesh/verdict.h"
 #include "regionmesh/voxelise.h"
@@ -31,7 +32,7 @@ struct Report {
     std::uint64_t pinned_vertices = 0;  // where tetrahedra touch themselves: not moved, not collapsed
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
-    std::string stopped;                    // why decimation ended: "target", "max_error", "topology", "none asked"
+    StopReason stopped = StopReason::kNoneAsked;
     std::optional<ImproveResult> improved;  // where ReconstructOptions::improve asked for it
     double error_bound = 0;  // no point of the surface before or after decimation is farther from the other
     CheckReport check;

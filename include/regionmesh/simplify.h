@@ -40,11 +40,13 @@ struct SimplifyOptions {
     std::function<void(std::uint64_t faces)> on_progress = {};
 };
 
-enum class StopReason { kTarget, kMaxError, kTopology };
+/// Why decimation ended; kNoneAsked where there was none.
+enum class StopReason { kTarget, kMaxError, kTopology, kNoneAsked };
 
-/// As reports have it: "target", "max_error", "topology".
+/// As reports have it: "target", "max_error", "topology", "none asked".
 constexpr const char* to_string(StopReason reason) {
-    return reason == StopReason::kTarget ? "target" : reason == StopReason::kMaxError ? "max_error" : "topology";
+    constexpr const char* kTexts[] = {"target", "max_error", "topology", "none asked"};
+    return kTexts[static_cast<std::size_t>(reason)];
 }
 
 struct SimplifyResult {

@@ -7,16 +7,14 @@
 #include <utility>
 
 #include "regionmesh/blocks.h"
-#include "regionmesh/box_axes.h"
 #include "regionmesh/census.h"
+#include "regionmesh/change_model.h"
 #include "regionmesh/check.h"
 #include "regionmesh/compare.h"
 #include "regionmesh/error.h"
-#include "regionmesh/improve.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/mesh_file.h"
-#include "regionmesh/process.h"
 #include "regionmesh/select_sections.h"
 #include "regionmesh/voxelise.h"
 #include "regionmesh/write_report.h"
@@ -97,45 +95,8 @@ CheckOptions check_options(const Model& model, std::uint32_t threads) {
     return options;
 }
 
-/// The report of a change to a mesh, before the change. Parts with violations are locked.
-Report begin_change(Mesh& mesh, const CheckReport& before, const CheckOptions& options) {
-    Report report;
-    report.initial_faces = report.peak_faces = mesh.face_count();
-    report.initial_vertices = mesh.vertex_count();
-    if (before.violation_count() > 0) lock_violations(mesh, options);
-    return report;
-}
-
-/// Unlocks, checks and describes the changed mesh.
-void end_change(Model& model, Report& report, const CheckOptions& options) {
-    model.mesh.compact();
-    for (std::uint32_t v = 0; v < model.mesh.vertex_end(); ++v) model.mesh[VertexId{v}].is_fixed = false;
-    report.check = check(model.mesh, options);
-    report.final_faces = model.mesh.face_count();
-    report.final_vertices = model.mesh.vertex_count();
-    report.peak_bytes = peak_resident_bytes();
-    model.report = report_json(report, model.labels, model.names);
-}
-
-WantedVolumes volumes_of(const CheckReport& report) {
-    WantedVolumes volumes;
-    for (const RegionReport& region : report.regions) {
-        if (region.label >= volumes.size()) volumes.resize(region.label + 1);
-        volumes[region.label] = region.volume;
-    }
-    return volumes;
-}
-
-/// The oracle of a volume in the dense labels of a model; labels that the model does not have are added to `labels`.
-LabelOracle translate(const Census& census, LabelTable& labels) {
-    LabelOracle oracle = census.oracle;
-    oracle.euler.clear();
-    for (Label dense = 0; dense < census.oracle.euler.size(); ++dense) {
-        const Label in_model = labels.dense(census.labels.input(dense));
-        if (in_model >= oracle.euler.size()) oracle.euler.resize(in_model + 1, 0);
-        oracle.euler[in_model] = census.oracle.euler[dense];
-    }
-    return oracle;
+void describe(Model& made, const ModelChange& change) {
+    made.report = report_json(change.report, made.labels, made.names);
 }
 
 std::vector<InputLabel> background_of(const Model& model) {
@@ -252,41 +213,16 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
     Settings settings = settings_from(options);
     settings.reconstruct.cap = !model.is_open;
-    const ReconstructOptions& asked = settings.reconstruct;
-    if (!has_target(settings) && !asked.improve)
+    if (!has_target(settings) && !settings.reconstruct.improve)
         throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error, or improve=True");
     Model made;
     watch.run([&] {
         made = copy_of(model);
-        const BoxAxes axes = samples ? BoxAxes(made.mesh, *samples) : BoxAxes(made.mesh);
-        const CheckOptions checks = check_options(made, asked.threads);
-        Report report = begin_change(made.mesh, check(made.mesh, checks), checks);
-        SimplifyOptions simplify_with = simplify_options(settings, made.mesh);
-        simplify_with.samples = axes.samples();
-        const std::uint64_t before = made.mesh.face_count();
-        std::optional<std::uint64_t> gone;  // known where the target is a number of faces
-        if (simplify_with.target_faces > 0) gone = before - simplify_with.target_faces;
-        simplify_with.on_progress = [&](std::uint64_t faces) { watch.note("decimate", before - faces, gone); };
-        {
-            const Timer timer(report.seconds["decimate"]);
-            const SimplifyResult done = simplify(made.mesh, simplify_with);
-            report.verdicts = done.verdicts;
-            report.refreshes = done.refreshes;
-            report.stopped = to_string(done.stopped);
-            report.error_bound = done.error_bound;
-            report.bytes_per_face =
-                static_cast<double>(done.bytes) / static_cast<double>(std::max<std::uint64_t>(before, 1));
-        }
-        if (asked.improve) {
-            const Timer timer(report.seconds["improve"]);
-            ImproveOptions improve_with = improve_options(simplify_with);
-            improve_with.on_progress = [&] { watch.note("improve", 0, std::nullopt); };
-            report.improved = improve(made.mesh, improve_with);
-            report.error_bound = report.improved->error_bound;
-        }
-        axes.restore(made.mesh);
-        watch.note("check", 0, std::nullopt);
-        end_change(made, report, checks);
+        const auto note = [&](const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all) {
+            watch.note(stage, gone, in_all);
+        };
+        const CheckOptions checks = check_options(made, settings.reconstruct.threads);
+        describe(made, simplify_model(made.mesh, settings, checks, samples, note));
     });
     return made;
 }
@@ -296,23 +232,7 @@ Model smoothed(const Model& model, const OptionValues& options, Watch& watch) {
     Model made;
     watch.run([&] {
         made = copy_of(model);
-        const BoxAxes axes(made.mesh);
-        const CheckOptions checks = check_options(made, settings.reconstruct.threads);
-        const CheckReport before = check(made.mesh, checks);
-        Report report = begin_change(made.mesh, before, checks);
-        if (made.is_open) fix_rims(made.mesh);
-        const SmoothOptions smooth_with = smooth_options(settings, made.mesh);
-        {
-            const Timer timer(report.seconds["smooth"]);
-            report.smoothing = smooth(made.mesh, smooth_with);
-        }
-        report.smoothing.scale_volumes(axes.volume_factor());
-        report.unsmoothed_volumes = report.smoothing.volume_before;
-        if (settings.reconstruct.preserve_volume)
-            report.preserved = preserve_volumes(made.mesh, volumes_of(before), smooth_with);
-        report.stopped = "none asked";
-        axes.restore(made.mesh);
-        end_change(made, report, checks);
+        describe(made, smooth_model(made.mesh, settings, check_options(made, settings.reconstruct.threads)));
     });
     return made;
 }
@@ -330,9 +250,10 @@ std::string check_text(const Model& given, std::uint32_t threads, Source* source
         if (source != nullptr) {
             source->reader = clean_sections(std::move(source->reader), room, threads);
             WatchedSections sections(*source->reader, watch);
-            const CensusOptions census{.cap = !model.is_open, .background = background_of(model)};
-            options.oracle = translate(count_labels(sections, census), labels);
-            if (!model.is_open) samples = compare_samples(model.mesh, labels, model.background, sections);
+            const CensusOptions census{.cap = !model.is_open, .background = background_of(model), .threads = threads};
+            const Census counted = count_labels(sections, census);
+            options.oracle = relabelled(counted.oracle, counted.labels, labels);
+            if (!model.is_open) samples = compare_samples(model.mesh, labels, model.background, sections, threads);
         }
         const CheckReport report = check(model.mesh, options);
         text = check_json(report, labels, model.names, samples ? &*samples : nullptr);

@@ -114,12 +114,6 @@ void bind_runs(py::module_& module) {
     });
 }
 
-Space space_of(const std::string& name) {
-    for (const Space space : {Space::kRas, Space::kLps})
-        if (name == space_name(space)) return space;
-    return Space::kUnknown;
-}
-
 void bind_model(py::module_& module) {
     py::class_<Model>(module, "Model")
         .def_property_readonly("arrays", arrays_of)
@@ -160,7 +154,7 @@ void bind_model(py::module_& module) {
                    const auto& [points, faces, labels, types] = arrays;
                    const auto& [background, order, names, colours, space, lacking] = about;
                    return model_of({points, faces, labels, types, exterior, is_unsigned},
-                                   {background, order, names, is_open, space_of(space), colours, lacking});
+                                   {background, order, names, is_open, space_named(space), colours, lacking});
                });
 }
 

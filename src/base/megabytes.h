@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "regionmesh/limits.h"
+
 namespace regionmesh {
 
 /// The bytes in a megabyte, or in a kilobyte where there are fewer.
@@ -14,8 +16,6 @@ inline std::string megabytes(std::uint64_t bytes) {
     const std::uint64_t unit = unit_of(bytes);
     return std::to_string((bytes + unit - 1) / unit) + (unit == 1000 ? " kB" : " MB");
 }
-
-inline constexpr std::uint64_t kDefaultMemory = std::uint64_t{2} << 30;
 
 /// "--memory 12 MB", the limit in a refusal, rounded down, so that what is needed is more; says so where it is the
 /// default.

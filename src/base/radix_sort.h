@@ -31,8 +31,8 @@ inline void radix_sort(std::vector<KeyedIndex>& items, std::uint32_t threads = 1
     for (int shift = 0; shift < 32 && all_bits >> shift != 0; shift += kBits) {
         const auto for_chunk = [&](std::uint32_t chunk, auto&& visit) {
             std::uint32_t* const place = places[chunk].data();
-            const KeyedIndex* const end = items.data() + std::min(size, (chunk + 1) * kChunk);
-            for (const KeyedIndex* item = items.data() + chunk * kChunk; item != end; ++item)
+            const KeyedIndex* const end = items.data() + std::min(items.size(), (chunk + std::size_t{1}) * kChunk);
+            for (const KeyedIndex* item = items.data() + std::size_t{chunk} * kChunk; item != end; ++item)
                 visit(*item, place[item->key >> shift & (kDigits - 1)]);
         };
         parallel_for(chunks, threads, [&](std::uint32_t chunk) {

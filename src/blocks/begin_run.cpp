@@ -301,7 +301,7 @@ void require_unchanged(const BlockOptions& blocks) {
 }
 
 Manifest read_manifest_together(const fs::path& folder, BlockTasks& tasks) {
-    const Manifest manifest = *read_manifest(folder);
+    const Manifest manifest = require_manifest(folder);
     tasks.end_phase();
     return manifest;
 }

@@ -61,7 +61,7 @@ BlockReport BlockRun::run() {
             run_passes();
             if (tasks_.is_first()) complete();
             tasks_.end_phase();
-            manifest_ = *read_manifest(folder_);
+            manifest_ = require_manifest(folder_);
         }
     }
     report_.pieces = static_cast<std::uint32_t>(manifest_.pieces.size());
@@ -183,7 +183,7 @@ void BlockRun::end_pass(std::uint32_t pass, const std::vector<std::uint32_t>& bl
         note_pieces(pass, blocks);
     }
     tasks_.end_phase();
-    manifest_ = *read_manifest(folder_);
+    manifest_ = require_manifest(folder_);
 }
 
 /// Pieces of samples that changed on the way must not be found by a run that has the first ones again.
@@ -303,14 +303,21 @@ Piece BlockRun::reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk
     return piece_of(block, blocks, header);
 }
 
+BlockRun::PiecesBefore BlockRun::pieces_before() const {
+    std::vector<PieceHeader> found = headers();
+    std::vector<Box> boxes;
+    for (const PieceHeader& piece : found) boxes.push_back(piece.box);
+    return {std::move(found), {grid(manifest_.passes - 1), std::move(boxes)}};
+}
+
 /// A block out of the pieces of the pass before.
-Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>& before,
-                       const std::vector<double>& shares, const SimplifyBlock& simplify) {
+Piece BlockRun::remade(const PieceHeader& header, const PiecesBefore& before, const std::vector<double>& shares,
+                       const SimplifyBlock& simplify) {
     const BlockGrid blocks = grid(header.pass);
     BlockGatherer gatherer(blocks, header.block);
-    for (std::uint32_t n = 0; n < before.size(); ++n)
-        if (before[n].faces > 0 && gatherer.needs(before[n].box))
-            gatherer.add(read_piece(path_of(manifest_.pieces[n].pass, n)), shares.empty() ? 0 : shares[n]);
+    before.map.for_pieces_at(blocks.reach(header.block), [&](std::uint32_t n) {
+        gatherer.add(read_piece(path_of(manifest_.pieces[n].pass, n)), shares.empty() ? 0 : shares[n]);
+    });
     BlockChunk block{
         .cells = blocks.cells(header.block), .lattice = volume_->shape.lattice, .sweep = manifest_.sweep, .chunk = {}};
     gatherer.take(block);
@@ -320,26 +327,27 @@ Piece BlockRun::remade(const PieceHeader& header, const std::vector<PieceHeader>
 }
 
 void BlockRun::seam_pass() {
-    const std::vector<PieceHeader> before = headers();
+    const PiecesBefore before = pieces_before();
     const BlockGrid blocks = grid(kSeams);
     // No block goes so far that all together could end below the target.
     std::vector<double> least;
-    if (has_target()) least = shares_at(before, std::min(double(target() + 2 * blocks.count()), double(face_count())));
+    if (has_target())
+        least = shares_at(before.headers, std::min(double(target() + 2 * blocks.count()), double(face_count())));
     const auto simplify = [&](BlockChunk& block, double goal) {
         if (!has_target()) return simplify_to(block, 0, simplify_options());
         simplify_up_to(block, manifest_.thresholds.seams, static_cast<std::uint64_t>(goal) + 1, simplify_options());
         return false;
     };
-    run_pass(kSeams, "seams", longest_first(blocks, before),
+    run_pass(kSeams, "seams", longest_first(blocks, before.map, before.headers),
              [&](const PieceHeader& header) { return remade(header, before, least, simplify); });
 }
 
 /// Simplifies on from the pass before, seams too; the collapses stay in logs until the cut.
 void BlockRun::log_pass(std::uint32_t pass) {
     const double to = threshold_of_log(manifest_.thresholds, pass);
-    const std::vector<PieceHeader> before = headers();
+    const PiecesBefore before = pieces_before();
     const auto simplify = [&](BlockChunk& block, double) { return simplify_and_log(block, to, simplify_options()); };
-    run_pass(pass, "rims", longest_first(grid(pass), before),
+    run_pass(pass, "rims", longest_first(grid(pass), before.map, before.headers),
              [&](const PieceHeader& header) { return remade(header, before, {}, simplify); });
 }
 
@@ -359,27 +367,25 @@ void BlockRun::cut_pass(std::uint32_t pass) {
 /// Removes files that runs which were killed have left half-written.
 void BlockRun::remove_parts() {
     std::error_code ignored;
-    std::vector<fs::path> parts;
-    for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+    const std::vector<fs::directory_entry> all(fs::directory_iterator(folder_, ignored), fs::directory_iterator{});
+    for (const auto& entry : all) {
         const std::string name = entry.path().filename().string();
-        if (name.starts_with('.') && name.find(".part-") != std::string::npos) parts.push_back(entry.path());
+        if (name.starts_with('.') && name.find(".part-") != std::string::npos) fs::remove(entry.path(), ignored);
     }
-    for (const fs::path& path : parts) fs::remove(path, ignored);
 }
 
 void BlockRun::complete() {
-    const std::vector<PieceHeader> last = headers();
     bool is_at_limit = false;
-    for (const PieceHeader& piece : last) {
+    for (const PieceHeader& piece : headers()) {
         manifest_.error_bound = std::max<double>(manifest_.error_bound, piece.error_bound);
         is_at_limit = is_at_limit || piece.is_at_limit != 0;
     }
     manifest_.faces = face_count();
     manifest_.vertices = count_vertices(manifest_, folder_);
-    manifest_.stopped = !is_decimating_                               ? "none asked"
-                        : has_target() && manifest_.faces <= target() ? "target"
-                        : options_.max_error && is_at_limit           ? "max_error"
-                                                                      : "topology";
+    manifest_.stopped = !is_decimating_                               ? StopReason::kNoneAsked
+                        : has_target() && manifest_.faces <= target() ? StopReason::kTarget
+                        : options_.max_error && is_at_limit           ? StopReason::kMaxError
+                                                                      : StopReason::kTopology;
     manifest_.is_complete = true;
     remove_passes_before(manifest_.passes);
     remove_parts();

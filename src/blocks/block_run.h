@@ -7,6 +7,7 @@
 #include "blocks/block_faces.h"
 #include "blocks/manifest.h"
 #include "blocks/piece.h"
+#include "blocks/piece_map.h"
 #include "blocks/quotas.h"
 #include "blocks/simplify_block.h"
 #include "regionmesh/blocks.h"
@@ -34,6 +35,12 @@ private:
     /// What it does to the faces of a block. `goal` is the sum of the shares of their pieces, 0 without shares. Returns
     /// whether topology, quality or the largest error ended it.
     using SimplifyBlock = std::function<bool(BlockChunk&, double goal)>;
+
+    /// What a pass makes its pieces of.
+    struct PiecesBefore {
+        std::vector<PieceHeader> headers;
+        PieceMap map;
+    };
 
     void open_volume();
     void run_passes();
@@ -64,7 +71,8 @@ private:
     BlockSimplifyOptions simplify_options() const;
     std::vector<PieceHeader> headers() const;
     std::filesystem::path path_of(std::uint32_t pass, std::uint32_t block) const;
-    Piece remade(const PieceHeader& header, const std::vector<PieceHeader>& before, const std::vector<double>& shares,
+    PiecesBefore pieces_before() const;
+    Piece remade(const PieceHeader& header, const PiecesBefore& before, const std::vector<double>& shares,
                  const SimplifyBlock& simplify);
     void remove_parts();
 

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 /// The faces that reach into a range of coordinates along an axis, each with vertices of its own piece.
 Mesh read_layer(const BlockFolder& folder, int axis, double low, double high) {
     Mesh mesh;
-    for (std::uint32_t n = 0; n < folder.boxes.size(); ++n) {
-        const Box& box = folder.boxes[n];
+    for (std::uint32_t n = 0; n < folder.pieces.boxes().size(); ++n) {
+        const Box& box = folder.pieces.boxes()[n];
         if (box.is_empty() || box.high[axis] < low || box.low[axis] > high) continue;
         const Piece piece = read_entry(folder.manifest, folder.path, n);
         std::vector<VertexId> ids(piece.vertices.size(), kNoVertex);
@@ -63,17 +63,17 @@ bool is_same(const Lattice& a, const Lattice& b) {
 CheckReport check_block_folder(const fs::path& path, const CheckOptions& options) {
     const BlockFolder folder{path};
     Box extent;
-    for (const Box& box : folder.boxes) extent.join(box);
+    for (const Box& box : folder.pieces.boxes()) extent.join(box);
     const Box whole = folder.placed(extent);
     PartsCheck parts(options, 0.5 * (whole.low + whole.high));
-    for (std::uint32_t block = 0; block < folder.boxes.size(); ++block) {
+    for (std::uint32_t block = 0; block < folder.pieces.boxes().size(); ++block) {
         MeshPart part;
         const Mesh mesh = read_part(folder, block, part);
         parts.add(mesh, part);
     }
     parts.begin_rays(2 * length(whole.high - whole.low));
-    for (std::uint32_t block = 0; block < folder.boxes.size(); ++block)
-        if (parts.needs(folder.placed(folder.boxes[block])))
+    for (std::uint32_t block = 0; block < folder.pieces.boxes().size(); ++block)
+        if (parts.needs(folder.placed(folder.pieces.boxes()[block])))
             parts.add_rays(mesh_of(read_entry(folder.manifest, path, block), folder.manifest));
     return parts.finish();
 }

@@ -36,12 +36,11 @@ Mesh read_part(const BlockFolder& folder, std::uint32_t block, MeshPart& part) {
         }};
     BlockGatherer gatherer(folder.grid, block);
     std::vector<std::uint32_t> taken;
-    for (std::uint32_t n = 0; n < folder.boxes.size(); ++n)
-        if (!folder.boxes[n].is_empty() && gatherer.needs(folder.boxes[n])) {
-            taken.clear();
-            gatherer.add(read_entry(folder.manifest, folder.path, n), 0, &taken);
-            for (const std::uint32_t face : taken) part.key_of_face.push_back(std::uint64_t{n} << 32 | face);
-        }
+    folder.pieces.for_pieces_at(folder.grid.reach(block), [&](std::uint32_t n) {
+        taken.clear();
+        gatherer.add(read_entry(folder.manifest, folder.path, n), 0, &taken);
+        for (const std::uint32_t face : taken) part.key_of_face.push_back(std::uint64_t{n} << 32 | face);
+    });
     BlockChunk gathered;
     gatherer.take(gathered);
     const Chunk& chunk = gathered.chunk;

@@ -17,7 +17,7 @@ struct BlockFolder {
     std::filesystem::path path;
     Manifest manifest = read_complete_manifest(path);
     BlockGrid grid{piece_lattice(manifest), manifest.block_cells, manifest.shift};
-    std::vector<Box> boxes = piece_boxes(manifest, path);
+    PieceMap pieces = piece_map(manifest, path);
 
     /// Around what the mesh of a piece with this box contains once it is at its place.
     Box placed(const Box& box) const;

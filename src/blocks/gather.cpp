@@ -49,8 +49,6 @@ std::uint32_t SharedVertices::number(Vec3 position, std::uint32_t next) {
     return numbers_.try_emplace(bits_of(position), next).first->second;
 }
 
-bool BlockGatherer::needs(const Box& box) const { return overlap(box, reach_); }
-
 std::uint32_t BlockGatherer::number(const PieceVertex& vertex, std::uint32_t& place) {
     if (place != kNone) return place;
     const auto next = static_cast<std::uint32_t>(chunk_.vertices.size());
@@ -69,7 +67,7 @@ void BlockGatherer::add(const Piece& piece, double keep, std::vector<std::uint32
     for (const PieceFace& face : piece.faces) {
         const std::array<Vec3, 3> corners = corners_of(piece, face);
         const Box box = box_of(corners);
-        if (!needs(box)) continue;
+        if (!overlap(box, reach_)) continue;
         const bool is_own = block_of(grid_, corners) == block_;
         ChunkFace made{{}, face.labels};
         for (int n = 0; n < 3; ++n)
@@ -92,13 +90,11 @@ void BlockGatherer::take(BlockChunk& block) {
     block.other_faces = other_faces_;
 }
 
-std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, std::span<const PieceHeader> pieces) {
+std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, const PieceMap& map,
+                                         std::span<const PieceHeader> pieces) {
     std::vector<std::uint64_t> faces(blocks.count());
-    for (std::uint32_t block = 0; block < blocks.count(); ++block) {
-        const BlockGatherer gatherer(blocks, block);
-        for (const PieceHeader& piece : pieces)
-            if (piece.faces > 0 && gatherer.needs(piece.box)) faces[block] += piece.faces;
-    }
+    for (std::uint32_t block = 0; block < blocks.count(); ++block)
+        map.for_pieces_at(blocks.reach(block), [&](std::uint32_t piece) { faces[block] += pieces[piece].faces; });
     std::vector<std::uint32_t> order(blocks.count());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::uint32_t block) { return faces[block]; });

@@ -9,6 +9,7 @@
 
 #include "blocks/block_grid.h"
 #include "blocks/piece.h"
+#include "blocks/piece_map.h"
 #include "blocks/simplify_block.h"
 
 namespace regionmesh {
@@ -43,9 +44,8 @@ public:
     BlockGatherer(const BlockGrid& grid, std::uint32_t block)
         : grid_(grid), block_(block), limits_(grid.limits(block)), reach_(grid.reach(block)) {}
 
-    /// Whether a piece with this box may have faces that belong to the block or touch it.
-    bool needs(const Box& box) const;
-    /// Adds those faces. Pieces come in the order of their numbers. `keep` is the share of this piece's faces that the
+    /// Adds the faces of a piece that belong to the block or touch it; pieces outside of BlockGrid::reach() have none.
+    /// Pieces come in the order of their numbers. `keep` is the share of this piece's faces that the
     /// goal has room for. `taken`, if given, gets the numbers in the piece of the faces that were added.
     void add(const Piece& piece, double keep, std::vector<std::uint32_t>* taken = nullptr);
     /// The sum over the block's own faces of the shares to keep.
@@ -69,7 +69,8 @@ private:
 
 /// All blocks, those first that have most faces in the pieces round them: they take longest, and ranks then end at
 /// about the same time.
-std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, std::span<const PieceHeader> pieces);
+std::vector<std::uint32_t> longest_first(const BlockGrid& blocks, const PieceMap& map,
+                                         std::span<const PieceHeader> pieces);
 
 /// The block's own faces of a chunk as a piece; its vertices are in order of first use. Vertices that are locked, or on
 /// faces of other blocks, are shared.

@@ -6,10 +6,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "blocks/block_grid.h"
 #include "blocks/gather.h"
 #include "blocks/manifest.h"
 #include "blocks/piece.h"
+#include "blocks/piece_map.h"
 
 namespace regionmesh {
 
@@ -32,10 +32,8 @@ private:
     /// The last block whose piece may have a vertex.
     std::uint32_t last_with(Vec3 position, std::uint32_t block) const;
 
-    BlockGrid grid_;
-    std::vector<Box> boxes_;                   // of the pieces
-    std::array<std::uint32_t, 3> overhang_{};  // blocks by which the box of a piece exceeds its block, at most
-    std::vector<std::uint32_t> later_;         // pieces after this one whose boxes meet its box
+    PieceMap pieces_;
+    std::vector<std::uint32_t> later_;  // pieces after this one whose boxes meet its box
     std::unordered_map<PositionBits, std::uint64_t, PositionHash> seen_;
     std::unordered_map<std::uint32_t, std::vector<PositionBits>> to_forget_;  // by that block
     std::uint64_t count_ = 0;

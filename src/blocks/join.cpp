@@ -55,11 +55,11 @@ std::optional<std::uint32_t> pass_of(const std::string& name) {
     return pass;
 }
 
-std::vector<Box> piece_boxes(const Manifest& manifest, const fs::path& folder) {
+PieceMap piece_map(const Manifest& manifest, const fs::path& folder) {
     std::vector<Box> boxes;
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
         boxes.push_back(read_piece_header(piece_path(folder, manifest.pieces[block].pass, block)).box);
-    return boxes;
+    return {BlockGrid(piece_lattice(manifest), manifest.block_cells, manifest.shift), std::move(boxes)};
 }
 
 std::uint64_t count_vertices(const Manifest& manifest, const fs::path& folder) {

@@ -7,6 +7,7 @@
 
 #include "blocks/manifest.h"
 #include "blocks/piece.h"
+#include "blocks/piece_map.h"
 
 namespace regionmesh {
 
@@ -25,7 +26,7 @@ Piece read_entry(const Manifest& manifest, const std::filesystem::path& folder, 
 /// Vertices of the whole model: those that several pieces share are counted once.
 std::uint64_t count_vertices(const Manifest& manifest, const std::filesystem::path& folder);
 
-/// Of the vertices of each piece, by block.
-std::vector<Box> piece_boxes(const Manifest& manifest, const std::filesystem::path& folder);
+/// Where the pieces lie. Reads their headers.
+PieceMap piece_map(const Manifest& manifest, const std::filesystem::path& folder);
 
 }  // namespace regionmesh

@@ -60,7 +60,7 @@ Json json_of(const Manifest& manifest) {
     json["complete"] = manifest.is_complete;
     json["vertices"] = manifest.vertices;
     json["faces"] = manifest.faces;
-    json["stopped"] = manifest.stopped;
+    json["stopped"] = to_string(manifest.stopped);
     json["error_bound"] = manifest.error_bound;
     Json& pieces = json["pieces"] = Json::array();
     for (const PieceEntry& piece : manifest.pieces) {
@@ -73,10 +73,10 @@ Json json_of(const Manifest& manifest) {
     return json;
 }
 
-Space space_of(const std::string& name) {
-    for (const Space space : {Space::kRas, Space::kLps})
-        if (name == space_name(space)) return space;
-    return Space::kUnknown;
+StopReason stop_reason_of(const std::string& text) {
+    for (const StopReason reason : {StopReason::kTarget, StopReason::kMaxError, StopReason::kTopology})
+        if (text == to_string(reason)) return reason;
+    return StopReason::kNoneAsked;
 }
 
 std::uint32_t colour_of(const std::string& text, const fs::path& path) {
@@ -135,7 +135,7 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     numbers.get("labels", manifest.label_count);
     numbers.get("labels_hash", manifest.labels_hash);
     numbers.get("samples_hash", manifest.samples_hash);
-    manifest.space = space_of(json.at("space"));
+    manifest.space = space_named(json.at("space").get<std::string>());
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
     if (json.contains("colours"))  // added to version 1
         for (const auto& pair : json.at("colours")) manifest.colours.emplace(pair.at(0), colour_of(pair.at(1), path));
@@ -148,7 +148,7 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     manifest.is_complete = json.at("complete");
     numbers.get("vertices", manifest.vertices);
     numbers.get("faces", manifest.faces);
-    manifest.stopped = json.at("stopped");
+    manifest.stopped = stop_reason_of(json.at("stopped"));
     manifest.error_bound = json.at("error_bound");
     if (json.contains("thresholds")) {
         const auto& [seams, first_log, second_log] = json["thresholds"].get<std::array<double, 3>>();
@@ -180,19 +180,24 @@ fs::path labels_path(const fs::path& folder) { return folder / "labels.bin"; }
 
 }  // namespace
 
-Manifest read_complete_manifest(const fs::path& folder) {
+Manifest require_manifest(const fs::path& folder) {
     auto manifest = read_manifest(folder);
     if (!manifest) formats::fail(folder, "has no manifest.json; it is no model in pieces");
-    if (!manifest->is_complete)
+    return std::move(*manifest);
+}
+
+Manifest read_complete_manifest(const fs::path& folder) {
+    Manifest manifest = require_manifest(folder);
+    if (!manifest.is_complete)
         formats::fail(folder, "the model is not complete; run the command that began it once more");
     std::uint64_t vertices = 0, faces = 0;  // vertices on walls are those of several pieces
-    for (const PieceEntry& piece : manifest->pieces) {
+    for (const PieceEntry& piece : manifest.pieces) {
         vertices += piece.vertices;
         faces += piece.faces;
     }
-    if (faces != manifest->faces || vertices < manifest->vertices)
+    if (faces != manifest.faces || vertices < manifest.vertices)
         formats::fail(manifest_path(folder), "the counts of the pieces do not fit its own; the file is damaged");
-    return std::move(*manifest);
+    return manifest;
 }
 
 Lattice piece_lattice(const Manifest& manifest) {

@@ -46,15 +46,17 @@ struct Manifest {
     std::uint32_t block_cells = 0;
     std::uint32_t shift = 0;  // cells by which the first blocks of `pieces` are shorter
     double scale_z = 1;
-    std::uint64_t initial_faces = 0;      // counted on the labels
-    std::uint32_t passes = 0;             // complete ones
-    Thresholds thresholds = {};           // where there is a target, from pass 0 on
-    std::vector<PieceEntry> pieces = {};  // of the last pass that is complete, by block
-    std::string stopped = {};
+    std::uint64_t initial_faces = 0;              // counted on the labels
+    std::uint32_t passes = 0;                     // complete ones
+    Thresholds thresholds = {};                   // where there is a target, from pass 0 on
+    std::vector<PieceEntry> pieces = {};          // of the last pass that is complete, by block
+    StopReason stopped = StopReason::kNoneAsked;  // once it is complete
     double error_bound = 0;
     std::uint64_t vertices = 0, faces = 0;  // of the whole model, once it is complete
 };
 
+/// The manifest of a folder that has one. Throws Error(kInput) for another.
+Manifest require_manifest(const std::filesystem::path& folder);
 /// The manifest of a complete folder. Throws Error(kInput) for another.
 Manifest read_complete_manifest(const std::filesystem::path& folder);
 

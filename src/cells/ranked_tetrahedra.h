@@ -13,6 +13,7 @@
 #include "regionmesh/label.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/lattice.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/tetrahedron_reader.h"
 #include "regionmesh/vec3.h"
 
@@ -58,7 +59,7 @@ struct RankedTetrahedra {
 struct RankOptions {
     std::optional<Sweep> sweep = {};                     // default: along the longest side of the box round all points
     std::uint64_t sort_bytes = std::uint64_t{64} << 20;  // in addition to the points
-    std::uint64_t memory = std::uint64_t{2} << 30;       // bytes that points may take
+    std::uint64_t memory = kDefaultMemory;               // bytes that points may take
 };
 
 /// Reads all points and tetrahedra; labels of points get their dense numbers in the order of ranks. Throws

@@ -255,10 +255,10 @@ std::uint32_t StripMesher::vertex(const SimplexPlace& place, std::uint32_t i, st
             number = &planes_[1][cell];
             break;
         case Table::kRow:
-            number = &rows_[0][i * kRowSlots + place.offset];
+            number = &rows_[0][std::size_t{i} * kRowSlots + place.offset];
             break;
         case Table::kNextRow:
-            number = &rows_[1][i * kRowSlots + place.offset];
+            number = &rows_[1][std::size_t{i} * kRowSlots + place.offset];
             break;
         case Table::kNowhere:
             return make_vertex(place, i, j);

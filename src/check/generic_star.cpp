@@ -24,7 +24,7 @@ StarFault GenericStar::fault(VertexId v) {
     });
     const LabelSet labels = vertex_labels(mesh_, v);
     if (is_odd || faces == 0 || labels.size() > kMostLabels) return StarFault::kLabels;
-    if (faces > kMostStarFaces) return StarFault::kFans;
+    if (faces > kMostStarFaces) return StarFault::kSize;
     for (Label label : labels) {
         if (is_exterior(label)) continue;
         if (!has_one_fan(v, label)) return StarFault::kFans;

@@ -15,6 +15,7 @@ namespace regionmesh {
 enum class StarFault {
     kNone,
     kLabels,  // more than four labels meet, or a face has one label on both sides, or there is no face
+    kSize,    // it has too many faces to be examined
     kFans,    // the faces of a region are not one closed fan (or an open one, on a side of the box that is open)
     kPages,   // more than three labels meet at an edge
     kLines,   // the lines that leave the vertex are not those of a book (two) or of a cone over K4 (four)

@@ -136,9 +136,10 @@ private:
         if (fault == StarFault::kNone) return;
         findings_.add(ViolationKind::kNonGenericVertex, {index(v)}, {}, [&] {
             return name(v) + (fault == StarFault::kLabels  ? ": more than four labels meet"
+                              : fault == StarFault::kSize  ? ": it has too many faces to be examined"
                               : fault == StarFault::kPages ? ": more than three labels meet at one of its edges"
                               : fault == StarFault::kLines ? ": its lines are not those where three or four labels meet"
-                                                           : ": it has too many faces to be examined");
+                                                           : ": the faces of a region are not one fan");
         });
     }
 

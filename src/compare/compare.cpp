@@ -197,7 +197,7 @@ bool ComparedMesh::has_sides() const {
         has_exterior = mesh_.is_alive(FaceId{f}) && is_exterior(mesh_[FaceId{f}].labels[1]);
     if (!has_exterior) return true;
     for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v)
-        if (mesh_.is_alive(VertexId{v}) && mesh_[VertexId{v}].sides != 0) return true;
+        if (mesh_.is_alive(VertexId{v}) && (mesh_[VertexId{v}].sides & kBoxSides) != 0) return true;
     return false;
 }
 

@@ -97,9 +97,11 @@ std::vector<Row> TableReader::split(char separator) const {
 
 /// Accepts a separator that occurs in every row, unless in the last row (never a header) only blanks separate a label.
 bool TableReader::find_rows(char separator) {
+    bool is_quoted = false;  // a name may contain a line end
     for (std::string_view rest = text_; !rest.empty();) {
         const std::string_view line = formats::take_line(rest);
-        if (!trim(line).empty() && line.find(separator) == std::string_view::npos) return false;
+        if (!is_quoted && !trim(line).empty() && line.find(separator) == std::string_view::npos) return false;
+        is_quoted ^= std::ranges::count(line, '"') % 2 == 1;
     }
     rows_ = split(separator);
     if (rows_.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.fields.size() < 2; }))

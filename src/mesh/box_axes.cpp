@@ -93,7 +93,8 @@ BoxAxes::BoxAxes(Mesh& mesh) {
     bool is_along = true;
     for_outer_faces(mesh, [&](FaceId f) { is_along = is_along && sides_at(mesh.corners(f), along, 0) != 0; });
     if (is_along) return;
-    for (const auto& find_normals : {square_normals, any_normals}) {
+    // Axes that a file gives with few digits are square to these only.
+    for (const auto& find_normals : {any_normals, square_normals}) {
         const auto normals = find_normals(mesh);
         if (!normals) continue;
         set_axes(*normals);

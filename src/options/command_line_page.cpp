@@ -35,13 +35,6 @@ constexpr std::string_view kConventions = R"(```
 - The result depends on the input and the options only, not on the number of threads.
 )";
 
-std::string names_of_commands(std::uint32_t commands) {
-    std::string names;
-    for (const CommandSpec& command : command_table())
-        if (commands & command.command) names += (names.empty() ? "" : ", ") + std::string(command.name);
-    return names;
-}
-
 std::string usage(const CommandSpec& command) {
     std::string line = fmt::format("regionmesh {}", command.name);
     for (const OptionSpec& option : option_table()) {
@@ -77,36 +70,6 @@ std::string row_text(const OptionSpec& option) {
 }
 
 }  // namespace
-
-std::string value_name(const OptionSpec& option) {
-    if (!option.value.empty()) return std::string(option.value);
-    switch (option.kind) {
-        case OptionKind::kFlag:
-            return "";
-        case OptionKind::kCount:
-            return "COUNT";
-        case OptionKind::kNumber:
-            return "NUMBER";
-        case OptionKind::kShare:
-            return "SHARE";
-        case OptionKind::kBytes:
-            return "SIZE";
-        case OptionKind::kLabel:
-            return "LABEL";
-        case OptionKind::kCounts:
-        case OptionKind::kNumbers:
-            return "X,Y,Z";
-        case OptionKind::kText:
-            return "TEXT";
-        case OptionKind::kFile:
-            return "FILE";
-        case OptionKind::kWord:
-            break;
-    }
-    std::string words;
-    for (const std::string_view word : option.words) words += (words.empty() ? "" : "|") + std::string(word);
-    return words;
-}
 
 std::string command_line_page() {
     std::string page(kHead);

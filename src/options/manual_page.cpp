@@ -41,24 +41,12 @@ std::string usage(const CommandSpec& command) {
     return line + ".RI [ OPTIONS ]\n.br\n";
 }
 
-std::string commands_of(const OptionSpec& option) {
-    std::string names;
-    for (const CommandSpec& command : command_table())
-        if (option.commands & command.command) names += (names.empty() ? "" : ", ") + std::string(command.name);
-    return names;
-}
-
 std::string entry(const OptionSpec& option) {
     const std::string letter = option.letter ? fmt::format("\\-{}, ", option.letter) : "";
     const std::string flag = option.is_argument ? upper(option.name) : letter + escaped(option.flag());
     std::string text = fmt::format(".TP\n\\fB{}\\fR \\fI{}\\fR\n", flag, escaped(value_name(option)));
-    std::string notes;
-    const auto note = [&](const std::string& part) { notes += (notes.empty() ? " (" : "; ") + part; };
-    if (!option.unit.empty()) note(std::string(option.unit));
-    if (!option.range.empty()) note(option.range);
-    if (!option.default_text.empty()) note("default " + option.default_text);
-    text += escaped(std::string(option.help) + notes + (notes.empty() ? "." : ").")) + '\n';
-    return text + "For " + commands_of(option) + ".\n";
+    text += escaped(description_of(option)) + ".\nFor " + names_of_commands(option.commands) + ".\n";
+    return text;
 }
 
 }  // namespace
@@ -82,7 +70,7 @@ std::string manual_page() {
     }
     return page +
            ".SH EXIT STATUS\n0: good. 1: the input cannot be used, or the output cannot be written. 2: usage. 3: "
-           "the model has violations.\n";
+           "the model has violations. 4: \\-\\-preserve\\-volume left a region off its volume.\n";
 }
 
 }  // namespace regionmesh

@@ -7,10 +7,13 @@
 
 namespace regionmesh {
 
+const std::string* given_text(const Settings& settings, std::string_view name) {
+    const auto found = std::ranges::find(settings.given, name, &OptionValues::value_type::first);
+    return found == settings.given.end() ? nullptr : &found->second;
+}
+
 bool has_background(const Settings& settings) {
-    return std::ranges::any_of(settings.given, [](const auto& option) {
-        return option.first == "background" || option.first == "no-background";
-    });
+    return given_text(settings, "background") || given_text(settings, "no-background");
 }
 
 bool has_target(const Settings& settings) {

@@ -59,7 +59,8 @@ void apply_options(Settings& settings, const OptionValues& values) {
         for (const auto& [name, text] : values)
             if (name == row.name) {
                 row.set(settings, text);
-                settings.given.emplace_back(name, text);
+                const bool is_off = row.kind == OptionKind::kFlag && text == "false";
+                if (!is_off) settings.given.emplace_back(name, text);
             }
     require_consistent(settings);
 }

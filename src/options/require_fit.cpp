@@ -12,13 +12,6 @@ const char* kind_text(InputKind kind) {
     return kind == kVolumeInput ? "a volume of samples" : kind == kTableInput ? "a table of points" : "a mesh";
 }
 
-/// The text of an option that was given; null where it was not, and for flags that are off.
-const std::string* given(const Settings& settings, std::string_view name) {
-    for (const auto& [other, text] : settings.given)
-        if (other == name && !(find_option(name)->kind == OptionKind::kFlag && text == "false")) return &text;
-    return nullptr;
-}
-
 /// "--reduce 90%", or "--quiet" of a flag.
 std::string typed(const OptionSpec& option, const std::string& text) {
     return option.flag() + (option.kind == OptionKind::kFlag ? "" : ' ' + text);
@@ -44,7 +37,8 @@ constexpr Contradiction kContradictions[] = {
 };
 
 void require_consistent_smoothing(const Settings& settings) {
-    const std::string *const filter = given(settings, "smooth-filter"), *const much = given(settings, "smooth");
+    const std::string *const filter = given_text(settings, "smooth-filter"), *const much =
+                                                                                 given_text(settings, "smooth");
     const bool is_off = much && (*much == "off" || *much == "0"), has_no_filter = filter && *filter == "none";
     if (has_no_filter && much && !is_off)
         refuse_both("smooth-filter none", "smooth " + *much, "one smooths, the other does not");
@@ -53,7 +47,7 @@ void require_consistent_smoothing(const Settings& settings) {
     if (is_off && filter && !has_no_filter && *filter != "auto")
         refuse_both(off, "smooth-filter " + *filter, "one smooths, the other does not");
     for (const char* name : {"smooth-lambda", "smooth-points"})
-        if (given(settings, name)) refuse_both(off, name, "nothing is smoothed");
+        if (given_text(settings, name)) refuse_both(off, name, "nothing is smoothed");
 }
 
 /// Options that say how an input is read, where `check` is given none.
@@ -68,14 +62,14 @@ void require_no_reading(const Settings& settings) {
 /// Options of a table that need layers, and one that they do not take.
 void require_layers(const Settings& settings, InputKind kind) {
     if (kind != kTableInput) return;
-    if (given(settings, "surveys") && !given(settings, "collars"))
+    if (given_text(settings, "surveys") && !given_text(settings, "collars"))
         throw Error(ErrorCode::kUsage, "--surveys: directions of holes need their places; give --collars, too");
     if (!settings.layers.empty()) {
-        if (given(settings, "step")) refuse_both("layers", "step", "layers take the whole intervals");
+        if (given_text(settings, "step")) refuse_both("layers", "step", "layers take the whole intervals");
         return;
     }
     for (const char* name : {"spacing", "box", "terrain", "max-work", "cells", "room", "no-keep-samples"})
-        if (const std::string* text = given(settings, name))
+        if (const std::string* text = given_text(settings, name))
             throw Error(ErrorCode::kUsage, fmt::format("{}: applies to drill holes as layers; give --layers auto, too",
                                                        typed(*find_option(name), *text)));
 }
@@ -126,8 +120,8 @@ void require_fit(const Settings& settings, const std::vector<std::string>& input
 
 void require_consistent(const Settings& settings) {
     for (const Contradiction& pair : kContradictions)
-        if (given(settings, pair.a) && given(settings, pair.b)) refuse_both(pair.a, pair.b, pair.why);
-    if (given(settings, "face-budget") && given(settings, "memory") && !settings.memory_is_hard)
+        if (given_text(settings, pair.a) && given_text(settings, pair.b)) refuse_both(pair.a, pair.b, pair.why);
+    if (given_text(settings, "face-budget") && given_text(settings, "memory") && !settings.memory_is_hard)
         refuse_both("face-budget", "memory", "each says how many faces are held, unless --memory-limit is hard");
     require_consistent_smoothing(settings);
     if (!settings.volume.select.labels.empty() && settings.reconstruct.background.empty())
@@ -135,7 +129,7 @@ void require_consistent(const Settings& settings) {
                     "--labels: the other labels become background, and --no-background has none; leave out one");
     if (settings.precomputed_is_legacy)
         for (const char* name : {"sharded", "levels"})
-            if (given(settings, name)) refuse_both("precomputed legacy", name, "legacy meshes have neither");
+            if (given_text(settings, name)) refuse_both("precomputed legacy", name, "legacy meshes have neither");
     if (settings.reconstruct.cap) return;
     if (settings.hull)
         throw Error(ErrorCode::kUsage,

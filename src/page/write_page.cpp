@@ -151,7 +151,8 @@ Json page_json(const std::filesystem::path& path, const PageOptions& options) {
     Json json{{"version", 1},
               {"command", options.command},
               {"command_line", options.command_line},
-              {"has_labels", options.has_labels}};
+              {"has_labels", options.has_labels},
+              {"boundary_is_open", options.boundary_is_open}};
     json["min_quality"] = options.min_quality ? Json(*options.min_quality) : Json(nullptr);
     json["max_error"] = options.max_error ? Json(*options.max_error) : Json(nullptr);
     json["report"] = options.report.empty() ? Json(nullptr) : Json::parse(options.report, nullptr, false);

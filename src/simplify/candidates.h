@@ -36,9 +36,6 @@ public:
     /// After a collapse of any edge: `goes` has left, and the edges round `stays` are ranked again.
     void update(VertexId goes, VertexId stays);
 
-    static constexpr std::size_t bytes_per_vertex(EdgeOrder order) {
-        return EdgeQueue::bytes_per_vertex(order) + sizeof(VertexId) + sizeof(float);
-    }
     std::size_t bytes() const;
 
 private:

@@ -6,7 +6,6 @@
 
 #include "base/box.h"
 #include "mesh/strata.h"
-#include "simplify/bytes.h"
 #include "simplify/candidates.h"
 #include "simplify/flat_vertices.h"
 #include "simplify/half_candidates.h"

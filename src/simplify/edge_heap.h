@@ -48,7 +48,6 @@ public:
         else
             sink(place, last);
     }
-    static constexpr std::size_t kBytesPerVertex = 12;  // an entry and a place, at most
     std::size_t bytes() const { return entries_.bytes() + place_.bytes(); }
 
 private:
@@ -86,8 +85,6 @@ private:
         }
         put(place, entry);
     }
-
-    static_assert(kBytesPerVertex == sizeof(Entry) + sizeof(std::uint32_t));
 
     FlatArray<Entry> entries_;
     FlatArray<std::uint32_t> place_;

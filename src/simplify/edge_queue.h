@@ -33,9 +33,6 @@ public:
     VertexId top() const { return is_heap_ ? heap_.top() : sweeps_.top(); }
     float top_key() const { return is_heap_ ? heap_.top_key() : sweeps_.key(sweeps_.top()); }
 
-    static constexpr std::size_t bytes_per_vertex(EdgeOrder order) {
-        return order == EdgeOrder::kByCost ? EdgeHeap::kBytesPerVertex : EdgeSweeps::kBytesPerVertex;
-    }
     std::size_t bytes() const { return heap_.bytes() + sweeps_.bytes(); }
 
 private:

@@ -39,7 +39,6 @@ public:
         keys_[index(v)] = kAbsent;
     }
 
-    static constexpr std::size_t kBytesPerVertex = sizeof(float);
     std::size_t bytes() const { return keys_.bytes(); }
 
 private:

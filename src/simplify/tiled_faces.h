@@ -41,10 +41,6 @@ public:
 
     static constexpr std::uint32_t kLocked = 0x80000000u, kNone = kLocked - 1;
 
-    /// Bytes in addition to the chunk; the halo comes on top.
-    static constexpr std::size_t kBytesPerFace = 2 * sizeof(std::uint32_t);  // tile_of_face_ and order_
-    static constexpr std::size_t kBytesPerVertex = sizeof(std::uint32_t);    // place_
-
 private:
     /// One part of the faces.
     struct Part {

@@ -23,7 +23,6 @@ public:
     void merge(const Mesh& mesh, VertexId goes, VertexId stays, Vec3 position) {
         quadrics_[index(stays)] = PackedQuadric(merged_quadric(ends(mesh, goes, stays), position));
     }
-    static constexpr std::size_t kBytesPerVertex = sizeof(PackedQuadric);
     std::size_t bytes() const { return quadrics_.bytes(); }
 
 private:

@@ -69,7 +69,6 @@ void SimplifyStage::take_mesh() {
 void SimplifyStage::bring_to_target() {
     if (!plan_.is_decimating) {
         take_mesh();
-        log_.report().stopped = "none asked";
         return;
     }
     strips_are_done_ = true;
@@ -80,7 +79,7 @@ void SimplifyStage::bring_to_target() {
     log_.advance(WorkStage::kPasses, 1);
     take_mesh();
     trim(goal, HUGE_VAL, true);
-    log_.report().stopped = to_string(stopped_);
+    log_.report().stopped = stopped_;
     log_.report().error_bound = largest_error_bound(mesh_);
 }
 

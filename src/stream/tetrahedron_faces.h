@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cells/ranked_tetrahedra.h"
+#include "regionmesh/limits.h"
 #include "stream/face_source.h"
 #include "stream/spilled_strips.h"
 
@@ -14,9 +15,9 @@ namespace regionmesh {
 struct TetrahedronOptions {
     bool cap = true;
     std::vector<InputLabel> background{0};
-    std::optional<Sweep> sweep = {};                // along the longest side if not given
-    bool for_smoothing = false;                     // strips so thick that no vertex has faces in more than two
-    std::uint64_t memory = std::uint64_t{2} << 30;  // bytes to stay within
+    std::optional<Sweep> sweep = {};        // along the longest side if not given
+    bool for_smoothing = false;             // strips so thick that no vertex has faces in more than two
+    std::uint64_t memory = kDefaultMemory;  // bytes to stay within
 };
 
 /// Ranks the tetrahedra, meshes all of them, and keeps the faces on disk; then returns them strip by strip, any number

@@ -19,9 +19,6 @@ ReaderPointer crop_sections(ReaderPointer reader, const IndexBox& box);
 /// Labels replaced by `new_label(old)`, which is called once for each label.
 ReaderPointer relabel_sections(ReaderPointer reader, std::function<InputLabel(InputLabel)> new_label);
 
-/// The same sections with another description.
-ReaderPointer describe_sections(ReaderPointer reader, VolumeInfo info);
-
 /// The lattice in another space: turned about z where the volume says that it is in the other one.
 ReaderPointer turn_sections(ReaderPointer reader, Space space);
 

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "regionmesh/select_sections.h"
 #include "volume/chosen_sections.h"
 
 namespace regionmesh {

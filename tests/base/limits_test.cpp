@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "mesh/bytes_per_face.h"
 #include "regionmesh/error.h"
 #include "regionmesh/mesh.h"
 #include "stream/budget.h"
@@ -95,16 +94,6 @@ TEST(Limits, of_models_refuse_what_is_too_large_or_too_small) {
     EXPECT_THAT(refused(1e-40, 0), HasSubstr("m.ply: its size is 1e-40"));
     EXPECT_THAT(refused(1, 1e21), HasSubstr("m.ply: the coordinates along x reach 1e+21"));
     EXPECT_THAT(refused(std::nan(""), 0), HasSubstr("m.ply"));
-}
-
-TEST(BytesPerFace, follow_from_the_structs) {
-    EXPECT_EQ(mesh_bytes_per_face(), 48u);
-    EXPECT_EQ(chunk_bytes_per_face(), 20u + 16u);
-    Mesh mesh;
-    for (int n = 0; n < 100; ++n) mesh.add_vertex({double(n), 0, 0});
-    for (std::uint32_t n = 0; n < 200; ++n)
-        mesh.add_face(VertexId{n % 100}, VertexId{(n + 1) % 100}, VertexId{(n + 2) % 100}, 0, 1);
-    EXPECT_EQ(mesh.bytes(), 200 * mesh_bytes_per_face());
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST(BlockRun, reaches_the_target_exactly_and_keeps_every_sample) {
         const auto target = static_cast<std::uint64_t>(std::llround((1 - reduce) * double(report.initial_faces)));
         MeshFile model = read_block_folder(folder.path);
         EXPECT_EQ(report.final_faces, model.mesh.face_count());
-        if (report.stopped == "target") {
+        if (report.stopped == StopReason::kTarget) {
             EXPECT_LE(report.final_faces, target);
             EXPECT_GE(report.final_faces + 1, target);
         } else {
@@ -130,7 +130,7 @@ TEST(BlockRun, keeps_to_the_largest_error) {
     EXPECT_LE(report.error_bound, 0.2);
     EXPECT_GT(report.error_bound, 0.1);
     EXPECT_LT(report.final_faces, report.initial_faces / 2);
-    EXPECT_EQ(report.stopped, "max_error");
+    EXPECT_EQ(report.stopped, StopReason::kMaxError);
     MeshFile model = read_block_folder(folder.path);
     expect_lossless(model, volume);
 }

@@ -79,7 +79,7 @@ TEST_F(BlockProgram, converts_checks_and_voxelises_a_folder) {
     const std::string sections = " --sections " + path("grains.raw").string() + " --size 40,40,40 --type uint8";
     const Ran checked = run("check " + out("model") + sections);
     EXPECT_EQ(checked.code, 0) << checked.error;
-    EXPECT_THAT(checked.out, testing::HasSubstr("every one of 64000 samples keeps its label"));
+    EXPECT_THAT(checked.out, testing::HasSubstr("every one of 64,000 samples keeps its label"));
     ASSERT_EQ(run("convert " + out("model") + ' ' + out("a.vtp")).code, 0);
     ASSERT_EQ(run("convert " + out("model/") + ' ' + out("b.vtp")).code, 0);
     EXPECT_EQ(text_of(out("a.vtp")), text_of(out("b.vtp")));

@@ -115,7 +115,7 @@ TEST_F(CliFiles, stl_and_back_agrees_with_the_volume) {
     expect_good("reconstruct " + labels + "-o " + out("m.stl"));
     const Ran ran = run("check " + out("m.stl") + " --sections " + labels);
     EXPECT_EQ(ran.code, 0) << ran.out;
-    EXPECT_THAT(ran.out, HasSubstr("every one of 2744 samples keeps its label"));
+    EXPECT_THAT(ran.out, HasSubstr("every one of 2,744 samples keeps its label"));
 }
 
 TEST_F(CliFiles, stl_of_a_region_with_the_label_of_the_exterior_agrees_with_the_volume) {
@@ -126,7 +126,7 @@ TEST_F(CliFiles, stl_of_a_region_with_the_label_of_the_exterior_agrees_with_the_
         expect_good("check " + out("m.stl"));
         const Ran ran = run("check " + out("m.stl") + " --sections " + labels);
         EXPECT_EQ(ran.code, 0) << ran.out << ran.error;
-        EXPECT_THAT(ran.out, HasSubstr("every one of 2744 samples keeps its label"));
+        EXPECT_THAT(ran.out, HasSubstr("every one of 2,744 samples keeps its label"));
     }
 }
 
@@ -251,10 +251,10 @@ TEST_F(CliFiles, a_model_of_cleaned_labels_is_checked_against_them) {
     expect_good("reconstruct " + labels + "-o " + out("m.vtp") + " --room 1.5");
     EXPECT_THAT(run(checked).out, HasSubstr("samples lie in another region"));
     EXPECT_THAT(run(checked + "--room 1.5").out,
-                AllOf(HasSubstr("no violations"), HasSubstr("every one of 2744 samples keeps its label")));
+                AllOf(HasSubstr("no violations"), HasSubstr("every one of 2,744 samples keeps its label")));
     EXPECT_EQ(run("reconstruct " + labels + "--block-size 8 -o " + out("pieces") + "/ --room 1.5").code, 0);
     EXPECT_THAT(run("check " + out("pieces") + " --room 1.5 --sections " + labels).out,
-                HasSubstr("every one of 2744 samples keeps its label"));
+                HasSubstr("every one of 2,744 samples keeps its label"));
 }
 
 TEST_F(CliFiles, a_bad_row_of_a_table_beside_the_volume_is_a_warning) {

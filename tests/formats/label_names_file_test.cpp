@@ -70,6 +70,11 @@ TEST_F(LabelNamesFile, rows_of_numbers_alone_are_left_out) {
     EXPECT_THAT(failure_of("label,name\n1,a\n2,d\n4\n5,e\n"), HasSubstr("row 4: has no name"));
 }
 
+TEST_F(LabelNamesFile, names_in_quotes_may_have_line_ends) {
+    EXPECT_THAT(names_of("label,name\n1,\"line one\nline two\"\n2,two\n"),
+                ElementsAre(Pair(1, "line one line two"), Pair(2, "two")));
+}
+
 TEST_F(LabelNamesFile, commas_in_names_separate_no_columns) {
     EXPECT_THAT(names_of("1 Thalamus, left\n2 Thalamus, right\n"),
                 ElementsAre(Pair(1, "Thalamus, left"), Pair(2, "Thalamus, right")));

@@ -215,6 +215,28 @@ TEST(BoxAxes, parts_with_a_background_are_no_nested_bodies_when_they_are_read) {
     checked(file.mesh, dense(file.labels, {0}));
 }
 
+TEST(BoxAxes, sides_stay_where_they_are_though_axes_of_few_digits_are_not_quite_square) {
+    Lattice lattice = turned_lattice(0);
+    for (double& entry : lattice.direction) entry = std::round(entry * 1e6) / 1e6;
+    test::ArrayVolume volume = turned_volume(0);
+    volume.lattice() = lattice;
+    Reconstruction made = test::run(std::move(volume), {.smooth = {.passes = 0}, .decimate = false, .background = {}});
+    const BoxAxes axes(made.mesh);
+    ASSERT_TRUE(axes.is_oblique());
+    simplify(made.mesh, {.target_faces = made.mesh.face_count() / 10});
+    axes.restore(made.mesh);
+    const IntoAxes into(lattice);
+    test::for_faces(made.mesh, [&](FaceId f) {
+        if (!is_exterior(made.mesh[f].labels[1])) return;
+        for (const Vec3 p : made.mesh.corners(f)) {
+            double nearest = 1;
+            for (int axis = 0; axis < 3; ++axis)
+                nearest = std::min({nearest, std::abs(into(p)[axis]), std::abs(into(p)[axis] - kSize[axis] + 1.)});
+            EXPECT_LT(nearest, 1e-11);
+        }
+    });
+}
+
 TEST(BoxAxes, a_lattice_beside_the_mesh_turns_nothing) {
     Reconstruction made = model(CellKind::kCompact, {});
     const std::vector<Vec3> before = positions(made.mesh);

@@ -120,6 +120,18 @@ TEST(OptionTable, the_order_of_the_values_does_not_matter) {
     EXPECT_THAT(applied({{"no-background", "false"}, {"background", "5"}}).reconstruct.background, ElementsAre(5));
 }
 
+TEST(OptionTable, a_flag_that_is_false_is_as_one_that_is_not_given) {
+    for (const OptionSpec& option : option_table()) {
+        if (option.kind != OptionKind::kFlag) continue;
+        const Settings settings = applied({{option.name, "false"}});
+        EXPECT_TRUE(settings.given.empty()) << option.name;
+        EXPECT_FALSE(has_background(settings)) << option.name;
+        EXPECT_NO_THROW(require_fit(settings, {"volume.npy"})) << option.name;
+        EXPECT_NO_THROW(require_fit(settings, {"points.csv"})) << option.name;
+    }
+    EXPECT_TRUE(has_background(applied({{"no-background", "true"}})));
+}
+
 TEST(OptionTable, labels_of_the_background_replace_the_default) {
     EXPECT_THAT(applied({}).reconstruct.background, ElementsAre(0));
     EXPECT_THAT(applied({{"background", "7"}, {"background", "-3"}}).reconstruct.background, ElementsAre(7, -3));

@@ -67,5 +67,5 @@ if(found)
 endif()
 
 set(PREFIX ${prefix})
-set(WITHOUT page blocks formats label_names_file mesh_file output_file read_layers read_sections options read_tetrahedra write_report write_volume)
+set(WITHOUT page blocks change_model formats label_names_file mesh_file output_file read_layers read_sections options read_tetrahedra write_report write_volume)
 include(${CMAKE_CURRENT_LIST_DIR}/installed_headers.cmake)

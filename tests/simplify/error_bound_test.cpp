@@ -91,7 +91,7 @@ TEST(ErrorBound, max_error_is_kept) {
                  EXPECT_LE(sampled_distance(whole, made), made.report.error_bound + kRounding);
                  const bool is_small = *options.max_error < 1;
                  EXPECT_TRUE(made.report.verdicts[static_cast<int>(Verdict::kError)] > 0 || !is_small);
-                 EXPECT_EQ(made.report.stopped, "max_error");
+                 EXPECT_EQ(made.report.stopped, StopReason::kMaxError);
              });
 }
 

@@ -110,7 +110,7 @@ TEST(Determinism, a_budget_kept_in_boxes_gives_the_same_bytes_for_any_number_of_
     const Reconstruction one = test::run(volume, options);
     test::expect_sound(one.report.check);
     EXPECT_LT(one.report.peak_faces, 90'000u) << "a run may bring more than the one before";
-    EXPECT_EQ(one.report.stopped, "target");
+    EXPECT_EQ(one.report.stopped, StopReason::kTarget);
     for (std::uint32_t threads : {3u, 8u}) {
         options.threads = threads;
         EXPECT_EQ(test::digest(test::run(volume, options).mesh), test::digest(one.mesh));

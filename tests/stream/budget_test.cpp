@@ -207,7 +207,7 @@ TEST(Memory, twice_and_four_times_the_sections_take_no_more) {
                                          .background = {},
                                          .memory = passes == 0 ? 23'500'000u : 25'000'000u};
         const Report once = run(test::grain_blocks(16, 12), options).report;
-        EXPECT_EQ(once.stopped, "target");
+        EXPECT_EQ(once.stopped, StopReason::kTarget);
         for (std::uint32_t times : {2u, 4u}) {
             const Report more = run(test::grain_blocks(16, 12 * times), options).report;
             EXPECT_GT(more.initial_faces, once.initial_faces * times * 9 / 10);

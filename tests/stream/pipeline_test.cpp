@@ -216,7 +216,7 @@ TEST(Reconstruct, grains_go_down_by_90_percent) {
     const Reconstruction made = run(test::grain_volume({24, 24, 24}, 12, 3), reduced(0.9));
     test::expect_sound(made.report.check);
     EXPECT_LE(made.report.final_faces, made.report.initial_faces / 10 + 1);
-    EXPECT_EQ(made.report.stopped, "target");
+    EXPECT_EQ(made.report.stopped, StopReason::kTarget);
     EXPECT_EQ(made.mesh.face_count(), made.report.final_faces);
     EXPECT_EQ(made.mesh.vertex_count(), made.report.final_vertices);
 }
@@ -336,11 +336,11 @@ TEST(Reconstruct, target_max_error_and_reduce_end_where_they_say) {
     test::ArrayVolume volume = test::grain_volume({16, 16, 16}, 6, 4);
     EXPECT_LE(run(volume, {.target_faces = 2000, .background = {}}).report.final_faces, 2000u);
     const Reconstruction by_error = run(volume, {.max_error = 0.1, .background = {}});
-    EXPECT_EQ(by_error.report.stopped, "max_error");
+    EXPECT_EQ(by_error.report.stopped, StopReason::kMaxError);
     EXPECT_LT(by_error.report.final_faces, by_error.report.initial_faces / 2);
-    EXPECT_EQ(run(volume, {.target_faces = 1, .background = {}}).report.stopped, "topology");
+    EXPECT_EQ(run(volume, {.target_faces = 1, .background = {}}).report.stopped, StopReason::kTopology);
     const Reconstruction untouched = run(volume);
-    EXPECT_EQ(untouched.report.stopped, "none asked");
+    EXPECT_EQ(untouched.report.stopped, StopReason::kNoneAsked);
     EXPECT_EQ(untouched.report.final_faces, untouched.report.initial_faces);
 }
 

@@ -160,6 +160,50 @@ async function a_click_names_the_region(browser) {
     await page.close();
 }
 
+/** A ball of regions 1 and 2 of a volume of 40 samples a side; `label` is the truth. */
+function ball() {
+    const label = (x, y, z) => ((x - 20) ** 2 + (y - 20) ** 2 + (z - 20) ** 2 >= 15 ** 2 ? 0 : x > 22 ? 2 : 1);
+    const samples = Uint8Array.from({ length: 40 ** 3 }, (_, n) => label(n % 40, Math.floor(n / 40) % 40, Math.floor(n / 1600)));
+    writeFileSync(`${folder}/ball.raw`, samples);
+    return { words: [`${folder}/ball.raw`, "--size", "40,40,40", "--type", "uint8"], label };
+}
+
+async function a_click_on_a_section_names_the_region_that_it_shows(browser) {
+    const { words, label } = ball();
+    run("reconstruct", ...words, "-o", `${folder}/ball.vtp`, "--reduce", "60%", "--quiet", "--html", `${folder}/ball.html`);
+    const errors = [], page = await open(browser, `${folder}/ball.html`, errors);
+    for (const axis of ["x", "y", "z"]) {
+        await page.select("#section-axis", axis);
+        const hits = await page.evaluate(`(() => {
+            const { stage, regions, models } = regionmesh, box = stage.canvas.getBoundingClientRect(), hits = [];
+            for (let n = 0; n < 400; ++n) {
+                const hit = stage.pickAt(box.left + (n % 20 + 0.5) / 20 * box.width, box.top + (Math.floor(n / 20) + 0.5) / 20 * box.height, [regions.shown(0)]);
+                if (hit?.isCap) hits.push([Number(models[0].labels[hit.label].label), hit.at.map((x, axis) => x + models[0].centre[axis])]);
+            }
+            return hits;
+        })()`);
+        assert.ok(hits.length > 20, `${hits.length} places on the section across ${axis}`);
+        for (const [told, at] of hits) {
+            const around = [-1, 0, 1].map((step) => label(...at.map((x, k) => (k === 0 ? x + step : x))));
+            if (around.every((one) => one === around[0] && one > 0)) assert.equal(told, around[1], `at ${at}, section across ${axis}`);
+        }
+    }
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function an_open_model_claims_what_was_tested(browser) {
+    run("reconstruct", ...ball().words, "--boundary", "open", "--roi", "5:30,:,:", "-o", `${folder}/open.vtp`, "--quiet", "--html", `${folder}/open.html`);
+    const errors = [], page = await open(browser, `${folder}/open.html`, errors);
+    const text = await page.$eval("#proof", (e) => e.textContent);
+    for (const said of ["every region is closed but for the sides of the box", "Euler characteristics are those of closed regions, and not compared", "not tested: the model is open"])
+        assert.ok(text.includes(said), said);
+    assert.ok((await page.$eval("#table", (e) => e.textContent)).includes("mean nothing"));
+    assert.ok(await page.evaluate("regionmesh.stage.isOpen"), "its inside is drawn");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 async function tables_equal_the_report(browser) {
     const volume = `${repository}/tests/data/solvers/in100.nii.gz`;
     run("reconstruct", volume, "-o", `${folder}/in.vtp`, "--reduce", "70%", "--quiet", "--report", `${folder}/in.json`, "--html", `${folder}/in.html`);
@@ -324,7 +368,8 @@ const browser = await launch(repository);
 try {
     coordinates_have_the_digits_of_the_page();
     for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
-        large_models_are_shown_as_a_preview, a_picture_is_saved, a_click_names_the_region, tables_equal_the_report,
+        large_models_are_shown_as_a_preview, a_picture_is_saved, a_click_names_the_region,
+        a_click_on_a_section_names_the_region_that_it_shows, an_open_model_claims_what_was_tested, tables_equal_the_report,
         a_planted_violation_is_found, two_models_share_a_camera, hostile_names_are_text]) {
         await test(browser);
         console.log(`ok ${test.name}`);

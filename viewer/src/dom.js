@@ -14,6 +14,9 @@ export function element(tag, attributes = {}, ...children) {
 
 export const byId = (id) => document.getElementById(id);
 
+/** A name within a text: its direction of writing stays its own (Unicode, first strong isolate). */
+export const isolated = (name) => `\u2068${name}\u2069`;
+
 /** 1234567 as 1,234,567. */
 export const grouped = (count) => Math.round(count).toLocaleString("en");
 

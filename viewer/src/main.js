@@ -30,7 +30,7 @@ function showHead(data, models) {
     const texts = models.map((model) => {
         const regions = model.labels.filter(({ background }) => !background).length;
         const preview = model.shown_faces < model.faces
-            ? ` (the picture shows a preview with ${grouped(model.shown_faces)} faces; all figures are of the whole model)` : "";
+            ? ` (picture, list and selection show a preview with ${grouped(model.shown_faces)} faces; proof and table are of the whole model)` : "";
         return `${grouped(model.faces)} faces, ${grouped(model.vertices)} vertices, ${grouped(regions)} regions${preview}`;
     });
     byId("summary").textContent = texts.join("; ");
@@ -72,7 +72,7 @@ function addPicking(stage, regions, tools, list) {
 
 function showModels(data, models, regions) {
     const stage = new Stage(byId("canvas"), models);
-    stage.isOpen = (data.report?.violations ?? []).length > 0 || models.some((model) => model.is_open);
+    stage.isOpen = (data.report?.violations ?? []).length > 0 || data.boundary_is_open;
     const lookAt = (region) => {
         const which = region.places.findIndex((place) => place !== undefined);
         stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === which && place === region.places[which])));

@@ -1,28 +1,33 @@
 // The face under the mouse: every face of every shown region is tried, which takes milliseconds.
 
+const kRounding = 1e-6;  // of the distance from the eye
+
 /**
  * The first face that the ray meets, as { face, label, at, isCap }: face of the surfaces of regions, label of its
- * region. `offsets`: displacement of each label, or null; `isShown`: by label; `plane`: [x, y, z, d] or null.
+ * region. Where two regions touch, it is the one that the picture shows: in a section the face seen from inside, else
+ * that of the neighbour at the same place. `offsets`: displacement of each label, or null; `isShown`: by label;
+ * `plane`: [x, y, z, d] or null; `showsInside`: whether faces can be seen from inside without a section.
  */
-export function pick(drawn, origin, direction, { offsets, isShown, plane }) {
+export function pick(drawn, origin, direction, { offsets, isShown, plane, showsInside }) {
     const { corners, labels } = drawn.model.surface, p = drawn.places;
     const from = plane ? entryOf(plane, origin, direction) : 0;
     if (from === null) return null;
+    const isCut = plane !== null && from > 0;
     let best = Infinity, found = null;
     for (let n = 0; n < corners.length; n += 3) {
         const label = labels[2 * corners[n]];
         if (!isShown[label]) continue;
         const hit = meet(p, corners, n, offsets ? offsets[label] : null, origin, direction);
-        if (hit === null || hit.t < from || hit.t >= best) continue;
-        if (plane && heightOf(plane, origin, direction, hit.t) > 1e-6) continue;
-        const isCap = hit.isInside;
-        if (isCap && !(plane && from > 0)) continue;
+        if (hit === null || hit.t < from || (hit.isInside && !isCut && !showsInside)) continue;
+        const rounding = kRounding * hit.t, wins = hit.isInside === isCut;
+        if (hit.t >= best + (wins && !found?.wins ? rounding : -rounding)) continue;
+        if (plane && heightOf(plane, origin, direction, hit.t) > rounding) continue;
         best = hit.t;
-        found = { face: n / 3, label, isCap };
+        found = { face: n / 3, label, isCap: hit.isInside && isCut, wins };
     }
     if (!found) return null;
-    const t = found.isCap ? from : best;
-    return { ...found, at: origin.map((x, axis) => x + t * direction[axis]) };
+    const { face, label, isCap } = found, t = isCap ? from : best;
+    return { face, label, isCap, at: origin.map((x, axis) => x + t * direction[axis]) };
 }
 
 const heightOf = ([x, y, z, d], origin, direction, t) =>

@@ -17,6 +17,12 @@ export function labelsAround({ surface }, vertex) {
     return labels;
 }
 
+/** A region that has the vertex, and the direction out of it there: from there its surface is seen. */
+export function outsideAt({ surface }, vertex) {
+    const n = surface.source.indexOf(vertex), normal = [...surface.normals.subarray(4 * n, 4 * n + 3)];
+    return { label: surface.labels[2 * n], normal: normal.some((x) => x !== 0) ? normal : null };
+}
+
 /** The vertex with the largest distance to the other model. */
 export function farthestVertex({ distances }) {
     return distances.reduce((best, distance, vertex) => (distance > distances[best] ? vertex : best), 0);

@@ -8,28 +8,29 @@ const kOfLabels = ["euler", "quadruple_points", "region_pairs", "nesting"];
 /** { name, verdict: "good" | "bad" | "none", said, meaning } */
 function certificates(data) {
     const { report } = data;
-    return [samplesKept(report), violations(report), topology(data, report), qualityFloor(data, report), errorBound(data, report), sameBytes(data)];
+    return [samplesKept(data, report), violations(data, report), topology(data, report), qualityFloor(data, report), errorBound(data, report), sameBytes(data)];
 }
 
-function samplesKept({ samples, samples_wrong: wrong, samples_in_room: changed, dice }) {
+function samplesKept({ boundary_is_open: isOpen }, { samples, samples_wrong: wrong, samples_in_room: changed, dice }) {
     const meaning = "Every sample of the input lies in the region of its label" + (changed ? ", or of the one that --room gave it" : "") + ". Tested for each sample, in exact arithmetic.";
     const room = changed ? ` after --room changed ${grouped(changed)}` : "";
-    if (samples === undefined) return { name: "Samples kept", verdict: "none", said: "not tested: the input was not at hand", meaning };
+    if (samples === undefined) return { name: "Samples kept", verdict: "none", said: isOpen ? "not tested: the model is open at the box" : "not tested: the input was not at hand", meaning };
     if (wrong === 0) return { name: "Samples kept", verdict: "good", said: `all ${grouped(samples)}${room}`, meaning };
     return { name: "Samples kept", verdict: "bad", said: `${grouped(wrong)} of ${grouped(samples)} lie in another region; Dice ${dice.toFixed(6)}`, meaning };
 }
 
-function violations({ violation_counts: counts }) {
+function violations({ boundary_is_open: isOpen }, { violation_counts: counts }) {
     const found = Object.entries(counts).filter(([, count]) => count > 0);
     return {
         name: "Violations", verdict: found.length ? "bad" : "good",
         said: found.length ? found.map(([kind, count]) => `${kind.replaceAll("_", " ")} ${grouped(count)}`).join(", ") : "none",
-        meaning: "No cracks, no folds, no crossing faces, no degenerate faces: every region is closed and its faces have one orientation. Crossing is tested in exact arithmetic.",
+        meaning: `No cracks, no folds, no crossing faces, no degenerate faces: every region is closed${isOpen ? " but for the sides of the box," : ""} and its faces have one orientation. Crossing is tested in exact arithmetic.`,
     };
 }
 
-function topology({ has_labels: has }, { violation_counts: counts, samples_in_room: changed }) {
-    const meaning = "Euler characteristic of every region, number of quadruple points, and pairs of regions in contact equal those of the labels" + (changed ? " after --room" : "") + ".";
+function topology({ has_labels: has, boundary_is_open: isOpen }, { violation_counts: counts, samples_in_room: changed }) {
+    const what = `${isOpen ? "Number" : "Euler characteristic of every region, number"} of quadruple points, and pairs of regions in contact`;
+    const meaning = `${what} equal those of the labels${changed ? " after --room" : ""}.${isOpen ? " Euler characteristics are those of closed regions, and not compared." : ""}`;
     if (!has) return { name: "Topology", verdict: "none", said: "not compared with labels", meaning };
     const wrong = kOfLabels.reduce((count, kind) => count + (counts[kind] ?? 0), 0);
     return { name: "Topology", verdict: wrong ? "bad" : "good", said: wrong ? `${grouped(wrong)} differences from the labels` : "equal to that of the labels", meaning };

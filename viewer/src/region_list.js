@@ -113,6 +113,7 @@ export class RegionList {
         const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
         swatch.style.background = region.colour;
         const name = button("name", "Select", region.title, regions.selected === region, () => this.choose(region));
+        name.title = region.title;
         name.addEventListener("dblclick", () => this.lookAt(region));
         const row = element("div", {
             class: `row ${region.state}${regions.selected === region ? " selected" : ""}`, role: "listitem",

@@ -220,9 +220,10 @@ export class Stage extends EventTarget {
         this.moved();
     }
 
-    /** `place`: relative to the centre of the model. */
-    lookAt(place, radius) {
-        const direction = this.camera.position.clone().sub(this.controls.target).normalize();
+    /** `place`: relative to the centre of the model; `from`: direction of the eye, or null for the present one. */
+    lookAt(place, radius, from = null) {
+        const direction = from ? new three.Vector3(...from) : this.camera.position.clone().sub(this.controls.target);
+        direction.normalize();
         this.controls.target.set(...this.stretched(place));
         this.camera.position.copy(this.controls.target).addScaledVector(direction, radius / Math.tan((kFieldOfView * Math.PI) / 360));
         this.controls.update();
@@ -288,7 +289,7 @@ export class Stage extends EventTarget {
         const { plane, isCut, explode, stretch } = this.shared, [a, b, c, d] = plane.value.toArray();
         const offsets = explode.value && this.offsets ? this.offsets[which].map((o) => o.map((x) => x * explode.value)) : null;
         const hit = pick(this.drawn[which], this.unstretched(from.toArray()), this.unstretched(to.toArray()),
-            { offsets, isShown: isShown[which], plane: isCut.value ? [a, b, c * stretch.value, d] : null });
+            { offsets, isShown: isShown[which], plane: isCut.value ? [a, b, c * stretch.value, d] : null, showsInside: this.isOpen });
         return hit && { ...hit, which };
     }
 

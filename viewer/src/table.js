@@ -99,7 +99,7 @@ export function showTable(data, regions, goTo) {
         more.textContent = `Show all ${grouped(all.length)} rows`;
     };
     const sortBy = (n) => {
-        sign = n === order ? -sign : n < 2 ? 1 : -1;
+        sign = n === order ? -sign : ["label", "name"].includes(columns[n][0]) ? 1 : -1;
         order = n;
         draw();
     };
@@ -109,6 +109,7 @@ export function showTable(data, regions, goTo) {
     });
     const name = data.models[0].title.replace(/[^\w.-]+/g, "_");
     section.append(element("h2", {}, "Regions"),
+        element("p", { class: "hint", hidden: !data.boundary_is_open }, "The model is open at the box: volumes of regions that reach it mean nothing."),
         element("div", { class: "buttons" },
             element("button", { type: "button", id: "csv", onclick: () => download(`${name}.regions.csv`, "text/csv", csvOf(columns, all)) }, "Download CSV"),
             element("button", { type: "button", id: "json", onclick: () => download(`${name}.regions.json`, "application/json", jsonOf(columns, all)) }, "Download JSON"),

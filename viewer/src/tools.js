@@ -1,7 +1,7 @@
 // The panel on the right: the selected region or face, colours, section, exploded view, lines, violations.
-import { byId, coordinate, element, grouped, short } from "./dom.js";
+import { byId, coordinate, element, grouped, isolated, short } from "./dom.js";
 import { faceQuality, interfaceMeasures } from "./measures.js";
-import { farthestVertex, labelsAround, nearestVertex } from "./places.js";
+import { farthestVertex, labelsAround, nearestVertex, outsideAt } from "./places.js";
 import { kRamps } from "./ramps.js";
 
 function group(title, ...children) {
@@ -68,7 +68,7 @@ export class Tools {
         byId("legend-bar").style.background = `linear-gradient(to right, ${kRamps[found.ramp].join(", ")})`;
     }
 
-    /** Shows the vertex that is farthest from the other model, with the regions around it alone. */
+    /** Shows the vertex that is farthest from the other model, with a region that has it alone. */
     goFarthest() {
         const found = this.models.flatMap((model, which) => {
             if (!model.has_distances) return [];
@@ -77,13 +77,12 @@ export class Tools {
         });
         const { which, vertex, distance } = found.reduce((a, b) => (b.distance > a.distance ? b : a));
         const model = this.models[which], at = [...model.positions.subarray(3 * vertex, 3 * vertex + 3)];
-        const labels = labelsAround(model, vertex), place = at.map((x, axis) => x + model.centre[axis]);
-        this.regions.showOnly(which, labels);
+        const { label, normal } = outsideAt(model, vertex), place = at.map((x, axis) => x + model.centre[axis]);
+        this.regions.showOnly(which, [label]);
         this.stage.drawn[which].showMarkers([place]);
-        this.stage.lookAt(at, this.stage.radius / 5);
-        const names = [...labels].map((label) => this.regions.titleAt(which, label)).join(", ");
+        this.stage.lookAt(at, this.stage.radius / 5, normal);
         byId("farthest-text").textContent =
-            `${short(distance)} at a vertex of ${"AB"[which]}, ${placeText(model, at)}. Only ${names} shown; the key A shows all.`;
+            `${short(distance)} at a vertex of ${"AB"[which]}, ${placeText(model, at)}. Only ${isolated(this.regions.titleAt(which, label))} shown; the key A shows all.`;
     }
 
     sectionGroup() {
@@ -115,7 +114,7 @@ export class Tools {
     shapeGroup() {
         const height = element("input", {
             id: "stretch", type: "number", min: "0.1", max: "1000", step: "any", value: this.stage.shared.stretch.value,
-            onchange: () => this.stretch(Number(height.value) || 1),
+            onchange: () => this.stretch(Math.min(Math.max(Number(height.value) || 1, Number(height.min)), Number(height.max))),
         });
         return group("Shape", slider("explode", "Explode ", 0, (share) => this.explode(share)),
             element("label", { class: "field", title: "For flat models, such as strata" }, "Height × ", height));
@@ -180,9 +179,10 @@ export class Tools {
     /** Other regions would hide it, and without edges a missing face is hard to see. */
     goToViolation(at) {
         const [{ model }] = this.stage.drawn, place = at.map((x, axis) => x - model.centre[axis]);
-        if (byId("violation-alone").checked) this.regions.showOnly(0, labelsAround(model, nearestVertex(model, place)));
+        const vertex = nearestVertex(model, place);
+        if (byId("violation-alone").checked) this.regions.showOnly(0, labelsAround(model, vertex));
         if (!byId("show-edges").checked) byId("show-edges").click();
-        this.stage.lookAt(place, this.stage.radius / 8);
+        this.stage.lookAt(place, this.stage.radius / 8, outsideAt(model, vertex).normal);
     }
 
     /** Shows a region, or the face of a hit. */
@@ -209,7 +209,7 @@ export class Tools {
 
     neighbourText(region) {
         const which = region.places.findIndex((place) => place !== undefined);
-        const names = [...region.measures.neighbours].map((place) => this.regions.titleAt(which, place));
+        const names = [...region.measures.neighbours].map((place) => isolated(this.regions.titleAt(which, place)));
         return names.length > 6 ? `${names.slice(0, 6).join(", ")} and ${names.length - 6} more` : names.join(", ");
     }
 
@@ -217,7 +217,7 @@ export class Tools {
         const { model } = this.stage.drawn[which], place = placeText(model, at);
         if (isCap) return [["Place", place]];
         const f = model.surface.faceOf[face], pair = model.geometry.pairOfFace[f], found = interfaceMeasures(model, pair);
-        const names = model.pairs[pair].slice(0, 2).map((label) => this.regions.titleAt(which, label));
+        const names = model.pairs[pair].slice(0, 2).map((label) => isolated(this.regions.titleAt(which, label)));
         const quality = faceQuality(model.positions, ...model.geometry.corners.subarray(3 * f, 3 * f + 3));
         return [["Interface", `${names[0]} | ${names[1]}`], ["Its area", short(found.area)], ["Its faces", grouped(found.faces)],
             ["Quality of the face", short(quality, 3)], ["Place", place]];

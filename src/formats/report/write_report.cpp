@@ -160,7 +160,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
     json["refreshes"] = report.refreshes;
     json["samples_in_room"] = report.samples_in_room;
-    json["stopped"] = report.stopped;
+    json["stopped"] = to_string(report.stopped);
     json["error_bound"] = report.error_bound;
     json["smoothing"] = smoothing_json(report);
     json["pinned_vertices"] = report.pinned_vertices;

@@ -61,7 +61,7 @@ TEST(ReportJson, says_what_the_report_says) {
     report.seconds = {{"total", 1.5}};
     report.stage_bytes = {{"smooth", 2'000'000}};
     report.verdicts[static_cast<int>(Verdict::kPinch)] = 4;
-    report.stopped = "target";
+    report.stopped = StopReason::kTarget;
     const Json json = Json::parse(report_json(report, test::labels_from({7, 3})));
     EXPECT_EQ(json["initial_faces"], 100);
     EXPECT_EQ(json["final_vertices"], 7);

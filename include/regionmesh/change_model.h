@@ -1,0 +1,37 @@
+// Changes of a whole model, checked before and after: what the commands decimate and smooth do, and Python's methods.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "regionmesh/check.h"
+#include "regionmesh/lattice.h"
+#include "regionmesh/mesh.h"
+#include "regionmesh/options.h"
+#include "regionmesh/report.h"
+
+namespace regionmesh {
+
+/// What a change did.
+struct ModelChange {
+    CheckReport before;  // of the mesh as it came
+    LockedPart locked;   // because of violations that it came with
+    Report report;       // as reconstruct() gives it
+};
+
+/// Told how far a change is: faces gone in this stage, and how many will be in all, where that is known.
+using OnModelChange =
+    std::function<void(const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all)>;
+
+/// Simplifies a mesh to the target of the settings, and improves it where they say so, in the axes of its box
+/// (BoxAxes) or of `samples`, none of which then changes its region. `checks` tells what its boundary and its
+/// background are; its ids are dense afterwards. Throws what simplify() and improve() throw.
+ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
+                           const std::optional<Lattice>& samples = {}, const OnModelChange& on_change = {});
+
+/// Smooths a mesh in the same way, and restores the volumes of its regions where the settings say so. Throws what
+/// smooth() and preserve_volumes() throw.
+ModelChange smooth_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks);
+
+}  // namespace regionmesh

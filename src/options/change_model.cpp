@@ -1,0 +1,106 @@
+#include "regionmesh/change_model.h"
+
+#include <algorithm>
+
+#include "regionmesh/box_axes.h"
+#include "regionmesh/improve.h"
+#include "regionmesh/process.h"
+#include "regionmesh/simplify.h"
+#include "regionmesh/smooth.h"
+
+namespace regionmesh {
+namespace {
+
+/// Checks the mesh, and locks what has violations.
+ModelChange begin(Mesh& mesh, const CheckOptions& checks) {
+    ModelChange change;
+    change.before = check(mesh, checks);
+    if (change.before.violation_count() > 0) change.locked = lock_violations(mesh, checks);
+    change.report.initial_faces = change.report.peak_faces = mesh.face_count();
+    change.report.initial_vertices = mesh.vertex_count();
+    return change;
+}
+
+/// Unlocks the mesh and checks it again. So that ids in the report are the numbers of points and faces in a file, they
+/// become dense.
+void end(Mesh& mesh, const CheckOptions& checks, Report& report) {
+    mesh.compact();
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].is_fixed = false;
+    report.check = check(mesh, checks);
+    report.final_faces = mesh.face_count();
+    report.final_vertices = mesh.vertex_count();
+    report.peak_bytes = peak_resident_bytes();
+}
+
+void note_simplified(const SimplifyResult& done, Report& report) {
+    report.verdicts = done.verdicts;
+    report.refreshes = done.refreshes;
+    report.stopped = done.stopped;
+    report.error_bound = done.error_bound;
+    report.bytes_per_face =
+        static_cast<double>(done.bytes) / static_cast<double>(std::max<std::uint64_t>(report.peak_faces, 1));
+}
+
+WantedVolumes volumes_of(const CheckReport& report) {
+    WantedVolumes volumes;
+    for (const RegionReport& region : report.regions) {
+        if (region.label >= volumes.size()) volumes.resize(region.label + 1);
+        volumes[region.label] = region.volume;
+    }
+    return volumes;
+}
+
+}  // namespace
+
+ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
+                           const std::optional<Lattice>& samples, const OnModelChange& on_change) {
+    const auto tell = [&](const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all) {
+        if (on_change) on_change(stage, gone, in_all);
+    };
+    const BoxAxes axes = samples ? BoxAxes(mesh, *samples) : BoxAxes(mesh);
+    ModelChange change = begin(mesh, checks);
+    Report& report = change.report;
+    SimplifyOptions options = simplify_options(settings, mesh);
+    options.samples = axes.samples();
+    std::optional<std::uint64_t> in_all;  // known where the target is a number of faces
+    if (options.target_faces > 0) in_all = report.initial_faces - options.target_faces;
+    options.on_progress = [&](std::uint64_t left) { tell("decimate", report.initial_faces - left, in_all); };
+    {
+        const Timer timer(report.seconds["decimate"]);
+        note_simplified(simplify(mesh, options), report);
+    }
+    if (settings.reconstruct.improve) {
+        const Timer timer(report.seconds["improve"]);
+        ImproveOptions improving = improve_options(options);
+        improving.on_progress = [&] { tell("improve", 0, std::nullopt); };
+        report.improved = improve(mesh, improving);
+        report.error_bound = report.improved->error_bound;
+    }
+    axes.restore(mesh);
+    tell("check", 0, std::nullopt);
+    end(mesh, checks, report);
+    return change;
+}
+
+ModelChange smooth_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks) {
+    const BoxAxes axes(mesh);
+    ModelChange change = begin(mesh, checks);
+    Report& report = change.report;
+    if (checks.boundary_is_open) fix_rims(mesh);
+    const SmoothOptions options = smooth_options(settings, mesh);
+    {
+        const Timer timer(report.seconds["smooth"]);
+        report.smoothing = smooth(mesh, options);
+    }
+    report.smoothing.scale_volumes(axes.volume_factor());
+    report.unsmoothed_volumes = report.smoothing.volume_before;
+    if (settings.reconstruct.preserve_volume) {
+        const Timer timer(report.seconds["preserve volume"]);
+        report.preserved = preserve_volumes(mesh, volumes_of(change.before), options);
+    }
+    axes.restore(mesh);
+    end(mesh, checks, report);
+    return change;
+}
+
+}  // namespace regionmesh
