@@ -101,14 +101,15 @@ void warn_of_passes(const Settings& settings) {
     const bool is_lattice = smooth.filter == SmoothFilter::kAuto || smooth.filter == SmoothFilter::kLattice;
     if (smooth.passes == 0 || !is_lattice) return;
     const auto warn_of = [](const std::string& option, const char* what) {
-        warn(fmt::format("{}: the filter lattice {}; --smooth-filter taubin follows it", option, what));
+        warn(fmt::format("{}: without effect, since the filter lattice {}; --smooth-filter taubin uses it", option,
+                         what));
     };
     const std::string* const much = given_text(settings, "smooth");
     const bool is_number = much && much->find_first_not_of("0123456789") == std::string::npos;
     if (is_number && smooth.passes != SmoothOptions{}.passes)
-        warn_of("--smooth " + *much, "has no passes, and smooths as with normal (light and strong differ)");
-    if (smooth.move_points) warn_of("--smooth-points", "moves quadruple points without it");
-    if (given_text(settings, "smooth-lambda")) warn_of("--smooth-lambda", "does not use it");
+        warn_of("--smooth " + *much, "has no passes: this is --smooth normal");
+    if (smooth.move_points) warn_of("--smooth-points", "moves quadruple points anyway");
+    if (given_text(settings, "smooth-lambda")) warn_of("--smooth-lambda", "has no passes");
 }
 
 void warn_of_grey_scale(const Settings& settings, SectionReader& reader) {

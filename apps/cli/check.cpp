@@ -97,7 +97,10 @@ bool needs_whole(const Settings& settings) {
 }  // namespace
 
 int run_check(const Settings& given) {
-    require_fit(given, given.sections);
+    if (given.sections.empty())
+        require_no_input_options(given);
+    else
+        require_fit(given, given.sections);
     require_readable_twice(given);
     require_page(given.html, given.writing);
     const std::string& path = given.models.front();

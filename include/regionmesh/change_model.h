@@ -20,7 +20,7 @@ struct ModelChange {
     Report report;       // as reconstruct() gives it
 };
 
-/// Told how far a change is: faces gone in this stage, and how many will be in all, where that is known.
+/// Takes progress: faces gone in this stage, and how many will be in all, where that is known.
 using OnModelChange =
     std::function<void(const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all)>;
 

@@ -172,9 +172,11 @@ std::unique_ptr<SectionReader> open_lattice(const Settings& settings, const std:
 /// The kind of the input, by the name of its first file.
 InputKind kind_of_input(const std::vector<std::string>& inputs);
 
-/// Throws Error(kUsage) where an option that was given does not apply to the input, for two tables or meshes, and for
-/// options of inputs where there is none.
+/// Throws Error(kUsage) where an option that was given does not apply to the input, or for two tables or meshes.
 void require_fit(const Settings& settings, const std::vector<std::string>& inputs);
+
+/// Throws Error(kUsage) for options that some kinds of input alone take: for a check without sections.
+void require_no_input_options(const Settings& settings);
 
 /// The options in a report, which the same command takes again: `options` of report_json(). Throws Error(kInput) for a
 /// file that is no report, and Error(kUsage) for the report of another command.

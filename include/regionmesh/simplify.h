@@ -45,8 +45,17 @@ enum class StopReason { kTarget, kMaxError, kTopology, kNoneAsked };
 
 /// As reports have it: "target", "max_error", "topology", "none asked".
 constexpr const char* to_string(StopReason reason) {
-    constexpr const char* kTexts[] = {"target", "max_error", "topology", "none asked"};
-    return kTexts[static_cast<std::size_t>(reason)];
+    switch (reason) {
+        case StopReason::kTarget:
+            return "target";
+        case StopReason::kMaxError:
+            return "max_error";
+        case StopReason::kTopology:
+            return "topology";
+        case StopReason::kNoneAsked:
+            break;
+    }
+    return "none asked";
 }
 
 struct SimplifyResult {

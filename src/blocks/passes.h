@@ -9,8 +9,16 @@
 
 namespace regionmesh {
 
-/// Pass 0 reconstructs, pass 1 simplifies the seams; then logs, in passes 2, 4, .., and cuts, in passes 3, 5, .., take
-/// turns.
+/// Each pass makes the pieces of all blocks out of those of the pass before; a run ends with the pass that reaches its
+/// target.
+///
+///     pass      blocks        what it does
+///     0         as they lie   reconstructs, and simplifies inside the walls
+///     1         shifted       simplifies up to a threshold, where the walls of pass 0 were (the seams)
+///     2         as they lie   log: notes collapses up to threshold_of_log()
+///     3         as they lie   cut: makes the cheapest of them, until left_by_cut() times the target is left
+///     4, 5      shifted       log and cut
+///     6, 7      as they lie   log and cut, and so on
 inline constexpr std::uint32_t kSeams = 1, kFirstLog = 2, kMostLogs = 7;
 
 inline constexpr std::uint32_t kMostBlockPasses = kFirstLog + 2 * kMostLogs;

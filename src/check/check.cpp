@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "check/findings.h"
+#include "check/check_steps.h"
 
 namespace regionmesh {
 namespace {

@@ -5,7 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "check/findings.h"
+#include "check/check_steps.h"
 #include "check/part_components.h"
 #include "check/part_nesting.h"
 #include "check/quality_sum.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "check/findings.h"
+#include "check/check_steps.h"
 
 namespace regionmesh {
 

@@ -7,7 +7,7 @@
 #include "base/parallel_for.h"
 #include "base/triangle.h"
 #include "check/check_parts.h"
-#include "check/findings.h"
+#include "check/check_steps.h"
 #include "check/quality_sum.h"
 #include "check/region_sums.h"
 #include "mesh/extent.h"

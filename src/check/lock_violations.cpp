@@ -2,7 +2,7 @@
 
 #include "base/exact_predicates.h"
 #include "base/parallel_for.h"
-#include "check/findings.h"
+#include "check/check_steps.h"
 #include "check/generic_star.h"
 #include "mesh/crossing.h"
 #include "regionmesh/check.h"

@@ -4,6 +4,7 @@
 
 #include "base/parallel_for.h"
 #include "base/union_find.h"
+#include "check/check_steps.h"
 #include "check/nesting_ray.h"
 #include "mesh/extent.h"
 

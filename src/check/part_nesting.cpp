@@ -7,6 +7,7 @@
 
 #include "base/box.h"
 #include "base/union_find.h"
+#include "check/check_steps.h"
 #include "mesh/extent.h"
 
 namespace regionmesh {

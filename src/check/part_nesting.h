@@ -7,6 +7,7 @@
 
 #include "check/nesting_ray.h"
 #include "check/seam_sets.h"
+#include "mesh/mesh_part.h"
 
 namespace regionmesh {
 

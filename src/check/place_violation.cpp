@@ -3,7 +3,7 @@
 #include <charconv>
 
 #include "base/box.h"
-#include "check/findings.h"
+#include "check/check_steps.h"
 #include "mesh/strata.h"
 
 namespace regionmesh {

@@ -6,7 +6,7 @@
 #include "base/hash.h"
 #include "base/parallel_for.h"
 #include "base/radix_sort.h"
-#include "check/findings.h"
+#include "check/check_steps.h"
 
 namespace regionmesh {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/parallel_for.h"
 #include "base/union_find.h"
-#include "check/findings.h"
+#include "check/check_steps.h"
 #include "check/generic_star.h"
 #include "check/part_components.h"
 #include "check/region_sums.h"

@@ -95,13 +95,26 @@ std::vector<Row> TableReader::split(char separator) const {
     return rows;
 }
 
+/// Whether a line ends inside quotes, which a field begins with; `is_quoted`: whether the line before did.
+bool ends_in_quotes(std::string_view line, char separator, bool is_quoted) {
+    bool is_begin = true;  // of a field
+    for (std::size_t at = 0; at < line.size(); ++at) {
+        if (is_quoted && line[at] == '"' && line.substr(at + 1).starts_with('"'))
+            ++at;  // a quote within the field
+        else if (line[at] == '"' && (is_quoted || is_begin))
+            is_quoted = !is_quoted;
+        is_begin = line[at] == separator || (is_begin && line[at] == ' ');
+    }
+    return is_quoted;
+}
+
 /// Accepts a separator that occurs in every row, unless in the last row (never a header) only blanks separate a label.
 bool TableReader::find_rows(char separator) {
     bool is_quoted = false;  // a name may contain a line end
     for (std::string_view rest = text_; !rest.empty();) {
         const std::string_view line = formats::take_line(rest);
         if (!is_quoted && !trim(line).empty() && line.find(separator) == std::string_view::npos) return false;
-        is_quoted ^= std::ranges::count(line, '"') % 2 == 1;
+        is_quoted = ends_in_quotes(line, separator, is_quoted);
     }
     rows_ = split(separator);
     if (rows_.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.fields.size() < 2; }))

@@ -93,16 +93,17 @@ BoxAxes::BoxAxes(Mesh& mesh) {
     bool is_along = true;
     for_outer_faces(mesh, [&](FaceId f) { is_along = is_along && sides_at(mesh.corners(f), along, 0) != 0; });
     if (is_along) return;
-    // Axes that a file gives with few digits are square to these only.
-    for (const auto& find_normals : {any_normals, square_normals}) {
-        const auto normals = find_normals(mesh);
+    // Axes that a file gives with few digits are square to these only. Normals that are known from slivers, because no
+    // face lies on the sides of a third axis, are not used.
+    for (const bool is_square : {false, true}) {
+        const auto normals = is_square ? square_normals(mesh) : any_normals(mesh);
         if (!normals) continue;
         set_axes(*normals);
         origin_ = 0.5 * (along.low + along.high);
         note_positions(mesh);
         Box box;
         for_vertices(mesh, [&](VertexId v) { box.add(after_[index(v)]); });
-        if (turn(mesh, box)) return;
+        if (turn(mesh, box, is_square ? 0 : 3)) return;
     }
 }
 
@@ -113,15 +114,16 @@ BoxAxes::BoxAxes(Mesh& mesh, const Lattice& lattice) {
     }
     set_axes(lattice);
     note_positions(mesh);
-    if (!turn(mesh, samples_->extent())) samples_.reset();
+    if (!turn(mesh, samples_->extent(), 0)) samples_.reset();
 }
 
-/// False, and nothing, where the mesh does not fit the box.
-bool BoxAxes::turn(Mesh& mesh, const Box& box) {
+/// False, and nothing, where the mesh does not fit the box, or fewer axes than `least_axes` have a face that lies on
+/// their sides alone.
+bool BoxAxes::turn(Mesh& mesh, const Box& box, int least_axes) {
     const Vec3 size = box.high - box.low;
     const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
     std::vector<Side> sides;
-    const bool fits = find_sides(mesh, box, tolerance, sides);
+    const bool fits = find_sides(mesh, box, tolerance, sides) >= least_axes;
     if (fits)
         put_on_box(mesh, box, tolerance, sides);
     else
@@ -170,9 +172,11 @@ void BoxAxes::note_positions(const Mesh& mesh) {
     });
 }
 
-/// Whether each face with the exterior lies on a side, and few enough labels meet where two sides do.
-bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const {
+/// How many axes have a face that lies on their sides alone; -1 where a face with the exterior lies on no side, or too
+/// many labels meet where two sides do.
+int BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const {
     bool is_box = true;
+    unsigned axes = 0;
     std::vector<SideSet> of_vertex(mesh.vertex_end());
     for_outer_faces(mesh, [&](FaceId f) {
         std::array<Vec3, 3> corners;
@@ -180,6 +184,7 @@ bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std
         const SideSet at = sides_at(corners, box, tolerance);
         is_box = is_box && at != 0;
         sides.push_back({f, std::countr_zero(at)});
+        if (std::popcount(at) == 1) axes |= 1u << std::countr_zero(at) / 2;
         for (const VertexId v : mesh[f].vertices) of_vertex[index(v)] |= static_cast<SideSet>(at & -at);
     });
     for_vertices(mesh, [&](VertexId v) {
@@ -191,7 +196,7 @@ bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std
         });
         is_box = may_meet(labels.size(), of_vertex[index(v)]);
     });
-    return is_box;
+    return is_box ? std::popcount(axes) : -1;
 }
 
 /// Makes the mesh anew: faces keep their labels while they are in a mesh.

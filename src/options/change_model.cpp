@@ -54,7 +54,7 @@ WantedVolumes volumes_of(const CheckReport& report) {
 
 ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
                            const std::optional<Lattice>& samples, const OnModelChange& on_change) {
-    const auto tell = [&](const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all) {
+    const auto note = [&](const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all) {
         if (on_change) on_change(stage, gone, in_all);
     };
     const BoxAxes axes = samples ? BoxAxes(mesh, *samples) : BoxAxes(mesh);
@@ -64,7 +64,7 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     options.samples = axes.samples();
     std::optional<std::uint64_t> in_all;  // known where the target is a number of faces
     if (options.target_faces > 0) in_all = report.initial_faces - options.target_faces;
-    options.on_progress = [&](std::uint64_t left) { tell("decimate", report.initial_faces - left, in_all); };
+    options.on_progress = [&](std::uint64_t left) { note("decimate", report.initial_faces - left, in_all); };
     {
         const Timer timer(report.seconds["decimate"]);
         note_simplified(simplify(mesh, options), report);
@@ -72,12 +72,12 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     if (settings.reconstruct.improve) {
         const Timer timer(report.seconds["improve"]);
         ImproveOptions improving = improve_options(options);
-        improving.on_progress = [&] { tell("improve", 0, std::nullopt); };
+        improving.on_progress = [&] { note("improve", 0, std::nullopt); };
         report.improved = improve(mesh, improving);
         report.error_bound = report.improved->error_bound;
     }
     axes.restore(mesh);
-    tell("check", 0, std::nullopt);
+    note("check", 0, std::nullopt);
     end(mesh, checks, report);
     return change;
 }

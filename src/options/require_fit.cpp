@@ -37,8 +37,8 @@ constexpr Contradiction kContradictions[] = {
 };
 
 void require_consistent_smoothing(const Settings& settings) {
-    const std::string *const filter = given_text(settings, "smooth-filter"), *const much =
-                                                                                 given_text(settings, "smooth");
+    const std::string* const filter = given_text(settings, "smooth-filter");
+    const std::string* const much = given_text(settings, "smooth");
     const bool is_off = much && (*much == "off" || *much == "0"), has_no_filter = filter && *filter == "none";
     if (has_no_filter && much && !is_off)
         refuse_both("smooth-filter none", "smooth " + *much, "one smooths, the other does not");
@@ -48,15 +48,6 @@ void require_consistent_smoothing(const Settings& settings) {
         refuse_both(off, "smooth-filter " + *filter, "one smooths, the other does not");
     for (const char* name : {"smooth-lambda", "smooth-points"})
         if (given_text(settings, name)) refuse_both(off, name, "nothing is smoothed");
-}
-
-/// Options that say how an input is read, where `check` is given none.
-void require_no_reading(const Settings& settings) {
-    for (const auto& [name, text] : settings.given)
-        if (const OptionSpec& option = *find_option(name); option.inputs != kAnyInput)
-            throw Error(ErrorCode::kUsage, fmt::format("{}: says how sections are read, and there are none; give "
-                                                       "--sections, too",
-                                                       typed(option, text)));
 }
 
 /// Options of a table that need layers, and one that they do not take.
@@ -105,7 +96,7 @@ InputKind kind_of_input(const std::vector<std::string>& inputs) {
 }
 
 void require_fit(const Settings& settings, const std::vector<std::string>& inputs) {
-    if (inputs.empty()) return require_no_reading(settings);
+    if (inputs.empty()) return;
     const InputKind kind = kind_of_input(inputs);
     if (kind != kVolumeInput && inputs.size() > 1)
         throw Error(ErrorCode::kUsage, inputs[1] + ": one table or mesh at a time; give one");
@@ -116,6 +107,14 @@ void require_fit(const Settings& settings, const std::vector<std::string>& input
         throw Error(ErrorCode::kUsage, fmt::format("{}: does not apply to {}, which is {}", typed(option, text),
                                                    inputs[0], kind_text(kind)));
     }
+}
+
+void require_no_input_options(const Settings& settings) {
+    for (const auto& [name, text] : settings.given)
+        if (const OptionSpec& option = *find_option(name); option.inputs != kAnyInput)
+            throw Error(ErrorCode::kUsage, fmt::format("{}: says how sections are read, and there are none; give "
+                                                       "--sections, too",
+                                                       typed(option, text)));
 }
 
 void require_consistent(const Settings& settings) {

@@ -124,7 +124,7 @@ Rows smoothing_rows() {
              .inputs = kVolumeInput | kTableInput},
             [](Settings& s) { return &s.reconstruct.room; }, kRoom),
         option({.name = "smooth-points",
-                .help = "quadruple points move along their lines, instead of not at all; lattice moves them without it",
+                .help = "quadruple points move along their lines, instead of not at all; for the filters with passes",
                 .group = kGroup,
                 .commands = kSmoothers},
                [](Settings& s) { return &s.reconstruct.smooth.move_points; }),

@@ -197,12 +197,14 @@ TEST(Compare, lines_are_named_by_all_their_labels) {
 }
 
 TEST(Compare, edges_of_the_box_are_no_lines_where_one_model_does_not_know_its_sides) {
-    Mesh other = stack(1.25);
-    for (std::uint32_t v = 0; v < other.vertex_end(); ++v) other[VertexId{v}].sides = 0;
-    for (const CompareReport& report : {compared(stack(1), other), compared(other, stack(1))}) {
-        ASSERT_EQ(report.lines.size(), 1u);
-        EXPECT_THAT(report.lines[0].labels, ElementsAre(0, 1, exterior(0)));
-        expect_all(report.lines[0].distance, 0.25);
+    for (const int sides : {0, static_cast<int>(kOnHull)}) {
+        Mesh other = stack(1.25);
+        for (std::uint32_t v = 0; v < other.vertex_end(); ++v) other[VertexId{v}].sides = static_cast<SideSet>(sides);
+        for (const CompareReport& report : {compared(stack(1), other), compared(other, stack(1))}) {
+            ASSERT_EQ(report.lines.size(), 1u);
+            EXPECT_THAT(report.lines[0].labels, ElementsAre(0, 1, exterior(0)));
+            expect_all(report.lines[0].distance, 0.25);
+        }
     }
 }
 

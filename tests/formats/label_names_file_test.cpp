@@ -73,6 +73,8 @@ TEST_F(LabelNamesFile, rows_of_numbers_alone_are_left_out) {
 TEST_F(LabelNamesFile, names_in_quotes_may_have_line_ends) {
     EXPECT_THAT(names_of("label,name\n1,\"line one\nline two\"\n2,two\n"),
                 ElementsAre(Pair(1, "line one line two"), Pair(2, "two")));
+    EXPECT_THAT(names_of("1,5\" pipe\n2,\"a\nb\"\n3,x\n"),
+                ElementsAre(Pair(1, "5\" pipe"), Pair(2, "a b"), Pair(3, "x")));
 }
 
 TEST_F(LabelNamesFile, commas_in_names_separate_no_columns) {

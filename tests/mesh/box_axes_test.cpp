@@ -259,6 +259,34 @@ TEST(BoxAxes, boxes_of_single_precision_are_found) {
     }
 }
 
+TEST(BoxAxes, slabs_of_single_precision_are_not_sheared) {
+    // Background above and below: no face lies on the sides of the third axis, but slivers beside it have any normal.
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+        constexpr test::Size kSlab{70, 50, 12};
+        test::ArrayVolume volume = test::grain_volume(kSlab, 12, seed);
+        std::vector<InputLabel> labels = volume.labels();
+        const std::size_t section = kSlab[0] * kSlab[1];
+        for (std::size_t n = 0; n < labels.size(); ++n) {
+            const std::size_t x = n % kSlab[0], y = n / kSlab[0] % kSlab[1], z = n / section;
+            const double low = 2 + std::sin(0.3 * double(x + seed)),
+                         high = 9 + std::cos(0.2 * double(y) + 0.1 * double(x));
+            labels[n] = double(z) < low || double(z) > high ? 0 : labels[n] + 1;
+        }
+        test::ArrayVolume slab(kSlab, labels);
+        slab.lattice() = turned_lattice(0);
+        slab.lattice().size = kSlab;
+        slab.lattice().origin = {-283, 512, 77};
+        Reconstruction made = test::run(std::move(slab), {.decimate = false, .background = {0}});
+        test::for_vertices(made.mesh, [&](VertexId v) {
+            Vec3& p = made.mesh[v].position;
+            for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(p[axis]);
+        });
+        LabelledMesh file = from_file(made);
+        const BoxAxes axes(file.mesh);
+        EXPECT_NEAR(axes.volume_factor(), 1, 1e-4) << "seed " << seed;
+    }
+}
+
 /// Its three largest normals lie in one plane, and are those of no box.
 Mesh hexagonal_bar() {
     std::vector<Vec3> positions;
