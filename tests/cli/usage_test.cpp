@@ -54,7 +54,8 @@ TEST_F(Usage, options_that_contradict_each_other_are_refused_by_name) {
 
 TEST_F(Usage, options_that_the_lattice_filter_does_not_follow_are_a_warning) {
     const auto said = [&](const std::string& options) { return run(reconstruct_ball(options)).error; };
-    EXPECT_THAT(said("--smooth 50"), HasSubstr("warning: --smooth 50: without effect, since the filter lattice has no passes"));
+    EXPECT_THAT(said("--smooth 50"),
+                HasSubstr("warning: --smooth 50: without effect, since the filter lattice has no passes"));
     EXPECT_THAT(said("--smooth-points"), HasSubstr("warning: --smooth-points: "));
     EXPECT_THAT(said("--smooth-lambda 0.3"), HasSubstr("warning: --smooth-lambda: "));
     for (const char* options : {"--smooth 20", "--smooth light", "--smooth 0", "--smooth off",
