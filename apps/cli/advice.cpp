@@ -108,7 +108,7 @@ void warn_of_passes(const Settings& settings) {
     const bool is_number = much && much->find_first_not_of("0123456789") == std::string::npos;
     if (is_number && smooth.passes != SmoothOptions{}.passes)
         warn_of("--smooth " + *much, "has no passes: this is --smooth normal");
-    if (smooth.move_points) warn_of("--smooth-points", "moves quadruple points anyway");
+    if (smooth.move_points) warn_of("--smooth-points", "always moves quadruple points");
     if (given_text(settings, "smooth-lambda")) warn_of("--smooth-lambda", "has no passes");
 }
 

@@ -46,9 +46,10 @@ private:
 
     void set_axes(const std::array<Vec3, 3>& normals);
     void set_axes(const Lattice& lattice);
-    bool turn(Mesh& mesh, const Box& box, int least_axes);
+    bool turn(Mesh& mesh, const Box& box, bool needs_all_axes);
     void note_positions(const Mesh& mesh);
-    int find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const;
+    bool find_sides(const Mesh& mesh, const Box& box, double tolerance, bool needs_all_axes,
+                    std::vector<Side>& sides) const;
     void put_on_box(Mesh& mesh, const Box& box, double tolerance, const std::vector<Side>& sides);
 
     std::optional<Lattice> samples_;

@@ -1,4 +1,4 @@
-// Changes of a whole model, checked before and after: what the commands decimate and smooth do, and Python's methods.
+// Changes of a whole model, checked before and after: those of the commands decimate and smooth, and of Python.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,14 @@ struct ModelChange {
     Report report;       // as reconstruct() gives it
 };
 
-/// Takes progress: faces gone in this stage, and how many will be in all, where that is known.
+/// Called with the faces that are gone in a stage ("decimate", "improve", "check"), and with how many will be in all,
+/// where that is known.
 using OnModelChange =
     std::function<void(const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all)>;
 
 /// Simplifies a mesh to the target of the settings, and improves it where they say so, in the axes of its box
-/// (BoxAxes) or of `samples`, none of which then changes its region. `checks` tells what its boundary and its
-/// background are; its ids are dense afterwards. Throws what simplify() and improve() throw.
+/// (BoxAxes) or of `samples`, none of which then changes its region. `checks` says what its boundary and its
+/// background are; the ids of the mesh are dense afterwards. Throws what simplify() and improve() throw.
 ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
                            const std::optional<Lattice>& samples = {}, const OnModelChange& on_change = {});
 

@@ -57,7 +57,7 @@ struct Selection {
 /// be read once only; and whatever the reader throws.
 std::unique_ptr<SectionReader> select_sections(std::unique_ptr<SectionReader> reader, const Selection& selection);
 
-/// Sections that say this of themselves; `info` differs from what the reader says in names, colours and place alone.
+/// The same sections with another description, which differs from the reader's in names, colours and place alone.
 std::unique_ptr<SectionReader> describe_sections(std::unique_ptr<SectionReader> reader, VolumeInfo info);
 
 /// Sections with the labels that ReconstructOptions::room gives to samples near the boundaries of regions; `reader`

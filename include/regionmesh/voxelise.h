@@ -122,6 +122,12 @@ struct SampleAgreement {
     std::uint64_t contradictions = 0;  // Voxeliser::contradictions()
     struct Counts {
         std::uint64_t in_sections = 0, in_model = 0, in_both = 0;
+        Counts& operator+=(const Counts& other) {
+            in_sections += other.in_sections;
+            in_model += other.in_model;
+            in_both += other.in_both;
+            return *this;
+        }
         /// Dice's coefficient: 2 |A and B| / (|A| + |B|); 1 where both are empty.
         double dice() const {
             const std::uint64_t sum = in_sections + in_model;

@@ -307,7 +307,7 @@ BlockRun::PiecesBefore BlockRun::pieces_before() const {
     std::vector<PieceHeader> found = headers();
     std::vector<Box> boxes;
     for (const PieceHeader& piece : found) boxes.push_back(piece.box);
-    return {std::move(found), {grid(manifest_.passes - 1), std::move(boxes)}};
+    return {std::move(found), {piece_grid(manifest_), std::move(boxes)}};
 }
 
 /// A block out of the pieces of the pass before.

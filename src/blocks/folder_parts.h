@@ -16,7 +16,7 @@ namespace regionmesh {
 struct BlockFolder {
     std::filesystem::path path;
     Manifest manifest = read_complete_manifest(path);
-    BlockGrid grid{piece_lattice(manifest), manifest.block_cells, manifest.shift};
+    BlockGrid grid = piece_grid(manifest);
     PieceMap pieces = piece_map(manifest, path);
 
     /// Around what the mesh of a piece with this box contains once it is at its place.

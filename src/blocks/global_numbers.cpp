@@ -12,7 +12,6 @@ GlobalNumbers::GlobalNumbers(const Manifest& manifest, const std::filesystem::pa
 
 void GlobalNumbers::find_later(std::uint32_t block) {
     later_.clear();
-    if (pieces_.boxes()[block].is_empty()) return;
     pieces_.for_pieces_at(pieces_.boxes()[block], [&](std::uint32_t other) {
         if (other > block) later_.push_back(other);
     });

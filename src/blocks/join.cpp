@@ -59,7 +59,7 @@ PieceMap piece_map(const Manifest& manifest, const fs::path& folder) {
     std::vector<Box> boxes;
     for (std::uint32_t block = 0; block < manifest.pieces.size(); ++block)
         boxes.push_back(read_piece_header(piece_path(folder, manifest.pieces[block].pass, block)).box);
-    return {BlockGrid(piece_lattice(manifest), manifest.block_cells, manifest.shift), std::move(boxes)};
+    return {piece_grid(manifest), std::move(boxes)};
 }
 
 std::uint64_t count_vertices(const Manifest& manifest, const fs::path& folder) {

@@ -169,7 +169,7 @@ void require_sound(const Manifest& manifest, const fs::path& path) {
         damaged();
     if (!(manifest.scale_z > 0) || manifest.passes > kMostBlockPasses) damaged();
     require_lattice(path.string(), manifest.lattice);
-    const BlockGrid grid(piece_lattice(manifest), manifest.block_cells, manifest.shift);
+    const BlockGrid grid = piece_grid(manifest);
     double blocks = 1;  // more than 32 bits hold, perhaps
     for (const std::uint32_t along : grid.counts()) blocks *= along;
     const bool has_pieces = manifest.is_complete || manifest.passes > 0;
@@ -206,6 +206,10 @@ Lattice piece_lattice(const Manifest& manifest) {
     info.lattice = manifest.lattice;
     info.sweep = manifest.sweep;
     return section_shape(info, CellKind::kCompact, manifest.scale_z).lattice;
+}
+
+BlockGrid piece_grid(const Manifest& manifest) {
+    return {piece_lattice(manifest), manifest.block_cells, manifest.shift};
 }
 
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }

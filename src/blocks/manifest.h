@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "blocks/block_grid.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/lattice.h"
@@ -62,6 +63,8 @@ Manifest read_complete_manifest(const std::filesystem::path& folder);
 
 /// The lattice in which pieces have their positions: along the axes, with z scaled.
 Lattice piece_lattice(const Manifest& manifest);
+/// The blocks that the pieces belong to.
+BlockGrid piece_grid(const Manifest& manifest);
 
 std::filesystem::path manifest_path(const std::filesystem::path& folder);
 

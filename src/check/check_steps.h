@@ -33,8 +33,7 @@ inline bool repeats_a_vertex(const Face& face) {
     return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
 }
 
-/// Each step reads the mesh, or what belongs to a part of it, and adds its findings. `regions` is by
-/// dense label.
+/// Each step reads the mesh, or what belongs to a part of it, and adds its findings. `regions` is by dense label.
 void check_faces(const Mesh& mesh, const CheckOptions& options, std::vector<RegionReport>& regions, CheckReport& report,
                  Findings& findings);
 void check_stars(const Mesh& mesh, const CheckOptions& options, StarTotals& totals, Findings& findings,

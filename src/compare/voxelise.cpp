@@ -281,12 +281,8 @@ void Voxeliser::label_row(std::span<const Crossing> crossings, std::uint64_t fir
 
 double SampleAgreement::dice() const {
     Counts all;
-    for (std::size_t label = 0; label < regions.size(); ++label) {
-        if (label == background) continue;
-        all.in_sections += regions[label].in_sections;
-        all.in_model += regions[label].in_model;
-        all.in_both += regions[label].in_both;
-    }
+    for (Label label = 0; label < regions.size(); ++label)
+        if (label != background) all += regions[label];
     return all.dice();
 }
 
@@ -314,11 +310,7 @@ void add(SampleAgreement& sum, const SampleAgreement& part) {
     sum.wrong += part.wrong;
     if (part.background) sum.background = part.background;
     sum.regions.resize(std::max(sum.regions.size(), part.regions.size()));
-    for (std::size_t n = 0; n < part.regions.size(); ++n) {
-        sum.regions[n].in_sections += part.regions[n].in_sections;
-        sum.regions[n].in_model += part.regions[n].in_model;
-        sum.regions[n].in_both += part.regions[n].in_both;
-    }
+    for (std::size_t n = 0; n < part.regions.size(); ++n) sum.regions[n] += part.regions[n];
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ BoxAxes::BoxAxes(Mesh& mesh) {
     bool is_along = true;
     for_outer_faces(mesh, [&](FaceId f) { is_along = is_along && sides_at(mesh.corners(f), along, 0) != 0; });
     if (is_along) return;
-    // Axes that a file gives with few digits are square to these only. Normals that are known from slivers, because no
-    // face lies on the sides of a third axis, are not used.
+    // Axes that a file gives with few digits are not quite square. Where no face lies on the sides of a third axis, any
+    // normals are those of slivers on other sides; only then, and where they do not fit, are right angles assumed.
     for (const bool is_square : {false, true}) {
         const auto normals = is_square ? square_normals(mesh) : any_normals(mesh);
         if (!normals) continue;
@@ -103,7 +103,7 @@ BoxAxes::BoxAxes(Mesh& mesh) {
         note_positions(mesh);
         Box box;
         for_vertices(mesh, [&](VertexId v) { box.add(after_[index(v)]); });
-        if (turn(mesh, box, is_square ? 0 : 3)) return;
+        if (turn(mesh, box, !is_square)) return;
     }
 }
 
@@ -114,16 +114,15 @@ BoxAxes::BoxAxes(Mesh& mesh, const Lattice& lattice) {
     }
     set_axes(lattice);
     note_positions(mesh);
-    if (!turn(mesh, samples_->extent(), 0)) samples_.reset();
+    if (!turn(mesh, samples_->extent(), false)) samples_.reset();
 }
 
-/// False, and nothing, where the mesh does not fit the box, or fewer axes than `least_axes` have a face that lies on
-/// their sides alone.
-bool BoxAxes::turn(Mesh& mesh, const Box& box, int least_axes) {
+/// False, and nothing, where find_sides() says so.
+bool BoxAxes::turn(Mesh& mesh, const Box& box, bool needs_all_axes) {
     const Vec3 size = box.high - box.low;
     const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
     std::vector<Side> sides;
-    const bool fits = find_sides(mesh, box, tolerance, sides) >= least_axes;
+    const bool fits = find_sides(mesh, box, tolerance, needs_all_axes, sides);
     if (fits)
         put_on_box(mesh, box, tolerance, sides);
     else
@@ -172,11 +171,12 @@ void BoxAxes::note_positions(const Mesh& mesh) {
     });
 }
 
-/// How many axes have a face that lies on their sides alone; -1 where a face with the exterior lies on no side, or too
-/// many labels meet where two sides do.
-int BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std::vector<Side>& sides) const {
+/// Whether each face with the exterior lies on a side, and few enough labels meet where two sides do; with
+/// `needs_all_axes`, also whether each axis has a face that lies on its sides alone.
+bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, bool needs_all_axes,
+                         std::vector<Side>& sides) const {
     bool is_box = true;
-    unsigned axes = 0;
+    std::array<bool, 3> has_face{};  // by axis
     std::vector<SideSet> of_vertex(mesh.vertex_end());
     for_outer_faces(mesh, [&](FaceId f) {
         std::array<Vec3, 3> corners;
@@ -184,7 +184,7 @@ int BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std:
         const SideSet at = sides_at(corners, box, tolerance);
         is_box = is_box && at != 0;
         sides.push_back({f, std::countr_zero(at)});
-        if (std::popcount(at) == 1) axes |= 1u << std::countr_zero(at) / 2;
+        if (std::popcount(at) == 1) has_face[std::countr_zero(at) / 2] = true;
         for (const VertexId v : mesh[f].vertices) of_vertex[index(v)] |= static_cast<SideSet>(at & -at);
     });
     for_vertices(mesh, [&](VertexId v) {
@@ -196,7 +196,7 @@ int BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, std:
         });
         is_box = may_meet(labels.size(), of_vertex[index(v)]);
     });
-    return is_box ? std::popcount(axes) : -1;
+    return is_box && (!needs_all_axes || (has_face[0] && has_face[1] && has_face[2]));
 }
 
 /// Makes the mesh anew: faces keep their labels while they are in a mesh.

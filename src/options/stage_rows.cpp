@@ -94,7 +94,7 @@ Rows smoothing_rows() {
     return {
         special_option(
             {.name = "smooth",
-             .help = "how much: off, light, normal, strong, or a number of passes, of which lattice has none; 0: off",
+             .help = "how much: off, light, normal, strong, or a number of passes (for lattice any is normal); 0: off",
              .group = kGroup,
              .commands = kSmoothers,
              .value = "WORD|PASSES",
@@ -124,7 +124,7 @@ Rows smoothing_rows() {
              .inputs = kVolumeInput | kTableInput},
             [](Settings& s) { return &s.reconstruct.room; }, kRoom),
         option({.name = "smooth-points",
-                .help = "quadruple points move along their lines, instead of not at all; for the filters with passes",
+                .help = "quadruple points move along their lines, instead of not at all; lattice always moves them",
                 .group = kGroup,
                 .commands = kSmoothers},
                [](Settings& s) { return &s.reconstruct.smooth.move_points; }),

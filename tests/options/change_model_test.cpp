@@ -29,7 +29,7 @@ std::uint64_t fixed_vertices(const Mesh& mesh) {
     return count;
 }
 
-TEST(ChangeModel, simplifies_improves_and_tells_what_it_did) {
+TEST(ChangeModel, simplifies_improves_and_reports_what_it_did) {
     Reconstruction made = blocky(test::grain_volume({14, 12, 13}, 5, 3));
     const std::uint32_t faces = made.mesh.face_count();
     std::set<std::string> stages;

@@ -206,7 +206,11 @@ async function an_open_model_claims_what_was_tested(browser) {
     const text = await page.$eval("#proof", (e) => e.textContent);
     for (const said of ["every region is closed but for the sides of the box", "Euler characteristics are those of closed regions, and not compared", "not tested: the model is open"])
         assert.ok(text.includes(said), said);
-    assert.ok((await page.$eval("#table", (e) => e.textContent)).includes("mean nothing"));
+    const isSaid = (page) => page.$eval("#table .hint", (e) => e.textContent.includes("mean nothing") && !e.hidden);
+    assert.ok(await isSaid(page));
+    const closed = await open(browser, `${folder}/ball.html`, errors);
+    assert.ok(!(await isSaid(closed)), "a closed model has volumes");
+    await closed.close();
     assert.ok(await page.evaluate("regionmesh.stage.isOpen"), "its inside is drawn");
     assert.deepEqual(errors, []);
     await page.close();

@@ -193,10 +193,7 @@ Mesh simplified(Part& part, std::uint32_t level) {
 class LevelMaker {
 public:
     LevelMaker(const fs::path& folder, const Manifest& manifest, const ModelLevels::Visit& visit)
-        : folder_(folder),
-          manifest_(manifest),
-          visit_(visit),
-          grid_(piece_lattice(manifest_), manifest_.block_cells, manifest_.shift) {}
+        : folder_(folder), manifest_(manifest), visit_(visit), grid_(piece_grid(manifest_)) {}
 
     void make(std::uint32_t levels) {
         if (levels > 1) shared_.emplace(folder_, manifest_, grid_);
