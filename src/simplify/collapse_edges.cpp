@@ -197,7 +197,7 @@ private:
     /// nearly all such edges are refused when their turn comes, too.
     void add_half() {
         const EdgeStar& star = collapse_.star;
-        if (fan_quality3(star, star.stays, star.at_stays, collapse_.bounds) == 0) return;
+        if (fan_quality3(mesh_, star, star.stays, star.at_stays, collapse_.bounds) == 0) return;
         if (const auto rank = rank_of_half(star.goes, star.stays)) halves_.add({*rank, star.goes, star.stays});
     }
 

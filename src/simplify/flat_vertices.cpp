@@ -76,7 +76,7 @@ private:
         double best3 = 0;
         for (const StarFace& face : around_.faces) {  // each neighbour comes first in one face
             if (mesh_[face.a].is_fixed || marks_.is_touched(face.a)) continue;
-            const double own3 = fan_quality3(around_, face.a, mesh_.position(face.a), collapse_.bounds);
+            const double own3 = fan_quality3(mesh_, around_, face.a, mesh_.position(face.a), collapse_.bounds);
             if (own3 > best3 || (own3 == best3 && own3 > 0 && face.a < best)) {
                 best3 = own3;
                 best = face.a;

@@ -107,7 +107,7 @@ void Prepass::find_targets(VertexId v) {
     gather_vertex(mesh_, v, around_);
     for (std::size_t n = 0; n < ends.size(); ++n) {
         if (!is_cheap(costs_[n])) continue;
-        const double quality3 = fan_quality3(around_, ends[n], mesh_.position(ends[n]), collapse_.bounds);
+        const double quality3 = fan_quality3(mesh_, around_, ends[n], mesh_.position(ends[n]), collapse_.bounds);
         if (quality3 > 0) targets_.push_back({ends[n], quality3});
     }
 }

@@ -87,8 +87,9 @@ TEST(CollapseEdges, counts_edges_that_strata_forbid) {
 
 TEST(CollapseEdges, counts_a_quality_verdict) {
     Mesh mesh = sheet_with_fixed_rim();
-    mesh[VertexId{2}].position.y = 0.1;
-    mesh[VertexId{3}].position.y = -0.1;
+    const Vec3 narrow[] = {{0.5, 0.4, 0}, {0.5, -0.4, 0}, {0, 0.9, 0}, {-0.7, 0, 0},
+                           {0, -0.9, 0},  {1, 0.9, 0},    {1.7, 0, 0}, {1, -0.9, 0}};
+    for (std::uint32_t v = 0; v < std::size(narrow); ++v) mesh[VertexId{v + 2}].position = narrow[v];
     const CollapseResult done = collapse_edges(mesh, {.min_quality = 0.2});
     EXPECT_EQ(done.verdicts, (VerdictCounts{0, 0, 0, 0, 1}))
         << "at its best place; folded at the end that stays, so no second choice";

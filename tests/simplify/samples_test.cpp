@@ -1,6 +1,9 @@
 // No sample changes its region while faces are decimated.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "mesh/sample_lines.h"
 #include "support/runs.h"
 
@@ -32,6 +35,27 @@ TEST(Samples, keep_their_regions_at_any_reduction) {
 TEST(Samples, may_change_where_that_is_asked_for) {
     test::ArrayVolume volume = test::noise_volume({9, 8, 10}, 3, 1);
     EXPECT_GT(samples_wrong(volume, {.reduce = 0.9, .keep_samples = false, .background = {}}), 0u);
+}
+
+/// Each sample twice along each axis: the steps of the labels are far apart, and each has tiny faces at its corners.
+test::ArrayVolume enlarged(const test::ArrayVolume& volume) {
+    const auto [nx, ny, nz] = volume.size();
+    std::vector<InputLabel> labels;
+    for (std::uint32_t z = 0; z < 2 * nz; ++z)
+        for (std::uint32_t y = 0; y < 2 * ny; ++y)
+            for (std::uint32_t x = 0; x < 2 * nx; ++x) labels.push_back(volume.at(x / 2, y / 2, z / 2));
+    return {{2 * nx, 2 * ny, 2 * nz}, labels};
+}
+
+TEST(Samples, of_enlarged_labels_need_not_be_kept_for_a_model_of_few_faces_to_keep_its_shape) {
+    test::ArrayVolume volume = enlarged(test::ball_volume({24, 24, 24}, 9.4));
+    ReconstructOptions options{.reduce = 0.99, .keep_samples = false};
+    const Reconstruction made = test::run(volume, options);
+    test::expect_sound(made.report.check);
+    EXPECT_EQ(made.report.stopped, StopReason::kTarget);
+    const double size = 4.0 / 3 * std::numbers::pi * std::pow(2 * 9.4, 3);
+    EXPECT_NEAR(made.report.check.regions.front().volume, size, 0.1 * size);
+    EXPECT_GT(made.report.check.quality.min, options.min_quality);
 }
 
 TEST(Samples, keep_their_regions_without_decimation) {

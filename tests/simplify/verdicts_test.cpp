@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "base/triangle.h"
 #include "mesh/strata.h"
 #include "support/shapes.h"
 
@@ -128,6 +132,33 @@ TEST(ShapeVerdict, fold_when_a_face_turns_over) {
     EXPECT_EQ(shape_of(test::edge_in_sheet(), {0.5, 1.1, 0}).verdict, Verdict::kFold);
     EXPECT_EQ(shape_of(test::edge_in_sheet(), {0.5, 0, 9}).verdict, Verdict::kFold) << "by nearly a right angle";
     EXPECT_EQ(shape_of(test::edge_in_sheet(), {0.5, 1, 0}).verdict, Verdict::kFold) << "a face without area";
+}
+
+/// A pyramid whose tip is cut off: 0 1 2 at the tip, 3 4 5 at the base. A needle leads down from each edge of the tip.
+Mesh cut_tip(double tip) {
+    std::vector<Vec3> corners;
+    for (int n = 0; n < 6; ++n) {
+        const double size = n < 3 ? tip : 1, angle = (n < 3 ? 2 * n : 2 * n - 5) * std::numbers::pi / 3;
+        corners.push_back({size * std::cos(angle), size * std::sin(angle), n < 3 ? 0.6 : 0});
+    }
+    return shape(
+        corners,
+        {{{0, 1, 2}}, {{1, 0, 3}}, {{2, 1, 4}}, {{0, 2, 5}}, {{1, 3, 4}}, {{2, 4, 5}}, {{0, 5, 3}}, {{5, 4, 3}}});
+}
+
+TEST(ShapeVerdict, needles_may_get_a_little_longer_where_they_get_fewer) {
+    const Mesh mesh = cut_tip(0.01);
+    const auto p = mesh.corners(FaceId{2});
+    const double before = quality_terms(p[0], p[1], p[2]).cube();
+    const Vec3 middle = 0.5 * (mesh.position(VertexId{0}) + mesh.position(VertexId{1})),
+               other = mesh.position(VertexId{2});
+    const ShapeResult result = shape_of(mesh, middle);
+    EXPECT_EQ(result.verdict, Verdict::kAccepted);
+    EXPECT_LT(result.worst_quality3, before);
+    // Needles of half the quality.
+    EXPECT_EQ(shape_of(mesh, middle + 0.7 * (other - middle)).verdict, Verdict::kQuality);
+    // No needle was below the bound.
+    EXPECT_EQ(shape_of(mesh, middle, {.min_quality = 0.99 * std::cbrt(before)}).verdict, Verdict::kQuality);
 }
 
 TEST(ShapeVerdict, quality_when_a_face_gets_thin) {

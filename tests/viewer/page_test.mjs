@@ -25,6 +25,10 @@ async function shows_lists_and_isolates(browser) {
     await page.click("#show-all");
     assert.equal((await picture(page)).sum, whole.sum, "all regions are shown again");
 
+    await page.select("#region-order", "name");
+    assert.deepEqual(await page.$$eval(".row-name", (names) => names.map((e) => e.textContent)), Array.from({ length: 10 }, (_, n) => `region ${n + 1}`));
+    await page.select("#region-order", "volume");
+
     await page.type("#region-search", "region 1");
     assert.equal(await page.$eval("#region-count", (e) => e.textContent), "2 of 10 regions");
     assert.deepEqual(errors, []);

@@ -17,6 +17,11 @@ export const byId = (id) => document.getElementById(id);
 /** A name within a text: its direction of writing stays its own (Unicode, first strong isolate). */
 export const isolated = (name) => `\u2068${name}\u2069`;
 
+const kTexts = new Intl.Collator("en", { numeric: true, sensitivity: "base" });
+
+/** For sort(): numbers, or texts in which "grain 2" comes before "Grain 10". */
+export const inOrder = (a, b) => (typeof a === "string" && typeof b === "string" ? kTexts.compare(a, b) : a < b ? -1 : a > b ? 1 : 0);
+
 /** 1234567 as 1,234,567. */
 export const grouped = (count) => Math.round(count).toLocaleString("en");
 

@@ -1,12 +1,12 @@
 // The list of regions. Only the rows in view exist as elements, so that ten thousand regions cost what twenty do.
-import { byId, element, grouped, short } from "./dom.js";
+import { byId, element, grouped, inOrder, short } from "./dom.js";
 
 const kRowHeight = 30;
 const kOrders = {
     volume: { value: (region) => -region.measures.volume, text: (region) => short(region.measures.volume, 3) },
     area: { value: (region) => -region.measures.area, text: (region) => short(region.measures.area, 3) },
     faces: { value: (region) => -region.measures.faces, text: (region) => grouped(region.measures.faces) },
-    name: { value: (region) => region.title.toLowerCase(), text: (region) => region.label },
+    name: { value: (region) => region.title, text: (region) => region.label },
     label: { value: (region) => Number(region.label), text: (region) => region.label },
 };
 
@@ -52,7 +52,7 @@ export class RegionList {
             const text = `${region.label} ${region.title}`.toLowerCase();
             return words.every((word) => text.includes(word));
         });
-        this.found.sort((a, b) => (value(a) < value(b) ? -1 : value(a) > value(b) ? 1 : 0));
+        this.found.sort((a, b) => inOrder(value(a), value(b)));
         this.box.scrollTop = 0;
         this.draw();
     }

@@ -1,5 +1,5 @@
 // The table of regions: sorted by any column, and as CSV and JSON with the numbers of the report.
-import { byId, download, element, grouped, short } from "./dom.js";
+import { byId, download, element, grouped, inOrder, short } from "./dom.js";
 
 const kFirstRows = 200;
 
@@ -76,7 +76,8 @@ function jsonOf(columns, rows) {
     return JSON.stringify(objects, null, 2) + "\n";
 }
 
-const compare = (a, b) => (a === undefined || a === null) - (b === undefined || b === null) || (a < b ? -1 : a > b ? 1 : 0);
+/** Upwards or, with the sign -1, downwards; what a row does not have comes last either way. */
+const compare = (a, b, sign) => (a === undefined || a === null) - (b === undefined || b === null) || sign * inOrder(a, b);
 
 /** `goTo(region)` shows it in the picture; none where there is no picture. */
 export function showTable(data, regions, goTo) {
@@ -87,12 +88,12 @@ export function showTable(data, regions, goTo) {
     const section = byId("table"), body = element("tbody"), more = element("button", { type: "button" });
     const keyOf = (row) => {
         const value = columns[order][2](row);
-        return columns[order][0] === "label" ? Number(value) : typeof value === "string" ? value.toLowerCase() : value;
+        return columns[order][0] === "label" ? Number(value) : value;
     };
     const heads = columns.map(([name, title], n) =>
         element("th", { scope: "col", "data-column": name }, element("button", { type: "button", onclick: () => sortBy(n) }, title)));
     const draw = () => {
-        const sorted = [...all].sort((a, b) => sign * compare(keyOf(a), keyOf(b)));
+        const sorted = [...all].sort((a, b) => compare(keyOf(a), keyOf(b), sign));
         body.replaceChildren(...sorted.slice(0, shown).map((row) => tableRow(row, columns, regions, goTo)));
         heads.forEach((head, n) => head.setAttribute("aria-sort", n !== order ? "none" : sign > 0 ? "ascending" : "descending"));
         more.hidden = shown >= all.length;

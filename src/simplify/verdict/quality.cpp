@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/triangle.h"
+#include "simplify/tuning.h"
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {
@@ -36,22 +38,30 @@ int faces_of_goes(const EdgeStar& star) {
     return count;
 }
 
-/// Where faces came in below the bound, a collapse may leave some: no more, and none worse than the worst. Looks at the
-/// first `count` faces.
-bool was_worse(const EdgeStar& star, int count, const LowQuality& after, double bound3) {
+/// Where faces came in below the bound, a collapse may leave some: no more than there were, those that vanish counted,
+/// and none worse than the worst; or fewer, and none worse than kLeastOfWorst times the worst. Without the latter,
+/// three needles round a tiny face stay for ever: when one goes with an edge of that face, the others get a little
+/// longer. Looks at the first `count` faces that survive.
+bool was_worse(const Mesh& mesh, const EdgeStar& star, int count, const LowQuality& after, double bound3) {
     LowQuality before{1, 0};
+    const auto add = [&](double face3) {
+        before.worst3 = std::min(before.worst3, face3);
+        before.below += face3 < bound3;
+    };
     for (int first = 0; first < count; first += 2) {
         const StarPair& pair = star.pairs[first / 2];
         const int second = std::min(first + 1, count - 1);
         const Lanes3<Double2> apex = side_by_side(star.at_apex(first), star.at_apex(second));
         const Double2 own3 = quality3(pair, pair.a - apex, pair.b - apex, pair.old_length2);
-        for (int lane = 0; lane < 2 && first + lane < count; ++lane) {
-            const double face3 = std::max<double>(0, own3[lane]);  // 0 where corners coincide
-            before.worst3 = std::min(before.worst3, face3);
-            before.below += face3 < bound3;
-        }
+        for (int lane = 0; lane < 2 && first + lane < count; ++lane)
+            add(std::max<double>(0, own3[lane]));  // 0 where corners coincide
     }
-    return after.below <= before.below && after.worst3 >= before.worst3;
+    for (const FaceId f : star.dead) {
+        const auto corners = mesh.corners(f);
+        add(quality_terms(corners[0], corners[1], corners[2]).cube());
+    }
+    constexpr double kOfWorst3 = kLeastOfWorst * kLeastOfWorst * kLeastOfWorst;
+    return after.below <= before.below && after.worst3 >= (after.below < before.below ? kOfWorst3 : 1) * before.worst3;
 }
 
 }  // namespace
@@ -71,11 +81,13 @@ Verdict test_quality(Collapse& collapse) {
         }
     }
     collapse.worst_quality3 = worst3;
-    return below > 0 && !was_worse(star, star.face_count(), {worst3, below}, bound3) ? Verdict::kQuality
-                                                                                     : Verdict::kAccepted;
+    return below > 0 && !was_worse(collapse.mesh, star, star.face_count(), {worst3, below}, bound3)
+               ? Verdict::kQuality
+               : Verdict::kAccepted;
 }
 
-double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, const ShapeBounds& bounds) {
+double fan_quality3(const Mesh& mesh, const EdgeStar& around, VertexId target, Vec3 at_target,
+                    const ShapeBounds& bounds) {
     const Lanes3<Double2> merged = both(at_target);
     const double bound3 = cube_of_bound(bounds);
     const int count = faces_of_goes(around);
@@ -95,7 +107,7 @@ double fan_quality3(const EdgeStar& around, VertexId target, Vec3 at_target, con
             after.below += stays & (own3[lane] < bound3);
         }
     }
-    return after.below > 0 && !was_worse(around, count, after, bound3) ? 0 : after.worst3;
+    return after.below > 0 && !was_worse(mesh, around, count, after, bound3) ? 0 : after.worst3;
 }
 
 }  // namespace regionmesh
