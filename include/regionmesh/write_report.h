@@ -75,7 +75,7 @@ std::string interfaces_csv(const Mesh& mesh, const LabelTable& labels, const std
 
 /// A table of the lines, which are edges with three labels or more; the exterior counts as one: labels (separated by
 /// blanks), names (by semicolons), label_count, edges, length and angles, the mean dihedral angle of each label in
-/// degrees; "-" for the exterior, and where a label has not two faces at any of the edges.
+/// degrees (docs/files.md); "-" for the exterior, and where a label has not two faces at any of the edges.
 std::string lines_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                       const LabelNames& names = {});
 

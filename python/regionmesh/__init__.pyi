@@ -117,7 +117,7 @@ class Mesh:
         path: _Path,
         *,
         per_region: bool = False,
-        units: Literal["m", "mm", "um", "nm"] = "m",
+        units: Literal["m", "mm", "um", "nm"] | None = None,
         precomputed: Literal["multi", "legacy"] | None = None,
         levels: _Int | None = None,
         sharded: bool = False,

@@ -26,6 +26,11 @@ def names_of(names):
     return {bits(label): _text(name) for label, name in dict(names).items()}
 
 
+def colours_of(names):
+    """Colours of the table of names, by label; None where the names are no table."""
+    return _core.read_colours(_sources.file_name(names)) if isinstance(names, _sources.PATHS) else None
+
+
 def _text(name):
     try:
         str(name).encode()

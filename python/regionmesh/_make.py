@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import _core, _options, _sources
-from ._labels import bits, names_of
+from ._labels import bits, colours_of, names_of
 from ._mesh import Mesh
 
 
@@ -124,7 +124,7 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     outside = [] if background is None else [background] if np.ndim(background) == 0 else list(background)
     model = _core.from_arrays(
         (points, faces.astype(np.uint32), np.ascontiguousarray(whole), None),
-        ([bits(label) for label in outside], [], names_of(names) or {}, {}, "", None),
+        ([bits(label) for label in outside], [], names_of(names) or {}, colours_of(names) or {}, "", None),
         bits(exterior_label), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)

@@ -464,7 +464,7 @@ class Mesh:
         _core.voxelise(self._model, where, bits(outside), result)
         return result
 
-    def save(self, path, *, per_region=False, units="m", precomputed=None, levels=None, sharded=False):
+    def save(self, path, *, per_region=False, units=None, precomputed=None, levels=None, sharded=False):
         """Write the model; the extension selects the format (docs/files.md).
 
         Parameters
@@ -475,9 +475,9 @@ class Mesh:
         per_region : bool
             .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
             name.
-        units : {"m", "mm", "um", "nm"}
+        units : {"m", "mm", "um", "nm"}, optional
             The unit of length of the model: .glb files are in metres and .precomputed in nanometres, and are scaled;
-            .3mf files say the unit.
+            .3mf files say the unit. Default: metres; millimetres in .3mf.
         precomputed : {"multi", "legacy"}, optional
             .precomputed: levels of detail compressed by Draco (the default), or the model, not compressed.
         levels : int, optional
@@ -522,11 +522,16 @@ class Mesh:
         return self._model.face_count
 
     def __repr__(self):
-        state = "certified" if self.certified else f"{sum(self.report['violation_counts'].values())} violations"
         return (
             f"<regionmesh.Mesh: {self._model.face_count} faces, {self._model.vertex_count} points, "
-            f"{len(self.report['regions'])} regions, {state}>"
+            f"{len(self.report['regions'])} regions, {self._state()}>"
         )
+
+    def _state(self):
+        """In words: certified, or what is wrong."""
+        violations, wrong = sum(self.report["violation_counts"].values()), self.report.get("samples_wrong", 0)
+        found = [f"{violations} violations"] * (violations > 0) + [f"{wrong} samples in other regions"] * (wrong > 0)
+        return ", ".join(found) or "certified"
 
     def __reduce__(self):
         types = self.node_types

@@ -14,9 +14,8 @@ def _text_of(array):
 
 
 def _caption(mesh):
-    state = "certified" if mesh.certified else f"{len(mesh.violations)} violations"
     count = len(mesh.report["regions"])
-    return f"{count} regions, {len(mesh.faces):,} faces, {len(mesh.points):,} points, {state}"
+    return f"{count} regions, {len(mesh.faces):,} faces, {len(mesh.points):,} points, {mesh._state()}"
 
 
 def _preview(mesh):

@@ -1,7 +1,9 @@
 """From labels to a model."""
 
+import os
+
 from . import _core, _options, _progress, _sources
-from ._labels import bits, names_of
+from ._labels import bits, colours_of, names_of
 from ._mesh import Mesh
 
 # Options that say how an input is read.
@@ -15,20 +17,23 @@ def _split(options, names):
     return [(name, text) for name, text in options if name in names]
 
 
-def _from_files(labels, options, kept, names, progress):
+def _from_files(labels, options, kept, described, progress):
     paths = _sources.paths_of(labels)
-    with _sources.missing_files(*paths):
+    beside = [value for name, value in options if name in ("collars", "surveys", "terrain")]
+    with _sources.missing_files(*paths, *beside):
         if _core.kind_of_input(paths) == "tetrahedra":
+            if len(paths) > 1:
+                raise ValueError(f"{os.fsdecode(paths[1])}: one table or mesh at a time; give one")
             if kept is not None:
                 raise ValueError("labels_to_keep: does not apply to tables and meshes; leave it out")
-            return Mesh(_core.reconstruct_tetrahedra(paths[0], options, names, progress))
+            return Mesh(_core.reconstruct_tetrahedra(paths[0], options, *described, progress))
         source = _core.file_source(paths, options, kept)
         chosen = _split(options, _OF_SOURCE | {"spacing"})
         whole = source.info
         if _sources.is_cut(chosen):
             whole = _core.file_source(paths, [pair for pair in options if pair[0] not in _OF_SOURCE], None).info
         place = tuple(whole[key] for key in ("spacing", "origin", "direction"))
-        model = _core.reconstruct_source(source, options, names, progress)
+        model = _core.reconstruct_source(source, options, *described, progress)
         made = _made(options, chosen, kept, place, whole["size"])
         return Mesh(model, {**source.info, "made": {**made, "reading": (_sources.suffix_of(paths), _split(options, _OF_READING))}})
 
@@ -67,7 +72,7 @@ def reconstruct(
     direction : (3, 3) array_like, optional
         Directions of the axes x, y, z as orthonormal columns. Not for paths.
     names : dict of int to str, or path, optional
-        Names of labels.
+        Names of labels; a table has their colours, too.
     labels_to_keep : sequence of int, optional
         All other labels become background, before `downsample` and `min_region`.
     sections : int, optional
@@ -112,22 +117,22 @@ def reconstruct(
     """
     from_files = _sources.is_path(labels)
     kept = None if labels_to_keep is None else [bits(label) for label in labels_to_keep]
-    names = names_of(names)
+    described = names_of(names), colours_of(names)
     with _progress.bar(progress) as report:
         if from_files:
             if origin is not None or direction is not None:
                 raise TypeError("reconstruct(): origin and direction are those of the file; leave them out")
             if spacing is not None:
                 options = {"spacing": spacing, **options}
-            return _from_files(labels, _options.pairs("reconstruct", options), kept, names, report)
+            return _from_files(labels, _options.pairs("reconstruct", options), kept, described, report)
         for name in _OF_FILES:
             if options.get(name) is not None:
                 raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
         pairs = _options.pairs("reconstruct", options)
         given = _sources.opened(labels, sections)
         place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
-        source = _sources.source(given, place, chosen, names or {}, kept)
-        model = _core.reconstruct_source(source, pairs, names, report)
+        source = _sources.source(given, place, chosen, described[0] or {}, kept)
+        model = _core.reconstruct_source(source, pairs, *described, report)
     return Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place, _sources.size_of(given))})
 
 

@@ -133,7 +133,8 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
         StageProgress progress(watch, options);
         Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
         const VolumeInfo& info = sections.info();
-        model = model_from(std::move(made), run.names.value_or(info.names), !options.cap, info.space, info.colours);
+        model = model_from(std::move(made), run.names.value_or(info.names), !options.cap, info.space,
+                           run.colours.value_or(info.colours));
     });
     return model;
 }
@@ -145,7 +146,8 @@ Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Wat
         StageProgress progress(watch, settings.reconstruct);
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
-        model = model_from(std::move(made), run.names.value_or(reader.info().names), !settings.reconstruct.cap);
+        model = model_from(std::move(made), run.names.value_or(reader.info().names), !settings.reconstruct.cap,
+                           Space::kUnknown, run.colours.value_or(LabelColours{}));
     };
     watch.run([&] {
         if (is_lattice(settings, {path}))

@@ -33,6 +33,7 @@ struct Model {
 struct RunOptions {
     OptionValues options;
     std::optional<LabelNames> names = {};
+    std::optional<LabelColours> colours = {};
 };
 
 Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch);

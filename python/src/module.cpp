@@ -74,17 +74,18 @@ void bind_sources(py::module_& module) {
 
 void bind_runs(py::module_& module) {
     using Names = std::optional<LabelNames>;
-    module.def("reconstruct_source",
-               [](Source& source, const OptionValues& options, const Names& names, const py::object& progress) {
-                   free_large_arrays_at_once();
-                   Watch watch(progress);
-                   return reconstruct_source(source, {options, names}, watch);
-               });
-    module.def("reconstruct_tetrahedra", [](const std::string& path, const OptionValues& options, const Names& names,
-                                            const py::object& progress) {
+    using Colours = std::optional<LabelColours>;
+    module.def("reconstruct_source", [](Source& source, const OptionValues& options, const Names& names,
+                                        const Colours& colours, const py::object& progress) {
         free_large_arrays_at_once();
         Watch watch(progress);
-        return reconstruct_tetrahedra(path, {options, names}, watch);
+        return reconstruct_source(source, {options, names, colours}, watch);
+    });
+    module.def("reconstruct_tetrahedra", [](const std::string& path, const OptionValues& options, const Names& names,
+                                            const Colours& colours, const py::object& progress) {
+        free_large_arrays_at_once();
+        Watch watch(progress);
+        return reconstruct_tetrahedra(path, {options, names, colours}, watch);
     });
     using Samples = std::optional<std::pair<Frame, ArraySize>>;
     module.def("simplify", [](const Model& model, const OptionValues& options, const Samples& samples,
@@ -170,6 +171,7 @@ PYBIND11_MODULE(_core, module) {
     });
     module.def("volume_extensions", volume_extensions);
     module.def("read_names", [](const std::string& path) { return read_label_names(path); });
+    module.def("read_colours", [](const std::string& path) { return read_label_colours(path); });
     py::module_::import("atexit").attr("register")(py::cpp_function(Watch::end_all));
     py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") = py::cpp_function(Watch::forget_all));
     bind_sources(module);

@@ -4,6 +4,7 @@ import copy
 import json
 import os
 import pickle
+import zipfile
 
 import numpy as np
 import pytest
@@ -396,6 +397,18 @@ def test_save_returns_the_files_and_scales_to_metres(two_boxes, tmp_path):
     assert b'"scale":[0.001,0.001,0.001]' in (tmp_path / "m.glb").read_bytes()
     with pytest.raises(ValueError, match="--units"):
         made.save(tmp_path / "m.glb", units="furlong")
+    for units, word in (None, b"millimeter"), ("m", b"meter"):
+        made.save(tmp_path / "m.3mf", units=units)
+        with zipfile.ZipFile(tmp_path / "m.3mf") as parts:
+            assert b'unit="' + word + b'"' in b"".join(parts.read(part) for part in parts.namelist())
+
+
+def test_the_representation_tells_samples_in_other_regions():
+    noise = np.random.default_rng(1).integers(0, 3, (9, 8, 10)).astype(np.uint8)
+    made = regionmesh.reconstruct(noise, reduce=0.9, keep_samples=False)
+    assert not made.certified
+    assert f"{made.report['samples_wrong']} samples in other regions" in repr(made)
+    assert f"{made.report['samples_wrong']} samples in other regions" in made._repr_html_()
 
 
 def test_save_writes_folders_for_neuroglancer(two_boxes, tmp_path):

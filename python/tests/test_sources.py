@@ -502,3 +502,29 @@ def test_masked_arrays_are_refused(grains):
     for labels in masked, list(masked):
         with pytest.raises(TypeError, match="masked"):
             regionmesh.reconstruct(labels)
+
+
+def test_of_several_files_none_may_be_a_table(two_boxes, tmp_path):
+    np.save(tmp_path / "v.npy", two_boxes)
+    (tmp_path / "p.csv").write_text("x,y,z,label\n0,0,0,1\n1,0,0,1\n0,1,0,2\n0,0,1,2\n")
+    for paths in ["p.csv", "nothing.csv"], ["v.npy", "p.csv"], ["p.csv", "v.npy"]:
+        with pytest.raises((ValueError, FileNotFoundError), match=f"{paths[1]}: one table or mesh at a time"):
+            regionmesh.reconstruct([tmp_path / path for path in paths])
+
+
+def test_a_missing_table_beside_another_is_not_found(tmp_path):
+    (tmp_path / "i.csv").write_text("hole,from,to,unit\nA,0,1,sand\n")
+    with pytest.raises(FileNotFoundError, match="nothing.csv"):
+        regionmesh.reconstruct(tmp_path / "i.csv", collars=tmp_path / "nothing.csv")
+
+
+def test_a_table_of_names_has_colours(two_boxes, tmp_path):
+    (tmp_path / "names.csv").write_text("label,name,color\n1,bone,#ff8000\n")
+    np.save(tmp_path / "v.npy", two_boxes)
+    for labels in two_boxes, tmp_path / "v.npy":
+        made = regionmesh.reconstruct(labels, names=tmp_path / "names.csv")
+        made.save(tmp_path / "m.glb")
+        plain = regionmesh.reconstruct(labels, names={1: "bone"})
+        plain.save(tmp_path / "plain.glb")
+        assert made.names == plain.names == {1: "bone"}
+        assert (tmp_path / "m.glb").read_bytes() != (tmp_path / "plain.glb").read_bytes()

@@ -27,7 +27,13 @@ class NamedColumns {
 public:
     explicit NamedColumns(const std::filesystem::path& path) : rows_(path) {
         if (!rows_.next()) fail(path, "is empty; a table has a header and rows");
-        for (std::size_t i = 0; i < rows_.field_count(); ++i) titles_.push_back(plain_column_title(rows_.field(i)));
+        for (std::size_t i = 0; i < rows_.field_count(); ++i) {
+            titles_.push_back(plain_column_title(rows_.field(i)));
+            const auto first = std::ranges::find(titles_, titles_.back()) - titles_.begin();
+            if (!titles_.back().empty() && static_cast<std::size_t>(first) < i)
+                rows_.refuse(fmt::format("columns {} and {} are both called '{}'; rename one", first + 1, i + 1,
+                                         shown(rows_.field(i))));
+        }
     }
 
     std::optional<std::size_t> find(std::initializer_list<Titles> wanted) const {
@@ -45,17 +51,33 @@ public:
 
     std::size_t require_hole() const { return require("the hole", {titles::kHole, titles::kName}); }
 
-    bool next() { return rows_.next(); }
+    /// Empty fields at the end of a row are ignored.
+    bool next() {
+        if (!rows_.next()) return false;
+        for (std::size_t i = titles_.size(); i < rows_.field_count(); ++i)
+            if (!rows_.field(i).empty())
+                rows_.refuse(
+                    fmt::format("has {} fields where there are {} columns; a comma in a number or a text needs "
+                                "another separator, or quotes",
+                                rows_.field_count(), titles_.size()));
+        return true;
+    }
     const CsvRows& rows() const { return rows_; }
 
     std::string_view text(std::size_t column) const {
         return column < rows_.field_count() ? rows_.field(column) : std::string_view();
     }
 
+    std::string_view hole(std::size_t column) const {
+        if (text(column).empty()) rows_.refuse("names no hole; fill it in or take the row out");
+        return text(column);
+    }
+
     double number(std::size_t column) const {
         const auto number = parse_finite(text(column));
         if (!number)
-            rows_.refuse(fmt::format("column {}: '{}' is no finite number; mend it", column + 1, shown(text(column))));
+            rows_.refuse(
+                fmt::format("column '{}': '{}' is no finite number; mend it", titles_[column], shown(text(column))));
         return *number;
     }
 
@@ -79,7 +101,7 @@ Collars read_collars(const std::filesystem::path& path) {
     Collars collars;
     while (table.next()) {
         const Collar collar{{table.number(x), table.number(y), table.number(z)}, table.rows().number()};
-        const auto [known, is_new] = collars.emplace(table.text(hole), collar);
+        const auto [known, is_new] = collars.emplace(table.hole(hole), collar);
         if (!is_new)
             table.rows().refuse(fmt::format("hole '{}' has a collar in row {}, too; keep one", shown(table.text(hole)),
                                             known->second.row));
@@ -102,7 +124,7 @@ std::vector<SurveyRow> read_survey_rows(NamedColumns& table, bool& dips_are_incl
     const std::size_t dip = dips_are_inclinations ? *inclination : table.require("the dip", {titles::kDip});
     std::vector<SurveyRow> rows;
     while (table.next()) {
-        rows.push_back({std::string(table.text(hole)), table.number(depth), table.number(azimuth), table.number(dip),
+        rows.push_back({std::string(table.hole(hole)), table.number(depth), table.number(azimuth), table.number(dip),
                         table.rows().number()});
         const double angle = rows.back().dip;
         if (dips_are_inclinations && !(angle >= 0 && angle <= 180))
@@ -129,7 +151,8 @@ Stations read_stations(const std::filesystem::path& path, const std::filesystem:
             table.rows().refuse(row.row, fmt::format("hole '{}' has a station but no collar in {}; add its row there",
                                                      shown(row.hole), collars.string()));
     const auto negative = std::ranges::count_if(rows, [](const SurveyRow& row) { return row.dip < 0; });
-    const double sign = 2 * static_cast<std::size_t>(negative) > rows.size() ? -1 : 1;
+    const auto positive = std::ranges::count_if(rows, [](const SurveyRow& row) { return row.dip > 0; });
+    const double sign = negative > positive ? -1 : 1;
     std::ranges::stable_sort(rows, {}, &SurveyRow::depth);
     Stations stations;
     for (const SurveyRow& row : rows) {

@@ -78,6 +78,23 @@ TEST_F(InclinedHoles, inclinations_count_from_straight_down_and_dips_of_either_s
     }
 }
 
+TEST_F(InclinedHoles, level_stations_do_not_say_which_dips_lead_down) {
+    put_text(path("collars.csv"), "hole,x,y,z\nA,100,200,50\nB,0,0,40\nC,0,50,40\n");
+    put_text(path("surveys.csv"), "hole,depth,azimuth,dip\nA,0,90,-60\nB,0,0,0\nC,0,0,0\n");
+    for (const Vec3 p : read().points.positions) EXPECT_LE(p.z, 50);
+}
+
+TEST_F(InclinedHoles, tables_beside_intervals_are_as_strict) {
+    put_text(path("collars.csv"), "hole,x,y,z\nA,100,5,200,50\nB,0,0,40\n");
+    EXPECT_THAT(failure(), HasSubstr("collars.csv: row 2: has 5 fields where there are 4 columns"));
+    put_text(path("collars.csv"), "hole,x,X [m],y,z\nA,100,100,200,50\nB,0,0,0,40\n");
+    EXPECT_THAT(failure(), HasSubstr("row 1: columns 2 and 3 are both called 'X [m]'"));
+    put_text(path("collars.csv"), "hole,x,y,z,remark\nA,100,200,,\nB,0,0,40,,\n");
+    EXPECT_THAT(failure(), HasSubstr("row 2: column 'z': '' is no finite number"));
+    put_text(path("collars.csv"), "hole,x,y,z\n,100,200,50\nB,0,0,40\n");
+    EXPECT_THAT(failure(), HasSubstr("row 2: names no hole"));
+}
+
 TEST_F(InclinedHoles, points_within_an_interval_lie_on_the_arc) {
     const double r = 20, quarter = std::numbers::pi / 2 * r;  // from straight down to level, to the north
     put_text(path("surveys.csv"), fmt::format("hole,depth,azimuth,inclination\nB,0,0,0\nB,{},0,90\n", quarter));

@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "formats/report/line_angles.h"
+
 namespace regionmesh {
 namespace {
 
@@ -17,9 +19,22 @@ struct FaceAtEdge {
     int place;  // of v in the face
 };
 
+/// An edge of a line, with its entry in EdgeMeasures::lines.
+struct LineEdge {
+    VertexId v, w;
+    const std::vector<std::uint32_t>* ranks;
+    LineMeasures* line;
+};
+
+/// Angles are those of interfaces up to so many mean lengths of edges of lines away: more for planes, fewer for curved
+/// interfaces. Of 8 and 10: rms error of all angles of a power diagram 6.7 and 5.6 degrees, of a tenth of its faces 4.1
+/// and 3.8; of two bubbles of 18 samples, which meet at 120, at most 0.5 and 0.3, of a tenth of their faces 2.2
+/// and 4.3.
+constexpr double kAngleReach = 8;
+
 class Measurer {
 public:
-    explicit Measurer(const FileView& view) : view_(view), mesh_(view.mesh()) {}
+    Measurer(const FileView& view, bool has_angles) : view_(view), mesh_(view.mesh()), has_angles_(has_angles) {}
 
     EdgeMeasures measure() {
         view_.for_faces([&](FaceId f) { add_face(f); });
@@ -41,6 +56,7 @@ public:
                 begin = end;
             }
         });
+        if (has_angles_ && !line_edges_.empty()) add_angles();
         return std::move(measures_);
     }
 
@@ -85,23 +101,35 @@ private:
 
     void add_line(VertexId v, Vec3 along, std::span<const FaceAtEdge> faces) {
         const double edge = length(along);
-        LineMeasures& line = measures_.lines[ranks_];
+        auto& [ranks, line] = *measures_.lines.try_emplace(ranks_).first;
         ++line.edges;
         line.length += edge;
-        line.angles.resize(ranks_.size());
-        line.angle_length.resize(ranks_.size());
-        for (std::size_t n = 0; n < ranks_.size(); ++n) {
-            const auto angle = ranks_[n] < kFirstExterior ? angle_inside(v, along, faces, ranks_[n]) : std::nullopt;
-            if (!angle) continue;
-            line.angles[n] += edge * *angle;
-            line.angle_length[n] += edge;
-        }
+        if (has_angles_) line_edges_.push_back({v, faces[0].w, &ranks, &line});
         keys_.clear();
         for (const FaceAtEdge& at : faces) keys_.push_back(key_of(at.face));
         std::ranges::sort(keys_);
         keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
         for (const Key& key : keys_)
             if (!is_empty(key[0])) measures_.interfaces[key].line_length += edge;
+    }
+
+    void add_angles() {
+        double length_of_all = 0;
+        for (const auto& [ranks, line] : measures_.lines) length_of_all += line.length;
+        LineAngles at_edge(view_, kAngleReach * length_of_all / static_cast<double>(line_edges_.size()));
+        for (const auto& [v, w, ranks, line] : line_edges_) {
+            const double edge = length(mesh_.position(w) - mesh_.position(v));
+            line->angles.resize(ranks->size());
+            line->angle_length.resize(ranks->size());
+            at_edge.set_edge(v, w);
+            for (std::size_t n = 0; n < ranks->size(); ++n) {
+                const std::uint32_t rank = (*ranks)[n];
+                const auto angle = rank < kFirstExterior ? at_edge.angle_inside(rank) : std::nullopt;
+                if (!angle) continue;
+                line->angles[n] += edge * *angle;
+                line->angle_length[n] += edge;
+            }
+        }
     }
 
     /// The dihedral angle of a label at the edge, from 0 to a full turn. None where it has not two faces there, or they
@@ -135,13 +163,15 @@ private:
 
     const FileView& view_;
     const Mesh& mesh_;
+    bool has_angles_;
     EdgeMeasures measures_;
     std::vector<std::uint32_t> ranks_;  // of the labels at the edge
     std::vector<Key> keys_;             // of its interfaces
+    std::vector<LineEdge> line_edges_;
 };
 
 }  // namespace
 
-EdgeMeasures measure_edges(const FileView& view) { return Measurer(view).measure(); }
+EdgeMeasures measure_edges(const FileView& view, bool has_angles) { return Measurer(view, has_angles).measure(); }
 
 }  // namespace regionmesh

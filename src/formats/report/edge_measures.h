@@ -33,6 +33,7 @@ struct EdgeMeasures {
 };
 
 /// Without faces and lines that have no other labels than background and exterior.
-EdgeMeasures measure_edges(const FileView& view);
+/// Dihedral angles of lines (LineAngles) take most of the time, and are left out unless they are wanted.
+EdgeMeasures measure_edges(const FileView& view, bool has_angles = false);
 
 }  // namespace regionmesh

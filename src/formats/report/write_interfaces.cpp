@@ -61,7 +61,7 @@ std::string lines_csv(const Mesh& mesh, const LabelTable& labels, const std::vec
     const FileView view(mesh, labels, background, names);
     const PlaceTexts texts(view);
     std::string text = "labels,names,label_count,edges,length,angles\n";
-    for (const auto& [ranks, sums] : measure_edges(view).lines) {
+    for (const auto& [ranks, sums] : measure_edges(view, true).lines) {
         std::string angles;
         for (std::size_t n = 0; n < ranks.size(); ++n) {
             if (n > 0) angles += ' ';

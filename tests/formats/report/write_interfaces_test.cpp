@@ -90,6 +90,42 @@ TEST(LineTable, dihedral_angles_are_a_full_turn_and_lengths_those_of_the_report)
     EXPECT_THAT(of_regions + of_background, DoubleNear(expected, 1e-6 * expected));
 }
 
+/// Three regions round an oblique axis, in sectors of 90, 150 and 120 degrees.
+test::ArrayVolume sectors(std::uint32_t side) {
+    const Vec3 axis = (1 / std::sqrt(14.0)) * Vec3{2, 1, 3}, across = (1 / std::sqrt(5.0)) * Vec3{1, -2, 0},
+               other = cross(axis, across);
+    std::vector<InputLabel> labels;
+    for (std::uint32_t z = 0; z < side; ++z)
+        for (std::uint32_t y = 0; y < side; ++y)
+            for (std::uint32_t x = 0; x < side; ++x) {
+                const Vec3 p = Vec3{x + 0.0, y + 0.0, z + 0.0} - 0.5 * (side - 1.3) * Vec3{1, 1, 1};
+                const double angle = std::atan2(dot(p, other), dot(p, across)) * 180 / std::numbers::pi + 180;
+                labels.push_back(angle < 90 ? 1 : angle < 240 ? 2 : 3);
+            }
+    return {{side, side, side}, labels};
+}
+
+TEST(LineTable, dihedral_angles_are_those_of_the_interfaces) {
+    test::ArrayVolume volume = sectors(40);
+    for (const double share : {0.0, 0.9})
+        for (const std::uint32_t passes : {0u, SmoothOptions{}.passes}) {
+            const Reconstruction made = test::run(
+                volume, {.reduce = share, .smooth = {.passes = passes}, .decimate = share > 0, .background = {}});
+            bool is_found = false;
+            for (const auto& row : table_of(lines_csv(made.mesh, made.labels, made.background))) {
+                if (row.at("labels") != "1 2 3") continue;
+                is_found = true;
+                std::istringstream angles(row.at("angles"));
+                for (const double wanted : {90, 150, 120}) {
+                    double angle = 0;
+                    angles >> angle;
+                    EXPECT_THAT(angle, DoubleNear(wanted, 6)) << share << " " << passes;
+                }
+            }
+            EXPECT_TRUE(is_found);
+        }
+}
+
 TEST(LineTable, of_the_box_has_the_exterior_as_one_label) {
     const Reconstruction& made = grains();
     const std::string text = lines_csv(made.mesh, made.labels, made.background);

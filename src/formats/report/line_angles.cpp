@@ -1,0 +1,123 @@
+#include "formats/report/line_angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace regionmesh {
+namespace {
+
+/// Share of the reach within which faces are left out, unless fewer than kFewest are beyond.
+constexpr double kNear = 0.35;
+constexpr std::uint32_t kFewest = 4;
+
+/// Extrapolates only where distances differ by more than this, relative to their mean square.
+constexpr double kLeastSpread = 0.02;
+
+/// A mean of normals shorter than this has no direction to rely on.
+constexpr double kLeastNormal = 0.3;
+
+/// Interfaces that make smaller angles with each other have no direction in common.
+constexpr double kLeastSine = 0.1;
+
+/// Least squares of normals, a linear function of distance, by area.
+struct NormalFit {
+    std::uint32_t count = 0;
+    double weight = 0, first = 0, second = 0;  // moments of the distance
+    Vec3 normal{}, along_distance{};
+
+    void add(Vec3 area, double distance) {
+        const double size = length(area);
+        ++count;
+        weight += size;
+        first += size * distance;
+        second += size * distance * distance;
+        normal += area;
+        along_distance += distance * area;
+    }
+    Vec3 at_edge() const {
+        const double spread = weight * second - first * first;
+        if (!(spread > kLeastSpread * weight * second)) return normal;
+        const Vec3 extrapolated = (1 / spread) * (second * normal - first * along_distance);
+        return length(extrapolated) > kLeastNormal ? extrapolated : normal;
+    }
+};
+
+}  // namespace
+
+LineAngles::LineAngles(const FileView& view, double reach)
+    : view_(view), mesh_(view.mesh()), reach_(reach), seen_(mesh_.face_end()) {}
+
+void LineAngles::set_edge(VertexId v, VertexId w) {
+    planes_.clear();
+    const Vec3 along = mesh_.position(w) - mesh_.position(v), middle = mesh_.position(v) + 0.5 * along;
+    mesh_.for_star(v, [&](FaceId f, int place) {
+        const Face& face = mesh_[f];
+        const VertexId after = face.vertices[(place + 1) % 3], before = face.vertices[(place + 2) % 3];
+        if (after != w && before != w) return;
+        planes_.push_back(
+            {{view_.rank(face.labels[0]), view_.rank(face.labels[1])}, normal_near(f, middle), after == w});
+    });
+    axis_ = axis_of(along);
+    for (Plane& plane : planes_)
+        plane.away = plane.is_second_onward ? cross(plane.normal, axis_) : cross(axis_, plane.normal);
+}
+
+/// Faces of one interface that are joined to the first.
+Vec3 LineAngles::normal_near(FaceId at_edge, Vec3 middle) {
+    const std::array<Label, 2> labels = mesh_[at_edge].labels;
+    NormalFit all, far;
+    ++search_;
+    seen_[index(at_edge)] = search_;
+    waiting_ = {at_edge};
+    while (!waiting_.empty()) {
+        const FaceId f = waiting_.back();
+        waiting_.pop_back();
+        const auto [a, b, c] = mesh_.corners(f);
+        const double distance = length((1.0 / 3) * (a + b + c) - middle);
+        if (f != at_edge && distance >= reach_) continue;
+        const Vec3 area = cross(b - a, c - a);
+        all.add(area, distance);
+        if (distance > kNear * reach_) far.add(area, distance);
+        for (const VertexId v : mesh_[f].vertices)
+            mesh_.for_star(v, [&](FaceId next, int) {
+                if (seen_[index(next)] == search_ || !mesh_[next].has_labels(labels)) return;
+                seen_[index(next)] = search_;
+                waiting_.push_back(next);
+            });
+    }
+    return (far.count < kFewest ? all : far).at_edge();
+}
+
+/// The direction that the interfaces have in common; that of the edge where they are nearly parallel.
+Vec3 LineAngles::axis_of(Vec3 along) const {
+    Vec3 axis{};
+    for (std::size_t n = 0; n < planes_.size(); ++n)
+        for (std::size_t m = 0; m < n; ++m) {
+            const double size = length(planes_[n].normal) * length(planes_[m].normal);
+            const Vec3 common = cross(planes_[n].normal, planes_[m].normal);
+            if (size > 0) axis += (dot(common, along) < 0 ? -1 / size : 1 / size) * common;
+        }
+    if (!(length(axis) > kLeastSine)) axis = along;
+    return (1 / length(axis)) * axis;
+}
+
+std::optional<double> LineAngles::angle_inside(std::uint32_t rank) const {
+    std::array<const Plane*, 2> sides;
+    int count = 0;
+    for (const Plane& plane : planes_) {
+        const bool is_first = plane.ranks[0] == rank, is_second = plane.ranks[1] == rank;
+        if (!is_first && !is_second) continue;
+        if (count == 2 || (is_first && is_second)) return std::nullopt;
+        sides[count++] = &plane;
+    }
+    if (count != 2) return std::nullopt;
+    const auto& [from, to] = sides;
+    const double x = dot(from->away, to->away), y = dot(cross(from->away, to->away), axis_);
+    if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0)) return std::nullopt;
+    const bool is_onward = from->is_second_onward == (from->ranks[1] == rank);
+    const double angle = std::atan2(is_onward ? y : -y, x);
+    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+}  // namespace regionmesh
