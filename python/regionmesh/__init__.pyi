@@ -197,4 +197,5 @@ def from_arrays(
     exterior_label: _Int = -1,
     names: Mapping[int, str] | _Path | None = None,
     boundary: Literal["cap", "open"] = "cap",
+    node_types: npt.ArrayLike | None = None,
 ) -> Mesh: ...

@@ -23,7 +23,9 @@ def names_of(names):
     if isinstance(names, _sources.PATHS):
         with _sources.missing_files(names):
             return _core.read_names(_sources.file_name(names))
-    return {bits(label): _text(name) for label, name in dict(names).items()}
+    if not hasattr(names, "items"):
+        raise TypeError(f"names={names!r}: neither names by label nor the path of a table")
+    return {bits(label): _text(name) for label, name in names.items()}
 
 
 def colours_of(names):

@@ -70,7 +70,9 @@ def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
         return Mesh(_core.load(name, pairs))
 
 
-def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names=None, boundary="cap"):
+def from_arrays(
+    points, faces, labels, *, background=0, exterior_label=-1, names=None, boundary="cap", node_types=None
+):
     """Make a model from arrays, such as those of another program.
 
     Parameters
@@ -89,6 +91,9 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
         Names of labels.
     boundary : {"cap", "open"}
         "open": a model without faces on the sides of its box.
+    node_types : (n,) array_like of int, optional
+        `Mesh.node_types`, which says what points lie on the box. Needed where no faces lie there, as in open models
+        and between backgrounds.
 
     Returns
     -------
@@ -123,7 +128,7 @@ def from_arrays(points, faces, labels, *, background=0, exterior_label=-1, names
     whole = labels.view(np.int64) if is_unsigned else labels.astype(np.int64)
     outside = [] if background is None else [background] if np.ndim(background) == 0 else list(background)
     model = _core.from_arrays(
-        (points, faces.astype(np.uint32), np.ascontiguousarray(whole), None),
+        (points, faces.astype(np.uint32), np.ascontiguousarray(whole), _node_types(node_types, len(points))),
         ([bits(label) for label in outside], [], names_of(names) or {}, colours_of(names) or {}, "", None),
         bits(exterior_label), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
@@ -135,6 +140,15 @@ def _integers(name, values):
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name}: {array.dtype}; give integers")
     return array.astype(array.dtype.newbyteorder("=")) if array.size else array.astype(np.int64)
+
+
+def _node_types(values, count):
+    if values is None:
+        return None
+    types = _integers("node_types", values)
+    if types.shape != (count,) or not np.isin(types, (2, 3, 4, 12, 13, 14)).all():
+        raise ValueError(f"node_types: shape {types.shape}; give one of 2, 3, 4, 12, 13 and 14 for each of {count} points")
+    return np.ascontiguousarray(types, np.uint8)
 
 
 def _rows(name, array, columns):

@@ -17,6 +17,14 @@ def _split(options, names):
     return [(name, text) for name, text in options if name in names]
 
 
+def _kept(labels):
+    if labels is None:
+        return None
+    if not hasattr(labels, "__iter__"):
+        raise TypeError(f"labels_to_keep={labels!r}: not a sequence of labels")
+    return [bits(label) for label in labels]
+
+
 def _from_files(labels, options, kept, described, progress):
     paths = _sources.paths_of(labels)
     beside = [value for name, value in options if name in ("collars", "surveys", "terrain")]
@@ -116,12 +124,14 @@ def reconstruct(
            [7.5, 7.5, 7.5]])
     """
     from_files = _sources.is_path(labels)
-    kept = None if labels_to_keep is None else [bits(label) for label in labels_to_keep]
+    kept = _kept(labels_to_keep)
     described = names_of(names), colours_of(names)
     with _progress.bar(progress) as report:
         if from_files:
             if origin is not None or direction is not None:
                 raise TypeError("reconstruct(): origin and direction are those of the file; leave them out")
+            if sections is not None:
+                raise TypeError("reconstruct(): sections applies to iterators, not to files; leave it out")
             if spacing is not None:
                 options = {"spacing": spacing, **options}
             return _from_files(labels, _options.pairs("reconstruct", options), kept, described, report)

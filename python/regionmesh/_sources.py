@@ -313,6 +313,7 @@ def missing_files(*paths):
     try:
         yield
     except ValueError as error:
-        if all(os.path.exists(os.fsencode(path).split(b":/")[0]) for path in paths):
+        names = (os.fsencode(path).split(b":/")[0] for path in paths)
+        if all(name == b"-" or os.path.exists(name) for name in names):
             raise
         raise FileNotFoundError(str(error)) from None

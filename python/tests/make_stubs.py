@@ -42,6 +42,7 @@ _OF_NAME = {
     "names": "Mapping[int, str] | _Path | None", "labels_to_keep": "Iterable[_Int] | None", "sections": "_Int | None",
     "progress": "_Progress | None", "background": "_Int | Iterable[_Int] | None", "smooth": "str | _Int | bool | None",
     "path": "_Path", "points": "npt.ArrayLike", "faces": "npt.ArrayLike", "exterior_label": "_Int",
+    "node_types": "npt.ArrayLike | None",
     "weld": "float | None", "orient": "bool", "boundary": 'Literal["cap", "open"]', "label": "_Int", "a": "_Int",
     "b": "_Int", "threads": "_Int", "other": "Mesh", "like": "Any", "shape": "Sequence[_Int] | None",
     "dtype": "npt.DTypeLike | None", "outside": "_Int", "per_region": "bool", "labels": "Any",

@@ -682,3 +682,15 @@ def test_labels_of_the_other_byte_order_keep_their_values():
         assert regionmesh.from_arrays(points, faces, labels).regions["label"][0] == (1 << 63) + 5
     with pytest.raises(TypeError, match="not a whole number"):
         regionmesh.from_arrays(points, faces, [(7, 0)] * 4, exterior_label=1.5)
+
+
+def test_arrays_of_an_open_model_with_its_node_types_are_that_model(grains):
+    made = regionmesh.reconstruct(grains, background=None, boundary="open")
+    given = dict(background=made.background, exterior_label=made.exterior_label, boundary="open")
+    again = regionmesh.from_arrays(made.points, made.faces, made.labels, node_types=made.node_types, **given)
+    assert made.certified and again.certified
+    np.testing.assert_array_equal(again.node_types, made.node_types)
+    assert not regionmesh.from_arrays(made.points, made.faces, made.labels, **given).certified
+    for wrong in made.node_types[1:], made.node_types + 100, [2.5] * len(made.points):
+        with pytest.raises((TypeError, ValueError), match="node_types"):
+            regionmesh.from_arrays(made.points, made.faces, made.labels, node_types=wrong, **given)

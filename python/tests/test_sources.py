@@ -528,3 +528,14 @@ def test_a_table_of_names_has_colours(two_boxes, tmp_path):
         plain.save(tmp_path / "plain.glb")
         assert made.names == plain.names == {1: "bone"}
         assert (tmp_path / "m.glb").read_bytes() != (tmp_path / "plain.glb").read_bytes()
+
+
+def test_arguments_of_another_kind_are_refused(two_boxes, tmp_path):
+    np.save(tmp_path / "v.npy", two_boxes)
+    for labels, options, wanted in [
+        (tmp_path / "v.npy", {"sections": 5}, "sections applies to iterators"),
+        (two_boxes, {"labels_to_keep": 3}, "labels_to_keep=3: not a sequence"),
+        (two_boxes, {"names": ["a"]}, r"names=\['a'\]: neither names by label"),
+    ]:
+        with pytest.raises(TypeError, match=wanted):
+            regionmesh.reconstruct(labels, **options)
