@@ -29,8 +29,8 @@ def names_of(names):
 
 
 def colours_of(names):
-    """Colours of the table of names, by label; None where the names are no table."""
-    return _core.read_colours(_sources.file_name(names)) if isinstance(names, _sources.PATHS) else None
+    """Colours of the table of names, by label; None where it has none, or the names are no table."""
+    return (_core.read_colours(_sources.file_name(names)) or None) if isinstance(names, _sources.PATHS) else None
 
 
 def _text(name):
