@@ -20,6 +20,18 @@ constexpr double kLeastNormal = 0.3;
 /// Interfaces that make smaller angles with each other have no direction in common.
 constexpr double kLeastSine = 0.1;
 
+/// Faces of an interface that count, at most: where an edge is long, many may lie within reach.
+constexpr std::uint32_t kMostFaces = 1000;
+
+constexpr double kFullTurn = 2 * std::numbers::pi;
+
+/// From -pi to pi; none where a direction has no length.
+std::optional<double> angle_about(Vec3 axis, Vec3 from, Vec3 to) {
+    const double x = dot(from, to), y = dot(cross(from, to), axis);
+    if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0)) return std::nullopt;
+    return std::atan2(y, x);
+}
+
 /// Least squares of normals, a linear function of distance, by area.
 struct NormalFit {
     std::uint32_t count = 0;
@@ -48,31 +60,58 @@ struct NormalFit {
 LineAngles::LineAngles(const FileView& view, double reach)
     : view_(view), mesh_(view.mesh()), reach_(reach), seen_(mesh_.face_end()) {}
 
-void LineAngles::set_edge(VertexId v, VertexId w) {
+const std::vector<std::optional<double>>& LineAngles::at_edge(VertexId v, VertexId w,
+                                                              std::span<const std::uint32_t> ranks) {
+    find_planes(v, w);
+    angles_.clear();
+    turns_.clear();
+    for (const std::uint32_t rank : ranks) {
+        const std::optional<Turn> turn = turn_inside(rank);
+        angles_.push_back(turn ? std::optional(turn->angle) : std::nullopt);
+        if (turn) turns_.push_back(*turn);
+    }
+    if (turns_.size() < ranks.size()) return angles_;
+    // Where interfaces are exchanged, the angle that is farthest from that of the faces gets a full turn less, or more.
+    double sum = 0;
+    for (const Turn& turn : turns_) sum += turn.angle;
+    for (long extra = std::lround(sum / kFullTurn) - 1; extra != 0; extra += extra < 0 ? 1 : -1) {
+        const double sign = extra < 0 ? -1 : 1;
+        const auto farthest =
+            std::ranges::max_element(turns_, {}, [&](const Turn& turn) { return sign * (turn.angle - turn.of_faces); });
+        farthest->angle -= sign * kFullTurn;
+        angles_[farthest - turns_.begin()] = farthest->angle;
+    }
+    return angles_;
+}
+
+void LineAngles::find_planes(VertexId v, VertexId w) {
     planes_.clear();
-    const Vec3 along = mesh_.position(w) - mesh_.position(v), middle = mesh_.position(v) + 0.5 * along;
+    const Vec3 from = mesh_.position(v), edge = mesh_.position(w) - from;
+    along_ = (1 / length(edge)) * edge;
     mesh_.for_star(v, [&](FaceId f, int place) {
         const Face& face = mesh_[f];
         const VertexId after = face.vertices[(place + 1) % 3], before = face.vertices[(place + 2) % 3];
         if (after != w && before != w) return;
-        planes_.push_back(
-            {{view_.rank(face.labels[0]), view_.rank(face.labels[1])}, normal_near(f, middle), after == w});
+        const Vec3 side = mesh_.position(after == w ? before : after) - from;
+        planes_.push_back({{view_.rank(face.labels[0]), view_.rank(face.labels[1])},
+                           normal_near(f, from + 0.5 * edge),
+                           side - dot(side, along_) * along_,
+                           after == w});
     });
-    axis_ = axis_of(along);
+    axis_ = axis_of(along_);
     for (Plane& plane : planes_)
         plane.away = plane.is_second_onward ? cross(plane.normal, axis_) : cross(axis_, plane.normal);
 }
 
-/// Faces of one interface that are joined to the first.
+/// Faces of one interface that are joined to the first, the nearest first.
 Vec3 LineAngles::normal_near(FaceId at_edge, Vec3 middle) {
     const std::array<Label, 2> labels = mesh_[at_edge].labels;
     NormalFit all, far;
     ++search_;
     seen_[index(at_edge)] = search_;
-    waiting_ = {at_edge};
-    while (!waiting_.empty()) {
-        const FaceId f = waiting_.back();
-        waiting_.pop_back();
+    found_ = {at_edge};
+    for (std::size_t n = 0; n < found_.size() && all.count < kMostFaces; ++n) {
+        const FaceId f = found_[n];
         const auto [a, b, c] = mesh_.corners(f);
         const double distance = length((1.0 / 3) * (a + b + c) - middle);
         if (f != at_edge && distance >= reach_) continue;
@@ -83,7 +122,7 @@ Vec3 LineAngles::normal_near(FaceId at_edge, Vec3 middle) {
             mesh_.for_star(v, [&](FaceId next, int) {
                 if (seen_[index(next)] == search_ || !mesh_[next].has_labels(labels)) return;
                 seen_[index(next)] = search_;
-                waiting_.push_back(next);
+                found_.push_back(next);
             });
     }
     return (far.count < kFewest ? all : far).at_edge();
@@ -102,7 +141,7 @@ Vec3 LineAngles::axis_of(Vec3 along) const {
     return (1 / length(axis)) * axis;
 }
 
-std::optional<double> LineAngles::angle_inside(std::uint32_t rank) const {
+std::optional<LineAngles::Turn> LineAngles::turn_inside(std::uint32_t rank) const {
     std::array<const Plane*, 2> sides;
     int count = 0;
     for (const Plane& plane : planes_) {
@@ -113,11 +152,12 @@ std::optional<double> LineAngles::angle_inside(std::uint32_t rank) const {
     }
     if (count != 2) return std::nullopt;
     const auto& [from, to] = sides;
-    const double x = dot(from->away, to->away), y = dot(cross(from->away, to->away), axis_);
-    if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0)) return std::nullopt;
-    const bool is_onward = from->is_second_onward == (from->ranks[1] == rank);
-    const double angle = std::atan2(is_onward ? y : -y, x);
-    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+    const double sign = from->is_second_onward == (from->ranks[1] == rank) ? 1 : -1;
+    const auto angle = angle_about(axis_, from->away, to->away);
+    const auto of_faces = angle_about(along_, from->in_face, to->in_face);
+    if (!angle || !of_faces) return std::nullopt;
+    const auto from_0 = [&](double turn) { return sign * turn < 0 ? sign * turn + kFullTurn : sign * turn; };
+    return Turn{from_0(*angle), from_0(*of_faces)};
 }
 
 }  // namespace regionmesh

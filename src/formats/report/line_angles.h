@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mesh/file_view.h"
@@ -18,30 +19,38 @@ class LineAngles {
 public:
     LineAngles(const FileView& view, double reach);
 
-    /// The edge whose angles are wanted.
-    void set_edge(VertexId v, VertexId w);
-    /// The dihedral angle of a label at the edge, by its place in the order of files, from 0 to a full turn. None where
-    /// it has not two faces there, or they have no area.
-    std::optional<double> angle_inside(std::uint32_t rank) const;
+    /// The dihedral angles of labels at an edge, by their places in the order of files. None where a label has not two
+    /// faces there, or they have no area. If all have one they add up to a full turn; noise may make a small one
+    /// negative, where it exchanges interfaces round the edge.
+    const std::vector<std::optional<double>>& at_edge(VertexId v, VertexId w, std::span<const std::uint32_t> ranks);
 
 private:
     /// Of an interface at the edge.
     struct Plane {
         std::array<std::uint32_t, 2> ranks;  // of its labels
         Vec3 normal;                         // from the first label to the second
+        Vec3 in_face;                        // from the edge across it, in the face there
         bool is_second_onward;               // anticlockwise round the edge, the second label comes after the interface
         Vec3 away = {};                      // from the edge, square to the axis and the normal
     };
+    /// The turn from one side of a label to the other: between interfaces, and between the faces at the edge.
+    struct Turn {
+        double angle, of_faces;
+    };
 
+    void find_planes(VertexId v, VertexId w);
     Vec3 normal_near(FaceId at_edge, Vec3 middle);
     Vec3 axis_of(Vec3 along) const;
+    std::optional<Turn> turn_inside(std::uint32_t rank) const;
 
     const FileView& view_;
     const Mesh& mesh_;
     double reach_;
     std::vector<Plane> planes_;
-    Vec3 axis_{};
-    std::vector<FaceId> waiting_;
+    Vec3 along_{}, axis_{};  // unit vectors
+    std::vector<std::optional<double>> angles_;
+    std::vector<Turn> turns_;
+    std::vector<FaceId> found_;
     std::vector<std::uint32_t> seen_;  // by face: the last search that met it
     std::uint32_t search_ = 0;
 };

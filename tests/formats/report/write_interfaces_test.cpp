@@ -126,6 +126,19 @@ TEST(LineTable, dihedral_angles_are_those_of_the_interfaces) {
         }
 }
 
+TEST(LineTable, dihedral_angles_of_noise_add_up) {
+    const Reconstruction made =
+        test::run(test::noise_volume({14, 15, 16}, 5, 2), {.decimate = false, .background = {}});
+    for (const auto& row : table_of(lines_csv(made.mesh, made.labels, made.background))) {
+        if (row.at("label_count") != "3") continue;
+        const bool is_on_box = row.at("names").find("exterior") != std::string::npos;
+        std::istringstream angles(row.at("angles"));
+        double sum = 0;
+        for (double angle; angles >> angle;) sum += angle;
+        EXPECT_THAT(sum, DoubleNear(is_on_box ? 180 : 360, 0.01)) << row.at("labels");
+    }
+}
+
 TEST(LineTable, of_the_box_has_the_exterior_as_one_label) {
     const Reconstruction& made = grains();
     const std::string text = lines_csv(made.mesh, made.labels, made.background);
