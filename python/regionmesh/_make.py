@@ -146,8 +146,11 @@ def _node_types(values, count):
     if values is None:
         return None
     types = _integers("node_types", values)
-    if types.shape != (count,) or not np.isin(types, (2, 3, 4, 12, 13, 14)).all():
-        raise ValueError(f"node_types: shape {types.shape}; give one of 2, 3, 4, 12, 13 and 14 for each of {count} points")
+    if types.shape != (count,):
+        raise ValueError(f"node_types: shape {types.shape}; give one for each of {count} points")
+    wrong = types[~np.isin(types, (2, 3, 4, 12, 13, 14))]
+    if wrong.size:
+        raise ValueError(f"node_types: {wrong[0]}; give 2, 3 or 4, and 12, 13 or 14 on the box")
     return np.ascontiguousarray(types, np.uint8)
 
 

@@ -27,20 +27,22 @@ class NamedColumns {
 public:
     explicit NamedColumns(const std::filesystem::path& path) : rows_(path) {
         if (!rows_.next()) fail(path, "is empty; a table has a header and rows");
-        for (std::size_t i = 0; i < rows_.field_count(); ++i) {
-            titles_.push_back(plain_column_title(rows_.field(i)));
-            const auto first = std::ranges::find(titles_, titles_.back()) - titles_.begin();
-            if (!titles_.back().empty() && static_cast<std::size_t>(first) < i)
-                rows_.refuse(fmt::format("columns {} and {} are both called '{}'; rename one", first + 1, i + 1,
-                                         shown(rows_.field(i))));
-        }
+        for (std::size_t i = 0; i < rows_.field_count(); ++i) titles_.emplace_back(rows_.field(i));
     }
 
+    /// Requires the header to be the current row.
     std::optional<std::size_t> find(std::initializer_list<Titles> wanted) const {
         for (const Titles& titles : wanted)
             for (const std::string_view title : titles)
-                for (std::size_t i = 0; i < titles_.size(); ++i)
-                    if (titles_[i] == title) return i;
+                for (std::size_t i = 0; i < titles_.size(); ++i) {
+                    if (plain_column_title(titles_[i]) != title) continue;
+                    for (std::size_t other = i + 1; other < titles_.size(); ++other)
+                        if (plain_column_title(titles_[other]) == title)
+                            rows_.refuse(fmt::format("columns {} and {}, '{}' and '{}', are both called {}; rename one",
+                                                     i + 1, other + 1, shown(titles_[i]), shown(titles_[other]),
+                                                     title));
+                    return i;
+                }
         return {};
     }
 
@@ -76,8 +78,8 @@ public:
     double number(std::size_t column) const {
         const auto number = parse_finite(text(column));
         if (!number)
-            rows_.refuse(
-                fmt::format("column '{}': '{}' is no finite number; mend it", titles_[column], shown(text(column))));
+            rows_.refuse(fmt::format("column '{}': '{}' is no finite number; mend it", shown(titles_[column]),
+                                     shown(text(column))));
         return *number;
     }
 

@@ -38,11 +38,11 @@ int faces_of_goes(const EdgeStar& star) {
     return count;
 }
 
-/// Where faces came in below the bound, a collapse may leave some: no more than there were, those that vanish counted,
-/// and none worse than the worst; or fewer, and none worse than kLeastOfWorst times the worst. Without the latter,
-/// three needles round a tiny face stay for ever: when one goes with an edge of that face, the others get a little
-/// longer. Looks at the first `count` faces that survive.
-bool was_worse(const Mesh& mesh, const EdgeStar& star, int count, const LowQuality& after, double bound3) {
+/// May a collapse leave such faces? Where some came in below the bound: no more than there were, those that vanish
+/// counted, and none worse than the worst; or fewer, and none worse than kLeastOfWorst times the worst. Without the
+/// latter, three needles round a tiny face stay for ever: when one goes with an edge of that face, the others get a
+/// little longer. Looks at the first `count` faces that survive.
+bool may_leave(const Mesh& mesh, const EdgeStar& star, int count, const LowQuality& after, double bound3) {
     LowQuality before{1, 0};
     const auto add = [&](double face3) {
         before.worst3 = std::min(before.worst3, face3);
@@ -81,7 +81,7 @@ Verdict test_quality(Collapse& collapse) {
         }
     }
     collapse.worst_quality3 = worst3;
-    return below > 0 && !was_worse(collapse.mesh, star, star.face_count(), {worst3, below}, bound3)
+    return below > 0 && !may_leave(collapse.mesh, star, star.face_count(), {worst3, below}, bound3)
                ? Verdict::kQuality
                : Verdict::kAccepted;
 }
@@ -107,7 +107,7 @@ double fan_quality3(const Mesh& mesh, const EdgeStar& around, VertexId target, V
             after.below += stays & (own3[lane] < bound3);
         }
     }
-    return after.below > 0 && !was_worse(mesh, around, count, after, bound3) ? 0 : after.worst3;
+    return after.below > 0 && !may_leave(mesh, around, count, after, bound3) ? 0 : after.worst3;
 }
 
 }  // namespace regionmesh
