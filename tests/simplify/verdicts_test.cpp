@@ -161,6 +161,13 @@ TEST(ShapeVerdict, needles_may_get_a_little_longer_where_they_get_fewer) {
     EXPECT_EQ(shape_of(mesh, middle, {.min_quality = 0.99 * std::cbrt(before)}).verdict, Verdict::kQuality);
 }
 
+TEST(ShapeVerdict, needles_far_below_the_bound_may_not_get_longer) {
+    const Mesh mesh = cut_tip(0.001);  // the quality of its needles falls to 0.025
+    const Vec3 middle = 0.5 * (mesh.position(VertexId{0}) + mesh.position(VertexId{1}));
+    EXPECT_EQ(shape_of(mesh, middle, {.min_quality = 0.1}).verdict, Verdict::kQuality);
+    EXPECT_EQ(shape_of(mesh, middle, {.min_quality = 0.05}).verdict, Verdict::kAccepted);
+}
+
 TEST(ShapeVerdict, quality_when_a_face_gets_thin) {
     EXPECT_EQ(shape_of(test::edge_in_sheet(), {0.5, 0.97, 0}).verdict, Verdict::kQuality);
     EXPECT_EQ(shape_of(test::edge_in_sheet(), {0.5, 0.97, 0}, {.min_quality = 0}).verdict, Verdict::kAccepted);

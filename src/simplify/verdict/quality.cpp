@@ -39,9 +39,9 @@ int faces_of_goes(const EdgeStar& star) {
 }
 
 /// May a collapse leave such faces? Where some came in below the bound: no more than there were, those that vanish
-/// counted, and none worse than the worst; or fewer, and none worse than kLeastOfWorst times the worst. Without the
-/// latter, three needles round a tiny face stay for ever: when one goes with an edge of that face, the others get a
-/// little longer. Looks at the first `count` faces that survive.
+/// counted, and none worse than the worst; or fewer, and a little worse than the worst (kLeastOfWorst, kLeastOfBound).
+/// Without the latter, three needles round a tiny face stay for ever: when one goes with an edge of that face, the
+/// others get a little longer. Looks at the first `count` faces that survive.
 bool may_leave(const Mesh& mesh, const EdgeStar& star, int count, const LowQuality& after, double bound3) {
     LowQuality before{1, 0};
     const auto add = [&](double face3) {
@@ -60,8 +60,10 @@ bool may_leave(const Mesh& mesh, const EdgeStar& star, int count, const LowQuali
         const auto corners = mesh.corners(f);
         add(quality_terms(corners[0], corners[1], corners[2]).cube());
     }
-    constexpr double kOfWorst3 = kLeastOfWorst * kLeastOfWorst * kLeastOfWorst;
-    return after.below <= before.below && after.worst3 >= (after.below < before.below ? kOfWorst3 : 1) * before.worst3;
+    if (after.below >= before.below) return after.below == before.below && after.worst3 >= before.worst3;
+    constexpr double kOfWorst3 = kLeastOfWorst * kLeastOfWorst * kLeastOfWorst,
+                     kOfBound3 = kLeastOfBound * kLeastOfBound * kLeastOfBound;
+    return after.worst3 >= std::min(before.worst3, std::max(kOfWorst3 * before.worst3, kOfBound3 * bound3));
 }
 
 }  // namespace
