@@ -38,7 +38,7 @@ std::optional<LabelOracle> oracle_of(const Settings& settings, LabelTable& label
     const CensusOptions census = census_options(settings);
     const auto in_labels = [&](const auto& counted) { return relabelled(counted.oracle, counted.labels, labels); };
     if (is_lattice(settings, settings.sections)) return in_labels(count_labels(*open_modelled(settings), census));
-    return in_labels(count_labels(*open_tetrahedra(settings.sections.front(), settings.tetrahedra), census));
+    return in_labels(count_labels(*open_unstructured(settings, settings.sections), census));
 }
 
 /// Sections are read for the labels, and again where there are samples to compare.

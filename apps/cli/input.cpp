@@ -23,14 +23,22 @@ void turn(MeshFile& file, Space space) {
     file.space = space;
 }
 
+template <class Reader>
+std::unique_ptr<Reader> with_warning(std::unique_ptr<Reader> reader) {
+    static std::once_flag once;
+    const auto& info = reader->info();
+    if (!info.warning.empty()) std::call_once(once, [&] { warn(info.source + ": " + info.warning); });
+    return reader;
+}
+
 }  // namespace
 
 std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::vector<std::string>& inputs) {
-    static std::once_flag once;
-    auto reader = open_lattice(settings, inputs);
-    const VolumeInfo& info = reader->info();
-    if (!info.warning.empty()) std::call_once(once, [&] { warn(info.source + ": " + info.warning); });
-    return reader;
+    return with_warning(open_lattice(settings, inputs));
+}
+
+std::unique_ptr<TetrahedronReader> open_unstructured(const Settings& settings, const std::vector<std::string>& inputs) {
+    return with_warning(open_tetrahedra(inputs.front(), settings.tetrahedra));
 }
 
 bool has_extension(const std::string& path, const std::string& extensions) {

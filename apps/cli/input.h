@@ -16,12 +16,15 @@ namespace regionmesh::cli {
 /// open_lattice(), with a warning of what the reader decided: once in a run, which may open its input several times.
 std::unique_ptr<SectionReader> open_volume(const Settings& settings, const std::vector<std::string>& inputs);
 
+/// The same with open_tetrahedra(), of the first input.
+std::unique_ptr<TetrahedronReader> open_unstructured(const Settings& settings, const std::vector<std::string>& inputs);
+
 /// Calls visit(reader) with the reader of the input, of either kind, and returns the result. Throws Error(kUsage) for
 /// options that do not apply to the input.
 template <class Visit>
 auto with_reader(const Settings& settings, const std::vector<std::string>& inputs, Visit&& visit) {
     require_fit(settings, inputs);
-    if (!is_lattice(settings, inputs)) return visit(*open_tetrahedra(inputs.front(), settings.tetrahedra));
+    if (!is_lattice(settings, inputs)) return visit(*open_unstructured(settings, inputs));
     return visit(*open_volume(settings, inputs));
 }
 

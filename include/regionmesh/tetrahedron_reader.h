@@ -34,6 +34,7 @@ struct TetrahedraInfo {
     bool hull_is_convex = false;   // the tetrahedra fill their convex hull without gaps
     double scale_z = 1;            // factor by which z was multiplied
     LabelNames names = {};         // given by the file
+    std::string warning = {};      // what the reader decided that the user may not expect: a line, or empty
 };
 
 /// Pull interface of every source of labelled tetrahedra: a mesh from a file, or labelled points with their Delaunay

@@ -142,7 +142,9 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
 Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Watch& watch) {
     const Settings settings = settings_from(run.options, {path});
     Model model;
+    std::string warning;
     const auto make = [&](auto& reader) {
+        warning = reader.info().warning;
         StageProgress progress(watch, settings.reconstruct);
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
@@ -155,6 +157,7 @@ Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Wat
         else
             make(*open_tetrahedra(path, settings.tetrahedra));
     });
+    warn_of(path, warning);
     return model;
 }
 

@@ -133,6 +133,11 @@ Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& r
     return {py::none(), std::make_unique<CalledSections>(std::move(calls), std::move(info))};
 }
 
+void warn_of(const std::string& source, const std::string& warning) {
+    if (!warning.empty() && PyErr_WarnEx(PyExc_UserWarning, (source + ": " + warning).c_str(), 1) != 0)
+        throw py::error_already_set();
+}
+
 Source file_source(const std::vector<std::string>& paths, const OptionValues& options, const KeptLabels& kept) {
     Settings settings = settings_from(options, paths);
     settings.volume.select = keeping(settings.volume.select, kept);
@@ -141,9 +146,7 @@ Source file_source(const std::vector<std::string>& paths, const OptionValues& op
         const py::gil_scoped_release release;
         source.reader = open_sections({paths.begin(), paths.end()}, settings.volume);
     }
-    const VolumeInfo& info = source.reader->info();
-    if (!info.warning.empty() && PyErr_WarnEx(PyExc_UserWarning, (info.source + ": " + info.warning).c_str(), 1) != 0)
-        throw py::error_already_set();
+    warn_of(source.reader->info().source, source.reader->info().warning);
     return source;
 }
 

@@ -47,6 +47,9 @@ Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& r
 /// The labels to keep; none: all. The others become background before anything else is chosen.
 using KeptLabels = std::optional<std::vector<InputLabel>>;
 
+/// A UserWarning of what a reader says, if it says anything.
+void warn_of(const std::string& source, const std::string& warning);
+
 Source file_source(const std::vector<std::string>& paths, const OptionValues& options, const KeptLabels& kept);
 
 /// The part of a source that the labels and the options roi, box, downsample and min-region choose. Sources of files

@@ -422,6 +422,14 @@ def test_a_table_of_points(tmp_path):
     assert list(made.regions["label"]) == [1, 2]
 
 
+def test_a_word_among_the_labels_of_a_table_is_a_warning(tmp_path):
+    rows = "".join(f"{at},0,4,1\n{at},4,9,sand\n" for at in ["0,0", "9,0", "0,9", "9,8"])
+    (tmp_path / "holes.csv").write_text("x,y,from,to,unit\n" + rows)
+    with pytest.warns(UserWarning, match="holes.csv: label '1' is a number and 'sand' a word"):
+        made = regionmesh.reconstruct(tmp_path / "holes.csv", layers="auto")
+    assert made.names == {1: "1", 2: "sand"}
+
+
 def test_a_missing_file_is_not_found(tmp_path):
     with pytest.raises(FileNotFoundError, match="nothing.nii.gz"):
         regionmesh.reconstruct(tmp_path / "nothing.nii.gz")

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "boreholes/kriging.h"
@@ -38,6 +39,7 @@ struct DrillHoles {
 struct HoleTable {
     DrillHoles holes;
     TableLabels labels;
+    std::string warning;  // as in TetrahedraInfo
 };
 
 /// Sets `collars`, for holes that are vertical, and `is_at_collar` of their intervals.

@@ -173,13 +173,14 @@ void require_overlap(const Terrain& terrain, const ColumnGrid& grid, const std::
                            grid.x, grid.x + (grid.width - 1) * grid.dx, grid.y, grid.y + (grid.height - 1) * grid.dy));
 }
 
-/// The labels of the air and of the units; sets type and names in `info`. Words get labels by age. Throws Error(kInput)
-/// where a unit would have the label of the air, or two the same.
+/// The labels of the air and of the units; sets type, names and warning in `info`. Words get labels by age. Throws
+/// Error(kInput) where a unit would have the label of the air, or two the same.
 std::vector<InputLabel> labels_of(const TableLabels& labels, const LayerOrder& order, VolumeInfo& info) {
     TetrahedraInfo table;
     const std::vector<InputLabel> all = labels.labels(table);
     std::vector<InputLabel> found{0};
     info.type = table.is_unsigned ? SampleType::kU64 : SampleType::kI64;
+    add_warning(info.warning, table.warning);
     for (std::uint32_t n = 0; n < order.units.size(); ++n) {
         const std::uint32_t unit = order.units[n];
         const InputLabel label = labels.are_words() ? InputLabel{n} + 1 : all[unit];
@@ -204,7 +205,8 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
                                kMostHeights));
     require_places(path, table.holes);
     const LayerOrder order = order_layers(table.holes, table.labels, layers.units);
-    VolumeInfo info{.source = path.string(), .format = "csv", .can_sweep = {true, true, true}};
+    VolumeInfo info{
+        .source = path.string(), .format = "csv", .can_sweep = {true, true, true}, .warning = table.warning};
     const LatticeFinder lattices(table, layers);
     const Lattice lattice = lattices.find();  // whose columns stay
     info.held_bytes = require_columns(table, lattice, order.units.size(), layers);

@@ -54,6 +54,9 @@ private:
     std::uint32_t add_label(std::uint32_t row);
     std::uint32_t label_of_interval(std::uint32_t row);
     bool has_more_fields_than_titles() const;
+    void refuse_intervals_at_one_place() const;
+    void note_surface(double top);
+    std::string warning_of_surface() const;
 
     const TetrahedraOptions& options_;
     CsvRows rows_;
@@ -64,6 +67,8 @@ private:
                   first_elevation_ = 0;  // first rows in which top and bottom are depths, or elevations
     PointTable table_;
     bool may_lack_labels_ = false;
+    // Of elevations beside a surface: whether any top is the surface, or 0 below one that is not.
+    bool has_top_at_surface_ = false, has_top_at_zero_ = false;
 };
 
 /// Reserves memory for an upper bound on the rows, so that growing vectors hold nothing twice.
@@ -108,7 +113,7 @@ HoleTable PointTableReader::read_holes() {
         fail(rows_.path(), "is a table of points; --layers is for drill holes, with columns top and bottom");
     may_lack_labels_ = true;
     read_rows();
-    return {std::move(holes_), std::move(labels_)};
+    return {std::move(holes_), std::move(labels_), warning_of_surface()};
 }
 
 void PointTableReader::add_row() {
@@ -126,6 +131,7 @@ void PointTableReader::add_row() {
     table_.points.positions.push_back({x, y, number(Role::kZ)});
     table_.points.labels.push_back(add_label(row));
     table_.rows.push_back(row);
+    if (columns_.leaves_intervals) refuse_intervals_at_one_place();
 }
 
 /// Converts top and bottom to elevations. Only depths need a surface. Intervals without length (marks) are ignored.
@@ -147,6 +153,7 @@ void PointTableReader::add_interval(double x, double y, std::uint32_t row) {
         interval.collar = surface;
     } else {
         interval.collar = interval.top;
+        note_surface(interval.top);
     }
     interval.from = -interval.top;
     interval.bottom_x = x;
@@ -190,6 +197,7 @@ void PointTableReader::finish() {
     table_.info.source = rows_.path().string();
     table_.info.format = "csv";
     table_.info.scale_z = options_.scale_z == kAutoScale ? estimated_scale() : options_.scale_z;
+    table_.info.warning = warning_of_surface();
     const std::vector<InputLabel> labels = labels_.labels(table_.info);
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
         InputLabel& label = table_.points.labels[i];
@@ -224,6 +232,33 @@ std::uint32_t PointTableReader::add_label(std::uint32_t row) {
 /// For layers an interval without a label is one that was not logged.
 std::uint32_t PointTableReader::label_of_interval(std::uint32_t row) {
     return may_lack_labels_ && text(Role::kLabel).empty() ? kNoLabel : add_label(row);
+}
+
+/// Collars, which are at one place for all intervals of a hole, and no points. Of the last two rows.
+void PointTableReader::refuse_intervals_at_one_place() const {
+    const auto& [positions, labels] = table_.points;
+    const std::size_t n = positions.size();
+    if (n < 2 || positions[n - 1] != positions[n - 2] || labels[n - 1] == labels[n - 2]) return;
+    rows_.refuse(
+        fmt::format("lies where row {} lies, and has another label; if these are intervals of a drill hole, say "
+                    "--columns surface={}",
+                    table_.rows[n - 2], columns_.of(Role::kZ) + 1));
+}
+
+void PointTableReader::note_surface(double top) {
+    if (!columns_.has(Role::kSurface)) return;
+    const auto surface = parse_real(text(Role::kSurface));
+    has_top_at_surface_ |= surface == top;
+    has_top_at_zero_ |= surface && *surface != 0 && top == 0;
+}
+
+/// Depths with a minus look like elevations: empty where they are none.
+std::string PointTableReader::warning_of_surface() const {
+    if (!has_top_at_zero_ || has_top_at_surface_) return {};
+    return fmt::format(
+        "top and bottom are elevations, since no bottom is larger, and column {} is not used; "
+        "write depths without a minus",
+        columns_.titles[columns_.of(Role::kSurface)]);
 }
 
 /// Empty fields at the end of a row are ignored.

@@ -29,6 +29,7 @@ private:
     std::size_t wanted_column(std::string_view column);
     std::optional<std::size_t> column_like(std::string_view title, std::string (*plain)(std::string_view)) const;
     void look_for(Role role, Titles titles);
+    bool has_title(Titles titles) const;
     void choose_kind();
     [[noreturn]] void refuse_without(const std::string& what) const;
     [[noreturn]] void refuse_option(const std::string& text) const {
@@ -122,13 +123,22 @@ void ColumnFinder::look_for(Role role, Titles titles) {
         place(role) = column_like(titles[i], plain_column_title);
 }
 
+bool ColumnFinder::has_title(Titles titles) const {
+    for (std::size_t i = 0; found_.has_header && i < rows_.field_count(); ++i)
+        if (std::ranges::find(titles, plain_column_title(rows_.field(i))) != titles.end()) return true;
+    return false;
+}
+
 /// In a table of intervals a column `elevation` is that of the surface, unless --columns says otherwise.
 void ColumnFinder::choose_kind() {
-    const bool has_interval = found_.has(Role::kTop) || found_.has(Role::kBottom);
+    const bool has_interval = found_.has(Role::kTop) || found_.has(Role::kBottom) || found_.has(Role::kSurface);
     if (found_.has(Role::kZ) && has_interval)
-        refuse_option(" names z and also top or bottom; points have a z, intervals have the others");
+        refuse_option(" names z and also top, bottom or surface; points have a z, intervals have the others");
     if (!has_interval) look_for(Role::kZ, titles::kZ);
-    if (found_.has(Role::kZ)) return;
+    if (found_.has(Role::kZ)) {
+        found_.leaves_intervals = has_title(titles::kTop) && has_title(titles::kBottom);
+        return;
+    }
     look_for(Role::kTop, titles::kTop);
     look_for(Role::kBottom, titles::kBottom);
     if (found_.has(Role::kTop) && found_.has(Role::kBottom)) {

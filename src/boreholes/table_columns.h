@@ -21,6 +21,7 @@ struct TableColumns {
     std::vector<std::string> titles;                                   // for messages: 'x', 5
     std::size_t least_fields = 0;                                      // that a row must have
     bool has_header = true;
+    bool leaves_intervals = false;  // a table of points that has a top and a bottom, too
 
     bool has(Role role) const { return places[static_cast<std::size_t>(role)].has_value(); }
     std::size_t of(Role role) const { return *places[static_cast<std::size_t>(role)]; }
@@ -32,10 +33,10 @@ std::string plain_column_title(std::string_view title);
 
 /// Requires `rows` at the first row. `wanted` is TetrahedraOptions::columns: four columns "x,y,z,label" by name or
 /// number from 1, or pairs "x=east,label=3"; other columns are found by their usual names. It is a table of intervals
-/// where `wanted` has a top or bottom, or where the header has both and no column z. It has no header where `wanted`
-/// gives x and y by number and the first row has numbers there. With
-/// `has_collars` another table has x, y and the surface: rows have hole, top, bottom and label, and neither. Throws
-/// Error(kInput) that names the missing column, and Error(kUsage) where `wanted` contradicts itself.
+/// where `wanted` has a top, bottom or surface, or where the header has both and no column z. It has no header where
+/// `wanted` gives x and y by number and the first row has numbers there. With `has_collars` another table has x, y and
+/// the surface: rows have hole, top, bottom and label, and neither. Throws Error(kInput) that names the missing column,
+/// and Error(kUsage) where `wanted` contradicts itself.
 TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars = false);
 
 }  // namespace regionmesh::formats

@@ -51,6 +51,11 @@ std::vector<InputLabel> ranks_of(const TextTable& texts) {
 
 }  // namespace
 
+void add_warning(std::string& warning, const std::string& line) {
+    if (!warning.empty() && !line.empty()) warning += "; ";
+    warning += line;
+}
+
 std::uint32_t TextTable::number_of(std::string_view text) {
     if (!texts_.empty() && *texts_[last_] == text) return last_;
     auto place = numbers_.find(text);
@@ -83,6 +88,7 @@ std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
     auto numbers = numbers_of(path_, texts_, info.is_unsigned);
     const bool are_words = !numbers;
     const std::vector<InputLabel> labels = are_words ? ranks_of(texts_) : std::move(*numbers);
+    if (are_words) add_warning(info.warning, warning_of_numbers());
     std::unordered_map<InputLabel, const Name*> named;  // several texts may be the same number
     for (std::uint32_t i = 0; i < names_.size(); ++i) {
         if (names_[i].text.empty()) continue;
@@ -93,6 +99,18 @@ std::vector<InputLabel> TableLabels::labels(TetrahedraInfo& info) const {
     for (std::uint32_t i = 0; are_words && i < texts_.size(); ++i)
         info.names.emplace(labels[i], one_line(texts_.text(i)));  // unless the label has a name
     return labels;
+}
+
+/// Of labels that are words: empty where none is a number.
+std::string TableLabels::warning_of_numbers() const {
+    std::optional<std::uint32_t> number, word;
+    for (std::uint32_t i = 0; i < texts_.size() && !(number && word); ++i) {
+        std::optional<std::uint32_t>& first = parse_table_label(texts_.text(i)) ? number : word;
+        if (!first) first = i;
+    }
+    if (!number || !word) return {};
+    return fmt::format("label '{}' is a number and '{}' a word; all labels are taken as words",
+                       shown(texts_.text(*number)), shown(texts_.text(*word)));
 }
 
 void TableLabels::refuse_names(std::uint32_t label, const Name& a, const Name& b) const {

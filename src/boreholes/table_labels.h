@@ -34,6 +34,9 @@ private:
     std::uint32_t last_ = 0;
 };
 
+/// Adds a line to the warning of a reader.
+void add_warning(std::string& warning, const std::string& line);
+
 /// Collects labels as text, since only after the last row it is known whether all are numbers.
 class TableLabels {
 public:
@@ -50,8 +53,9 @@ public:
     bool are_words() const;
 
     /// The labels. Whole numbers keep their value ("3.0" is 3). If any text is no such number, all texts are words:
-    /// they get labels 1, 2, ... in byte order, and their text as name. Sets is_unsigned and names in `info`. This and
-    /// are_words() throw Error(kInput) where all texts are whole numbers that do not fit into 64 bits together.
+    /// they get labels 1, 2, ... in byte order, and their text as name, and it is a warning if others are numbers. Sets
+    /// is_unsigned and names in `info`, and adds to its warning. This and are_words() throw Error(kInput) where all
+    /// texts are whole numbers that do not fit into 64 bits together.
     std::vector<InputLabel> labels(TetrahedraInfo& info) const;
 
 private:
@@ -59,6 +63,7 @@ private:
         std::string text;
         std::uint32_t row = 0;
     };
+    std::string warning_of_numbers() const;
     [[noreturn]] void refuse_names(std::uint32_t label, const Name& a, const Name& b) const;
 
     std::filesystem::path path_;

@@ -48,6 +48,7 @@ public:
 private:
     struct Sites4;
     struct Blend4;
+    struct Passage4;
     class Gaps;
     class Corners;
 
@@ -56,7 +57,7 @@ private:
                                 const Corners& corners, std::span<const NearRun> near, std::uint32_t stride) const;
     float acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                      float most_missed) const;
-    Float4 misses(const HeightQuadric& quadric, const Sites4& sites) const;
+    Passage4 passage(const HeightQuadric& quadric, const Sites4& sites) const;
     Blend4 blended(const Sites4& sites, const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits) const;
     void make_linear(Blend4& sums, const Kinds4& kind) const;
 
@@ -64,6 +65,7 @@ private:
     LatticeBlocks blocks_;
     Options options_;
     StepVectors steps_;
+    bool is_anisotropic_;
 };
 
 }  // namespace regionmesh

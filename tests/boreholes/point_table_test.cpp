@@ -98,6 +98,14 @@ TEST_F(PointTableFile, a_table_without_a_header_is_read_by_numbers) {
     EXPECT_THAT(failure_of("1,2,3,sand\n", {.columns = "x,y,z,label"}), HasSubstr("row 1: is no header"));
 }
 
+TEST_F(PointTableFile, a_word_among_numbers_is_a_warning) {
+    const auto table = read("x,y,z,label\n0,0,0,7\n1,0,0,12\n0,1,0,clay\n");
+    EXPECT_THAT(table.points.labels, ElementsAre(2, 1, 3));
+    EXPECT_EQ(table.info.warning, "label '7' is a number and 'clay' a word; all labels are taken as words");
+    EXPECT_EQ(read("x,y,z,label\n0,0,0,sand\n0,1,0,clay\n").info.warning, "");
+    EXPECT_EQ(read("x,y,z,label\n0,0,0,7\n0,1,0,8.0\n").info.warning, "");
+}
+
 TEST_F(PointTableFile, words_become_labels_in_their_order) {
     const auto table = seed("words.csv");
     EXPECT_THAT(table.points.positions,
@@ -223,7 +231,7 @@ TEST_F(PointTableFile, columns_that_contradict_themselves_are_usage_errors) {
     EXPECT_THAT(failure("x=a,y"), HasSubstr("'y' is no pair"));
     EXPECT_THAT(failure("x=a,w=y"), HasSubstr("'w=y' is no pair"));
     EXPECT_THAT(failure("x=a,x=y"), HasSubstr("'x=y' comes twice"));
-    EXPECT_THAT(failure("x=a,z=z,top=y"), HasSubstr("--columns names z and also top or bottom"));
+    EXPECT_THAT(failure("x=a,z=z,top=y"), HasSubstr("--columns names z and also top, bottom or surface"));
     EXPECT_THAT(failure("1,1,3,4"), HasSubstr("--columns 1,1,3,4: column 1 is both x and y; give each its own"));
     EXPECT_THAT(failure("x=1,y=2,z=2,label=2"), HasSubstr("column 2 is both y and z"));
 }
@@ -271,6 +279,28 @@ TEST_F(PointTableFile, a_step_that_makes_no_sense_is_refused) {
                 HasSubstr("row 3: with --step 4e-09 there are more than 4294967294"));
     EXPECT_THAT(failure_of(intervals, {.step = 5e-324}), HasSubstr("row 2: with --step"));
     EXPECT_THAT(failure_of("x,y,z,label\n0,0,0,1\n", {.step = 1}), HasSubstr("--step is for drill holes"));
+}
+
+TEST_F(PointTableFile, depths_with_a_minus_are_a_warning) {
+    const std::string header = "x,y,elevation,from,to,lith\n";
+    EXPECT_EQ(read(header + "0,0,100,0,-4,1\n0,0,100,-4,-9,2\n").info.warning,
+              "top and bottom are elevations, since no bottom is larger, and column 'elevation' is not used; write "
+              "depths without a minus");
+    EXPECT_EQ(read(header + "0,0,4,4,0,1\n0,0,4,0,-9,2\n").info.warning, "") << "a top is the surface";
+    EXPECT_EQ(read(header + "0,0,0,0,-4,1\n").info.warning, "") << "the surface is 0";
+    EXPECT_EQ(read("x,y,from,to,lith\n0,0,0,-4,1\n").info.warning, "") << "there is no surface";
+    EXPECT_EQ(read(header + "0,0,100,0,4,1\n").info.warning, "") << "depths";
+}
+
+TEST_F(PointTableFile, intervals_with_the_z_of_collars_are_no_points) {
+    const std::string header = "hole,x,y,z,from,to,unit\n";
+    EXPECT_EQ(failure_of(header + "A,0,0,9,0,1,sand\nA,0,0,9,1,2,clay\n"),
+              "row 3: lies where row 2 lies, and has another label; if these are intervals of a drill hole, say "
+              "--columns surface=4");
+    EXPECT_THAT(heights(read(header + "A,0,0,9,0,1,sand\nA,0,0,9,1,2,clay\n", {.columns = "surface=4"})),
+                ElementsAre(8.5, 7.5));
+    EXPECT_THAT(heights(read(header + "A,0,0,8.5,0,1,sand\nA,0,0,7.5,1,2,clay\n")), ElementsAre(8.5, 7.5))
+        << "the middles of intervals";
 }
 
 TEST_F(PointTableFile, depths_and_elevations_must_not_mix) {

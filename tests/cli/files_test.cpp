@@ -267,6 +267,18 @@ TEST_F(CliFiles, a_bad_row_of_a_table_beside_the_volume_is_a_warning) {
     EXPECT_EQ(run("info " + labels).error, "");
 }
 
+TEST_F(CliFiles, a_word_among_the_labels_of_holes_is_a_warning) {
+    std::string rows = "x,y,from,to,unit\n";
+    for (const std::string at : {"0,0", "9,0", "0,9", "9,8"}) rows += at + ",0,4,1\n" + at + ",4,9,sand\n";
+    put_text(path("holes.csv"), rows);
+    for (const std::string options : {"", " --layers auto"}) {
+        const Ran ran = run("info " + path("holes.csv").string() + options);
+        EXPECT_EQ(ran.code, 0) << ran.error;
+        EXPECT_THAT(ran.error, AllOf(HasSubstr("warning: "), HasSubstr("label '1' is a number and 'sand' a word")));
+        EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
+    }
+}
+
 TEST_F(CliFiles, the_manual_page_and_completions_have_every_option) {
     const std::string manual = run("--help-man").out;
     std::string all[] = {run("--completion bash").out, run("--completion zsh").out, run("--completion fish").out};

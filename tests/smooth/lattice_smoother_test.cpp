@@ -100,6 +100,19 @@ TEST(LatticeFilter, makes_round_what_is_round) {
     EXPECT_LT(at_5.rms, 0.35);
 }
 
+/// The rim of a cap, which lies in the last section that meets a region, must not draw the cap onto this section.
+TEST(LatticeFilter, keeps_caps_off_the_last_section) {
+    const Distance torus = [](Vec3 p) { return std::hypot(std::hypot(p.x - 19.4, p.y - 19.1) - 12, p.z - 13.6) - 4; };
+    const Distance ball = [](Vec3 p) { return length(p - Vec3{15.4, 15.4, 16.4}) - 6; };
+    auto ring = sampled({39, 39, 10}, {1, 1, 3}, torus), far = sampled({32, 32, 7}, {1, 1, 5}, ball);
+    const Deviation of_ring = error_of(smoothed(ring), torus, 0.5, 38),
+                    of_ball = error_of(smoothed(far), ball, 0.5, 31);
+    EXPECT_LT(of_ring.degrees, 13);
+    EXPECT_LT(of_ring.rms, 0.6);
+    EXPECT_LT(of_ball.degrees, 16);
+    EXPECT_LT(of_ball.rms, 0.6);
+}
+
 TEST(LatticeFilter, makes_plane_what_is_plane) {
     for (Vec3 normal : {Vec3{.31, .17, .93}, Vec3{.1, .07, 1}, Vec3{.8, .55, .12}}) {
         normal = normal / length(normal);

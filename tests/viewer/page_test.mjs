@@ -352,6 +352,45 @@ async function two_models_share_a_camera(browser) {
     await page.close();
 }
 
+async function two_models_keep_their_places_and_their_figures(browser) {
+    run("reconstruct", `${repository}/tests/data/solvers/in100.nii.gz`, "-o", `${folder}/part.vtp`, "--roi", "0:20,:,:", "--reduce", "80%", "--quiet");
+    run("compare", `${folder}/in.vtp`, `${folder}/part.vtp`, "--html", `${folder}/part.html`, "--quiet");
+    const errors = [], page = await open(browser, `${folder}/part.html`, errors);
+    const found = await page.evaluate(() => {
+        const { models, regions, tools } = window.regionmesh;
+        const ends = models.map(({ positions, centre, low, high }) => [0, 1, 2].map((axis) => {
+            const all = positions.filter((_, n) => n % 3 === axis);
+            return Math.max(Math.abs(Math.min(...all) + centre[axis] - low[axis]), Math.abs(Math.max(...all) + centre[axis] - high[axis]));
+        }));
+        const region = regions.all.find(({ places: [a, b] }) => a !== undefined && b !== undefined), told = [0, 1].map((which) => {
+            tools.describe(region, { which, isCap: true, at: [0, 0, 0] });
+            return [document.getElementById("info").textContent.replaceAll(",", ""), regions.measures[which][region.places[which]].faces];
+        });
+        return { centres: models.map(({ centre }) => centre), size: models[0].high[0] - models[0].low[0], ends, told };
+    });
+    assert.deepEqual(found.centres[0], found.centres[1]);
+    assert.ok(Math.max(...found.ends.flat()) < 1e-4 * found.size, `${found.ends}`);
+    found.told.forEach(([text, faces], which) => assert.ok(text.includes(` in ${"AB"[which]}`) && text.includes(`Faces${faces}`), text));
+    assert.notEqual(found.told[0][1], found.told[1][1]);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+/** Light, whatever the theme, and with all rows of the table. */
+async function paper_is_light(browser) {
+    const errors = [], page = await open(browser, `${folder}/in.html`, errors);
+    const theme = () => page.$eval("html", (e) => e.dataset.theme), own = await theme();
+    if (own === "light") await page.click("#theme");
+    const at = (name) => page.evaluate((event) => window.dispatchEvent(new Event(event)), name);
+    await at("beforeprint");
+    assert.equal(await theme(), "light");
+    assert.equal((await page.$$("#region-table tbody tr")).length, await page.evaluate("regionmesh.data.report.regions.length"));
+    await at("afterprint");
+    assert.equal(await theme(), "dark");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 async function without_webgl_the_proof_is_there(repository) {
     const other = await launch(repository, false);
     try {
@@ -386,7 +425,7 @@ try {
     for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
         large_models_are_shown_as_a_preview, a_picture_is_saved, a_click_names_the_region,
         a_click_on_a_section_names_the_region_that_it_shows, an_open_model_claims_what_was_tested, tables_equal_the_report,
-        a_planted_violation_is_found, two_models_share_a_camera, hostile_names_are_text]) {
+        a_planted_violation_is_found, two_models_share_a_camera, two_models_keep_their_places_and_their_figures, paper_is_light, hostile_names_are_text]) {
         await test(browser);
         console.log(`ok ${test.name}`);
     }

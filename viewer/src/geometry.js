@@ -82,13 +82,21 @@ function splitByPair(geometry, model) {
     return { split, source: Uint32Array.from(source), pairOf: Uint32Array.from(pairOf) };
 }
 
-/** Positions in the unit of the model, relative to its centre. */
-function decodedPositions(geometry, model) {
+/** The box of all models that have faces, and its centre: they are drawn at their places in it. */
+export function boxOf(models) {
+    const drawn = models.filter(({ faces }) => faces > 0), found = drawn.length > 0 ? drawn : models;
+    const [low, high] = [["low", Math.min], ["high", Math.max]].map(([side, outer]) =>
+        [0, 1, 2].map((axis) => outer(...found.map((model) => model[side][axis]))));
+    return { low, high, centre: low.map((x, axis) => (x + high[axis]) / 2) };
+}
+
+/** Positions in the unit of the model, relative to `centre`. */
+function decodedPositions(geometry, model, centre) {
     const positions = new Float32Array(3 * geometry.vertices);
     for (let axis = 0; axis < 3; ++axis) {
-        const length = model.high[axis] - model.low[axis];
+        const length = model.high[axis] - model.low[axis], middle = (model.low[axis] + model.high[axis]) / 2 - centre[axis];
         for (let v = 0; v < geometry.vertices; ++v)
-            positions[3 * v + axis] = (geometry.places[4 * v + axis] / 65535 - 0.5) * length;
+            positions[3 * v + axis] = middle + (geometry.places[4 * v + axis] / 65535 - 0.5) * length;
     }
     return positions;
 }
@@ -162,13 +170,12 @@ function regionSurfaces(geometry, model, positions) {
     return made;
 }
 
-/** Everything that is drawn of model number `n`. */
-export async function loadModel(n, model) {
+/** Everything that is drawn of model number `n`, relative to `centre`. */
+export async function loadModel(n, model, centre) {
     const element = document.getElementById(`geometry-${n}`);
     const geometry = readGeometry(await unpack(element.textContent), model);
     element.remove();
-    const positions = decodedPositions(geometry, model);
+    const positions = decodedPositions(geometry, model, centre);
     const surface = regionSurfaces(geometry, model, positions);
-    const centre = [0, 1, 2].map((axis) => (model.low[axis] + model.high[axis]) / 2);
     return { ...model, geometry, positions, surface, centre, distances: geometry.distances };
 }

@@ -1,6 +1,6 @@
 // Puts the page together.
 import { byId, download, element, grouped } from "./dom.js";
-import { loadModel } from "./geometry.js";
+import { boxOf, loadModel } from "./geometry.js";
 import { addKeys } from "./keys.js";
 import { showProof } from "./proof.js";
 import { RegionList } from "./region_list.js";
@@ -70,8 +70,8 @@ function addPicking(stage, regions, tools, list) {
     });
 }
 
-function showModels(data, models, regions) {
-    const stage = new Stage(byId("canvas"), models);
+function showModels(data, models, regions, box) {
+    const stage = new Stage(byId("canvas"), models, box);
     stage.isOpen = (data.report?.violations ?? []).length > 0 || data.boundary_is_open;
     const lookAt = (region) => {
         const which = region.places.findIndex((place) => place !== undefined);
@@ -95,6 +95,7 @@ function showModels(data, models, regions) {
     for (const button of document.querySelectorAll("[data-act]")) button.addEventListener("click", act[button.dataset.act]);
     addKeys({ stage, regions, tools, act });
     addTheme((background) => stage.setBackground(background));
+    window.addEventListener("beforeprint", () => stage.renderNow());  // in the theme for paper
     act.fit();
     return { stage, regions, tools, list, act };
 }
@@ -102,11 +103,11 @@ function showModels(data, models, regions) {
 async function start() {
     const data = JSON.parse(byId("page-data").textContent);
     showHead(data, data.models);
-    const models = [];
-    for (const [n, model] of data.models.entries()) models.push(await loadModel(n, model));
+    const models = [], box = boxOf(data.models);
+    for (const [n, model] of data.models.entries()) models.push(await loadModel(n, model, box.centre));
     const regions = new Regions(models);
     let page = { regions };
-    if (hasWebGl()) page = showModels(data, models, regions);
+    if (hasWebGl()) page = showModels(data, models, regions, box);
     else {
         say("No picture: this browser has no WebGL 2. Turn on hardware acceleration in its settings, or open the page in " +
             "a current Firefox, Chrome, Edge or Safari. The proof and the table below are complete.");

@@ -18,9 +18,11 @@ function flatnessOf(models) {
 }
 
 export class Stage extends EventTarget {
-    constructor(canvas, models) {
+    /** The models lie in `box`, and are relative to its centre. */
+    constructor(canvas, models, box) {
         super();
         this.canvas = canvas;
+        this.box = box;
         this.renderer = new three.WebGLRenderer({ canvas, antialias: true, stencil: true });
         this.renderer.outputColorSpace = three.LinearSRGBColorSpace;  // colours are written as they are read
         three.ColorManagement.enabled = false;
@@ -45,10 +47,10 @@ export class Stage extends EventTarget {
         this.resize();
     }
 
-    /** Half the diagonal of the largest model. */
+    /** Half the diagonal of the box. */
     get radius() {
-        const half = ({ model }) => Math.hypot(...this.stretched(model.high.map((x, axis) => x - model.low[axis]))) / 2;
-        return Math.max(...this.drawn.map(half), 1e-9);
+        const size = this.box.high.map((x, axis) => x - this.box.low[axis]);
+        return Math.max(Math.hypot(...this.stretched(size)) / 2, 1e-9);
     }
 
     /** A place relative to the centre of the model, as it is in the picture; and back. */
@@ -235,11 +237,11 @@ export class Stage extends EventTarget {
         if (this.shared.isCut.value !== (axis in kAxes)) for (const drawn of this.drawn) drawn.setCut(axis in kAxes);
         this.shared.isCut.value = axis in kAxes;
         if (axis in kAxes) {
-            const { model } = this.drawn[0], n = Object.keys(kAxes).indexOf(axis);
-            const height = (share - 0.5) * (model.high[n] - model.low[n]) * 1.0002, sign = isTurned ? -1 : 1;
+            const { low, high, centre } = this.box, n = Object.keys(kAxes).indexOf(axis);
+            const height = (share - 0.5) * (high[n] - low[n]) * 1.0002, sign = isTurned ? -1 : 1;
             const shown = axis === "z" ? height * this.shared.stretch.value : height;
             this.shared.plane.value.set(...kAxes[axis].map((x) => sign * x), sign * shown);
-            this.sectionPlace = model.centre[n] + height;
+            this.sectionPlace = centre[n] + height;
         }
         this.render();
     }

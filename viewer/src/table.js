@@ -104,10 +104,12 @@ export function showTable(data, regions, goTo) {
         order = n;
         draw();
     };
-    more.addEventListener("click", () => {
+    const showAll = () => {
         shown = all.length;
         draw();
-    });
+    };
+    more.addEventListener("click", showAll);
+    window.addEventListener("beforeprint", () => shown < all.length && showAll());
     const name = data.models[0].title.replace(/[^\w.-]+/g, "_");
     section.append(element("h2", {}, "Regions"),
         element("p", { class: "hint", hidden: !data.boundary_is_open }, "The model is open at the box: volumes of regions that reach it mean nothing."),

@@ -6,11 +6,13 @@ const kBackgrounds = { dark: "#14171c", light: "#f4f5f7" };
 export function addTheme(setBackground) {
     const system = window.matchMedia("(prefers-color-scheme: dark)");
     let chosen = null;
-    const show = () => {
-        const theme = chosen ?? (system.matches ? "dark" : "light");
+    const apply = (theme) => {
         document.documentElement.dataset.theme = theme;
         setBackground(kBackgrounds[theme]);
     };
+    const show = () => apply(chosen ?? (system.matches ? "dark" : "light"));
+    window.addEventListener("beforeprint", () => apply("light"));  // paper is white
+    window.addEventListener("afterprint", show);
     system.addEventListener("change", show);
     byId("theme").addEventListener("click", () => {
         chosen = document.documentElement.dataset.theme === "dark" ? "light" : "dark";

@@ -190,9 +190,10 @@ export class Tools {
         this.described = region;
         const rows = [];
         if (region) {
-            const { measures } = region;
-            rows.push(["Region", region.title], ["Label", region.label], ["Volume", short(measures.volume)],
-                ["Area", short(measures.area)], ["Faces", grouped(measures.faces)], ["Neighbours", this.neighbourText(region)]);
+            const which = hit?.which ?? region.places.findIndex((place) => place !== undefined);
+            const measures = this.regions.measures[which][region.places[which]];
+            rows.push(["Region", this.models.length > 1 ? `${region.title}, in ${"AB"[which]}` : region.title], ["Label", region.label], ["Volume", short(measures.volume)],
+                ["Area", short(measures.area)], ["Faces", grouped(measures.faces)], ["Neighbours", this.neighbourText(which, measures)]);
         }
         if (hit) rows.push(...this.faceRows(hit));
         if (rows.length === 0) {
@@ -207,9 +208,8 @@ export class Tools {
             act("See through (G)", () => this.regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))));
     }
 
-    neighbourText(region) {
-        const which = region.places.findIndex((place) => place !== undefined);
-        const names = [...region.measures.neighbours].map((place) => isolated(this.regions.titleAt(which, place)));
+    neighbourText(which, { neighbours }) {
+        const names = [...neighbours].map((place) => isolated(this.regions.titleAt(which, place)));
         return names.length > 6 ? `${names.slice(0, 6).join(", ")} and ${names.length - 6} more` : names.join(", ");
     }
 
