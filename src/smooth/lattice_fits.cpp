@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "smooth/tuning.h"
-
 namespace regionmesh {
 namespace {
 
@@ -136,11 +134,7 @@ private:
 };
 
 LatticeFits::LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options)
-    : sites_(sites),
-      blocks_(blocks),
-      options_(options),
-      steps_(blocks.spacing),
-      is_anisotropic_(std::max({blocks.spacing.x, blocks.spacing.y, blocks.spacing.z}) >= smoothing::kAnisotropic) {}
+    : sites_(sites), blocks_(blocks), options_(options), steps_(blocks.spacing) {}
 
 LatticeFits::Sites4 LatticeFits::gather(const std::uint32_t* numbers, std::uint32_t count) const {
     const auto site = [&](std::uint32_t lane) -> const LatticeSite& {
@@ -249,6 +243,7 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
     const float tolerance =
         most_missed * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
     const Share share{(1 / kBlend) * blocks_.per_size};
+    const bool is_anisotropic = sites_.frame().is_anisotropic();
     Float4 worst{}, offsets{}, halves{};
     // Every fourth four first: where a quadric misses one simplex it misses others beside it.
     for (std::uint32_t start = 0; start < 16; start += 4)
@@ -263,6 +258,7 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
                 const Passage4 passes = passage(quadric, sites);
                 worst = greatest(worst, counts ? passes.missed : Float4{});
                 if (bits_of(worst >= tolerance) != 0) return 0;
+                if (!is_anisotropic) continue;
                 const Float4 once = counts ? in_use(end - n) : Float4{};
                 offsets += once * passes.offset;
                 halves += once * passes.half;
@@ -272,7 +268,7 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
     const float accepted = std::min(1.0f, 2 - 2 * most / tolerance);
     const auto total = [](Float4 lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
     const float half = total(halves);
-    if (!is_anisotropic_ || !(half > 0)) return accepted;
+    if (!(half > 0)) return accepted;
     return std::clamp(2 - 2 * std::abs(total(offsets)) / (kMostOneSided * half), 0.0f, accepted);
 }
 

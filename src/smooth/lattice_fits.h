@@ -65,7 +65,6 @@ private:
     LatticeBlocks blocks_;
     Options options_;
     StepVectors steps_;
-    bool is_anisotropic_;
 };
 
 }  // namespace regionmesh

@@ -1,11 +1,13 @@
 // The lattice simplex that a vertex of the reconstruction belongs to, and positions strictly inside it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 #include "cells/kuhn.h"
 #include "regionmesh/vec3.h"
+#include "smooth/tuning.h"
 
 namespace regionmesh {
 
@@ -15,6 +17,10 @@ struct LatticeFrame {
     Vec3 spacing{1, 1, 1};
 
     double finest() const { return std::min({spacing.x, spacing.y, spacing.z}); }
+    /// Are samples along one axis much farther apart than along another?
+    bool is_anisotropic() const {
+        return std::max({spacing.x, spacing.y, spacing.z}) >= smoothing::kAnisotropic * finest();
+    }
     /// The coordinate of a place in lattice units.
     double at(int axis, double units) const { return origin[axis] + units * spacing[axis]; }
 };

@@ -17,9 +17,7 @@ using smoothing::kLatticeMargin;
 
 double largest_block(const LatticeFrame& frame, double reach) {
     if (reach > 0) return reach;
-    const double coarsest = std::max({frame.spacing.x, frame.spacing.y, frame.spacing.z});
-    return coarsest < smoothing::kAnisotropic * frame.finest() ? smoothing::kLargestBlock
-                                                               : smoothing::kLargestBlockAnisotropic;
+    return frame.is_anisotropic() ? smoothing::kLargestBlockAnisotropic : smoothing::kLargestBlock;
 }
 
 /// Sites whose estimates vertices in the box need, in finest spacings from the origin: sweeps of lines reach beyond it.

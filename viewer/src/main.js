@@ -73,10 +73,8 @@ function addPicking(stage, regions, tools, list) {
 function showModels(data, models, regions, box) {
     const stage = new Stage(byId("canvas"), models, box);
     stage.isOpen = (data.report?.violations ?? []).length > 0 || data.boundary_is_open;
-    const lookAt = (region) => {
-        const which = region.places.findIndex((place) => place !== undefined);
-        stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === which && place === region.places[which])));
-    };
+    const lookAt = ({ first, places }) =>
+        stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === first && place === places[first])));
     const list = new RegionList(regions, lookAt);
     const act = actions(stage, regions, models[0].title);
     const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [],

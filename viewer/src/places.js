@@ -1,6 +1,6 @@
 // What lies at a place of a model.
 
-/** The number of the vertex nearest to a place, which is relative to the centre of the model. */
+/** The number of the vertex nearest to a place, which is relative to the centre of the box. */
 export function nearestVertex({ positions }, place) {
     let best = 0, least = Infinity;
     for (let at = 0; at < positions.length; at += 3) {

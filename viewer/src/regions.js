@@ -19,8 +19,8 @@ export class Regions extends EventTarget {
         this.byLabel = byLabel;
         this.selected = null;
         for (const region of this.all) {
-            const which = region.places.findIndex((place) => place !== undefined);
-            region.measures = this.measures[which][region.places[which]];
+            region.first = region.places.findIndex((place) => place !== undefined);  // model that has it
+            region.measures = this.measures[region.first][region.places[region.first]];
             region.title = region.name || `region ${region.label}`;
         }
     }
@@ -73,6 +73,6 @@ export class Regions extends EventTarget {
 
     shown(which) { return this.drawnStates(which).map(({ state }) => state !== "hidden"); }
 
-    /** Displacements by label for the exploded view at 1: away from the centre of the model. */
+    /** Displacements by label for the exploded view at 1: away from the centre of the box. */
     offsets(which) { return this.measures[which].map(({ centroid }) => centroid.map((x) => 1.2 * x)); }
 }

@@ -53,7 +53,7 @@ export class Stage extends EventTarget {
         return Math.max(Math.hypot(...this.stretched(size)) / 2, 1e-9);
     }
 
-    /** A place relative to the centre of the model, as it is in the picture; and back. */
+    /** A place relative to the centre of the box, as it is in the picture; and back. */
     stretched([x, y, z]) { return [x, y, z * this.shared.stretch.value]; }
     unstretched([x, y, z]) { return [x, y, z / this.shared.stretch.value]; }
 
@@ -106,7 +106,7 @@ export class Stage extends EventTarget {
 
     renderNow() {
         const { camera, renderer } = this, radius = this.radius * (1 + 1.3 * this.shared.explode.value);
-        const distance = camera.position.length();  // from the centre of the model
+        const distance = camera.position.length();  // from the centre of the box
         camera.near = Math.max(distance - radius, radius / 1000);
         camera.far = distance + radius;
         camera.updateProjectionMatrix();
@@ -222,7 +222,7 @@ export class Stage extends EventTarget {
         this.moved();
     }
 
-    /** `place`: relative to the centre of the model; `from`: direction of the eye, or null for the present one. */
+    /** `place`: relative to the centre of the box; `from`: direction of the eye, or null for the present one. */
     lookAt(place, radius, from = null) {
         const direction = from ? new three.Vector3(...from) : this.camera.position.clone().sub(this.controls.target);
         direction.normalize();

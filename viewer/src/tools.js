@@ -26,7 +26,7 @@ function toggle(id, label, onchange) {
 
 const extentOf = ({ low, high }) => Math.max(...high.map((x, axis) => x - low[axis]));
 
-/** Coordinates of a place that is relative to the centre of the model. */
+/** Coordinates of a place that is relative to the centre of the box. */
 function placeText(model, at) {
     return at.map((x, axis) => coordinate(x + model.centre[axis], extentOf(model))).join(", ");
 }
@@ -190,9 +190,9 @@ export class Tools {
         this.described = region;
         const rows = [];
         if (region) {
-            const which = hit?.which ?? region.places.findIndex((place) => place !== undefined);
-            const measures = this.regions.measures[which][region.places[which]];
-            rows.push(["Region", this.models.length > 1 ? `${region.title}, in ${"AB"[which]}` : region.title], ["Label", region.label], ["Volume", short(measures.volume)],
+            const which = hit?.which ?? region.first, measures = this.regions.measures[which][region.places[which]];
+            const title = this.models.length > 1 ? `${region.title}, in ${"AB"[which]}` : region.title;
+            rows.push(["Region", title], ["Label", region.label], ["Volume", short(measures.volume)],
                 ["Area", short(measures.area)], ["Faces", grouped(measures.faces)], ["Neighbours", this.neighbourText(which, measures)]);
         }
         if (hit) rows.push(...this.faceRows(hit));
