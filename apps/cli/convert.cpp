@@ -69,7 +69,7 @@ void convert_whole(const Settings& settings, MeshFile& file, const CheckOptions&
         files.commit();
         print_region_files(settings, written);
         if (!settings.quiet)
-            fmt::print("{}: {} faces, {} vertices\n", printable(settings.output), file.mesh.face_count(),
+            fmt::print("{}: {} faces, {} vertices\n", output_text(settings), file.mesh.face_count(),
                        file.mesh.vertex_count());
         return;
     }

@@ -5,14 +5,13 @@
 #include "messages.h"
 #include "output.h"
 #include "page_output.h"
-#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
 
-void print_summary(const std::string& path, const Report& report) {
-    say("{}: {} faces (from {}), lowest quality {:.3f}, {}", printable(path), report.final_faces, report.initial_faces,
-        report.check.quality.min, counted(report.check.violation_count(), "violation"));
+void print_summary(const Settings& settings, const Report& report) {
+    say("{}: {} faces (from {}), lowest quality {:.3f}, {}", output_text(settings), report.final_faces,
+        report.initial_faces, report.check.quality.min, counted(report.check.violation_count(), "violation"));
     print_improved(report);
 }
 
@@ -41,7 +40,7 @@ int run_decimate(const Settings& given) {
                    files);
     files.commit();
     print_region_files(settings, written);
-    print_summary(settings.output, report);
+    print_summary(settings, report);
     print_locked_part(change);
     print_stop(settings, report);
     return exit_code(report.check);

@@ -80,6 +80,10 @@ std::vector<std::filesystem::path> write_model(const Settings& settings, const M
     return write_mesh(model.mesh, model.labels, settings.output, options, files);
 }
 
+std::string output_text(const Settings& settings) {
+    return printable(settings.output) + (settings.per_region ? " (one file a region)" : "");
+}
+
 void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written) {
     if (!settings.per_region) return;
     for (const auto& file : written) say("{}", printable(file.string()));

@@ -47,6 +47,8 @@ void warn_of_rounding(const std::string& output, double share_of_edge, const std
 /// Writes the model to `settings.output`, and the tables, as some of `files`. Returns the files of the model.
 std::vector<std::filesystem::path> write_model(const Settings& settings, const Model& model, OutputFiles& files);
 
+/// "m.stl (one file a region)".
+std::string output_text(const Settings& settings);
 /// Prints the files of --per-region, after their commit.
 void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written);
 

@@ -68,7 +68,7 @@ void print_details(const Report& report) {
 
 /// The files of the run: "m.vtp, report r.json, page p.html".
 std::string files_text(const Settings& settings) {
-    std::string text = printable(settings.output) + (settings.per_region ? " (one file a region)" : "");
+    std::string text = output_text(settings);
     if (!settings.report.empty()) text += ", report " + printable(settings.report);
     for (const std::string* table : {&settings.regions, &settings.interfaces, &settings.lines})
         if (!table->empty()) text += ", table " + printable(*table);

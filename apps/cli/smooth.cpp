@@ -5,16 +5,16 @@
 #include "messages.h"
 #include "output.h"
 #include "page_output.h"
-#include "printable.h"
 
 namespace regionmesh::cli {
 namespace {
 
-void print_summary(const std::string& path, const Report& report, const CheckReport& before) {
+void print_summary(const Settings& settings, const Report& report, const CheckReport& before) {
     say("{}: {} vertices, {} of them backtracked; largest displacement {:.3g}; lowest quality {:.3f}; {} violations "
         "(before {})",
-        printable(path), report.smoothing.vertices, report.smoothing.backtracked, report.smoothing.largest_displacement,
-        report.check.quality.min, report.check.violation_count(), before.violation_count());
+        output_text(settings), report.smoothing.vertices, report.smoothing.backtracked,
+        report.smoothing.largest_displacement, report.check.quality.min, report.check.violation_count(),
+        before.violation_count());
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ int run_smooth(const Settings& given) {
     write_report_file(settings, report, model, made_by(kSmooth, settings), files);
     files.commit();
     print_region_files(settings, written);
-    print_summary(settings.output, report, change.before);
+    print_summary(settings, report, change.before);
     print_locked_part(change);
     return exit_code(report);
 }

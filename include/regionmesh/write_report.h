@@ -62,14 +62,15 @@ std::string info_json(const std::string& source, const MeshFile& file, const Mod
 /// A table of the regions as CSV, in order of label: label, name, faces, volume, area, centroid_x, _y, _z, box_low_x to
 /// box_high_z, equivalent_diameter (of the sphere of the same volume), neighbours (labels, separated by blanks; the
 /// background and the exterior are none), neighbour_areas, mean_curvature (1 / length, positive where the region is
-/// convex; of interfaces with regions and background, empty if it has none) and triple_line_length (of lines that are
-/// not on the exterior). The volume and the centroid of an open region mean nothing. `background` is dense.
+/// convex; the mean by area of those of its interfaces, empty if none has any) and triple_line_length (of lines that
+/// are not on the exterior). The volume and the centroid of an open region mean nothing. `background` is dense.
 std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                         const LabelNames& names = {});
 
 /// A table of the interfaces, of regions with each other, the background and the exterior: label, neighbour, name,
-/// neighbour_name, faces, area, centroid_x, _y, _z, mean_curvature (positive where `label` is convex; empty on the
-/// exterior) and line_length, of the lines that bound it.
+/// neighbour_name, faces, area, centroid_x, _y, _z, mean_curvature (positive where `label` is convex; of what is more
+/// than one edge away from lines, empty if there is no such part, and on the exterior) and line_length, of the lines
+/// that bound it.
 std::string interfaces_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                            const LabelNames& names = {});
 

@@ -35,9 +35,10 @@ Vec3 corner_of(const Vec3& low, const Vec3& high, int corner) {
     return {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
 }
 
-/// Makes `samples` smaller: the samples in `box`. An index within 1e-6 of a whole number counts as that number.
+/// Makes `samples` smaller: the samples in `box`. An index within 1e-4 of a whole number counts as that number:
+/// headers of NIfTI files have places in single precision.
 void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box, IndexBox& samples) {
-    constexpr double kRounding = 1e-6;
+    constexpr double kRounding = 1e-4;
     const Box extent = volume.lattice.extent();
     Vec3 low = extent.low, high = extent.high;
     for (int axis = 0; axis < 3; ++axis) {

@@ -41,6 +41,7 @@ public:
 
     EdgeMeasures measure() {
         view_.for_faces([&](FaceId f) { add_face(f); });
+        find_near_lines();
         std::vector<FaceAtEdge> around;
         view_.for_vertices([&](VertexId v) {
             around.clear();
@@ -70,6 +71,10 @@ private:
         const auto [a, b] = mesh_[f].labels;
         return {std::min(view_.rank(a), view_.rank(b)), std::max(view_.rank(a), view_.rank(b))};
     }
+    double area_of(FaceId f) const {
+        const auto [a, b, c] = mesh_.corners(f);
+        return 0.5 * length(cross(b - a, c - a));
+    }
     /// No region: background or exterior.
     bool is_empty(std::uint32_t rank) const { return rank >= view_.region_ranks(); }
 
@@ -78,10 +83,29 @@ private:
         if (is_empty(key[0])) return;
         InterfaceMeasures& sums = measures_.interfaces[key];
         const auto [a, b, c] = mesh_.corners(f);
-        const double area = 0.5 * length(cross(b - a, c - a));
+        const double area = area_of(f);
         ++sums.faces;
         sums.area += area;
         sums.moment += (area / 3) * (a + b + c);
+    }
+
+    /// Marks the vertices on lines and their neighbours.
+    void find_near_lines() {
+        std::vector<bool> on_line(mesh_.vertex_end());
+        view_.for_vertices([&](VertexId v) {
+            std::optional<Key> first;
+            mesh_.for_star(v, [&](FaceId f, int) {
+                const Key key = key_of(f);
+                if (key != first.value_or(key)) on_line[index(v)] = true;
+                first = key;
+            });
+        });
+        near_line_.resize(mesh_.vertex_end());
+        view_.for_faces([&](FaceId f) {
+            const auto& corners = mesh_[f].vertices;
+            if (std::ranges::any_of(corners, [&](VertexId v) { return on_line[index(v)]; }))
+                for (const VertexId v : corners) near_line_[index(v)] = true;
+        });
     }
 
     void add_edge(VertexId v, std::span<const FaceAtEdge> faces) {
@@ -92,14 +116,21 @@ private:
         ranks_.erase(std::unique(ranks_.begin(), ranks_.end()), ranks_.end());
         if (is_empty(ranks_[0])) return;
         const Vec3 along = mesh_.position(faces[0].w) - mesh_.position(v);
-        const double edge = length(along);
         if (ranks_.size() < 3) {
-            if (ranks_.size() == 2 && ranks_[1] < kFirstExterior)
-                if (const auto angle = angle_inside(v, along, faces, ranks_[0]))
-                    measures_.interfaces[{ranks_[0], ranks_[1]}].curvature += 0.5 * edge * (std::numbers::pi - *angle);
+            if (ranks_.size() == 2 && ranks_[1] < kFirstExterior) add_curvature(v, along, faces);
             return;
         }
         add_line(v, along, faces);
+    }
+
+    /// A third of the area of a face belongs to each of its edges.
+    void add_curvature(VertexId v, Vec3 along, std::span<const FaceAtEdge> faces) {
+        if (near_line_[index(v)] || near_line_[index(faces[0].w)]) return;
+        const auto angle = angle_inside(v, along, faces, ranks_[0]);
+        if (!angle) return;
+        InterfaceMeasures& sums = measures_.interfaces[{ranks_[0], ranks_[1]}];
+        sums.curvature += 0.5 * length(along) * (std::numbers::pi - *angle);
+        for (const FaceAtEdge& at : faces) sums.curved_area += area_of(at.face) / 3;
     }
 
     void add_line(VertexId v, Vec3 along, std::span<const FaceAtEdge> faces) {
@@ -171,6 +202,7 @@ private:
     const Mesh& mesh_;
     bool has_angles_;
     EdgeMeasures measures_;
+    std::vector<bool> near_line_;       // by vertex: on a line, or joined by an edge to one that is
     std::vector<std::uint32_t> ranks_;  // of the labels at the edge
     std::vector<Key> keys_;             // of its interfaces
     std::vector<LineEdge> line_edges_;

@@ -3,19 +3,26 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "mesh/file_view.h"
 
 namespace regionmesh {
 
-/// Of the faces between two labels; `curvature` is the integral of the mean curvature over them, positive where the
-/// first label is convex. Faces on the exterior have none.
+/// Of the faces between two labels.
 struct InterfaceMeasures {
     std::uint64_t faces = 0;
-    double area = 0, curvature = 0;
+    double area = 0;
+    /// The integral of the mean curvature, positive where the first label is convex, over the part of the interface
+    /// that is more than one edge away from lines, and the area of that part. Faces on the exterior have none.
+    double curvature = 0, curved_area = 0;
     Vec3 moment{};           // integral of the position over the area
     double line_length = 0;  // of the lines that bound it
+
+    std::optional<double> mean_curvature() const {
+        return curved_area > 0 ? std::optional(curvature / curved_area) : std::nullopt;
+    }
 };
 
 /// Of the edges at which the same three labels or more meet.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,11 +48,11 @@ std::string interfaces_csv(const Mesh& mesh, const LabelTable& labels, const std
         "label,neighbour,name,neighbour_name,faces,area,centroid_x,centroid_y,centroid_z,mean_curvature,line_length\n";
     for (const auto& [key, sums] : measure_edges(view).interfaces) {
         const Vec3 centroid = sums.area > 0 ? sums.moment / sums.area : Vec3{};
-        const bool has_curvature = !is_exterior(key[1]) && sums.area > 0;
+        const std::optional<double> curvature = sums.mean_curvature();
         text += fmt::format("{},{},{},{},{},{:.10g},{:.10g},{:.10g},{:.10g},{},{:.10g}\n", texts.label(key[0]),
                             texts.label(key[1]), csv_cell(texts.name(key[0])), csv_cell(texts.name(key[1])), sums.faces,
                             sums.area, centroid.x, centroid.y, centroid.z,
-                            has_curvature ? fmt::format("{:.10g}", sums.curvature / sums.area) : "", sums.line_length);
+                            curvature ? fmt::format("{:.10g}", *curvature) : "", sums.line_length);
     }
     return text;
 }

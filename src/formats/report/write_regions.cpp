@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "formats/report/csv_cell.h"
@@ -53,7 +54,8 @@ std::vector<RegionSums> sums_of(const FileView& view, Vec3 middle) {
     return sums;
 }
 
-/// By place in the order of files: the mean curvature of what is not on the exterior, and the length of triple lines.
+/// By place in the order of files: the mean curvature of interfaces that have one, times their area; that area; and the
+/// length of triple lines.
 struct EdgeSums {
     double curvature = 0, area = 0, line_length = 0;
 };
@@ -62,10 +64,11 @@ std::vector<EdgeSums> edge_sums_of(const FileView& view) {
     std::vector<EdgeSums> sums(view.region_ranks());
     const EdgeMeasures measures = measure_edges(view);
     for (const auto& [key, interface] : measures.interfaces) {
-        if (is_exterior(key[1])) continue;
+        const std::optional<double> curvature = interface.mean_curvature();
+        if (!curvature) continue;
         for (const std::size_t side : {0u, 1u}) {
             if (key[side] >= sums.size()) continue;
-            sums[key[side]].curvature += side == 0 ? interface.curvature : -interface.curvature;
+            sums[key[side]].curvature += (side == 0 ? *curvature : -*curvature) * interface.area;
             sums[key[side]].area += interface.area;
         }
     }

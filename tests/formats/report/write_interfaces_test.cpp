@@ -64,6 +64,33 @@ TEST(InterfaceTable, regions_have_the_sums) {
     EXPECT_EQ(number_in(regions[1], "triple_line_length"), 0);
 }
 
+TEST(InterfaceTable, curvature_is_that_of_the_interface_not_of_its_jagged_line) {
+    // A ball of radius 13 in two halves: the round interfaces have 1 / 13, the flat one none.
+    const std::uint32_t side = 35;
+    const double radius = 13, middle = 0.5 * (side - 1) + 0.1;
+    std::vector<InputLabel> labels;
+    for (std::uint32_t z = 0; z < side; ++z)
+        for (std::uint32_t y = 0; y < side; ++y)
+            for (std::uint32_t x = 0; x < side; ++x) {
+                const Vec3 p = Vec3{x - middle, y - middle, z - middle};
+                labels.push_back(length(p) >= radius ? 0 : dot(p, {1, 0.3, 0.2}) < 0 ? 1 : 2);
+            }
+    test::ArrayVolume volume({side, side, side}, labels);
+    const Reconstruction made = test::run(volume, {.background = {{0}}});
+    std::map<std::string, double> areas;
+    for (const auto& row : table_of(interfaces_csv(made.mesh, made.labels, made.background))) {
+        const std::string pair = row.at("label") + ' ' + row.at("neighbour");
+        areas[pair] = number_in(row, "area");
+        const double wanted = pair == "1 2" ? 0 : 1 / radius;
+        EXPECT_THAT(number_in(row, "mean_curvature"), DoubleNear(wanted, 0.05 / radius)) << pair;
+    }
+    EXPECT_EQ(areas.size(), 3u);
+    for (const auto& row : table_of(regions_csv(made.mesh, made.labels, made.background))) {
+        const double round = areas[row.at("label") + " 0"], share = round / (round + areas["1 2"]);
+        EXPECT_THAT(number_in(row, "mean_curvature"), DoubleNear(share / radius, 0.05 / radius)) << row.at("label");
+    }
+}
+
 TEST(LineTable, dihedral_angles_are_a_full_turn_and_lengths_those_of_the_report) {
     const Reconstruction& made = grains();
     double inside = 0, of_regions = 0, expected = 0;
