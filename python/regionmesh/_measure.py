@@ -1,6 +1,11 @@
 """Measures of regions, interfaces and lines, from the arrays of a mesh."""
 
+import csv
+import io
+
 import numpy as np
+
+from . import _core
 
 
 def _normals(points, faces):
@@ -26,16 +31,52 @@ def lines(faces):
     return found[counts >= 3]
 
 
+def _rows(mesh, table):
+    """The rows of a table that `regionmesh check` writes, as dicts of text."""
+    return csv.DictReader(io.StringIO(_core.table(mesh._model, table)))
+
+
+def _number(text):
+    return float(text) if text not in ("", "-") else np.nan
+
+
+def _column(found, keys, title):
+    """A number of the rows in `found`, in the order of `keys`; nan where there is none."""
+    return np.array([_number(found[key][title]) if key in found else np.nan for key in keys], dtype=float)
+
+
 def interfaces(mesh):
-    """Faces and area of each pair of labels."""
+    """The columns of Mesh.interfaces."""
     pairs, rows = np.unique(mesh.labels, axis=0, return_inverse=True)
     areas = np.linalg.norm(_normals(mesh.points, mesh.faces), axis=1) / 2
     rows = rows.ravel()
+    found = {(int(row["label"]), int(row["neighbour"])): row for row in _rows(mesh, "interfaces")}
+    keys = [tuple(pair) for pair in pairs.tolist()]
     return {
         "first": pairs[:, 0],
         "second": pairs[:, 1],
         "faces": np.bincount(rows, minlength=len(pairs)),
         "area": np.bincount(rows, areas, minlength=len(pairs)).astype(float),  # of no row it has integers
+        "mean_curvature": _column(found, keys, "mean_curvature"),
+        "line_length": _column(found, keys, "line_length"),
+    }
+
+
+def _lists(rows):
+    """A column of lists, which numpy would make a table of."""
+    column = np.empty(len(rows), dtype=object)
+    column[:] = rows
+    return column
+
+
+def triple_lines(mesh):
+    """The columns of Mesh.triple_lines."""
+    rows = list(_rows(mesh, "lines"))
+    return {
+        "labels": _lists([[int(label) for label in row["labels"].split()] for row in rows]),
+        "edges": np.array([int(row["edges"]) for row in rows], dtype=np.int64),
+        "length": np.array([float(row["length"]) for row in rows], dtype=float),
+        "angles": _lists([[_number(angle) for angle in row["angles"].split()] for row in rows]),
     }
 
 
@@ -115,7 +156,8 @@ def regions(mesh):
     for n, end in enumerate(("low", "high")):
         for m, axis in enumerate("xyz"):
             columns[f"box_{end}_{axis}"] = boxes[:, n, m]
-    neighbours = np.empty(len(labels), dtype=object)
-    neighbours[:] = _neighbours(sides, mesh.exterior_label)
-    columns["neighbours"] = neighbours
+    columns["neighbours"] = _lists(_neighbours(sides, mesh.exterior_label))
+    found = {int(row["label"]): row for row in _rows(mesh, "regions")}
+    for title in ("mean_curvature", "triple_line_length"):
+        columns[title] = _column(found, labels.tolist(), title)
     return columns

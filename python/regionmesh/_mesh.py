@@ -44,6 +44,7 @@ class Mesh:
         self._lattice = lattice
         self._views = None
         self._report = None
+        self._tables = {}
 
     # Arrays
 
@@ -142,14 +143,37 @@ class Mesh:
         label, name; voxels (samples; -1 where they are not known); volume (length^3); area (length^2); euler (Euler
         characteristic of the boundary); components (of the boundary); mean_quality (of faces; 0.26 is equilateral);
         centroid_x, centroid_y, centroid_z (of the volume); box_low_x to box_high_z; neighbours (list of labels,
-        background included).
+        background included); mean_curvature (1 / length, positive where the region is convex; nan where it has none)
+        and triple_line_length, both without the sides of the box (docs/files.md).
         """
-        return _measure.regions(self)
+        return self._table("regions")
 
     @property
     def interfaces(self):
-        """A dict of columns, one row a pair of labels: first, second, faces, area (length^2)."""
-        return _measure.interfaces(self)
+        """A dict of columns, one row a pair of labels.
+
+        first, second; faces; area (length^2); mean_curvature (1 / length, positive where `first` is convex; nan on the
+        exterior, between two labels of background, and where all is near lines: docs/files.md); line_length (of the
+        lines that bound it).
+        """
+        return self._table("interfaces")
+
+    @property
+    def triple_lines(self):
+        """A dict of columns, one row a set of three labels or more that meet at edges; the outside counts as one.
+
+        labels (list); edges; length; angles (list: the mean dihedral angle of each label in degrees, nan for the
+        outside and where it has none: docs/files.md).
+        """
+        return self._table("triple_lines")
+
+    def _table(self, name):
+        """Columns are measured once; the dict is the caller's."""
+        if name not in self._tables:
+            self._tables[name] = getattr(_measure, name)(self)
+            for column in self._tables[name].values():
+                column.flags.writeable = False
+        return dict(self._tables[name])
 
     def region(self, label):
         """Return the closed surface of a region, its normals outward.

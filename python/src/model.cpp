@@ -266,6 +266,13 @@ std::string check_text(const Model& given, std::uint32_t threads, Source* source
     return text;
 }
 
+std::string table_text(const Model& model, const std::string& table, Watch& watch) {
+    const auto write = table == "regions" ? regions_csv : table == "interfaces" ? interfaces_csv : lines_csv;
+    std::string text;
+    watch.run([&] { text = write(model.mesh, model.labels, model.background, {}); });
+    return text;
+}
+
 std::string compare_text(const Model& a, const Model& b, const OptionValues& options, Watch& watch) {
     const Settings settings = settings_from(options);
     const CompareOptions asked{

@@ -105,6 +105,10 @@ void bind_runs(py::module_& module) {
             return check_text(model, threads, source, room, watch);
         },
         py::arg("model"), py::arg("threads"), py::arg("source").none(true), py::arg("room"));
+    module.def("table", [](const Model& model, const std::string& table) {
+        Watch watch(py::none{});
+        return table_text(model, table, watch);
+    });
     module.def("compare", [](const Model& a, const Model& b, const OptionValues& options) {
         Watch watch(py::none{});
         return compare_text(a, b, options, watch);

@@ -114,6 +114,37 @@ def test_regions_are_a_data_frame(filled):
     assert len(frame) == 24 and frame.set_index("label").loc[3, "voxels"] > 0
 
 
+def test_curvature_of_halves_of_a_ball():
+    z, y, x = np.indices((31, 31, 31)) - 15.2
+    ball = np.where(z**2 + y**2 + x**2 < 11**2, np.where(x + 0.3 * y > 0, 1, 2), 0)
+    made = regionmesh.reconstruct(ball)
+    table = made.interfaces
+    found = {(int(a), int(b)): kappa for a, b, kappa in zip(table["first"], table["second"], table["mean_curvature"])}
+    assert found == {(1, 2): pytest.approx(0, abs=0.005), **{(n, 0): pytest.approx(1 / 11, rel=0.07) for n in (1, 2)}}
+    assert (0.03 < made.regions["mean_curvature"]).all() and (made.regions["mean_curvature"] < 1 / 11).all()
+    around = made.triple_lines["length"]
+    assert around.tolist() == pytest.approx([2 * np.pi * 11], rel=0.1)
+    assert made.regions["triple_line_length"] == pytest.approx([around[0]] * 2)
+    assert table["line_length"] == pytest.approx([around[0]] * 3)
+
+
+def test_angles_at_triple_lines(filled):
+    table = filled.triple_lines
+    for labels, angles in zip(table["labels"], table["angles"]):
+        assert len(labels) == len(angles) >= 3 and labels[-1:] != [filled.exterior_label] or np.isnan(angles[-1])
+        if len(labels) == 3 and filled.exterior_label not in labels and not np.isnan(angles).any():
+            assert sum(angles) == pytest.approx(360, abs=0.01)
+    assert any(len(labels) == 3 and filled.exterior_label not in labels for labels in table["labels"])
+
+
+def test_tables_are_measured_once_and_stay(filled):
+    first = filled.regions
+    first["own"] = first.pop("volume")
+    assert "own" not in filled.regions and filled.regions["area"] is first["area"]
+    with pytest.raises(ValueError):
+        first["area"][0] = 1
+
+
 def test_quadruple_points_and_lines(filled, mesh):
     inside = filled.node_types[filled.quadruple_points] == 4
     assert inside.sum() == filled.report["quadruple_points_inside"]
