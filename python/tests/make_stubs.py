@@ -59,6 +59,7 @@ _RETURNS = {
     "names": "dict[int, str]", "bounds": "npt.NDArray[np.float64]", "lines": "npt.NDArray[np.uint32]",
     "quadruple_points": "npt.NDArray[np.int64]", "report": "dict[str, Any]", "violations": "list[dict[str, Any]]",
     "certified": "bool", "regions": "dict[str, npt.NDArray[Any]]", "interfaces": "dict[str, npt.NDArray[Any]]",
+    "triple_lines": "dict[str, npt.NDArray[Any]]",
 }  # fmt: skip
 _COMMANDS = {"reconstruct": "reconstruct", "simplify": "decimate", "smooth": "smooth", "compare": "compare"}
 
