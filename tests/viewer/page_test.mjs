@@ -35,49 +35,6 @@ async function shows_lists_and_isolates(browser) {
     await page.close();
 }
 
-async function cuts_colours_and_explodes(browser) {
-    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
-    const seen = new Set([(await picture(page)).sum]);
-    const isNew = async (what) => {
-        const { sum, drawn } = await picture(page);
-        assert.ok(drawn > 0.05, `${what} draws ${drawn}`);
-        assert.ok(!seen.has(sum), `${what} changes nothing`);
-        seen.add(sum);
-    };
-    for (const axis of ["x", "y", "z"]) {
-        await page.select("#section-axis", axis);
-        await isNew(`section across ${axis}`);
-    }
-    await page.select("#section-axis", "x");
-    assert.ok(await capsHoldNoHoles(page), "a section of a solid block has no holes");
-    await page.select("#section-axis", "none");
-    for (const what of ["interface", "quality", "curvature"]) {
-        await page.select("#colour-by", what);
-        await isNew(`colours by ${what}`);
-        assert.equal(await page.$eval("#legend", (e) => e.hidden), what === "interface");
-    }
-    await page.select("#colour-by", "region");
-    for (const id of ["show-edges", "show-flat", "show-lines", "show-points"]) {
-        await page.click(`#${id}`);
-        await isNew(id);
-    }
-    const [found, report] = await page.evaluate("(({ edgeCount, pointCount }) => [{ edgeCount, pointCount }, regionmesh.data.report.quadruple_points_inside])(regionmesh.stage.drawn[0].lineParts)");
-    assert.ok(found.edgeCount > 0 && found.pointCount >= report, `${found.pointCount} points, ${report} of them inside`);
-    await page.click("#region-rows .row .row-only");
-    const [some, all] = await page.evaluate("[regionmesh.stage.drawn[0].lines.geometry.index.count, 2 * regionmesh.stage.drawn[0].lineParts.edgeCount]");
-    assert.ok(some > 0 && some < all, "lines of hidden regions are not drawn");
-    await page.click("#show-all");
-    await page.$eval("#explode", (e) => {
-        e.value = 0.5;
-        e.dispatchEvent(new Event("input"));
-    });
-    await isNew("exploded view");
-    await page.click("#theme");
-    await isNew("other theme");
-    assert.deepEqual(errors, []);
-    await page.close();
-}
-
 async function keys_and_focus_reach_everything(browser) {
     const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
     const before = await picture(page);
@@ -130,23 +87,6 @@ async function large_models_are_shown_as_a_preview(browser) {
     assert.ok(bytes < 12 * faces[0], `${bytes / faces[0]} bytes a face`);
     assert.deepEqual(errors, []);
     await page.close();
-}
-
-/** Looks along the normal of the section: every pixel near the middle is of the cut, none of the background. */
-function capsHoldNoHoles(page) {
-    return page.evaluate(() => {
-        const { stage, tools } = window.regionmesh;
-        stage.setDirection([1, 0, 0.0001]);
-        tools.setSection("x");
-        stage.setCoarse(false);
-        stage.renderNow();
-        const gl = stage.renderer.getContext(), [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
-        const size = 200, pixels = new Uint8Array(4 * size * size);
-        gl.readPixels((width - size) / 2, (height - size) / 2, size, size, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-        for (let n = 0; n < pixels.length; n += 4)
-            if (((pixels[n] << 16) | (pixels[n + 1] << 8) | pixels[n + 2]) === stage.background) return false;
-        return true;
-    });
 }
 
 async function a_click_names_the_region(browser) {
@@ -426,7 +366,7 @@ async function hostile_names_are_text(browser) {
 const browser = await launch(repository);
 try {
     coordinates_have_the_digits_of_the_page();
-    for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
+    for (const test of [shows_lists_and_isolates, keys_and_focus_reach_everything,
         large_models_are_shown_as_a_preview, a_picture_is_saved, a_click_names_the_region,
         a_click_on_a_section_names_the_region_that_it_shows, an_open_model_claims_what_was_tested, tables_equal_the_report,
         a_planted_violation_is_found, two_models_share_a_camera, two_models_keep_their_places_and_their_figures,
