@@ -119,11 +119,11 @@ async function a_click_on_a_section_names_the_region_that_it_shows(browser) {
     for (const axis of ["x", "y", "z"]) {
         await page.select("#section-axis", axis);
         const hits = await page.evaluate(`(() => {
-            const { stage, regions, models } = regionmesh, { camera } = stage, box = stage.canvas.getBoundingClientRect(), hits = [];
+            const { stage, models } = regionmesh, { camera } = stage, box = stage.canvas.getBoundingClientRect(), hits = [];
             const [a, b, c, d] = stage.shared.plane.value.toArray(), height = ({ x, y, z }) => a * x + b * y + c * z;
             for (let n = 0; n < 400; ++n) {
                 const x = (n % 20 + 0.5) / 20, y = (Math.floor(n / 20) + 0.5) / 20;
-                const hit = stage.pickAt(box.left + x * box.width, box.top + y * box.height, [regions.shown(0)]);
+                const hit = stage.pickAt(box.left + x * box.width, box.top + y * box.height);
                 const ray = camera.position.clone().set(2 * x - 1, 1 - 2 * y, 0.5).unproject(camera).sub(camera.position);
                 const entry = camera.position.clone().addScaledVector(ray, (d - height(camera.position)) / height(ray));
                 hits.push([hit && { ...hit, label: Number(models[0].labels[hit.label].label) }, entry.toArray().map((x, axis) => x + models[0].centre[axis])]);
@@ -306,7 +306,7 @@ async function two_models_keep_their_places_and_their_figures(browser) {
             tools.describe(region, { which, isCap: true, at: [0, 0, 0] });
             return [document.getElementById("info").textContent.replaceAll(",", ""), regions.measures[which][region.places[which]].faces];
         });
-        return { centres: models.map(({ centre }) => centre), size: models[0].high[0] - models[0].low[0], ends, told };
+        return { centres: models.map(({ centre }) => [...centre]), size: models[0].high[0] - models[0].low[0], ends, told };
     });
     assert.deepEqual(found.centres[0], found.centres[1]);
     assert.ok(Math.max(...found.ends.flat()) < 1e-4 * found.size, `${found.ends}`);

@@ -1,7 +1,7 @@
 // What the picture of the page shows, in a browser.  view_test.mjs PROGRAM REPOSITORY FOLDER
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { launch, open, picture } from "./browser.mjs";
 
 const [program, repository, folder] = process.argv.slice(2);
@@ -68,11 +68,158 @@ function capsHoldNoHoles(page) {
     });
 }
 
+const explode = (page, share) => page.evaluate(`regionmesh.tools.explode(${share})`);
+
+async function an_exploded_view_has_the_places_of_the_model(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    await explode(page, 0.5);
+    const outside = await page.evaluate(() => {
+        const { stage } = window.regionmesh, [{ model, places }] = stage.drawn, box = stage.canvas.getBoundingClientRect();
+        stage.renderNow();
+        let hits = 0, farthest = 0;  // from the box of the face
+        for (let n = 0; n < 100; ++n) {
+            const hit = stage.pickAt(box.left + ((n % 10 + 0.5) / 10) * box.width, box.top + ((Math.floor(n / 10) + 0.5) / 10) * box.height);
+            if (!hit) continue;
+            ++hits;
+            hit.at.forEach((x, axis) => {
+                const ends = [0, 1, 2].map((k) => places[3 * model.surface.corners[3 * hit.face + k] + axis]);
+                farthest = Math.max(farthest, Math.min(...ends) - x, x - Math.max(...ends));
+            });
+        }
+        return { hits, farthest, size: model.high[0] - model.low[0] };
+    });
+    assert.ok(outside.hits > 10 && outside.farthest < 1e-4 * outside.size, JSON.stringify(outside));
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+/** The places of all marks of a model less those where they were before. */
+const marksMoved = (page, which) => page.evaluate((n) => {
+    const { stage, regions } = window.regionmesh, drawn = stage.drawn[n], offsets = regions.offsets(n);
+    const found = drawn.markers.geometry.getAttribute("position").array;
+    const wanted = drawn.marks.flatMap(({ at, labels }) => labels.map((label) => at.map((x, axis) => x + 0.5 * offsets[label][axis])));
+    return { found: [...found], wanted: wanted.flat(), moved: drawn.marks.some(({ labels }) => labels.some((label) => Math.hypot(...offsets[label]) > 0)) };
+}, which);
+
+async function marks_go_along_with_their_regions(browser) {
+    const near = ({ found, wanted, moved }) => {
+        assert.ok(moved && found.length === wanted.length && found.length > 0, `${found.length} of ${wanted.length}`);
+        found.forEach((x, n) => assert.ok(Math.abs(x - wanted[n]) < 1e-4 * (1 + Math.abs(x)), `${x} for ${wanted[n]}`));
+    };
+    // The first face of a text file goes: three open edges.
+    run("convert", `${folder}/poly.vtp`, `${folder}/whole.obj`);
+    const lines = readFileSync(`${folder}/whole.obj`, "utf8").split("\n");
+    lines.splice(lines.findIndex((line) => line.startsWith("f ")), 1);
+    writeFileSync(`${folder}/open.obj`, lines.join("\n"));
+    run("view", `${folder}/open.obj`, "-o", `${folder}/open.html`);
+    const errors = [], page = await open(browser, `${folder}/open.html`, errors);
+    await explode(page, 0.5);
+    near(await marksMoved(page, 0));
+    await page.click("#violation-next");
+    assert.ok(await page.evaluate(`(() => {
+        const { x, y, z } = regionmesh.stage.controls.target, places = [...regionmesh.stage.drawn[0].markers.geometry.getAttribute("position").array];
+        return places.some((_, n) => n % 3 === 0 && Math.hypot(places[n] - x, places[n + 1] - y, places[n + 2] - z) < 1e-3);
+    })()`), "goes to a mark");
+    await page.close();
+
+    run("decimate", `${folder}/poly.vtp`, "-o", `${folder}/fewer.vtp`, "--reduce", "50%", "--quiet");
+    run("compare", `${folder}/poly.vtp`, `${folder}/fewer.vtp`, "--html", `${folder}/compare.html`, "--quiet");
+    const both = await open(browser, `${folder}/compare.html`, errors);
+    await explode(both, 0.5);
+    await both.select("#colour-by", "distance");
+    await both.click("#go-farthest");
+    near(await marksMoved(both, await both.evaluate("regionmesh.stage.drawn.findIndex(({ markers }) => markers)")));
+    assert.deepEqual(errors, []);
+    await both.close();
+}
+
+/** Each region has a hue of its own: at random places, sections, distances and shares of the exploded view. */
+async function a_click_hits_the_region_that_the_picture_shows(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const found = await page.evaluate(() => {
+        const { stage, regions, tools, models } = window.regionmesh, step = 360 / regions.all.length, wrong = [];
+        let seed = 7, same = 0;
+        const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+        const channel = (hue, n) => Math.max(0, Math.min((n + hue / 60) % 6, 4 - ((n + hue / 60) % 6), 1));
+        regions.all.forEach((region, n) => (region.colour = "#" + [5, 3, 1].map((k) => Math.round(230 - 204 * channel(n * step, k)).toString(16).padStart(2, "0")).join("")));
+        const regionOf = ([r, g, b]) => {
+            if (((r << 16) | (g << 8) | b) === stage.background) return null;
+            const most = Math.max(r, g, b), size = most - Math.min(r, g, b) || 1;
+            const hue = 60 * (most === r ? (g - b) / size : most === g ? 2 + (b - r) / size : 4 + (r - g) / size);
+            return regions.all[Math.round((hue + 360) / step) % regions.all.length].label;
+        };
+        for (let round = 0; round < 24; ++round) {
+            for (const region of regions.all) region.state = random() < 0.3 ? "hidden" : "solid";
+            regions.changed();
+            tools.explode(round % 3 === 0 ? 0.7 * random() : 0);
+            stage.setSection(["none", "x", "y", "z"][round % 4], 0.2 + 0.6 * random(), random() < 0.5);
+            stage.setDirection([random() - 0.5, random() - 0.5, random() - 0.5]);
+            stage.fit([regions.shown(0)]);
+            if (round % 2) stage.zoom([0.3, 0.06, 0.02][round % 3]);  // also from inside
+            stage.setCoarse(false);
+            stage.renderNow();
+            const gl = stage.renderer.getContext(), height = gl.drawingBufferHeight, pixels = new Uint8Array(100);
+            const box = stage.canvas.getBoundingClientRect(), scale = box.height / height;
+            for (let n = 0; n < 100; ++n) {
+                const x = 3 + Math.floor(random() * (gl.drawingBufferWidth - 6)), y = 3 + Math.floor(random() * (height - 6));
+                gl.readPixels(x - 2, height - 3 - y, 5, 5, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+                const seen = Array.from({ length: 25 }, (_, k) => regionOf(pixels.subarray(4 * k, 4 * k + 3)));
+                if (seen.some((label) => label !== seen[0])) continue;  // near an edge
+                const hit = stage.pickAt(box.left + (x + 0.5) * scale, box.top + (y + 0.5) * scale);
+                const label = hit ? models[0].labels[hit.label].label : null;
+                if (label === seen[0]) ++same;
+                else wrong.push({ round, x, y, seen: seen[0], label });
+            }
+        }
+        return { same, wrong };
+    });
+    assert.ok(found.same > 1500, `${found.same} places`);
+    assert.deepEqual(found.wrong, []);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+/** Two halves of a block, 1 and 2, side by side along x. */
+async function a_click_goes_through_transparent_regions(browser) {
+    const samples = Uint8Array.from({ length: 20 ** 3 }, (_, n) => (n % 20 < 10 ? 1 : 2));
+    writeFileSync(`${folder}/halves.raw`, samples);
+    run("reconstruct", `${folder}/halves.raw`, "--size", "20,20,20", "--type", "uint8", "-o", `${folder}/halves.vtp`, "--quiet", "--html", `${folder}/halves.html`);
+    const errors = [], page = await open(browser, `${folder}/halves.html`, errors);
+    const hits = () => page.evaluate(() => {
+        const { stage, models } = window.regionmesh, box = stage.canvas.getBoundingClientRect();
+        stage.renderNow();
+        return Array.from({ length: 400 }, (_, n) => {
+            const hit = stage.pickAt(box.left + ((n % 20 + 0.5) / 20) * box.width, box.top + ((Math.floor(n / 20) + 0.5) / 20) * box.height);
+            return hit && { label: models[0].labels[hit.label].label, isCap: hit.isCap, x: hit.at[0] };
+        }).filter(Boolean);
+    });
+    await page.evaluate(`(() => {
+        const { regions, stage, act } = regionmesh;
+        regions.setState([regions.byLabel.get("2")], "ghost");
+        stage.setDirection([1, -0.2, 0.2]);
+        act.fit();
+    })()`);
+    const through = await hits(), behind = through.filter(({ label, x }) => label === "1" && Math.abs(x) < 1);
+    assert.ok(behind.length > 20, "the face between both is hit through region 2");
+    assert.ok(through.some(({ label }) => label === "2"), "a transparent region is hit where nothing is behind it");
+    await page.select("#section-axis", "y");
+    await page.evaluate("regionmesh.stage.setDirection([0.5, -1, 0.3])");
+    if (await page.$eval("#section-turn", (e) => !e.checked)) await page.click("#section-turn");
+    const cut = await hits();
+    assert.ok(cut.some(({ label, isCap }) => label === "1" && isCap), "the cut of region 1 is hit");
+    assert.ok(!cut.some(({ label, isCap }) => label === "2" && isCap), "region 2 has no cut in the picture");
+    assert.ok(cut.some(({ label, x }) => label === "1" && Math.abs(x) < 1), "nor is it in the way of region 1");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 const browser = await launch(repository);
 try {
     run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/poly.vtp`, "--reduce", "80%", "--quiet");
     run("view", `${folder}/poly.vtp`, "-o", `${folder}/poly.html`);
-    for (const test of [cuts_colours_and_explodes]) {
+    for (const test of [cuts_colours_and_explodes, an_exploded_view_has_the_places_of_the_model,
+        marks_go_along_with_their_regions, a_click_hits_the_region_that_the_picture_shows,
+        a_click_goes_through_transparent_regions]) {
         await test(browser);
         console.log(`ok ${test.name}`);
     }

@@ -55,7 +55,7 @@ function actions(stage, regions, title) {
 /** A click is a press without a move; it selects a region and describes the face. */
 function addPicking(stage, regions, tools, list) {
     let press = null;
-    const hitOf = (event) => stage.pickAt(event.clientX, event.clientY, stage.drawn.map((_, which) => regions.shown(which)));
+    const hitOf = (event) => stage.pickAt(event.clientX, event.clientY);
     stage.canvas.addEventListener("pointerdown", (event) => (press = [event.clientX, event.clientY, event.button]));
     stage.canvas.addEventListener("pointerup", (event) => {
         if (!press || press[2] !== 0 || Math.hypot(event.clientX - press[0], event.clientY - press[1]) > 4) return;
@@ -66,7 +66,7 @@ function addPicking(stage, regions, tools, list) {
     });
     stage.canvas.addEventListener("dblclick", (event) => {
         const hit = hitOf(event);
-        if (hit) stage.lookAt(hit.at, stage.radius / 6);
+        if (hit) stage.lookAt(hit.seen, stage.radius / 6);
     });
 }
 

@@ -77,10 +77,10 @@ export class Tools {
         });
         const { which, vertex, distance } = found.reduce((a, b) => (b.distance > a.distance ? b : a));
         const model = this.models[which], at = [...model.positions.subarray(3 * vertex, 3 * vertex + 3)];
-        const { label, normal } = outsideAt(model, vertex), place = at.map((x, axis) => x + model.centre[axis]);
+        const { label, normal } = outsideAt(model, vertex), drawn = this.stage.drawn[which];
         this.regions.showOnly(which, [label]);
-        this.stage.drawn[which].showMarkers([place]);
-        this.stage.lookAt(at, this.stage.radius / 5, normal);
+        drawn.showMarkers([{ at, labels: [label] }]);
+        this.stage.lookAt(drawn.moved(label, at), this.stage.radius / 5, normal);
         byId("farthest-text").textContent =
             `${short(distance)} at a vertex of ${"AB"[which]}, ${placeText(model, at)}. Only ${isolated(this.regions.titleAt(which, label))} shown; the key A shows all.`;
     }
@@ -168,7 +168,7 @@ export class Tools {
             if (found.at) this.goToViolation(found.at);
         };
         this.stepViolation = step;
-        this.stage.drawn[0].showMarkers(this.violations.filter(({ at }) => at).map(({ at }) => at));
+        this.stage.drawn[0].showMarkers(this.marks());
         return group("Violations",
             element("div", { class: "buttons" },
                 element("button", { type: "button", id: "violation-back", onclick: () => step(-1) }, "Previous"),
@@ -176,13 +176,22 @@ export class Tools {
             toggle("violation-alone", "Only the regions at its place", (isOn) => !isOn && this.regions.setState(this.regions.all, "solid")), text);
     }
 
+    /** The places of violations, and the regions that each names. */
+    marks() {
+        const [model] = this.models, placeOf = new Map(model.labels.map(({ label, background }, place) => [label, background ? undefined : place]));
+        return this.violations.filter(({ at }) => at).map(({ at, labels = [] }) => ({
+            at: at.map((x, axis) => x - model.centre[axis]),
+            labels: labels.map((label) => placeOf.get(label)).filter((place) => place !== undefined),
+        }));
+    }
+
     /** Other regions would hide it, and without edges a missing face is hard to see. */
     goToViolation(at) {
-        const [{ model }] = this.stage.drawn, place = at.map((x, axis) => x - model.centre[axis]);
-        const vertex = nearestVertex(model, place);
+        const [drawn] = this.stage.drawn, { model } = drawn, place = at.map((x, axis) => x - model.centre[axis]);
+        const vertex = nearestVertex(model, place), { label, normal } = outsideAt(model, vertex);
         if (byId("violation-alone").checked) this.regions.showOnly(0, labelsAround(model, vertex));
         if (!byId("show-edges").checked) byId("show-edges").click();
-        this.stage.lookAt(place, this.stage.radius / 8, outsideAt(model, vertex).normal);
+        this.stage.lookAt(drawn.moved(label, place), this.stage.radius / 8, normal);
     }
 
     /** Shows a region, or the face of a hit. */
