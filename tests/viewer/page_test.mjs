@@ -341,6 +341,8 @@ async function without_webgl_the_proof_is_there(repository) {
         const errors = [], page = await open(other, `${folder}/in.html`, errors);
         assert.ok(await page.$eval("#notice", (e) => !e.hidden && e.textContent.includes("hardware acceleration")));
         assert.ok((await page.$$("#region-table tbody tr")).length > 10);
+        const links = await page.$$eval("header nav a", (found) => found.filter((e) => !e.hidden).map((e) => e.hash));
+        assert.deepEqual(links, ["#proof", "#table"], "no link to a model that is not shown");
     } finally {
         await other.close();
     }

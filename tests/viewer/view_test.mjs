@@ -213,13 +213,50 @@ async function a_click_goes_through_transparent_regions(browser) {
     await page.close();
 }
 
+async function claims_are_those_that_were_tested(browser) {
+    run("view", `${folder}/halves.vtp`, "-o", `${folder}/claims.html`);
+    const errors = [], page = await open(browser, `${folder}/claims.html`, errors);
+    assert.equal(await page.$eval(".verdict", (e) => e.textContent),
+        "1 claim proved; no claim: Samples kept, Topology, Quality floor, Error bound, Same bytes");
+    assert.deepEqual(await page.$$eval(".chip", (found) => found.map((e) => e.textContent)), ["✓ Violations: none"]);
+    assert.ok(await page.$eval("#table", (e) => e.textContent.includes("in model units")));
+    await page.close();
+    run("reconstruct", `${folder}/halves.raw`, "--size", "20,20,20", "--type", "uint8", "--units", "mm", "-o", `${folder}/mm.vtp`, "--quiet", "--html", `${folder}/mm.html`);
+    const other = await open(browser, `${folder}/mm.html`, errors);
+    assert.ok(await other.$eval("#table", (e) => e.textContent.includes("volumes in mm³")), "the unit is known");
+    assert.deepEqual(errors, []);
+    await other.close();
+}
+
+async function one_is_singular_and_long_labels_are_in_order(browser) {
+    writeFileSync(`${folder}/one.raw`, new Uint8Array(8).fill(1));
+    run("reconstruct", `${folder}/one.raw`, "--size", "2,2,2", "--type", "uint8", "-o", `${folder}/one.vtp`, "--quiet", "--html", `${folder}/one.html`);
+    const errors = [], page = await open(browser, `${folder}/one.html`, errors);
+    assert.match(await page.$eval("#summary", (e) => e.textContent), /, 1 region$/);
+    assert.equal(await page.$eval("#region-count", (e) => e.textContent), "1 of 1 region");
+    await page.close();
+
+    const labels = [0n, 1n, 2n, 3n].map((step) => 2n ** 53n + step);
+    writeFileSync(`${folder}/long.raw`, BigUint64Array.from({ length: 4 ** 3 }, (_, n) => labels[n % 4]));
+    run("reconstruct", `${folder}/long.raw`, "--size", "4,4,4", "--type", "uint64", "-o", `${folder}/long.vtp`, "--quiet", "--html", `${folder}/long.html`);
+    const long = await open(browser, `${folder}/long.html`, errors);
+    await long.click('#region-table [data-column="label"] button');  // downwards
+    assert.deepEqual(await long.$$eval("#region-table tbody tr td:first-child", (found) => found.map((e) => e.textContent)), labels.map(String).reverse());
+    await long.evaluate("regionmesh.regions.all.reverse()");
+    await long.select("#region-order", "label");
+    assert.deepEqual(await long.evaluate("regionmesh.list.found.map(({ label }) => label)"), labels.map(String));
+    assert.deepEqual(errors, []);
+    await long.close();
+}
+
 const browser = await launch(repository);
 try {
     run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/poly.vtp`, "--reduce", "80%", "--quiet");
     run("view", `${folder}/poly.vtp`, "-o", `${folder}/poly.html`);
     for (const test of [cuts_colours_and_explodes, an_exploded_view_has_the_places_of_the_model,
         marks_go_along_with_their_regions, a_click_hits_the_region_that_the_picture_shows,
-        a_click_goes_through_transparent_regions]) {
+        a_click_goes_through_transparent_regions, claims_are_those_that_were_tested,
+        one_is_singular_and_long_labels_are_in_order]) {
         await test(browser);
         console.log(`ok ${test.name}`);
     }

@@ -1,5 +1,5 @@
 // Puts the page together.
-import { byId, download, element, grouped } from "./dom.js";
+import { byId, counted, download, element, grouped } from "./dom.js";
 import { boxOf, loadModel } from "./geometry.js";
 import { addKeys } from "./keys.js";
 import { showProof } from "./proof.js";
@@ -9,6 +9,7 @@ import { Stage } from "./stage.js";
 import { showTable } from "./table.js";
 import { addTheme } from "./theme.js";
 import { Tools } from "./tools.js";
+import { unitText } from "./units.js";
 
 const kViews = { front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
 
@@ -30,8 +31,8 @@ function showHead(data, models) {
     const texts = models.map((model) => {
         const regions = model.labels.filter(({ background }) => !background).length;
         const preview = model.shown_faces < model.faces
-            ? ` (picture, list and selection show a preview with ${grouped(model.shown_faces)} faces; proof and table are of the whole model)` : "";
-        return `${grouped(model.faces)} faces, ${grouped(model.vertices)} vertices, ${grouped(regions)} regions${preview}`;
+            ? ` (picture, list and selection show a preview with ${counted(model.shown_faces, "face")}; proof and table are of the whole model)` : "";
+        return `${counted(model.faces, "face")}, ${counted(model.vertices, "vertex", "vertices")}, ${counted(regions, "region")}${preview}`;
     });
     byId("summary").textContent = texts.join("; ");
     if (models.length > 1)
@@ -77,7 +78,7 @@ function showModels(data, models, regions, box) {
         stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === first && place === places[first])));
     const list = new RegionList(regions, lookAt);
     const act = actions(stage, regions, models[0].title);
-    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [],
+    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [], unitText: unitText(data),
         violationCount: Object.values(data.report?.violation_counts ?? {}).reduce((sum, count) => sum + count, 0) });
     const update = () => {
         stage.drawn.forEach((drawn, which) => {
@@ -96,6 +97,14 @@ function showModels(data, models, regions, box) {
     window.addEventListener("beforeprint", () => stage.renderNow());  // in the theme for paper
     act.fit();
     return { stage, regions, tools, list, act };
+}
+
+/** Without WebGL there is no model to go to, without a report no table. */
+function hideEmptyLinks() {
+    for (const link of document.querySelectorAll("header nav a")) {
+        const target = document.querySelector(link.hash);
+        link.hidden = target.hidden || target.childElementCount === 0;
+    }
 }
 
 async function start() {
@@ -120,6 +129,7 @@ async function start() {
         byId("model").scrollIntoView();
         byId("canvas").focus({ preventScroll: true });
     }));
+    hideEmptyLinks();
     page.stage?.renderNow();
     window.regionmesh = { ...page, data, models, readyAfter: performance.now() };
     document.documentElement.dataset.ready = "true";

@@ -1,5 +1,5 @@
 // The panel on the right: the selected region or face, colours, section, exploded view, lines, violations.
-import { byId, coordinate, element, grouped, isolated, short } from "./dom.js";
+import { byId, coordinate, counted, element, grouped, isolated, short } from "./dom.js";
 import { faceQuality, interfaceMeasures } from "./measures.js";
 import { farthestVertex, labelsAround, nearestVertex, outsideAt } from "./places.js";
 import { kRamps } from "./ramps.js";
@@ -33,7 +33,7 @@ function placeText(model, at) {
 
 export class Tools {
     constructor(page) {
-        Object.assign(this, page);  // stage, regions, models, violations, violationCount, list
+        Object.assign(this, page);  // stage, regions, models, fit, lookAt, violations, violationCount, unitText
         this.info = element("div", { id: "info", role: "status", "aria-live": "polite" });
         byId("tools").append(
             group("Selected", this.info), this.colourGroup(), this.sectionGroup(), this.shapeGroup(), this.lineGroup());
@@ -152,7 +152,7 @@ export class Tools {
             drawn.showPoints(points && isWhole);
         }
         const counts = this.stage.drawn.filter((drawn) => drawn.lineParts)
-            .map(({ lineParts }) => `${grouped(lineParts.edgeCount)} edges on lines, ${grouped(lineParts.pointCount)} points`);
+            .map(({ lineParts }) => `${counted(lineParts.edgeCount, "edge")} on lines, ${counted(lineParts.pointCount, "point")}`);
         byId("line-counts").textContent = lines || points ? (isWhole ? counts.join("; ") : "not drawn in an exploded view") : "";
         this.stage.render();
     }
@@ -214,7 +214,8 @@ export class Tools {
         this.info.replaceChildren(list, element("div", { class: "buttons" },
             act("Isolate (I)", () => this.regions.isolate(region)), act("Hide (H)", () => this.regions.setState([region], "hidden")),
             act("Look at it (O)", () => this.lookAt(region)),
-            act("See through (G)", () => this.regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))));
+            act("See through (G)", () => this.regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))),
+            element("p", { class: "hint" }, this.unitText));
     }
 
     neighbourText(which, { neighbours }) {
