@@ -133,6 +133,61 @@ async function marks_go_along_with_their_regions(browser) {
     await both.close();
 }
 
+/** Gives the page a function for all pixels of the picture: it would take seconds to bring them here. */
+const addPixels = (page) => page.evaluate(() => {
+    window.pixels = () => {
+        const { stage } = window.regionmesh;
+        stage.setCoarse(false);
+        stage.renderNow();
+        const gl = stage.renderer.getContext(), [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+        const found = new Uint8Array(4 * width * height);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, found);
+        return found;
+    };
+});
+
+async function a_selected_region_keeps_the_colours_of_values(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    await addPixels(page);
+    await page.select("#colour-by", "quality");
+    const { drawn, changed } = await page.evaluate(() => {
+        const { regions, stage } = window.regionmesh, [region] = regions.all;
+        regions.isolate(region);
+        const before = window.pixels();
+        regions.select(region);
+        const after = window.pixels(), found = { drawn: 0, changed: 0 };
+        for (let n = 0; n < before.length; n += 4) {
+            found.drawn += ((before[n] << 16) | (before[n + 1] << 8) | before[n + 2]) !== stage.background;
+            found.changed += before[n] !== after[n] || before[n + 1] !== after[n + 1] || before[n + 2] !== after[n + 2];
+        }
+        return found;
+    });
+    assert.ok(drawn > 10000 && changed > 0.05 * drawn && changed < 0.25 * drawn, `${changed} of ${drawn} pixels`);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function where_there_is_no_curvature_it_is_grey(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    await addPixels(page);
+    await page.select("#colour-by", "curvature");
+    const { red, light, grey } = await page.evaluate(() => {
+        window.regionmesh.stage.drawn[0].uniforms.range.value.set(-1e6, 1e6);  // all values are in the middle
+        const found = { red: 0, light: 0, grey: 0 }, pixels = window.pixels();
+        for (let n = 0; n < pixels.length; n += 4) {
+            const [r, , b] = pixels.subarray(n, n + 3);
+            found.red += r > 1.3 * b + 10;
+            found.light += r > b + 2 && r > 120;
+            found.grey += r === b && r < 160;
+        }
+        return found;
+    });
+    assert.ok(light > 10000 && grey > 1000, `${light} of values, ${grey} without`);
+    assert.equal(red, 0, "no colour of a large value");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 /** Each region has a hue of its own: at random places, sections, distances and shares of the exploded view. */
 async function a_click_hits_the_region_that_the_picture_shows(browser) {
     const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
@@ -254,7 +309,8 @@ try {
     run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/poly.vtp`, "--reduce", "80%", "--quiet");
     run("view", `${folder}/poly.vtp`, "-o", `${folder}/poly.html`);
     for (const test of [cuts_colours_and_explodes, an_exploded_view_has_the_places_of_the_model,
-        marks_go_along_with_their_regions, a_click_hits_the_region_that_the_picture_shows,
+        marks_go_along_with_their_regions, a_selected_region_keeps_the_colours_of_values,
+        where_there_is_no_curvature_it_is_grey, a_click_hits_the_region_that_the_picture_shows,
         a_click_goes_through_transparent_regions, claims_are_those_that_were_tested,
         one_is_singular_and_long_labels_are_in_order]) {
         await test(browser);
