@@ -329,7 +329,9 @@ async function paper_is_light_and_complete(browser) {
     await at("beforeprint");
     assert.equal(await theme(), "light");
     assert.equal(await rows(), 256);
+    assert.deepEqual(await page.evaluate("[...document.getElementById('paper').getContext('2d').getImageData(3, 3, 1, 1).data]"), [0xf4, 0xf5, 0xf7, 255]);
     await at("afterprint");
+    assert.equal(await page.$("#paper"), null);
     assert.equal(await theme(), "dark");
     assert.deepEqual(errors, []);
     await page.close();

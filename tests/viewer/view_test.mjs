@@ -133,6 +133,46 @@ async function marks_go_along_with_their_regions(browser) {
     await both.close();
 }
 
+async function the_legend_is_beside_the_buttons_or_above_them(browser) {
+    const errors = [], page = await open(browser, `${folder}/compare.html`, errors);
+    await page.select("#colour-by", "distance");
+    for (const width of [1400, 1000, 920, 800, 400, 320]) {
+        await page.setViewport({ width, height: 800 });
+        const [stage, legend, views] = await page.evaluate(`["stage", "legend", "views"].map((id) => {
+            const { left, right, top, bottom } = document.getElementById(id).getBoundingClientRect();
+            return { left, right, top, bottom };
+        })`);
+        const overlap = legend.left < views.right && views.left < legend.right && legend.top < views.bottom && views.top < legend.bottom;
+        assert.ok(!overlap, `${width}: ${JSON.stringify([legend, views])}`);
+        for (const one of [legend, views])
+            assert.ok(one.left >= stage.left && one.right <= stage.right && one.bottom <= stage.bottom, `${width}: ${JSON.stringify([stage, one])}`);
+    }
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function a_lost_picture_comes_back(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const before = await picture(page), bottom = () => page.$eval("#views", (e) => e.getBoundingClientRect().bottom), place = await bottom();
+    const lose = (how) => page.evaluate((name) => new Promise((done) => {
+        const { stage } = window.regionmesh;
+        window.loser ??= stage.renderer.getContext().getExtension("WEBGL_lose_context");
+        stage.canvas.addEventListener(name === "loseContext" ? "webglcontextlost" : "webglcontextrestored", () => setTimeout(done, 100), { once: true });
+        window.loser[name]();
+    }), how);
+    await lose("loseContext");
+    await page.evaluate("regionmesh.stage.renderNow()");
+    assert.ok(await page.$eval("#lost", (e) => !e.hidden && e.textContent.includes("comes back")));
+    assert.equal(await bottom(), place, "the message moves nothing");
+    const frames = await page.evaluate("regionmesh.stage.frames");
+    await lose("restoreContext");
+    assert.ok(await page.evaluate(`regionmesh.stage.frames > ${frames}`), "is drawn again by itself");
+    assert.ok(await page.$eval("#lost", (e) => e.hidden));
+    assert.equal((await picture(page)).sum, before.sum);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 /** Gives the page a function for all pixels of the picture: it would take seconds to bring them here. */
 const addPixels = (page) => page.evaluate(() => {
     window.pixels = () => {
@@ -268,6 +308,18 @@ async function a_click_goes_through_transparent_regions(browser) {
     await page.close();
 }
 
+async function an_incomplete_page_says_so(browser) {
+    const whole = readFileSync(`${folder}/poly.html`, "utf8"), viewer = whole.indexOf('id="viewer"');
+    const ends = [whole.indexOf("</style>") - 10, whole.indexOf('id="geometry-0"') + 1000, viewer - 100, viewer + 5000, whole.lastIndexOf("</script>") - 1];
+    for (const end of ends) {
+        writeFileSync(`${folder}/part.html`, whole.slice(0, end));
+        const page = await browser.newPage();
+        await page.goto(`file://${folder}/part.html`);
+        assert.match(await page.$eval("body", (e) => e.innerText), /^This page is incomplete[^\n]*$/, `cut at ${end} of ${whole.length}`);
+        await page.close();
+    }
+}
+
 async function claims_are_those_that_were_tested(browser) {
     run("view", `${folder}/halves.vtp`, "-o", `${folder}/claims.html`);
     const errors = [], page = await open(browser, `${folder}/claims.html`, errors);
@@ -309,10 +361,10 @@ try {
     run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/poly.vtp`, "--reduce", "80%", "--quiet");
     run("view", `${folder}/poly.vtp`, "-o", `${folder}/poly.html`);
     for (const test of [cuts_colours_and_explodes, an_exploded_view_has_the_places_of_the_model,
-        marks_go_along_with_their_regions, a_selected_region_keeps_the_colours_of_values,
-        where_there_is_no_curvature_it_is_grey, a_click_hits_the_region_that_the_picture_shows,
-        a_click_goes_through_transparent_regions, claims_are_those_that_were_tested,
-        one_is_singular_and_long_labels_are_in_order]) {
+        marks_go_along_with_their_regions, the_legend_is_beside_the_buttons_or_above_them, a_lost_picture_comes_back,
+        a_selected_region_keeps_the_colours_of_values, where_there_is_no_curvature_it_is_grey,
+        a_click_hits_the_region_that_the_picture_shows, a_click_goes_through_transparent_regions,
+        an_incomplete_page_says_so, claims_are_those_that_were_tested, one_is_singular_and_long_labels_are_in_order]) {
         await test(browser);
         console.log(`ok ${test.name}`);
     }

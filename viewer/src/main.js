@@ -71,6 +71,24 @@ function addPicking(stage, regions, tools, list) {
     });
 }
 
+/** The model fills the window below the head, which is as high as its texts need. */
+function fillWindow() {
+    const head = document.querySelector("header"), { style } = byId("model");
+    new ResizeObserver(() => style.setProperty("--head", `${Math.ceil(head.getBoundingClientRect().height)}px`)).observe(head);
+}
+
+/** Paper gets a copy of the picture in the theme for paper: browsers print the picture that was last on the screen. */
+function addPaper(stage) {
+    let paper = null;
+    window.addEventListener("beforeprint", () => {
+        paper?.remove();
+        paper = stage.copied();
+        paper.id = "paper";
+        stage.canvas.before(paper);
+    });
+    window.addEventListener("afterprint", () => paper?.remove());
+}
+
 function showModels(data, models, regions, box) {
     const stage = new Stage(byId("canvas"), models, box);
     stage.isOpen = (data.report?.violations ?? []).length > 0 || data.boundary_is_open;
@@ -90,11 +108,16 @@ function showModels(data, models, regions, box) {
     regions.addEventListener("change", update);
     update();
     addPicking(stage, regions, tools, list);
-    stage.canvas.addEventListener("webglcontextlost", () => say("The graphics card gave up the picture: reload the page."));
+    stage.canvas.addEventListener("webglcontextlost", () => (byId("lost").hidden = false));
+    stage.canvas.addEventListener("webglcontextrestored", () => {
+        byId("lost").hidden = true;
+        stage.render();
+    });
     for (const button of document.querySelectorAll("[data-act]")) button.addEventListener("click", act[button.dataset.act]);
     addKeys({ stage, regions, tools, act });
     addTheme((background) => stage.setBackground(background));
-    window.addEventListener("beforeprint", () => stage.renderNow());  // in the theme for paper
+    addPaper(stage);
+    fillWindow();
     act.fit();
     return { stage, regions, tools, list, act };
 }

@@ -133,7 +133,9 @@ export class Stage extends EventTarget {
 
     /** Keeps the time until a whole frame is complete; the first frame also compiles, and does not count. */
     measure(begin) {
-        const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        const gl = this.renderer.getContext();
+        if (gl.isContextLost()) return;
+        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
         gl.flush();
         const isWhole = this.frames > 1 && !this.isCoarse;
         const poll = () => {
@@ -300,8 +302,21 @@ export class Stage extends EventTarget {
 
     /** Calls `done` with a PNG. */
     screenshot(done) {
+        this.renderWhole();
+        this.canvas.toBlob(done, "image/png");
+    }
+
+    /** The picture as it would be now, as a canvas of its own. */
+    copied() {
+        this.renderWhole();
+        const copy = document.createElement("canvas");
+        [copy.width, copy.height] = [this.canvas.width, this.canvas.height];
+        copy.getContext("2d").drawImage(this.canvas, 0, 0);
+        return copy;
+    }
+
+    renderWhole() {
         if (this.isCoarse) this.setCoarse(false);
         this.renderNow();
-        this.canvas.toBlob(done, "image/png");
     }
 }
