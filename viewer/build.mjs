@@ -18,8 +18,9 @@ async function bundled(entry, more = {}) {
 const script = await bundled("main.js", { format: "iife" });
 const style = await bundled("page.css");
 const packed = deflateSync(script, { level: 9 }).toString("base64");
-const loader = await bundled("loader.js", { format: "iife" });
+const [complete, loader] = await Promise.all(["complete.js", "loader.js"].map((entry) => bundled(entry, { format: "iife" })));
 const page = readFileSync(join(folder, "src/page.html"), "utf8")
+    .replace("<!--COMPLETE-->", () => `<script>${complete}</script>`)
     .replace("<!--STYLE-->", () => `<style>${style}</style>`)
     .replace("<!--SCRIPT-->", () => `<script type="text/plain" id="viewer">${packed}</script>\n<script>${loader}</script>`);
 

@@ -35,49 +35,6 @@ async function shows_lists_and_isolates(browser) {
     await page.close();
 }
 
-async function cuts_colours_and_explodes(browser) {
-    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
-    const seen = new Set([(await picture(page)).sum]);
-    const isNew = async (what) => {
-        const { sum, drawn } = await picture(page);
-        assert.ok(drawn > 0.05, `${what} draws ${drawn}`);
-        assert.ok(!seen.has(sum), `${what} changes nothing`);
-        seen.add(sum);
-    };
-    for (const axis of ["x", "y", "z"]) {
-        await page.select("#section-axis", axis);
-        await isNew(`section across ${axis}`);
-    }
-    await page.select("#section-axis", "x");
-    assert.ok(await capsHoldNoHoles(page), "a section of a solid block has no holes");
-    await page.select("#section-axis", "none");
-    for (const what of ["interface", "quality", "curvature"]) {
-        await page.select("#colour-by", what);
-        await isNew(`colours by ${what}`);
-        assert.equal(await page.$eval("#legend", (e) => e.hidden), what === "interface");
-    }
-    await page.select("#colour-by", "region");
-    for (const id of ["show-edges", "show-flat", "show-lines", "show-points"]) {
-        await page.click(`#${id}`);
-        await isNew(id);
-    }
-    const [found, report] = await page.evaluate("(({ edgeCount, pointCount }) => [{ edgeCount, pointCount }, regionmesh.data.report.quadruple_points_inside])(regionmesh.stage.drawn[0].lineParts)");
-    assert.ok(found.edgeCount > 0 && found.pointCount >= report, `${found.pointCount} points, ${report} of them inside`);
-    await page.click("#region-rows .row .row-only");
-    const [some, all] = await page.evaluate("[regionmesh.stage.drawn[0].lines.geometry.index.count, 2 * regionmesh.stage.drawn[0].lineParts.edgeCount]");
-    assert.ok(some > 0 && some < all, "lines of hidden regions are not drawn");
-    await page.click("#show-all");
-    await page.$eval("#explode", (e) => {
-        e.value = 0.5;
-        e.dispatchEvent(new Event("input"));
-    });
-    await isNew("exploded view");
-    await page.click("#theme");
-    await isNew("other theme");
-    assert.deepEqual(errors, []);
-    await page.close();
-}
-
 async function keys_and_focus_reach_everything(browser) {
     const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
     const before = await picture(page);
@@ -132,23 +89,6 @@ async function large_models_are_shown_as_a_preview(browser) {
     await page.close();
 }
 
-/** Looks along the normal of the section: every pixel near the middle is of the cut, none of the background. */
-function capsHoldNoHoles(page) {
-    return page.evaluate(() => {
-        const { stage, tools } = window.regionmesh;
-        stage.setDirection([1, 0, 0.0001]);
-        tools.setSection("x");
-        stage.setCoarse(false);
-        stage.renderNow();
-        const gl = stage.renderer.getContext(), [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
-        const size = 200, pixels = new Uint8Array(4 * size * size);
-        gl.readPixels((width - size) / 2, (height - size) / 2, size, size, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-        for (let n = 0; n < pixels.length; n += 4)
-            if (((pixels[n] << 16) | (pixels[n + 1] << 8) | pixels[n + 2]) === stage.background) return false;
-        return true;
-    });
-}
-
 async function a_click_names_the_region(browser) {
     const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
     const box = await (await page.$("#canvas")).boundingBox();
@@ -179,11 +119,11 @@ async function a_click_on_a_section_names_the_region_that_it_shows(browser) {
     for (const axis of ["x", "y", "z"]) {
         await page.select("#section-axis", axis);
         const hits = await page.evaluate(`(() => {
-            const { stage, regions, models } = regionmesh, { camera } = stage, box = stage.canvas.getBoundingClientRect(), hits = [];
+            const { stage, models } = regionmesh, { camera } = stage, box = stage.canvas.getBoundingClientRect(), hits = [];
             const [a, b, c, d] = stage.shared.plane.value.toArray(), height = ({ x, y, z }) => a * x + b * y + c * z;
             for (let n = 0; n < 400; ++n) {
                 const x = (n % 20 + 0.5) / 20, y = (Math.floor(n / 20) + 0.5) / 20;
-                const hit = stage.pickAt(box.left + x * box.width, box.top + y * box.height, [regions.shown(0)]);
+                const hit = stage.pickAt(box.left + x * box.width, box.top + y * box.height);
                 const ray = camera.position.clone().set(2 * x - 1, 1 - 2 * y, 0.5).unproject(camera).sub(camera.position);
                 const entry = camera.position.clone().addScaledVector(ray, (d - height(camera.position)) / height(ray));
                 hits.push([hit && { ...hit, label: Number(models[0].labels[hit.label].label) }, entry.toArray().map((x, axis) => x + models[0].centre[axis])]);
@@ -366,7 +306,7 @@ async function two_models_keep_their_places_and_their_figures(browser) {
             tools.describe(region, { which, isCap: true, at: [0, 0, 0] });
             return [document.getElementById("info").textContent.replaceAll(",", ""), regions.measures[which][region.places[which]].faces];
         });
-        return { centres: models.map(({ centre }) => centre), size: models[0].high[0] - models[0].low[0], ends, told };
+        return { centres: models.map(({ centre }) => [...centre]), size: models[0].high[0] - models[0].low[0], ends, told };
     });
     assert.deepEqual(found.centres[0], found.centres[1]);
     assert.ok(Math.max(...found.ends.flat()) < 1e-4 * found.size, `${found.ends}`);
@@ -389,7 +329,9 @@ async function paper_is_light_and_complete(browser) {
     await at("beforeprint");
     assert.equal(await theme(), "light");
     assert.equal(await rows(), 256);
+    assert.deepEqual(await page.evaluate("[...document.getElementById('paper').getContext('2d').getImageData(3, 3, 1, 1).data]"), [0xf4, 0xf5, 0xf7, 255]);
     await at("afterprint");
+    assert.equal(await page.$("#paper"), null);
     assert.equal(await theme(), "dark");
     assert.deepEqual(errors, []);
     await page.close();
@@ -401,6 +343,8 @@ async function without_webgl_the_proof_is_there(repository) {
         const errors = [], page = await open(other, `${folder}/in.html`, errors);
         assert.ok(await page.$eval("#notice", (e) => !e.hidden && e.textContent.includes("hardware acceleration")));
         assert.ok((await page.$$("#region-table tbody tr")).length > 10);
+        const links = await page.$$eval("header nav a", (found) => found.filter((e) => !e.hidden).map((e) => e.hash));
+        assert.deepEqual(links, ["#proof", "#table"], "no link to a model that is not shown");
     } finally {
         await other.close();
     }
@@ -426,7 +370,7 @@ async function hostile_names_are_text(browser) {
 const browser = await launch(repository);
 try {
     coordinates_have_the_digits_of_the_page();
-    for (const test of [shows_lists_and_isolates, cuts_colours_and_explodes, keys_and_focus_reach_everything,
+    for (const test of [shows_lists_and_isolates, keys_and_focus_reach_everything,
         large_models_are_shown_as_a_preview, a_picture_is_saved, a_click_names_the_region,
         a_click_on_a_section_names_the_region_that_it_shows, an_open_model_claims_what_was_tested, tables_equal_the_report,
         a_planted_violation_is_found, two_models_share_a_camera, two_models_keep_their_places_and_their_figures,

@@ -1,5 +1,5 @@
 // Bars and histograms, as tables and SVG that a screen reader can read.
-import { element, grouped, short } from "./dom.js";
+import { counted, element, short } from "./dom.js";
 
 export function barRow(name, value, largest, text, isGood = false) {
     const bar = element("span", { class: isGood ? "bar good" : "bar" });
@@ -26,7 +26,7 @@ export function histogram({ bin_width: width, counts }, unit) {
     counts.forEach((count, n) => {
         const tall = (height * count) / largest;
         const bar = svg("rect", { x: n * step + 0.5, y: height - tall, width: step - 1, height: Math.max(tall, count > 0 ? 0.7 : 0) });
-        bar.append(svg("title", {}, `${short(n * width)} to ${short((n + 1) * width)}: ${grouped(count)} ${unit}`));
+        bar.append(svg("title", {}, `${short(n * width)} to ${short((n + 1) * width)}: ${counted(count, unit)}`));
         chart.append(bar);
     });
     const ticks = bins > 20 ? 7 : 6;

@@ -25,6 +25,12 @@ export const inOrder = (a, b) => (typeof a === "string" && typeof b === "string"
 /** 1234567 as 1,234,567. */
 export const grouped = (count) => Math.round(count).toLocaleString("en");
 
+/** "1 face", "2 faces". */
+export const counted = (count, word, words = `${word}s`) => `${grouped(count)} ${count === 1 ? word : words}`;
+
+/** For sort(): a label as a number. It is a text, since labels have up to 64 bits and a number of JavaScript has 53. */
+export const labelNumber = (label) => (/^-?\d+$/.test(label) ? BigInt(label) : label);
+
 /** A few digits. */
 export function short(number, digits = 4) {
     if (number === null || number === undefined || !Number.isFinite(number)) return "–";

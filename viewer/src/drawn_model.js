@@ -120,6 +120,7 @@ export class DrawnModel {
         for (const level of Object.values(this.levels)) level.setOuter(this.isSolid);
         this.useLevel(this.level);
         this.hideLines();
+        this.placeMarkers();
     }
 
     /** Displacements of labels for the exploded view at 1. */
@@ -199,20 +200,38 @@ export class DrawnModel {
         this[name].visible = isShown;
     }
 
-    /** Markers at places in the coordinates of the file. */
-    showMarkers(places) {
-        if (this.markers) this.scene.remove(this.markers);
-        const flat = new Float32Array(places.flatMap((p) => p.map((x, axis) => x - this.model.centre[axis])));
-        const geometry = new three.BufferGeometry().setAttribute("position", new three.BufferAttribute(flat, 3));
-        this.markers = overlay(new three.Points(geometry), this.shared, "#ff2020", 14);
-        this.markers.material.depthTest = this.markers.material.stencilWrite = false;
-        this.markers.renderOrder = 9;
-        this.scene.add(this.markers);
+    /** Markers, each { at: place relative to the centre of the box, labels: of the regions that it belongs to }. */
+    showMarkers(marks) {
+        this.marks = marks;
+        if (!this.markers) {
+            this.markers = overlay(new three.Points(), this.shared, "#ff2020", 14);
+            this.markers.material.depthTest = this.markers.material.stencilWrite = false;
+            this.markers.renderOrder = 9;
+            this.scene.add(this.markers);
+        }
+        this.placeMarkers();
+    }
+
+    /** In an exploded view a marker goes along with each of its regions, and is hidden with it. */
+    placeMarkers() {
+        if (!this.markers) return;
+        const isWhole = this.shared.explode.value === 0;
+        const places = this.marks.flatMap(({ at, labels }) =>
+            isWhole || labels.length === 0 ? [at] : labels.filter((label) => this.isShown[label]).map((label) => this.moved(label, at)));
+        this.markers.geometry.dispose();
+        this.markers.geometry = new three.BufferGeometry();
+        this.markers.geometry.setAttribute("position", new three.BufferAttribute(Float32Array.from(places.flat()), 3));
+    }
+
+    /** A place on a region, as the exploded view displaces it. */
+    moved(label, at) {
+        const { data } = this.offsets.image;
+        return at.map((x, axis) => x + this.shared.explode.value * data[4 * label + axis]);
     }
 }
 
 function distances(model) {
     if (!model.distances) return null;
     const values = Float32Array.from(model.surface.source, (v) => model.distances[v]);
-    return { values, low: 0, high: quantile(values, 0.99) || model.largest_distance || 1, ramp: "viridis", title: "distance to the other model; the largest 1 % have one colour" };
+    return { values, low: 0, high: quantile(values, 0.99) || model.largest_distance || 1, ramp: "viridis", title: "distance to the other model, in model units; the largest 1 % have one colour" };
 }

@@ -18,4 +18,5 @@ async function load() {
     document.body.append(script);
 }
 
+document.documentElement.dataset.isWhole = "true";
 load().catch((error) => say(`The page could not be unpacked: ${error.message}. Is the file complete?`));

@@ -1,5 +1,5 @@
 // Puts the page together.
-import { byId, download, element, grouped } from "./dom.js";
+import { byId, counted, download, element, grouped } from "./dom.js";
 import { boxOf, loadModel } from "./geometry.js";
 import { addKeys } from "./keys.js";
 import { showProof } from "./proof.js";
@@ -9,6 +9,7 @@ import { Stage } from "./stage.js";
 import { showTable } from "./table.js";
 import { addTheme } from "./theme.js";
 import { Tools } from "./tools.js";
+import { unitText } from "./units.js";
 
 const kViews = { front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1] };
 
@@ -30,8 +31,8 @@ function showHead(data, models) {
     const texts = models.map((model) => {
         const regions = model.labels.filter(({ background }) => !background).length;
         const preview = model.shown_faces < model.faces
-            ? ` (picture, list and selection show a preview with ${grouped(model.shown_faces)} faces; proof and table are of the whole model)` : "";
-        return `${grouped(model.faces)} faces, ${grouped(model.vertices)} vertices, ${grouped(regions)} regions${preview}`;
+            ? ` (picture, list and selection show a preview with ${counted(model.shown_faces, "face")}; proof and table are of the whole model)` : "";
+        return `${counted(model.faces, "face")}, ${counted(model.vertices, "vertex", "vertices")}, ${counted(regions, "region")}${preview}`;
     });
     byId("summary").textContent = texts.join("; ");
     if (models.length > 1)
@@ -55,7 +56,7 @@ function actions(stage, regions, title) {
 /** A click is a press without a move; it selects a region and describes the face. */
 function addPicking(stage, regions, tools, list) {
     let press = null;
-    const hitOf = (event) => stage.pickAt(event.clientX, event.clientY, stage.drawn.map((_, which) => regions.shown(which)));
+    const hitOf = (event) => stage.pickAt(event.clientX, event.clientY);
     stage.canvas.addEventListener("pointerdown", (event) => (press = [event.clientX, event.clientY, event.button]));
     stage.canvas.addEventListener("pointerup", (event) => {
         if (!press || press[2] !== 0 || Math.hypot(event.clientX - press[0], event.clientY - press[1]) > 4) return;
@@ -66,8 +67,26 @@ function addPicking(stage, regions, tools, list) {
     });
     stage.canvas.addEventListener("dblclick", (event) => {
         const hit = hitOf(event);
-        if (hit) stage.lookAt(hit.at, stage.radius / 6);
+        if (hit) stage.lookAt(hit.seen, stage.radius / 6);
     });
+}
+
+/** The model fills the window below the head, which is as high as its texts need. */
+function fillWindow() {
+    const head = document.querySelector("header"), { style } = byId("model");
+    new ResizeObserver(() => style.setProperty("--head", `${Math.ceil(head.getBoundingClientRect().height)}px`)).observe(head);
+}
+
+/** Paper gets a copy of the picture in the theme for paper: browsers print the picture that was last on the screen. */
+function addPaper(stage) {
+    let paper = null;
+    window.addEventListener("beforeprint", () => {
+        paper?.remove();
+        paper = stage.copied();
+        paper.id = "paper";
+        stage.canvas.before(paper);
+    });
+    window.addEventListener("afterprint", () => paper?.remove());
 }
 
 function showModels(data, models, regions, box) {
@@ -77,7 +96,7 @@ function showModels(data, models, regions, box) {
         stage.fit(stage.drawn.map((_, n) => models[n].labels.map((_, place) => n === first && place === places[first])));
     const list = new RegionList(regions, lookAt);
     const act = actions(stage, regions, models[0].title);
-    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [],
+    const tools = new Tools({ stage, regions, models, fit: act.fit, lookAt, violations: data.report?.violations ?? [], unitText: unitText(data),
         violationCount: Object.values(data.report?.violation_counts ?? {}).reduce((sum, count) => sum + count, 0) });
     const update = () => {
         stage.drawn.forEach((drawn, which) => {
@@ -89,13 +108,26 @@ function showModels(data, models, regions, box) {
     regions.addEventListener("change", update);
     update();
     addPicking(stage, regions, tools, list);
-    stage.canvas.addEventListener("webglcontextlost", () => say("The graphics card gave up the picture: reload the page."));
+    stage.canvas.addEventListener("webglcontextlost", () => (byId("lost").hidden = false));
+    stage.canvas.addEventListener("webglcontextrestored", () => {
+        byId("lost").hidden = true;
+        stage.render();
+    });
     for (const button of document.querySelectorAll("[data-act]")) button.addEventListener("click", act[button.dataset.act]);
     addKeys({ stage, regions, tools, act });
     addTheme((background) => stage.setBackground(background));
-    window.addEventListener("beforeprint", () => stage.renderNow());  // in the theme for paper
+    addPaper(stage);
+    fillWindow();
     act.fit();
     return { stage, regions, tools, list, act };
+}
+
+/** Without WebGL there is no model to go to, without a report no table. */
+function hideEmptyLinks() {
+    for (const link of document.querySelectorAll("header nav a")) {
+        const target = document.querySelector(link.hash);
+        link.hidden = target.hidden || target.childElementCount === 0;
+    }
 }
 
 async function start() {
@@ -120,6 +152,7 @@ async function start() {
         byId("model").scrollIntoView();
         byId("canvas").focus({ preventScroll: true });
     }));
+    hideEmptyLinks();
     page.stage?.renderNow();
     window.regionmesh = { ...page, data, models, readyAfter: performance.now() };
     document.documentElement.dataset.ready = "true";

@@ -3,31 +3,41 @@
 const kRounding = 1e-6;  // of the distance from the eye
 
 /**
- * The first face that the ray meets, as { face, label, at, isCap }: face of the surfaces of regions, label of its
- * region. Where two regions touch, it is the one that the picture shows: in a section the face seen from inside, else
- * that of the neighbour at the same place. `offsets`: displacement of each label, or null; `isShown`: by label;
- * `plane`: [x, y, z, d] or null; `showsInside`: whether faces can be seen from inside without a section.
+ * The first face that the ray meets, as { face, label, at, seen, isCap }: face of the surfaces of regions, label of its
+ * region, place in the model and, displaced by the exploded view, in the picture. A ray goes through transparent regions:
+ * one is hit where no solid region is. `offsets`: displacement of each label, or null; `plane`: [x, y, z, d] or null;
+ * `showsInside`: whether faces can be seen from inside without a section.
  */
-export function pick(drawn, origin, direction, { offsets, isShown, plane, showsInside }) {
-    const { corners, labels } = drawn.model.surface, p = drawn.places;
+export function pick(drawn, origin, direction, { offsets, plane, showsInside }) {
     const from = plane ? entryOf(plane, origin, direction) : 0;
     if (from === null) return null;
-    const isCut = plane !== null && from > 0;
+    const ray = { origin, direction, from, plane, offsets }, { isShown, isSolid } = drawn;
+    return firstHit(drawn, ray, isSolid, showsInside || from > 0)
+        ?? firstHit(drawn, ray, isShown.map((shown, label) => shown && !isSolid[label]), false);
+}
+
+/**
+ * Among the regions that are `wanted`. Where two of them touch, it is the one that the picture shows: the face seen from
+ * inside, if insides are seen.
+ */
+function firstHit(drawn, { origin, direction, from, plane, offsets }, wanted, showsInside) {
+    const { corners, labels } = drawn.model.surface, p = drawn.places;
     let best = Infinity, found = null;
     for (let n = 0; n < corners.length; n += 3) {
         const label = labels[2 * corners[n]];
-        if (!isShown[label]) continue;
+        if (!wanted[label]) continue;
         const hit = meet(p, corners, n, offsets ? offsets[label] : null, origin, direction);
-        if (hit === null || hit.t < from || (hit.isInside && !isCut && !showsInside)) continue;
-        const rounding = kRounding * hit.t, wins = hit.isInside === isCut;
-        if (hit.t >= best + (wins && !found?.wins ? rounding : -rounding)) continue;
+        if (hit === null || hit.t < from || (hit.isInside && !showsInside)) continue;
+        const rounding = kRounding * hit.t;
+        if (hit.t >= best + (hit.isInside && !found?.isInside ? rounding : -rounding)) continue;
         if (plane && heightOf(plane, origin, direction, hit.t) > rounding) continue;
         best = hit.t;
-        found = { face: n / 3, label, isCap: hit.isInside && isCut, wins };
+        found = { face: n / 3, label, isInside: hit.isInside };
     }
     if (!found) return null;
-    const { face, label, isCap } = found, t = isCap ? from : best;
-    return { face, label, isCap, at: origin.map((x, axis) => x + t * direction[axis]) };
+    const { face, label } = found, isCap = found.isInside && from > 0, t = isCap ? from : best;
+    const seen = origin.map((x, axis) => x + t * direction[axis]), offset = offsets?.[label] ?? [0, 0, 0];
+    return { face, label, isCap, seen, at: seen.map((x, axis) => x - offset[axis]) };
 }
 
 const heightOf = ([x, y, z, d], origin, direction, t) =>

@@ -1,6 +1,7 @@
 // What was proved, and what the run did: from the report in the page.
 import { barRow, histogram } from "./charts.js";
-import { byId, element, grouped, short } from "./dom.js";
+import { byId, counted, element, grouped, short } from "./dom.js";
+import { unitText } from "./units.js";
 
 const sum = (numbers) => Object.values(numbers ?? {}).reduce((a, b) => a + b, 0);
 const kOfLabels = ["euler", "quadruple_points", "region_pairs", "nesting"];
@@ -33,7 +34,7 @@ function topology({ has_labels: has, boundary_is_open: isOpen }, { violation_cou
     const meaning = `${what} equal those of the labels${changed ? " after --room" : ""}.${isOpen ? " Euler characteristics are those of closed regions, and not compared." : ""}`;
     if (!has) return { name: "Topology", verdict: "none", said: "not compared with labels", meaning };
     const wrong = kOfLabels.reduce((count, kind) => count + (counts[kind] ?? 0), 0);
-    return { name: "Topology", verdict: wrong ? "bad" : "good", said: wrong ? `${grouped(wrong)} differences from the labels` : "equal to that of the labels", meaning };
+    return { name: "Topology", verdict: wrong ? "bad" : "good", said: wrong ? `${counted(wrong, "difference")} from the labels` : "equal to that of the labels", meaning };
 }
 
 function qualityFloor({ min_quality: bound }, { quality }) {
@@ -50,7 +51,7 @@ function qualityFloor({ min_quality: bound }, { quality }) {
 }
 
 function errorBound({ max_error: bound }, { stopped, error_bound: found }) {
-    const meaning = "No point of the model is farther than this from the surface before decimation, and no point of that surface is farther from the model.";
+    const meaning = "No point of the model is farther than this, in model units, from the surface before decimation, and no point of that surface is farther from the model.";
     if (bound === null) return { name: "Error bound", verdict: "none", said: "none was asked", meaning };
     if (found > bound * (1 + 1e-9))
         return { name: "Error bound", verdict: "none", said: `at most ${short(found)}: volumes were restored after decimation to at most ${short(bound)}`, meaning };
@@ -67,11 +68,18 @@ function sameBytes({ models }) {
 const kMarks = { good: "✓", bad: "✗", none: "–" };
 const kWords = { good: "proved", bad: "failed", none: "no claim" };
 
+/** Says as well what is not claimed: few claims can be made of a model without its input. */
+function summaryOf(all) {
+    const named = (wanted) => all.filter(({ verdict }) => verdict === wanted).map(({ name }) => name);
+    const [good, bad, none] = ["good", "bad", "none"].map(named);
+    const said = bad.length ? `${bad.length} of ${counted(good.length + bad.length, "claim")} failed` : `${counted(good.length, "claim")} proved`;
+    return none.length ? `${said}; no claim: ${none.join(", ")}` : said;
+}
+
 function certificateBox(data) {
-    const all = certificates(data), good = all.filter(({ verdict }) => verdict === "good").length;
-    const bad = all.filter(({ verdict }) => verdict === "bad").length;
+    const all = certificates(data);
     return element("div", { class: "certificates" },
-        element("p", { class: "verdict" }, bad ? `${bad} of ${good + bad} claims failed` : `All ${good} claims proved`),
+        element("p", { class: "verdict" }, summaryOf(all)),
         element("ul", {}, ...all.map(({ name, verdict, said, meaning }) =>
             element("li", { class: verdict },
                 element("span", { class: "mark", role: "img", "aria-label": kWords[verdict] }, kMarks[verdict]),
@@ -92,7 +100,7 @@ function verdictCard({ verdicts, stopped, refreshes }) {
     return card("Collapses of edges, by verdict",
         element("table", { class: "bars" }, ...Object.entries(verdicts).map(([kind, count]) =>
             barRow(kVerdictTexts[kind] ?? kind, count, largest, grouped(count), kind === "accepted"))),
-        element("p", { class: "hint" }, `Decimation ended: ${stopped.replaceAll("_", " ")}. Candidates gathered again: ${grouped(refreshes)} times.`));
+        element("p", { class: "hint" }, `Decimation ended: ${stopped.replaceAll("_", " ")}. Candidates gathered again: ${counted(refreshes, "time")}.`));
 }
 
 function secondsCard({ seconds, stage_bytes: memory = {}, peak_bytes: bytes }) {
@@ -109,24 +117,26 @@ function qualityCards(qualities) {
     for (const [name, quality] of qualities) {
         const of = name ? ` of ${name}` : "";
         made.push(
-            card(`Quality of faces${of}`, histogram(quality.histogram, "faces"),
+            card(`Quality of faces${of}`, histogram(quality.histogram, "face"),
                 element("p", { class: "hint" }, `lowest ${short(quality.min, 3)}, mean ${short(quality.mean, 3)}`)),
-            card(`Angles of faces${of}, degrees`, histogram(quality.angles, "angles"),
+            card(`Angles of faces${of}, degrees`, histogram(quality.angles, "angle"),
                 element("p", { class: "hint" }, `lowest ${short(quality.min_angle, 3)}, highest ${short(quality.max_angle, 4)}`)));
     }
     return made;
 }
 
-function distanceCard({ distance }) {
+function distanceCard(data) {
+    const { distance } = data.report;
     const rows = [["A to B", distance.a_to_b], ["B to A", distance.b_to_a], ["both", distance.both]];
     return card("Distance between the models",
         element("table", {}, element("tr", {}, ...["", "rms", "mean", "95 %", "largest"].map((text) => element("th", {}, text))),
             ...rows.map(([name, d]) => element("tr", {}, element("th", {}, name),
-                ...[d.rms, d.mean, d.quantile_95, d.max].map((x) => element("td", {}, short(x)))))));
+                ...[d.rms, d.mean, d.quantile_95, d.max].map((x) => element("td", {}, short(x)))))),
+        element("p", { class: "hint" }, unitText(data)));
 }
 
 function onlyCard(report) {
-    const text = ({ regions, interfaces, lines }) => `${grouped(regions.length)} regions, ${grouped(interfaces.length)} interfaces, ${grouped(lines.length)} lines`;
+    const text = ({ regions, interfaces, lines }) => `${counted(regions.length, "region")}, ${counted(interfaces.length, "interface")}, ${counted(lines.length, "line")}`;
     return card("In one model only", element("p", {}, `A: ${text(report.only_in_a)}`), element("p", {}, `B: ${text(report.only_in_b)}`));
 }
 
@@ -141,7 +151,7 @@ export function showProof(data) {
     section.append(element("h2", {}, data.command === "compare" ? "Comparison" : "Proof"));
     const cards = element("div", { class: "cards" });
     if (report && data.command === "compare") {
-        cards.append(distanceCard(report), onlyCard(report),
+        cards.append(distanceCard(data), onlyCard(report),
             ...qualityCards([["A", report.quality.a], ["B", report.quality.b]]));
     } else if (report) {
         section.append(certificateBox(data));

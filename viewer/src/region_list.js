@@ -1,5 +1,5 @@
 // The list of regions. Only the rows in view exist as elements, so that ten thousand regions cost what twenty do.
-import { byId, element, grouped, inOrder, short } from "./dom.js";
+import { byId, counted, element, grouped, inOrder, labelNumber, short } from "./dom.js";
 
 const kRowHeight = 30;
 const kOrders = {
@@ -7,7 +7,7 @@ const kOrders = {
     area: { value: (region) => -region.measures.area, text: (region) => short(region.measures.area, 3) },
     faces: { value: (region) => -region.measures.faces, text: (region) => grouped(region.measures.faces) },
     name: { value: (region) => region.title, text: (region) => region.label },
-    label: { value: (region) => Number(region.label), text: (region) => region.label },
+    label: { value: (region) => labelNumber(region.label), text: (region) => region.label },
 };
 
 export class RegionList {
@@ -73,7 +73,7 @@ export class RegionList {
 
     countText() {
         const { all } = this.regions, hidden = all.filter((region) => region.state === "hidden").length;
-        let text = `${grouped(this.found.length)} of ${grouped(all.length)} regions` + (hidden ? `, ${grouped(hidden)} hidden` : "");
+        let text = `${grouped(this.found.length)} of ${counted(all.length, "region")}` + (hidden ? `, ${grouped(hidden)} hidden` : "");
         if (this.found.length === 0 && all.every(({ name }) => !name))
             text += ". These regions have labels only: the option --names TABLE gives them names.";
         return text;

@@ -23,6 +23,7 @@ out vec3 spot;
 out vec3 shade;
 out vec3 corner;
 out float amount;
+out float known;
 flat out vec2 sides;
 flat out vec3 colour;
 ${regionLookup}
@@ -30,7 +31,8 @@ void main() {
     vec4 state = stateOf(labels.x);
     sides = labels;
     colour = state.rgb;
-    amount = value;
+    known = value < 1e29 ? 1.0 : 0.0;  // 1e30 means none
+    amount = known * value;
     shade = normalMatrix * vec3(normal.xy, normal.z / stretch);
     int turn = gl_VertexID % 3;
     corner = vec3(turn == 0, turn == 1, turn == 2);
@@ -47,7 +49,8 @@ centroid in vec3 place;
 in vec3 spot;
 in vec3 shade;
 in vec3 corner;
-in float amount;
+in float amount;          // values of the corners that have one, weighted
+in float known;           // the sum of their weights
 flat in vec2 sides;
 flat in vec3 colour;
 uniform vec4 plane;       // keeps the points with dot(plane.xyz, p) <= plane.w
@@ -72,11 +75,19 @@ vec3 interfaceColour(vec2 pair) {
 vec3 baseColour() {
     if (mode == 1) return interfaceColour(sides);
     if (mode == 2) {
-        if (amount > 1e29) return vec3(0.55);
-        float x = clamp((amount - range.x) / (range.y - range.x), 0.0, 1.0);
+        if (known < 0.5) return vec3(0.55);
+        float x = clamp((amount / known - range.x) / (range.y - range.x), 0.0, 1.0);
         return texture(ramp, vec2(x * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
     }
     return colour;
+}
+
+/** The selected region is lighter. Values keep the colours of the legend: lines, white beside black, mark it there. */
+vec3 marked(vec3 base, bool isValue) {
+    if (sides.x != selected) return base;
+    if (!isValue) return mix(base, vec3(1.0), 0.35);
+    float across = mod(gl_FragCoord.x + gl_FragCoord.y, 18.0);
+    return across < 1.0 ? vec3(1.0) : across < 2.0 ? vec3(0.0) : base;
 }
 
 #ifdef INSIDE
@@ -92,8 +103,7 @@ void drawInside() {
     isCap = t > 0.0 && t <= 1.0;
     if (!isCap && isOutside) discard;
 #endif
-    vec3 base = mode == 2 ? colour : baseColour();  // values are those of the surface
-    if (sides.x == selected) base = mix(base, vec3(1.0), 0.35);
+    vec3 base = marked(mode == 2 ? colour : baseColour(), false);  // values are those of the surface
     result = vec4(isCap ? mix(base, vec3(1.0), 0.12) : 0.45 * base, 1.0);
 }
 #endif
@@ -113,8 +123,7 @@ void main() {
         n = normalize(cross(dFdx(p), dFdy(p)));
     }
     float facing = abs(dot(n, view));
-    vec3 base = baseColour();
-    if (sides.x == selected) base = mix(base, vec3(1.0), 0.35);
+    vec3 base = marked(baseColour(), mode == 2);
     if (isGhost) {
         result = vec4(base, 0.10 + 0.35 * (1.0 - facing) * (1.0 - facing));
         return;

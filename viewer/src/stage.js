@@ -133,7 +133,9 @@ export class Stage extends EventTarget {
 
     /** Keeps the time until a whole frame is complete; the first frame also compiles, and does not count. */
     measure(begin) {
-        const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        const gl = this.renderer.getContext();
+        if (gl.isContextLost()) return;
+        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
         gl.flush();
         const isWhole = this.frames > 1 && !this.isCoarse;
         const poll = () => {
@@ -257,7 +259,10 @@ export class Stage extends EventTarget {
 
     setExplode(share) {
         this.shared.explode.value = share;
-        for (const drawn of this.drawn) drawn.useLevel(drawn.level);
+        for (const drawn of this.drawn) {
+            drawn.useLevel(drawn.level);
+            drawn.placeMarkers();
+        }
         this.render();
     }
 
@@ -282,23 +287,36 @@ export class Stage extends EventTarget {
         this.render();
     }
 
-    /** The face under a point of the window, and the model that it belongs to; or null. */
-    pickAt(clientX, clientY, isShown) {
+    /** The face under a point of the window as pick() gives it, and `which` model it belongs to; or null. */
+    pickAt(clientX, clientY) {
         const box = this.canvas.getBoundingClientRect(), width = box.width / this.drawn.length;
         const which = Math.min(Math.floor((clientX - box.left) / width), this.drawn.length - 1);
         const x = ((clientX - box.left - which * width) / width) * 2 - 1, y = 1 - ((clientY - box.top) / box.height) * 2;
         const from = this.camera.position, to = new three.Vector3(x, y, 0.5).unproject(this.camera).sub(from).normalize();
-        const { plane, isCut, explode, stretch } = this.shared, [a, b, c, d] = plane.value.toArray();
+        const { plane, isCut, explode, stretch, isOutside } = this.shared, [a, b, c, d] = plane.value.toArray();
         const offsets = explode.value && this.offsets ? this.offsets[which].map((o) => o.map((x) => x * explode.value)) : null;
         const hit = pick(this.drawn[which], this.unstretched(from.toArray()), this.unstretched(to.toArray()),
-            { offsets, isShown: isShown[which], plane: isCut.value ? [a, b, c * stretch.value, d] : null, showsInside: this.isOpen });
+            { offsets, plane: isCut.value ? [a, b, c * stretch.value, d] : null, showsInside: !isOutside.value });
         return hit && { ...hit, which };
     }
 
     /** Calls `done` with a PNG. */
     screenshot(done) {
+        this.renderWhole();
+        this.canvas.toBlob(done, "image/png");
+    }
+
+    /** The picture as it would be now, as a canvas of its own. */
+    copied() {
+        this.renderWhole();
+        const copy = document.createElement("canvas");
+        [copy.width, copy.height] = [this.canvas.width, this.canvas.height];
+        copy.getContext("2d").drawImage(this.canvas, 0, 0);
+        return copy;
+    }
+
+    renderWhole() {
         if (this.isCoarse) this.setCoarse(false);
         this.renderNow();
-        this.canvas.toBlob(done, "image/png");
     }
 }

@@ -1,5 +1,6 @@
 // The table of regions: sorted by any column, and as CSV and JSON with the numbers of the report.
-import { byId, download, element, grouped, inOrder, short } from "./dom.js";
+import { byId, download, element, grouped, inOrder, labelNumber, short } from "./dom.js";
+import { unitText } from "./units.js";
 
 const kFirstRows = 200;
 
@@ -88,7 +89,7 @@ export function showTable(data, regions, goTo) {
     const section = byId("table"), body = element("tbody"), more = element("button", { type: "button" });
     const keyOf = (row) => {
         const value = columns[order][2](row);
-        return columns[order][0] === "label" ? Number(value) : value;
+        return columns[order][0] === "label" ? labelNumber(value) : value;
     };
     const heads = columns.map(([name, title], n) =>
         element("th", { scope: "col", "data-column": name }, element("button", { type: "button", onclick: () => sortBy(n) }, title)));
@@ -113,6 +114,7 @@ export function showTable(data, regions, goTo) {
     const name = data.models[0].title.replace(/[^\w.-]+/g, "_");
     section.append(element("h2", {}, "Regions"),
         element("p", { class: "hint", hidden: !data.boundary_is_open }, "The model is open at the box: volumes of regions that reach it mean nothing."),
+        element("p", { class: "hint" }, unitText(data)),
         element("div", { class: "buttons" },
             element("button", { type: "button", id: "csv", onclick: () => download(`${name}.regions.csv`, "text/csv", csvOf(columns, all)) }, "Download CSV"),
             element("button", { type: "button", id: "json", onclick: () => download(`${name}.regions.json`, "application/json", jsonOf(columns, all)) }, "Download JSON"),

@@ -1,5 +1,5 @@
 // The panel on the right: the selected region or face, colours, section, exploded view, lines, violations.
-import { byId, coordinate, element, grouped, isolated, short } from "./dom.js";
+import { byId, coordinate, counted, element, grouped, isolated, short } from "./dom.js";
 import { faceQuality, interfaceMeasures } from "./measures.js";
 import { farthestVertex, labelsAround, nearestVertex, outsideAt } from "./places.js";
 import { kRamps } from "./ramps.js";
@@ -33,7 +33,7 @@ function placeText(model, at) {
 
 export class Tools {
     constructor(page) {
-        Object.assign(this, page);  // stage, regions, models, violations, violationCount, list
+        Object.assign(this, page);  // stage, regions, models, fit, lookAt, violations, violationCount, unitText
         this.info = element("div", { id: "info", role: "status", "aria-live": "polite" });
         byId("tools").append(
             group("Selected", this.info), this.colourGroup(), this.sectionGroup(), this.shapeGroup(), this.lineGroup());
@@ -77,10 +77,10 @@ export class Tools {
         });
         const { which, vertex, distance } = found.reduce((a, b) => (b.distance > a.distance ? b : a));
         const model = this.models[which], at = [...model.positions.subarray(3 * vertex, 3 * vertex + 3)];
-        const { label, normal } = outsideAt(model, vertex), place = at.map((x, axis) => x + model.centre[axis]);
+        const { label, normal } = outsideAt(model, vertex), drawn = this.stage.drawn[which];
         this.regions.showOnly(which, [label]);
-        this.stage.drawn[which].showMarkers([place]);
-        this.stage.lookAt(at, this.stage.radius / 5, normal);
+        drawn.showMarkers([{ at, labels: [label] }]);
+        this.stage.lookAt(drawn.moved(label, at), this.stage.radius / 5, normal);
         byId("farthest-text").textContent =
             `${short(distance)} at a vertex of ${"AB"[which]}, ${placeText(model, at)}. Only ${isolated(this.regions.titleAt(which, label))} shown; the key A shows all.`;
     }
@@ -152,7 +152,7 @@ export class Tools {
             drawn.showPoints(points && isWhole);
         }
         const counts = this.stage.drawn.filter((drawn) => drawn.lineParts)
-            .map(({ lineParts }) => `${grouped(lineParts.edgeCount)} edges on lines, ${grouped(lineParts.pointCount)} points`);
+            .map(({ lineParts }) => `${counted(lineParts.edgeCount, "edge")} on lines, ${counted(lineParts.pointCount, "point")}`);
         byId("line-counts").textContent = lines || points ? (isWhole ? counts.join("; ") : "not drawn in an exploded view") : "";
         this.stage.render();
     }
@@ -168,7 +168,7 @@ export class Tools {
             if (found.at) this.goToViolation(found.at);
         };
         this.stepViolation = step;
-        this.stage.drawn[0].showMarkers(this.violations.filter(({ at }) => at).map(({ at }) => at));
+        this.stage.drawn[0].showMarkers(this.marks());
         return group("Violations",
             element("div", { class: "buttons" },
                 element("button", { type: "button", id: "violation-back", onclick: () => step(-1) }, "Previous"),
@@ -176,13 +176,22 @@ export class Tools {
             toggle("violation-alone", "Only the regions at its place", (isOn) => !isOn && this.regions.setState(this.regions.all, "solid")), text);
     }
 
+    /** The places of violations, and the regions that each names. */
+    marks() {
+        const [model] = this.models, placeOf = new Map(model.labels.map(({ label, background }, place) => [label, background ? undefined : place]));
+        return this.violations.filter(({ at }) => at).map(({ at, labels = [] }) => ({
+            at: at.map((x, axis) => x - model.centre[axis]),
+            labels: labels.map((label) => placeOf.get(label)).filter((place) => place !== undefined),
+        }));
+    }
+
     /** Other regions would hide it, and without edges a missing face is hard to see. */
     goToViolation(at) {
-        const [{ model }] = this.stage.drawn, place = at.map((x, axis) => x - model.centre[axis]);
-        const vertex = nearestVertex(model, place);
+        const [drawn] = this.stage.drawn, { model } = drawn, place = at.map((x, axis) => x - model.centre[axis]);
+        const vertex = nearestVertex(model, place), { label, normal } = outsideAt(model, vertex);
         if (byId("violation-alone").checked) this.regions.showOnly(0, labelsAround(model, vertex));
         if (!byId("show-edges").checked) byId("show-edges").click();
-        this.stage.lookAt(place, this.stage.radius / 8, outsideAt(model, vertex).normal);
+        this.stage.lookAt(drawn.moved(label, place), this.stage.radius / 8, normal);
     }
 
     /** Shows a region, or the face of a hit. */
@@ -205,7 +214,8 @@ export class Tools {
         this.info.replaceChildren(list, element("div", { class: "buttons" },
             act("Isolate (I)", () => this.regions.isolate(region)), act("Hide (H)", () => this.regions.setState([region], "hidden")),
             act("Look at it (O)", () => this.lookAt(region)),
-            act("See through (G)", () => this.regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))));
+            act("See through (G)", () => this.regions.setState([region], region.state === "ghost" ? "solid" : "ghost"))),
+            element("p", { class: "hint" }, this.unitText));
     }
 
     neighbourText(which, { neighbours }) {

@@ -36,7 +36,7 @@ export function curvatures(model, places) {
         values[v] = turns[v] !== 0 || areas[v] === 0 ? kNone : -along / (4 * areas[v]);
     }
     const bound = quantile(values, 0.95) || 1;
-    return { values, low: -bound, high: bound, ramp: "vik", title: "mean curvature, 1 / length; convex is positive" };
+    return { values, low: -bound, high: bound, ramp: "vik", title: "mean curvature, 1 / model unit; convex is positive, grey has none" };
 }
 
 /** Adds cot(angle at `apex`) times the edge from b to c, in both directions. */
