@@ -38,8 +38,8 @@ inline constexpr double kDenseFaces = 4;
 /// Sizes of blocks in finest spacings. Terraces are as many samples wide as sections are far apart, for the same slope,
 /// so anisotropic lattices start one scale coarser.
 inline constexpr double kSmallestBlock = 2, kLargestBlock = 8, kLargestBlockAnisotropic = 16;
-/// From this ratio of coarsest to finest spacing.
-inline constexpr double kAnisotropic = 2;
+/// From this ratio of coarsest to finest spacing: less than 2, which many volumes have up to the rounding of a header.
+inline constexpr double kAnisotropic = 1.9;
 
 // Volumes (smooth/preserve_volume.cpp; docs/smoothing.md, "Volumes": IN100 needs 8 rounds, decimated to a tenth 5).
 

@@ -74,6 +74,11 @@ void expect_samples_inside(const Mesh& mesh, const test::ArrayVolume& volume, co
             }
 }
 
+TEST(LatticeFrame, with_sections_twice_as_far_apart_is_anisotropic_up_to_rounding) {
+    EXPECT_TRUE((LatticeFrame{.spacing = {0.5, 1 - 1e-7, 0.5}}.is_anisotropic()));
+    EXPECT_FALSE((LatticeFrame{.spacing = {1, 1.5, 1}}.is_anisotropic()));
+}
+
 TEST(LatticeSimplex, is_found_from_its_centroid) {
     const LatticeFrame frame{{-3.7, 1e4, 0.125}, {0.3, 1, 7.1}};
     for (int kind = 0; kind < kKindCount; ++kind) {
