@@ -425,7 +425,7 @@ def test_a_table_of_points(tmp_path):
 def test_a_word_among_the_labels_of_a_table_is_a_warning(tmp_path):
     rows = "".join(f"{at},0,4,1\n{at},4,9,sand\n" for at in ["0,0", "9,0", "0,9", "9,8"])
     (tmp_path / "holes.csv").write_text("x,y,from,to,unit\n" + rows)
-    with pytest.warns(UserWarning, match="holes.csv: label '1' is a number and 'sand' a word"):
+    with pytest.warns(UserWarning, match="holes.csv: label '1' is a whole number and 'sand' is none"):
         made = regionmesh.reconstruct(tmp_path / "holes.csv", layers="auto")
     assert made.names == {1: "1", 2: "sand"}
 

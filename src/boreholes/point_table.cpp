@@ -248,7 +248,7 @@ void PointTableReader::refuse_intervals_at_one_place() const {
 void PointTableReader::note_surface(double top) {
     if (!columns_.has(Role::kSurface)) return;
     const auto surface = parse_real(text(Role::kSurface));
-    has_top_at_surface_ |= surface == top;
+    has_top_at_surface_ |= surface == top && top != 0;  // 0 and 0 may be a depth below a surface at 0
     has_top_at_zero_ |= surface && *surface != 0 && top == 0;
 }
 

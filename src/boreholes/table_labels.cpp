@@ -109,7 +109,7 @@ std::string TableLabels::warning_of_numbers() const {
         if (!first) first = i;
     }
     if (!number || !word) return {};
-    return fmt::format("label '{}' is a number and '{}' a word; all labels are taken as words",
+    return fmt::format("label '{}' is a whole number and '{}' is none; all labels are taken as words",
                        shown(texts_.text(*number)), shown(texts_.text(*word)));
 }
 

@@ -101,7 +101,7 @@ TEST_F(PointTableFile, a_table_without_a_header_is_read_by_numbers) {
 TEST_F(PointTableFile, a_word_among_numbers_is_a_warning) {
     const auto table = read("x,y,z,label\n0,0,0,7\n1,0,0,12\n0,1,0,clay\n");
     EXPECT_THAT(table.points.labels, ElementsAre(2, 1, 3));
-    EXPECT_EQ(table.info.warning, "label '7' is a number and 'clay' a word; all labels are taken as words");
+    EXPECT_EQ(table.info.warning, "label '7' is a whole number and 'clay' is none; all labels are taken as words");
     EXPECT_EQ(read("x,y,z,label\n0,0,0,sand\n0,1,0,clay\n").info.warning, "");
     EXPECT_EQ(read("x,y,z,label\n0,0,0,7\n0,1,0,8.0\n").info.warning, "");
 }
@@ -288,6 +288,7 @@ TEST_F(PointTableFile, depths_with_a_minus_are_a_warning) {
               "depths without a minus");
     EXPECT_EQ(read(header + "0,0,4,4,0,1\n0,0,4,0,-9,2\n").info.warning, "") << "a top is the surface";
     EXPECT_EQ(read(header + "0,0,0,0,-4,1\n").info.warning, "") << "the surface is 0";
+    EXPECT_NE(read(header + "0,0,0,0,-4,1\n9,0,100,0,-4,1\n").info.warning, "") << "one of the surfaces is 0";
     EXPECT_EQ(read("x,y,from,to,lith\n0,0,0,-4,1\n").info.warning, "") << "there is no surface";
     EXPECT_EQ(read(header + "0,0,100,0,4,1\n").info.warning, "") << "depths";
 }
