@@ -274,7 +274,8 @@ TEST_F(CliFiles, a_word_among_the_labels_of_holes_is_a_warning) {
     for (const std::string options : {"", " --layers auto"}) {
         const Ran ran = run("info " + path("holes.csv").string() + options);
         EXPECT_EQ(ran.code, 0) << ran.error;
-        EXPECT_THAT(ran.error, AllOf(HasSubstr("warning: "), HasSubstr("label '1' is a whole number and 'sand' is none")));
+        EXPECT_THAT(ran.error,
+                    AllOf(HasSubstr("warning: "), HasSubstr("label '1' is a whole number and 'sand' is none")));
         EXPECT_EQ(std::ranges::count(ran.error, '\n'), 1) << ran.error;
     }
 }
