@@ -13,7 +13,7 @@ constexpr std::size_t kFewest = 4;
 /// Faces count that are up to so many mean lengths of edges of lines away. More is better for planes, and fewer for
 /// curved interfaces: with 12, two bubbles of 9 samples, of a tenth of their faces, get 9 instead of 2 degrees of
 /// error, and sectors of 120 degrees 1.1 instead of 1.3.
-constexpr double kReach = 8, kReachWhereRough = 12;
+constexpr double kReach = 8, kReachWhereRough = 14;
 
 /// Surfaces are rough, as before smoothing, where half of the fits have a larger mean square error. Without smoothing
 /// it is 0.1 to 0.2, with it 0.001, and 0.1 only where a thin wedge ends.
