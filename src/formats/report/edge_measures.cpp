@@ -29,7 +29,8 @@ struct LineEdge {
 /// Edges of a line whose angles are measured: more do not change the mean, and noise has lines of 200,000.
 constexpr std::uint64_t kMostEdges = 1000;
 
-/// Weight of edges at which an interface has no faces off lines: they count where a line has no others.
+/// Weight of edges at which an interface has hardly any face off lines (LineAngles::was_well_seen): they count where a
+/// line has no others.
 constexpr double kPoor = 1e-6;
 
 class Measurer {

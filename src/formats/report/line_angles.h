@@ -29,7 +29,8 @@ public:
     /// faces there, or they have no area. If all have one they add up to a full turn; noise may make a small one
     /// negative, where it exchanges interfaces round the edge.
     const std::vector<std::optional<double>>& at_edge(VertexId v, VertexId w, std::span<const std::uint32_t> ranks);
-    /// Had all interfaces at the last edge faces off lines within reach? Fragments at the tip of a wedge have not.
+    /// Had each interface at the last edge a few faces off lines within reach? Fragments at the tip of a wedge have
+    /// not.
     bool was_well_seen() const { return was_well_seen_; }
 
 private:

@@ -65,18 +65,28 @@ TEST(InterfaceTable, regions_have_the_sums) {
     EXPECT_EQ(number_in(regions[1], "triple_line_length"), 0);
 }
 
-TEST(InterfaceTable, curvature_is_that_of_the_interface_not_of_its_jagged_line) {
-    // A ball of radius 13 in two halves: the round interfaces have 1 / 13, the flat one none.
-    const std::uint32_t side = 35;
-    const double radius = 13, middle = 0.5 * (side - 1) + 0.1;
+/// The volume of side^3 samples that `label` gives for the distances from its middle along an oblique axis and along
+/// two others square to it.
+template <class LabelAt>
+test::ArrayVolume oblique(std::uint32_t side, LabelAt&& label) {
+    const Vec3 axis = (1 / std::sqrt(14.0)) * Vec3{2, 1, 3}, across = (1 / std::sqrt(5.0)) * Vec3{1, -2, 0},
+               other = cross(axis, across);
     std::vector<InputLabel> labels;
     for (std::uint32_t z = 0; z < side; ++z)
         for (std::uint32_t y = 0; y < side; ++y)
             for (std::uint32_t x = 0; x < side; ++x) {
-                const Vec3 p = Vec3{x - middle, y - middle, z - middle};
-                labels.push_back(length(p) >= radius ? 0 : dot(p, {1, 0.3, 0.2}) < 0 ? 1 : 2);
+                const Vec3 p = Vec3{x + 0.0, y + 0.0, z + 0.0} - 0.5 * (side - 1.3) * Vec3{1, 1, 1};
+                labels.push_back(label(Vec3{dot(p, axis), dot(p, across), dot(p, other)}));
             }
-    test::ArrayVolume volume({side, side, side}, labels);
+    return {{side, side, side}, labels};
+}
+
+TEST(InterfaceTable, curvature_is_that_of_the_interface_not_of_its_jagged_line) {
+    // A ball of radius 13 in two halves: the round interfaces have 1 / 13, the flat one none.
+    const double radius = 13;
+    test::ArrayVolume volume = oblique(35, [&](Vec3 p) -> InputLabel {
+        return length(p) >= radius ? 0 : p.y + 0.3 * p.z < 0 ? 1 : 2;
+    });
     const Reconstruction made = test::run(volume, {.background = {{0}}});
     std::map<std::string, double> areas;
     for (const auto& row : table_of(interfaces_csv(made.mesh, made.labels, made.background))) {
@@ -119,22 +129,6 @@ TEST(LineTable, dihedral_angles_are_a_full_turn_and_lengths_those_of_the_report)
 }
 
 using Angles = std::array<double, 3>;
-
-/// The volume of side^3 samples that `label` gives for the distances from its middle along an oblique axis and along
-/// two others square to it.
-template <class LabelAt>
-test::ArrayVolume oblique(std::uint32_t side, LabelAt&& label) {
-    const Vec3 axis = (1 / std::sqrt(14.0)) * Vec3{2, 1, 3}, across = (1 / std::sqrt(5.0)) * Vec3{1, -2, 0},
-               other = cross(axis, across);
-    std::vector<InputLabel> labels;
-    for (std::uint32_t z = 0; z < side; ++z)
-        for (std::uint32_t y = 0; y < side; ++y)
-            for (std::uint32_t x = 0; x < side; ++x) {
-                const Vec3 p = Vec3{x + 0.0, y + 0.0, z + 0.0} - 0.5 * (side - 1.3) * Vec3{1, 1, 1};
-                labels.push_back(label(Vec3{dot(p, axis), dot(p, across), dot(p, other)}));
-            }
-    return {{side, side, side}, labels};
-}
 
 /// Three regions round the axis.
 test::ArrayVolume sectors(std::uint32_t side, const Angles& angles) {
