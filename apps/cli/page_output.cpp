@@ -38,17 +38,16 @@ std::string command_line_of(Command command, const Settings& settings) {
     return line;
 }
 
-PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels) {
+PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels,
+                         std::optional<double> quality_bound) {
     PageOptions options;
     options.command = spec_of(command).name;
     options.command_line = command_line_of(command, settings);
     options.report = std::move(report);
     options.has_labels = has_labels;
     options.boundary_is_open = !settings.reconstruct.cap;
-    if (command == kReconstruct || command == kDecimate) {
-        options.min_quality = settings.reconstruct.min_quality;
-        options.max_error = settings.reconstruct.max_error;
-    }
+    options.min_quality = quality_bound;
+    if (command == kReconstruct || command == kDecimate) options.max_error = settings.reconstruct.max_error;
     options.preview_faces = settings.preview_faces;
     options.threads = settings.reconstruct.threads;
     return options;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ std::string command_line_of(Command command, const Settings& settings);
 MadeBy made_by(Command command, const Settings& settings);
 
 /// Options of a page with the report `report` (JSON text). `has_labels`: it compares the topology with the input.
-PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels);
+/// `quality_bound`: that of the report (Report).
+PageOptions page_options(Command command, const Settings& settings, std::string report, bool has_labels,
+                         std::optional<double> quality_bound = {});
 
 /// Throws Error where the page could not be written: before the work.
 void require_page(const std::string& path, const OutputOptions& options);

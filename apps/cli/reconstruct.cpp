@@ -174,7 +174,8 @@ int run_reconstruct(const Settings& settings) {
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, model)},
                    page_options(kReconstruct, settings,
-                                report_json(report, made.labels, names, made_by(kReconstruct, settings)), true),
+                                report_json(report, made.labels, names, made_by(kReconstruct, settings)), true,
+                                report.quality_bound),
                    files);
     files.commit();
     print_region_files(settings, written);

@@ -68,6 +68,7 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     {
         const Timer timer(report.seconds["decimate"]);
         note_simplified(simplify(mesh, options), report);
+        report.quality_bound = options.min_quality;
     }
     if (settings.reconstruct.improve) {
         const Timer timer(report.seconds["improve"]);

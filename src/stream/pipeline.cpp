@@ -134,6 +134,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
 
     simplify.bring_to_target();
     log.advance(WorkStage::kTrim, 1);
+    if (plan.is_decimating) result.report.quality_bound = quality_bound(options, shape);
     improve_faces(result, options, shape, log);
     log.advance(WorkStage::kImprove, 1);
     restore_volumes(result, options, shape, log);

@@ -1,5 +1,6 @@
 #include "stream/stage_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -20,7 +21,7 @@ void require_in_range(const ReconstructOptions& options) {
     require_choice("cells", options.cells, CellKind::kTetrahedra);
     require_choice("placement", options.placement, PlacementKind::kLindstromTurk);
     if (options.strips_per_chunk == 0) throw Error(ErrorCode::kUsage, "strips_per_chunk: 0; give at least 1");
-    require_number("min_quality", options.min_quality, kQualityRange);
+    if (options.min_quality) require_number("min_quality", *options.min_quality, kQualityRange);
     require_number("perturbation", options.perturbation, kNotNegative);
     require_in_range(smooth_options(options, 1));
 }
@@ -42,7 +43,7 @@ CellKind cell_kind(const ReconstructOptions& options) {
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale) {
     SmoothOptions own = options.smooth;
     own.scale = scale;
-    own.min_quality = options.min_quality;
+    own.min_quality = options.min_quality.value_or(SmoothOptions{}.min_quality);
     own.intersect_check = options.intersect_check;
     own.threads = options.threads;
     return own;
@@ -59,10 +60,20 @@ double section_scale(const VolumeInfo& volume, const ReconstructOptions& options
                 volume.source + ": --scale-z must be a number above 0, and within bounds; take one such as 100");
 }
 
+double quality_bound(const ReconstructOptions& options, const SourceShape& shape) {
+    if (options.min_quality) return *options.min_quality;
+    const double usual = SimplifyOptions{}.min_quality;
+    if (!shape.has_samples || options.improve) return usual;
+    // A face of the usual quality in a lattice of cubes keeps at least about this when the lattice is stretched.
+    const auto [least, greatest] =
+        std::minmax({shape.lattice.spacing.x, shape.lattice.spacing.y, shape.lattice.spacing.z});
+    return usual * least / greatest;
+}
+
 SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape) {
     SimplifyOptions own;
     if (options.max_error) own.max_error = *options.max_error;
-    own.min_quality = options.min_quality * (options.preserve_volume ? stream::kQualityMargin : 1);
+    own.min_quality = quality_bound(options, shape) * (options.preserve_volume ? stream::kQualityMargin : 1);
     own.perturbation = options.perturbation;
     own.scale = shape.scale;
     own.intersect_check = options.intersect_check;

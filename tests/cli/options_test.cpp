@@ -33,9 +33,10 @@ std::string good_value(const OptionSpec& option) {
     if (option.name == "log") return "/dev/null";  // written before the run ends
     switch (option.kind) {
         case OptionKind::kCount:
-        case OptionKind::kNumber:
         case OptionKind::kLabel:
             return "1";
+        case OptionKind::kNumber:
+            return "0.2";
         case OptionKind::kShare:
             return "50%";
         case OptionKind::kBytes:

@@ -37,7 +37,7 @@ ReconstructOptions smoothed(SmoothOptions smooth = {}) {
 Mesh smoothed_in_core(test::ArrayVolume& volume, ReconstructOptions options) {
     const Vec3 spacing = volume.info().lattice.spacing;
     SmoothOptions smooth_options = options.smooth;
-    smooth_options.min_quality = options.min_quality;
+    smooth_options.min_quality = options.min_quality.value_or(SmoothOptions{}.min_quality);
     smooth_options.intersect_check = options.intersect_check;
     smooth_options.scale = std::cbrt(spacing.x * spacing.y * spacing.z);
     options.smooth.passes = 0;

@@ -421,6 +421,30 @@ TEST(Anisotropy, the_unit_of_length_changes_nothing) {
     EXPECT_NEAR(small.report.check.quality.mean, large.report.check.quality.mean, 1e-3);
 }
 
+TEST(Anisotropy, the_bound_on_quality_falls_with_the_ratio_of_the_spacings_unless_it_is_given) {
+    test::ArrayVolume volume = test::ball_volume({9, 9, 9}, 3);
+    volume.spaced({2, 1, 10});
+    const auto bound = [&](ReconstructOptions options) {
+        return run(volume, options).report.quality_bound.value_or(-1);
+    };
+    EXPECT_DOUBLE_EQ(bound({.reduce = 0.5}), 0.01);
+    EXPECT_DOUBLE_EQ(bound({.reduce = 0.5, .scale_z = 0.25}), 0.04);
+    EXPECT_EQ(bound({.reduce = 0.5, .min_quality = 0.07}), 0.07);
+    EXPECT_EQ(bound({.reduce = 0.5, .improve = true}), 0.1) << "made for the shape of faces";
+    EXPECT_EQ(bound({}), -1) << "nothing is decimated";
+}
+
+TEST(Anisotropy, decimation_between_sections_far_apart_ends_no_sooner_than_elsewhere) {
+    test::ArrayVolume volume = test::grain_volume({20, 20, 20}, 30, 4);
+    const ReconstructOptions options{.target_faces = 0, .background = {}};
+    const std::uint64_t cubes = run(volume, options).report.final_faces,
+                        stretched = run(volume.spaced({1, 1, 30}), options).report.final_faces;
+    ReconstructOptions bounded = options;
+    bounded.min_quality = 0.1;
+    EXPECT_LT(stretched, 1.3 * cubes);
+    EXPECT_LT(stretched, 0.8 * run(volume, bounded).report.final_faces);
+}
+
 /// A turn about z by the angle, then about x; mirrored in x where asked.
 std::array<double, 9> direction(double angle, bool mirrors) {
     const double c = std::cos(angle), s = std::sin(angle), m = mirrors ? -1 : 1;

@@ -161,6 +161,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
     json["refreshes"] = report.refreshes;
     json["samples_in_room"] = report.samples_in_room;
     json["stopped"] = to_string(report.stopped);
+    if (report.quality_bound) json["quality_bound"] = *report.quality_bound;
     json["error_bound"] = report.error_bound;
     json["smoothing"] = smoothing_json(report);
     json["pinned_vertices"] = report.pinned_vertices;

@@ -33,13 +33,15 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     Report report;
     report.check = two_regions();
     report.seconds = {{"mesh", 1.0}, {"total", 1.5}};
+    report.quality_bound = 0.1;
     const Json json = Json::parse(report_json(report, test::labels_from({7, 3})));
-    EXPECT_THAT(keys_of(json), testing::UnorderedElementsAre(
-                                   "initial_faces", "initial_vertices", "final_faces", "final_vertices", "error_bound",
-                                   "seconds", "stage_bytes", "peak_bytes", "peak_faces", "bytes_per_face", "verdicts",
-                                   "refreshes", "samples_in_room", "stopped", "smoothing", "volumes_preserved",
-                                   "quality", "regions", "triple_lines", "region_pairs", "pinned_vertices",
-                                   "quadruple_points_inside", "violations", "violation_counts"));
+    EXPECT_THAT(keys_of(json),
+                testing::UnorderedElementsAre("quality_bound", "initial_faces", "initial_vertices", "final_faces",
+                                              "final_vertices", "error_bound", "seconds", "stage_bytes", "peak_bytes",
+                                              "peak_faces", "bytes_per_face", "verdicts", "refreshes",
+                                              "samples_in_room", "stopped", "smoothing", "volumes_preserved", "quality",
+                                              "regions", "triple_lines", "region_pairs", "pinned_vertices",
+                                              "quadruple_points_inside", "violations", "violation_counts"));
     EXPECT_THAT(keys_of(json["quality"]),
                 testing::ElementsAre("min", "mean", "histogram", "min_angle", "max_angle", "angles"));
     EXPECT_THAT(keys_of(json["regions"][0]), testing::ElementsAre("label", "euler", "components", "volume", "area"));
