@@ -62,7 +62,7 @@ std::string info_json(const std::string& source, const MeshFile& file, const Mod
 /// A table of the regions as CSV, in order of label: label, name, faces, volume, area, centroid_x, _y, _z, box_low_x to
 /// box_high_z, equivalent_diameter (of the sphere of the same volume), neighbours (labels, separated by blanks; the
 /// background and the exterior are none), neighbour_areas, mean_curvature (1 / length, positive where the region is
-/// convex; the mean by area of those of its interfaces, empty if none has any) and triple_line_length (of lines that
+/// convex: the mean of its interfaces', weighted by area; empty if none has any) and triple_line_length (of lines that
 /// are not on the exterior). The volume and the centroid of an open region mean nothing. `background` is dense.
 std::string regions_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                         const LabelNames& names = {});

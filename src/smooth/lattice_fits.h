@@ -24,7 +24,8 @@ struct FitPlace {
 };
 
 /// A quadric is fitted to the samples within kReach blocks. It is accepted if it passes through (nearly) every simplex
-/// within kBlend blocks: then it is a surface that explains the labels there.
+/// within kBlend blocks, and, between sections far apart, not on one side of the middles of its edges: then it is a
+/// surface that explains the labels there.
 class LatticeFits {
 public:
     static constexpr float kReach = 2.2f, kBlend = 1.3f;  // radii in blocks
