@@ -32,8 +32,8 @@ struct ReconstructOptions {
                          // and errors are computed; the model is not scaled. Tetrahedra have their own
     SmoothOptions smooth = {};               // its scale, quality, tests and threads are set from the run
     std::optional<double> min_quality = {};  // of every face that smoothing or decimation changes; 0.1 if not given,
-                                             // and for decimation of sections, unless faces are improved, 0.1 times the
-                                             // smallest spacing over the largest (docs/decimate.md)
+                                             // and for decimation of sections, unless with improve or preserve_volume,
+                                             // 0.1 times the smallest spacing over the largest (docs/decimate.md)
     double perturbation = 1e-7;              // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool keep_samples = true;                           // of sections: decimation carries no sample into another region

@@ -63,7 +63,8 @@ double section_scale(const VolumeInfo& volume, const ReconstructOptions& options
 double quality_bound(const ReconstructOptions& options, const SourceShape& shape) {
     if (options.min_quality) return *options.min_quality;
     const double usual = SimplifyOptions{}.min_quality;
-    if (!shape.has_samples || options.improve) return usual;
+    // Volumes are restored by moving vertices, which bad faces would not let go.
+    if (!shape.has_samples || options.improve || options.preserve_volume) return usual;
     // A face of the usual quality in a lattice of cubes keeps at least about this when the lattice is stretched.
     const auto [least, greatest] =
         std::minmax({shape.lattice.spacing.x, shape.lattice.spacing.y, shape.lattice.spacing.z});

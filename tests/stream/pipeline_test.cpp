@@ -431,6 +431,7 @@ TEST(Anisotropy, the_bound_on_quality_falls_with_the_ratio_of_the_spacings_unles
     EXPECT_DOUBLE_EQ(bound({.reduce = 0.5, .scale_z = 0.25}), 0.04);
     EXPECT_EQ(bound({.reduce = 0.5, .min_quality = 0.07}), 0.07);
     EXPECT_EQ(bound({.reduce = 0.5, .improve = true}), 0.1) << "made for the shape of faces";
+    EXPECT_EQ(bound({.reduce = 0.5, .preserve_volume = true}), 0.1) << "vertices must be able to move";
     EXPECT_EQ(bound({}), -1) << "nothing is decimated";
 }
 
