@@ -30,7 +30,7 @@ SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh) {
     if (asked.reduce)
         options.target_faces = static_cast<std::uint32_t>(std::llround(mesh.face_count() * (1 - *asked.reduce)));
     if (asked.max_error) options.max_error = *asked.max_error;
-    if (asked.min_quality) options.min_quality = *asked.min_quality;
+    options.min_quality = asked.min_quality.value_or(SimplifyOptions{}.min_quality);
     options.perturbation = asked.perturbation;
     options.intersect_check = asked.intersect_check;
     options.placement = asked.placement;
@@ -42,7 +42,7 @@ SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh) {
 
 SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh) {
     SmoothOptions options = settings.reconstruct.smooth;
-    if (settings.reconstruct.min_quality) options.min_quality = *settings.reconstruct.min_quality;
+    options.min_quality = settings.reconstruct.min_quality.value_or(SmoothOptions{}.min_quality);
     options.intersect_check = settings.reconstruct.intersect_check;
     options.threads = settings.reconstruct.threads;
     options.scale = settings.scale.value_or(typical_edge(mesh));

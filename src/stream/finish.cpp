@@ -35,7 +35,6 @@ void restore_volumes(Reconstruction& result, const ReconstructOptions& options, 
     for (Label label : result.background)
         if (label < wanted.size()) wanted[label].reset();
     SmoothOptions own = smooth_options(options, shape.scale);
-    own.min_quality = quality_bound(options, shape);
     own.box = simplify_options(options, shape).box;
     result.report.preserved = preserve_volumes(result.mesh, wanted, own);
     result.report.error_bound = largest_error_bound(result.mesh);
