@@ -12,9 +12,10 @@ int main(int argc, char** argv) {
     try {
         const auto reader = regionmesh::open_sections({argv[1]});
         const auto made = regionmesh::reconstruct(*reader, {.reduce = 0.9});
-        regionmesh::write_mesh(
-            made.mesh, made.labels, argv[2],
-            {.background = made.background, .names = reader->info().names, .space = reader->info().space});
+        regionmesh::write_mesh(made.mesh, made.labels, argv[2],
+                               {.background = made.background,
+                                .names = reader->info().names,
+                                .coordinates = coordinates_of(reader->info())});
         for (const auto& region : made.report.check.regions)
             std::printf("region %s: volume %g, area %g\n", made.labels.text(made.labels.input(region.label)).c_str(),
                         region.volume, region.area);

@@ -120,7 +120,7 @@ int run_check(const Settings& given) {
     const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);
     OutputFiles files(settings.writing);
     if (!settings.json.empty()) files.add(settings.json).write(json);
-    const Model model{file.mesh, file.labels, options.background, file.names, file.colours};
+    const Model model{file.mesh, file.labels, options.background, file.names, file.colours, file.coordinates};
     write_tables(settings, model, files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(path, model)},

@@ -193,7 +193,7 @@ void write_distances(const Settings& settings, const MeshFile& a, const CompareR
                 .point_arrays = {{"Distance", report.vertex_distances}},
                 .names = a.names,
                 .colours = a.colours,
-                .space = a.space},
+                .coordinates = a.coordinates},
                files);
 }
 
@@ -214,8 +214,8 @@ void write_comparison(const Settings& settings, const MeshFile& a, const MeshFil
     const std::vector<double> back = distances_back(settings, a, b);
     std::vector<PageModel> models;
     for (const auto& [path, file] : {std::pair(&settings.models[0], &a), std::pair(&settings.models[1], &b)})
-        models.push_back(page_model(
-            *path, {file->mesh, file->labels, background_of(settings, file->labels), file->names, file->colours}));
+        models.push_back(page_model(*path, {file->mesh, file->labels, background_of(settings, file->labels),
+                                            file->names, file->colours, file->coordinates}));
     models[0].distances = report.vertex_distances;
     models[1].distances = back;
     write_page(settings.html, models, page_options(kCompare, settings, compare_json(report), false), files);
@@ -230,11 +230,16 @@ int run_compare(const Settings& given) {
     const bool needs_b = !given.html.empty(), needs_a = needs_b || !given.distance.empty();
     const auto inputs = std::array{open_model(given.models[0], needs_a), open_model(given.models[1], needs_b)};
     const MeshFile &a = inputs[0]->file, &b = inputs[1]->file;
-    if (a.space != b.space && a.space != Space::kUnknown && b.space != Space::kUnknown)
+    const Space space_a = a.coordinates.space, space_b = b.coordinates.space;
+    if (space_a != space_b && space_a != Space::kUnknown && space_b != Space::kUnknown)
         warn(
             fmt::format("{} is in {} and {} in {}: they are compared as they are; turn one of them with regionmesh "
                         "convert --space",
-                        given.models[0], space_name(a.space), given.models[1], space_name(b.space)));
+                        given.models[0], space_name(space_a), given.models[1], space_name(space_b)));
+    const auto &metres_a = a.coordinates.metres, &metres_b = b.coordinates.metres;
+    if (metres_a && metres_b && *metres_a != *metres_b)
+        warn(fmt::format("{} is in {} and {} in {}: they are compared as they are", given.models[0],
+                         length_symbol(*metres_a), given.models[1], length_symbol(*metres_b)));
     const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
     const CompareReport report = compare(*inputs[0]->model, *inputs[1]->model,
                                          {.samples = settings.samples,

@@ -29,7 +29,7 @@ void require_fit_of_output(const Settings& settings) {
 }
 
 PrecomputedOptions precomputed_options(const Settings& settings, Described described) {
-    return {.metres = settings.metres.value_or(1),
+    return {.metres = settings.metres,
             .is_legacy = settings.precomputed_is_legacy,
             .is_sharded = settings.precomputed_is_sharded,
             .levels = settings.precomputed_levels,
@@ -63,7 +63,8 @@ void convert_pieces(const Settings& settings) {
 void convert_whole(const Settings& settings, MeshFile& file, const CheckOptions& options) {
     Described described = describe(settings, file.names, file.colours);
     OutputFiles files(model_writing(settings));
-    const Model model{file.mesh, file.labels, options.background, described.names, described.colours, file.space};
+    const Model model{file.mesh,       file.labels,       options.background,
+                      described.names, described.colours, with_units(settings, file.coordinates)};
     if (!is_precomputed(settings.output)) {
         const auto written = write_model(settings, model, files);
         files.commit();
@@ -75,6 +76,7 @@ void convert_whole(const Settings& settings, MeshFile& file, const CheckOptions&
     }
     write_tables(settings, model, files);
     PrecomputedOptions writing = precomputed_options(settings, std::move(described));
+    writing.metres = model.coordinates.metres;
     writing.background = options.background;
     writing.boundary_is_open = options.boundary_is_open;
     writing.source = settings.models.front();

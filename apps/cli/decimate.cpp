@@ -26,10 +26,11 @@ int run_decimate(const Settings& given) {
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
     const CheckOptions options = check_options(settings, file.labels);
-    ModelChange change = simplify_model(file.mesh, settings, options);
+    ModelChange change = simplify_model(file.mesh, settings, options, file.coordinates.spacing);
     Report& report = change.report;
     const auto [names, colours] = describe(settings, file.names, file.colours);
-    const Model model{file.mesh, file.labels, options.background, names, colours, file.space};
+    const Model model{file.mesh, file.labels, options.background,
+                      names,     colours,     with_units(settings, file.coordinates)};
     OutputFiles files(model_writing(settings));
     const auto written = write_model(settings, model, files);
     write_report_file(settings, report, model, made_by(kDecimate, settings), files);

@@ -72,7 +72,8 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     fmt::print("file       {} ({})\n", printable(info.source), info.format);
     fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2],
                to_string(info.type));
-    fmt::print("spacing    {} x {} x {}\n", lattice.spacing.x, lattice.spacing.y, lattice.spacing.z);
+    fmt::print("spacing    {} x {} x {}{}\n", lattice.spacing.x, lattice.spacing.y, lattice.spacing.z,
+               info.metres ? ' ' + length_symbol(*info.metres) : "");
     const Vec3 origin = lattice.origin + Vec3{};  // 0, not -0
     fmt::print("origin     {}, {}, {}\n", origin.x, origin.y, origin.z);
     if (!lattice.is_axis_aligned()) {
@@ -108,7 +109,9 @@ std::string print_info(const Settings& given, const std::string& path) {
     const auto& [low, high] = size.box;
     fmt::print("file       {} (surface model)\n", printable(path));
     fmt::print("size       {}, {}\n", counted(size.faces, "face"), counted(size.vertices, "vertex"));
-    fmt::print("box        {:g} to {:g}, {:g} to {:g}, {:g} to {:g}\n", low.x, high.x, low.y, high.y, low.z, high.z);
+    const auto& metres = file.coordinates.metres;
+    fmt::print("box        {:g} to {:g}, {:g} to {:g}, {:g} to {:g}{}\n", low.x, high.x, low.y, high.y, low.z, high.z,
+               metres ? ' ' + length_symbol(*metres) : "");
     std::vector<RegionReport> regions = report.regions;
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
         return file.labels.less(file.labels.input(a.label), file.labels.input(b.label));

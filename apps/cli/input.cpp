@@ -14,13 +14,14 @@ namespace {
 
 /// Half a turn about z leads from RAS to LPS and back. Requires a mesh without free places.
 void turn(MeshFile& file, Space space) {
-    if (space == Space::kUnknown || space == file.space) return;
-    if (file.space != Space::kUnknown)
+    Space& own = file.coordinates.space;
+    if (space == Space::kUnknown || space == own) return;
+    if (own != Space::kUnknown)
         for (std::uint32_t n = 0; n < file.mesh.vertex_end(); ++n) {
             Vec3& p = file.mesh[VertexId{n}].position;
             p = {-p.x, -p.y, p.z};
         }
-    file.space = space;
+    own = space;
 }
 
 template <class Reader>
@@ -72,7 +73,7 @@ CensusOptions census_options(const Settings& settings) {
 
 Settings settings_for(const Settings& settings, const MeshFile& file) {
     Settings own = settings;
-    if (own.volume.space == Space::kUnknown) own.volume.space = file.space;
+    if (own.volume.space == Space::kUnknown) own.volume.space = file.coordinates.space;
     if (!has_background(settings) && file.background) {
         own.reconstruct.background = *file.background;
         if (!file.background->empty()) own.volume.select.rest = file.background->front();

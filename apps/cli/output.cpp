@@ -45,6 +45,11 @@ Described describe(const Settings& settings, const LabelNames& names, const Labe
     return described;
 }
 
+Coordinates with_units(const Settings& settings, Coordinates known) {
+    if (settings.metres) known.metres = settings.metres;
+    return known;
+}
+
 void write_tables(const Settings& settings, const Model& model, OutputFiles& files) {
     for (const auto& [path, make] :
          {std::pair(&settings.regions, &regions_csv), std::pair(&settings.interfaces, &interfaces_csv),
@@ -73,8 +78,7 @@ std::vector<std::filesystem::path> write_model(const Settings& settings, const M
                                .names = model.names,
                                .colours = model.colours,
                                .per_region = settings.per_region,
-                               .space = model.space,
-                               .metres = settings.metres};
+                               .coordinates = model.coordinates};
     warn_of_rounding(settings.output, rounded_share_of_edge(model.mesh, settings.output, options),
                      "write .vtp or .ply");
     return write_mesh(model.mesh, model.labels, settings.output, options, files);

@@ -32,8 +32,11 @@ struct Model {
     const std::vector<Label>& background;
     const LabelNames& names;
     const LabelColours& colours;
-    Space space = Space::kUnknown;
+    Coordinates coordinates = {};
 };
+
+/// `known`, with the unit of --units where it is given.
+Coordinates with_units(const Settings& settings, Coordinates known);
 
 /// Writes the tables of --regions, --interfaces and --lines as some of `files`.
 void write_tables(const Settings& settings, const Model& model, OutputFiles& files);

@@ -71,7 +71,8 @@ PageModel page_model(const std::string& path, const Model& model) {
             .title = title_of(path),
             .background = model.background,
             .names = model.names,
-            .colours = model.colours};
+            .colours = model.colours,
+            .metres = model.coordinates.metres};
 }
 
 }  // namespace regionmesh::cli

@@ -117,11 +117,11 @@ private:
 /// What the input says besides its samples.
 struct ModelNotes {
     Described labels;
-    Space space = Space::kUnknown;
+    Coordinates coordinates = {};
 };
 
-/// Reconstructs the input, whichever kind it is of. Sets `notes` to what it says about its labels and its space, before
-/// the model is handed on.
+/// Reconstructs the input, whichever kind it is of. Sets `notes` to what it says about its labels and its coordinates,
+/// before the model is handed on.
 Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, const OnModel& on_model) {
     ProgressLine line(settings.quiet);
     MemoryWarning memory(settings);
@@ -129,7 +129,8 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
         LabelColours colours;
         if constexpr (requires { reader.info().colours; }) colours = reader.info().colours;
         notes.labels = describe(settings, reader.info().names, colours);
-        if constexpr (requires { reader.info().space; }) notes.space = reader.info().space;
+        if constexpr (requires { reader.info().lattice; }) notes.coordinates = coordinates_of(reader.info());
+        notes.coordinates = with_units(settings, notes.coordinates);
         warn_of_grey_scale(settings, reader);
         const auto on_progress = [&](const Progress& progress) {
             memory.show(progress);
@@ -161,7 +162,7 @@ int run_reconstruct(const Settings& settings) {
         if (mesh.face_count() == 0) return;  // no region, which is refused after the check
         put_line(Audience::kLog, "write");
         const Timer timer(writing);
-        written = write_model(settings, {mesh, labels, background, names, colours, notes.space}, files);
+        written = write_model(settings, {mesh, labels, background, names, colours, notes.coordinates}, files);
     };
     Reconstruction made = reconstruct_input(settings, notes, write);
     require_regions(settings, made.report.check);
@@ -169,7 +170,7 @@ int run_reconstruct(const Settings& settings) {
     if (is_lattice(settings, settings.inputs)) warn_of_passes(settings);
     Report& report = made.report;
     report.seconds["write"] = writing;
-    const Model model{made.mesh, made.labels, made.background, names, colours, notes.space};
+    const Model model{made.mesh, made.labels, made.background, names, colours, notes.coordinates};
     write_report_file(settings, report, model, made_by(kReconstruct, settings), files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, model)},

@@ -27,7 +27,8 @@ int run_smooth(const Settings& given) {
     ModelChange change = smooth_model(file.mesh, settings, options);
     Report& report = change.report;
     const auto [names, colours] = describe(settings, file.names, file.colours);
-    const Model model{file.mesh, file.labels, options.background, names, colours, file.space};
+    const Model model{file.mesh, file.labels, options.background,
+                      names,     colours,     with_units(settings, file.coordinates)};
     OutputFiles files(model_writing(settings));
     const auto written = write_model(settings, model, files);
     write_report_file(settings, report, model, made_by(kSmooth, settings), files);

@@ -16,7 +16,8 @@ int run_view(const Settings& given) {
     const CheckReport report = check(file.mesh, options);
     const auto [names, colours] = describe(settings, file.names, file.colours);
     OutputFiles files(settings.writing);
-    write_page(settings.output, {page_model(path, {file.mesh, file.labels, options.background, names, colours})},
+    const Model model{file.mesh, file.labels, options.background, names, colours, file.coordinates};
+    write_page(settings.output, {page_model(path, model)},
                page_options(kView, settings, check_json(report, file.labels, names), false), files);
     files.commit();
     say("{}: {}, {}, {}", printable(settings.output), counted(file.mesh.face_count(), "face"),

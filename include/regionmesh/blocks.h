@@ -134,12 +134,12 @@ std::vector<std::filesystem::path> write_vtp_pieces(const std::filesystem::path&
                                                     const VtpPiecesOptions& options = {});
 
 struct PrecomputedOptions {
-    double metres = 1;          // in a unit of the model
-    bool is_legacy = false;     // neuroglancer_legacy_mesh; otherwise neuroglancer_multilod_draco
-    bool is_sharded = false;    // not legacy: neuroglancer_uint64_sharded_v1
-    std::uint32_t levels = 0;   // of detail, not legacy; 0: from the number of faces
-    LabelNames names = {};      // of regions; empty: those in the folder
-    LabelColours colours = {};  // of some regions; empty: those in the folder. The viewer chooses the others
+    std::optional<double> metres = {};  // in a unit of the model; none: as a folder says, or else 1
+    bool is_legacy = false;             // neuroglancer_legacy_mesh; otherwise neuroglancer_multilod_draco
+    bool is_sharded = false;            // not legacy: neuroglancer_uint64_sharded_v1
+    std::uint32_t levels = 0;           // of detail, not legacy; 0: from the number of faces
+    LabelNames names = {};              // of regions; empty: those in the folder
+    LabelColours colours = {};          // of some regions; empty: those in the folder. The viewer chooses the others
     OutputOptions output = {};
     // A folder says these itself:
     std::vector<Label> background = {};

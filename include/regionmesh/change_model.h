@@ -27,9 +27,12 @@ using OnModelChange =
 
 /// Simplifies a mesh to the target of the settings, and improves it where they say so, in the axes of its box
 /// (BoxAxes) or of `samples`, none of which then changes its region. `checks` says what its boundary and its
-/// background are; the ids of the mesh are dense afterwards. Throws what simplify() and improve() throw.
+/// background are; the ids of the mesh are dense afterwards. Where the settings give no bound on quality, it is
+/// usual_quality_bound(spacing), and the usual one where the mesh is improved or `spacing`, that of the samples it was
+/// made of, is not known. Throws what simplify() and improve() throw.
 ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
-                           const std::optional<Lattice>& samples = {}, const OnModelChange& on_change = {});
+                           const std::optional<Vec3>& spacing = {}, const std::optional<Lattice>& samples = {},
+                           const OnModelChange& on_change = {});
 
 /// Smooths a mesh in the same way, and restores the volumes of its regions where the settings say so. Throws what
 /// smooth() and preserve_volumes() throw.

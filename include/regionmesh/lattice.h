@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "regionmesh/vec3.h"
@@ -115,6 +116,14 @@ constexpr const char* space_name(Space space) {
 constexpr Space space_named(std::string_view name) {
     return name == "RAS" ? Space::kRas : name == "LPS" ? Space::kLps : Space::kUnknown;
 }
+
+/// What a file says of its coordinates, or what is known of those of a model.
+struct Coordinates {
+    Space space = Space::kUnknown;
+    std::optional<double> metres = {};  // in a unit of length
+    std::optional<Vec3> spacing = {};   // of the samples that a model was made of, along the axes of their lattice
+    friend bool operator==(const Coordinates&, const Coordinates&) = default;
+};
 
 /// The order in which a volume is read: section s lies at index s of axis `axes[2]`; inside it, `axes[0]` runs fastest.
 /// The three orders are cyclic, so that none of them mirrors.

@@ -29,8 +29,7 @@ struct WriteOptions {
     LabelColours colours = {};                  // of some regions; the others get those of a palette
     bool per_region = false;                    // .stl, .obj and .ply: a file for each region, MODEL-REGION.EXTENSION;
                                                 // .obj: and MODEL.mtl with their colours
-    Space space = Space::kUnknown;              // of the coordinates, written where 3D Slicer reads it
-    std::optional<double> metres = {};          // in a unit of the coordinates; .glb are scaled to metres, .3mf say it
+    Coordinates coordinates = {};               // space: where 3D Slicer reads it; .glb are scaled to metres
     bool boundary_is_open = false;              // the box is not capped: refused where volumes are needed
     OutputOptions output = {};
 };
@@ -60,12 +59,14 @@ struct WriteOptions {
 /// Doubles in text round-trip. The bytes depend only on the model, the labels and the options. Memory: a few megabytes;
 /// 4 bytes per vertex where ids are not dense; 8 bytes per face for .obj and .stl, some hundred for the formats of
 /// volume meshers and .dream3d. Throws Error(kOutput) for another extension and for options that the format does not
-/// support, before it writes anything, and where the file cannot be written; Error(kUsage) for `metres` out of range.
+/// support, before it writes anything, and where the file cannot be written; Error(kUsage) for coordinates.metres and
+/// coordinates.spacing out of range.
 ///
 /// .vtp, .vtu, .ply, .obj and .stl say the space, where it is known, as 3D Slicer reads it: SPACE=RAS. .vtp, .vtu, .ply
-/// and .obj say which labels are background. .vtp and .vtu have two arrays to colour by: Region, the first label of a
-/// face, and Neighbour, the second. With per_region a file has the name of its region, or else its label.
-/// Returns the files written.
+/// and .obj say which labels are background, and the unit of length and the spacing of samples, where they are known:
+/// field data MetresPerUnit and SampleSpacing, lines `metres_per_unit` and `sample_spacing`. .3mf say the unit. .vtp
+/// and .vtu have two arrays to colour by: Region, the first label of a face, and Neighbour, the second. With per_region
+/// a file has the name of its region, or else its label. Returns the files written.
 std::vector<std::filesystem::path> write_mesh(const Mesh& mesh, const LabelTable& labels,
                                               const std::filesystem::path& path, const WriteOptions& options = {});
 
@@ -98,7 +99,7 @@ struct MeshFile {
     LabelTable labels;
     LabelNames names = {};      // of labels, from the file
     LabelColours colours = {};  // likewise: those that the input gave, not those of the palette
-    Space space = Space::kUnknown;
+    Coordinates coordinates = {};
     /// Labels of empty space; none: the file does not say. Files with a region on one side of each face have no
     /// background.
     std::optional<std::vector<InputLabel>> background = {};

@@ -23,6 +23,7 @@ struct PageModel {
     std::vector<Label> background = {};  // not shown as regions
     LabelNames names = {};
     LabelColours colours = {};               // of some regions; the others get those of a palette
+    std::optional<double> metres = {};       // in its unit of length, where it is known
     std::span<const double> distances = {};  // by vertex id, to the other model; may be empty
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,11 +28,15 @@ struct VolumeInfo {
     std::uint64_t held_bytes = 0;                       // memory for reading ahead; 0: about one section
     std::array<bool, 3> can_sweep{false, false, true};  // axes along which sections can be read
     Space space = Space::kUnknown;                      // of the lattice
+    std::optional<double> metres = {};                  // in its unit of length, where the file says it
     LabelNames names = {};                              // given by the file, or by a table next to it
     LabelColours colours = {};                          // likewise
     std::vector<std::filesystem::path> files = {};      // of samples, where `source` is a header that names them
     std::string warning = {};  // what the reader decided that the user may not expect: a line, or empty
 };
+
+/// What a model made of the volume says of its coordinates.
+inline Coordinates coordinates_of(const VolumeInfo& info) { return {info.space, info.metres, info.lattice.spacing}; }
 
 /// Pull interface of every volume. A reader of files holds a bounded number of sections, never the whole volume.
 class SectionReader {

@@ -40,6 +40,10 @@ struct SimplifyOptions {
     std::function<void(std::uint64_t faces)> on_progress = {};
 };
 
+/// The bound on quality where none is given: that of SimplifyOptions for cubes of samples, and less where `spacing`
+/// stretches them. A face of that quality keeps this at least when its lattice of cubes is stretched.
+double usual_quality_bound(const Vec3& spacing);
+
 /// Why decimation ended; kNoneAsked where there was none.
 enum class StopReason { kTarget, kMaxError, kTopology, kNoneAsked };
 

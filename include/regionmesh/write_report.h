@@ -20,6 +20,9 @@
 
 namespace regionmesh {
 
+/// "mm": the symbol of a unit of so many metres; "0.0252 m" where there is none.
+std::string length_symbol(double metres);
+
 /// The run of the program that made a model.
 struct MadeBy {
     std::string command = {};  // "reconstruct"; empty: none

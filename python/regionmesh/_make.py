@@ -12,8 +12,8 @@ from ._mesh import Mesh
 def unpickle(points, faces, labels, node_types, state):
     model = _core.from_arrays(
         (points, faces, labels.view(np.int64), node_types),
-        (state["background"], state["order"], state["names"], state.get("colours", {}), state["space"],
-         state.get("lacking")),
+        (state["background"], state["order"], state["names"], state.get("colours", {}), state.get("lacking")),
+        (state["space"], state.get("metres"), state.get("spacing")),
         state["exterior"], state["is_unsigned"], state["is_open"],
     )  # fmt: skip
     mesh = Mesh(model, state["lattice"])
@@ -129,7 +129,8 @@ def from_arrays(
     outside = [] if background is None else [background] if np.ndim(background) == 0 else list(background)
     model = _core.from_arrays(
         (points, faces.astype(np.uint32), np.ascontiguousarray(whole), _node_types(node_types, len(points))),
-        ([bits(label) for label in outside], [], names_of(names) or {}, colours_of(names) or {}, "", None),
+        ([bits(label) for label in outside], [], names_of(names) or {}, colours_of(names) or {}, None),
+        ("", None, None),
         bits(exterior_label), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)

@@ -91,6 +91,11 @@ class Mesh:
         """Where x and y point in the patient: "RAS" or "LPS", or None where no file said it. Saved with the model."""
         return self._model.space or None
 
+    @property
+    def metres(self):
+        """Metres in a unit of length, 0.001 for millimetres, or None where no file said it. Saved with the model."""
+        return self._model.metres
+
     def _unsigned(self, label):
         return label + (1 << 64) if self._model.is_unsigned and label < 0 else label
 
@@ -501,7 +506,8 @@ class Mesh:
             name.
         units : {"m", "mm", "um", "nm"}, optional
             The unit of length of the model: .glb files are in metres and .precomputed in nanometres, and are scaled;
-            .3mf files say the unit. Default: metres; millimetres in .3mf.
+            other files say the unit, where they can. Default: that of the model (`metres`), else metres, and
+            millimetres in .3mf.
         precomputed : {"multi", "legacy"}, optional
             .precomputed: levels of detail compressed by Draco (the default), or the model, not compressed.
         levels : int, optional
@@ -566,6 +572,8 @@ class Mesh:
             "names": self._model.names,
             "colours": self._model.colours,
             "space": self._model.space,
+            "metres": self._model.metres,
+            "spacing": self._model.spacing,
             "lacking": self._model.lacking,
             "exterior": self._model.exterior_label,
             "is_unsigned": self._model.is_unsigned,

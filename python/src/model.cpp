@@ -26,10 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Sets the result of a run; frees what the run alone needed.
-Model model_from(Reconstruction made, const LabelNames& names, bool is_open, Space space = Space::kUnknown,
+Model model_from(Reconstruction made, const LabelNames& names, bool is_open, const Coordinates& coordinates = {},
                  const LabelColours& colours = {}) {
     Model model{
-        std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, space, colours};
+        std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, coordinates, colours};
     model.report = report_json(made.report, model.labels, names);
     return model;
 }
@@ -72,7 +72,7 @@ Model copy_of(const Model& model) {
             model.background,
             model.names,
             model.is_open,
-            model.space,
+            model.coordinates,
             model.colours,
             model.lacking};
 }
@@ -81,7 +81,7 @@ Model copy_of(const Model& model) {
 Model with_background(const Model& model, const Lattice& lattice, InputLabel background) {
     MeshFile file{.mesh = copy_of(model.mesh, model.labels), .labels = model.labels};
     restore_background(file, lattice, background);
-    Model restored{std::move(file.mesh), std::move(file.labels), {}, model.names, model.is_open, model.space};
+    Model restored{std::move(file.mesh), std::move(file.labels), {}, model.names, model.is_open, model.coordinates};
     restored.background = {restored.labels.dense(background)};
     return restored;
 }
@@ -105,10 +105,16 @@ std::vector<InputLabel> background_of(const Model& model) {
     return background;
 }
 
+/// What is known, with the unit of `units` where it is given.
+Coordinates with_units(Coordinates known, const Settings& settings) {
+    if (settings.metres) known.metres = settings.metres;
+    return known;
+}
+
 /// A folder for Neuroglancer.
 Saved save_precomputed(const Model& model, const fs::path& folder, const Settings& settings) {
     make_precomputed_folder(folder);
-    const PrecomputedOptions options{.metres = settings.metres.value_or(1),
+    const PrecomputedOptions options{.metres = with_units(model.coordinates, settings).metres,
                                      .is_legacy = settings.precomputed_is_legacy,
                                      .is_sharded = settings.precomputed_is_sharded,
                                      .levels = settings.precomputed_levels,
@@ -133,7 +139,7 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
         StageProgress progress(watch, options);
         Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
         const VolumeInfo& info = sections.info();
-        model = model_from(std::move(made), run.names.value_or(info.names), !options.cap, info.space,
+        model = model_from(std::move(made), run.names.value_or(info.names), !options.cap, coordinates_of(info),
                            run.colours.value_or(info.colours));
     });
     return model;
@@ -149,7 +155,7 @@ Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Wat
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
         model = model_from(std::move(made), run.names.value_or(reader.info().names), !settings.reconstruct.cap,
-                           Space::kUnknown, run.colours.value_or(LabelColours{}));
+                           Coordinates{}, run.colours.value_or(LabelColours{}));
     };
     watch.run([&] {
         if (is_lattice(settings, {path}))
@@ -173,10 +179,8 @@ Model load_model(const std::string& path, const OptionValues& options) {
     for (const InputLabel label :
          !has_background(settings) && file.background ? *file.background : settings.reconstruct.background)
         background.push_back(file.labels.dense(label));
-    return {std::move(file.mesh),      std::move(file.labels),
-            std::move(background),     std::move(file.names),
-            !settings.reconstruct.cap, file.space,
-            std::move(file.colours),   lacking};
+    return {std::move(file.mesh),      std::move(file.labels), std::move(background),   std::move(file.names),
+            !settings.reconstruct.cap, file.coordinates,       std::move(file.colours), lacking};
 }
 
 Saved save_model(const Model& model, const std::string& path, bool per_region, const OptionValues& options) {
@@ -187,8 +191,7 @@ Saved save_model(const Model& model, const std::string& path, bool per_region, c
                                .names = model.names,
                                .colours = model.colours,
                                .per_region = per_region,
-                               .space = model.space,
-                               .metres = settings.metres,
+                               .coordinates = with_units(model.coordinates, settings),
                                .boundary_is_open = model.is_open};
     Saved saved{{}, rounded_share_of_edge(model.mesh, path, writing)};
     for (const auto& file : write_mesh(model.mesh, model.labels, path, writing)) saved.paths.push_back(file.string());
@@ -212,7 +215,7 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
     std::vector<Label> background;
     for (const InputLabel label : labels.background) background.push_back(made.labels.dense(label));
     return {std::move(made.mesh), std::move(made.labels), std::move(background), labels.names,
-            labels.is_open,       labels.space,           labels.colours,        labels.lacking};
+            labels.is_open,       labels.coordinates,     labels.colours,        labels.lacking};
 }
 
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
@@ -227,7 +230,7 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
             watch.note(stage, gone, in_all);
         };
         const CheckOptions checks = check_options(made, settings.reconstruct.threads);
-        describe(made, simplify_model(made.mesh, settings, checks, samples, note));
+        describe(made, simplify_model(made.mesh, settings, checks, made.coordinates.spacing, samples, note));
     });
     return made;
 }

@@ -23,7 +23,7 @@ struct Model {
     std::vector<Label> background;
     LabelNames names;
     bool is_open = false;
-    Space space = Space::kUnknown;
+    Coordinates coordinates = {};
     LabelColours colours = {};               // of some regions, given by the input
     std::optional<InputLabel> lacking = {};  // a background that the exterior may stand for
     std::string report = {};                 // JSON; empty where it was not checked yet
@@ -65,7 +65,7 @@ struct GivenLabels {
     std::vector<InputLabel> order;  // by dense number, so that a copy of a model is treated alike; may be empty
     LabelNames names;
     bool is_open;
-    Space space;
+    Coordinates coordinates;
     LabelColours colours;
     std::optional<InputLabel> lacking;
 };

@@ -127,7 +127,15 @@ void bind_model(py::module_& module) {
         .def_readonly("colours", &Model::colours)
         .def_readonly("is_open", &Model::is_open)
         .def_readonly("lacking", &Model::lacking)
-        .def_property_readonly("space", [](const Model& model) { return std::string(space_name(model.space)); })
+        .def_property_readonly("space",
+                               [](const Model& model) { return std::string(space_name(model.coordinates.space)); })
+        .def_property_readonly("metres", [](const Model& model) { return model.coordinates.metres; })
+        .def_property_readonly("spacing",
+                               [](const Model& model) -> std::optional<std::array<double, 3>> {
+                                   const auto& spacing = model.coordinates.spacing;
+                                   if (!spacing) return {};
+                                   return {{spacing->x, spacing->y, spacing->z}};
+                               })
         .def_property_readonly("is_unsigned", [](const Model& model) { return model.labels.is_unsigned(); })
         .def_property_readonly("exterior_label", [](const Model& model) { return model.labels.exterior_label(); })
         .def_property_readonly("vertex_count", [](const Model& model) { return model.mesh.vertex_count(); })
@@ -152,15 +160,19 @@ void bind_model(py::module_& module) {
     });
     using Arrays = std::tuple<decltype(GivenArrays::points), decltype(GivenArrays::faces),
                               decltype(GivenArrays::labels), decltype(GivenArrays::node_types)>;
-    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, LabelColours, std::string,
+    using Labels = std::tuple<std::vector<InputLabel>, std::vector<InputLabel>, LabelNames, LabelColours,
                               std::optional<InputLabel>>;
-    module.def("from_arrays",
-               [](const Arrays& arrays, const Labels& about, InputLabel exterior, bool is_unsigned, bool is_open) {
-                   const auto& [points, faces, labels, types] = arrays;
-                   const auto& [background, order, names, colours, space, lacking] = about;
-                   return model_of({points, faces, labels, types, exterior, is_unsigned},
-                                   {background, order, names, is_open, space_named(space), colours, lacking});
-               });
+    using Known = std::tuple<std::string, std::optional<double>, std::optional<std::array<double, 3>>>;
+    module.def("from_arrays", [](const Arrays& arrays, const Labels& about, const Known& known, InputLabel exterior,
+                                 bool is_unsigned, bool is_open) {
+        const auto& [points, faces, labels, types] = arrays;
+        const auto& [background, order, names, colours, lacking] = about;
+        const auto& [space, metres, spacing] = known;
+        Coordinates coordinates{space_named(space), metres, {}};
+        if (spacing) coordinates.spacing = Vec3{(*spacing)[0], (*spacing)[1], (*spacing)[2]};
+        return model_of({points, faces, labels, types, exterior, is_unsigned},
+                        {background, order, names, is_open, coordinates, colours, lacking});
+    });
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ _RETURNS = {
     "voxelise": "npt.NDArray[Any]", "save": "list[str]",
     "points": "npt.NDArray[np.float64]", "faces": "npt.NDArray[np.uint32]", "labels": "npt.NDArray[Any]",
     "node_types": "npt.NDArray[np.uint8]", "exterior_label": "int", "background": "list[int]", "space": "str | None",
+    "metres": "float | None",
     "names": "dict[int, str]", "bounds": "npt.NDArray[np.float64]", "lines": "npt.NDArray[np.uint32]",
     "quadruple_points": "npt.NDArray[np.int64]", "report": "dict[str, Any]", "violations": "list[dict[str, Any]]",
     "certified": "bool", "regions": "dict[str, npt.NDArray[Any]]", "interfaces": "dict[str, npt.NDArray[Any]]",

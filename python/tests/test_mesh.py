@@ -419,6 +419,22 @@ def test_the_space_of_a_volume_goes_into_the_files_of_its_model(two_boxes, tmp_p
         assert regionmesh.load(tmp_path / "m.ply").space == "LPS"
 
 
+def test_the_unit_and_the_spacing_of_a_volume_stay_with_its_model(two_boxes, tmp_path):
+    header = {"type": "uint8", "dimension": 3, "sizes": "10 12 14", "spacings": "1 1 10", "units": '"um" "um" "um"'}
+    lines = [f"{key}: {value}" for key, value in header.items()] + ["encoding: raw"]
+    (tmp_path / "v.nrrd").write_bytes(("NRRD0005\n" + "\n".join(lines) + "\n\n").encode() + two_boxes.tobytes())
+    made = regionmesh.reconstruct(tmp_path / "v.nrrd")
+    assert regionmesh.reconstruct(two_boxes).metres is None
+    made.save(tmp_path / "m.vtp")
+    for again in (pickle.loads(pickle.dumps(made)), made.smooth(), regionmesh.load(tmp_path / "m.vtp")):
+        assert again.metres == 1e-6
+        again.save(tmp_path / "m.glb")
+        assert b'"scale":[1e-06,1e-06,1e-06]' in (tmp_path / "m.glb").read_bytes()
+        simplified = again.simplify(reduce=0.2, keep_samples=False)
+        assert simplified.metres == 1e-6 and simplified.report["quality_bound"] == 0.01
+    assert made.simplify(reduce=0.2, min_quality=0.05).report["quality_bound"] == 0.05
+
+
 def test_save_returns_the_files_and_scales_to_metres(two_boxes, tmp_path):
     made = regionmesh.reconstruct(two_boxes, names={1: "left lung"})
     files = made.save(tmp_path / "m.stl", per_region=True)

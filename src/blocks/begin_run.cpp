@@ -164,6 +164,7 @@ void note_survey(const Survey& found, const Input& input, const ReconstructOptio
     manifest.labels_hash = hash_of(found.labels);
     if (input.samples) manifest.samples_hash = input.samples->fingerprint();
     manifest.space = info.space;
+    manifest.metres = info.metres;
     manifest.names = info.names;
     manifest.colours = info.colours;
     manifest.background = options.background;

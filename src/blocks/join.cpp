@@ -80,7 +80,7 @@ MeshFile describe_block_folder(const fs::path& folder) {
     MeshFile file{.mesh = {}, .labels = read_labels(manifest, folder)};
     file.names = manifest.names;
     file.colours = manifest.colours;
-    file.space = manifest.space;
+    file.coordinates = coordinates_of(manifest);
     file.background = manifest.background;
     return file;
 }

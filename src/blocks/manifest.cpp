@@ -47,6 +47,7 @@ Json json_of(const Manifest& manifest) {
     if (manifest.labels_hash) json["labels_hash"] = *manifest.labels_hash;
     if (manifest.samples_hash) json["samples_hash"] = *manifest.samples_hash;
     json["space"] = space_name(manifest.space);
+    if (manifest.metres) json["metres_per_unit"] = *manifest.metres;
     Json& names = json["names"] = Json::array();
     for (const auto& [label, name] : manifest.names) names.push_back({label, name});
     Json& colours = json["colours"] = Json::array();
@@ -136,6 +137,8 @@ Manifest manifest_of(const nlohmann::json& json, const fs::path& path) {
     numbers.get("labels_hash", manifest.labels_hash);
     numbers.get("samples_hash", manifest.samples_hash);
     manifest.space = space_named(json.at("space").get<std::string>());
+    if (json.contains("metres_per_unit"))
+        manifest.metres = json.at("metres_per_unit").get<double>();  // added to version 1
     for (const auto& pair : json.at("names")) manifest.names.emplace(pair.at(0), pair.at(1));
     if (json.contains("colours"))  // added to version 1
         for (const auto& pair : json.at("colours")) manifest.colours.emplace(pair.at(0), colour_of(pair.at(1), path));
@@ -210,6 +213,10 @@ Lattice piece_lattice(const Manifest& manifest) {
 
 BlockGrid piece_grid(const Manifest& manifest) {
     return {piece_lattice(manifest), manifest.block_cells, manifest.shift};
+}
+
+Coordinates coordinates_of(const Manifest& manifest) {
+    return {manifest.space, manifest.metres, manifest.lattice.spacing};
 }
 
 fs::path manifest_path(const fs::path& folder) { return folder / "manifest.json"; }

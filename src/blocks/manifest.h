@@ -41,6 +41,7 @@ struct Manifest {
     std::optional<std::uint64_t> labels_hash = {};   // of labels.bin; earlier versions did not write it
     std::optional<std::uint64_t> samples_hash = {};  // of an input that is read in one pass
     Space space = Space::kUnknown;
+    std::optional<double> metres = {};  // in the unit of the lattice
     LabelNames names = {};
     LabelColours colours = {};
     std::vector<InputLabel> background = {};
@@ -80,6 +81,9 @@ void write_labels(const LabelTable& labels, const std::filesystem::path& folder,
 LabelTable read_labels(const Manifest& manifest, const std::filesystem::path& folder);
 
 std::uint64_t hash_of(const LabelTable& labels);
+
+/// What the model says of its coordinates.
+Coordinates coordinates_of(const Manifest& manifest);
 
 /// A hash of the identity: pieces of another run are not taken for those of this one.
 std::uint64_t job_of(const RunIdentity& identity);

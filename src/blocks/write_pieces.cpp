@@ -49,7 +49,7 @@ std::vector<fs::path> write_vtp_pieces(const fs::path& folder, const fs::path& p
         const Piece piece = read_entry(manifest, folder, block);
         const Mesh mesh = mesh_of(piece, manifest);
         FileView view(mesh, labels, background, names);
-        view.set_space(manifest.space);
+        view.set_coordinates(coordinates_of(manifest));
         view.set_given_colours(given);
         view.set_colours_of_whole(colours);
         fs::path name = path;

@@ -45,14 +45,14 @@ constexpr auto write_3mf_in_part() {
     using Write = void (*)(const FileView&, const WriteOptions&, OutputFiles&, const Path&);
     if constexpr (kPart.is_built)
         return Write([](const FileView& view, const WriteOptions& options, OutputFiles& files, const Path& path) {
-            write_3mf(view, options.metres, files.add(path));
+            write_3mf(view, options.coordinates.metres, files.add(path));
         });
     else
         return Write(nullptr);
 }
 
 void write_in_metres(const FileView& view, const WriteOptions& options, OutputFiles& files, const Path& path) {
-    write_glb(view, options.metres.value_or(1), files.add(path));
+    write_glb(view, options.coordinates.metres.value_or(1), files.add(path));
 }
 
 template <void (*kWrite)(const FileView&, OutputFiles&, const Path&)>

@@ -40,8 +40,8 @@ public:
     const std::vector<std::uint32_t>& colours_of_whole() const { return colours_of_whole_; }
     void set_colours_of_whole(std::vector<std::uint32_t> colours) { colours_of_whole_ = std::move(colours); }
     InputLabel exterior_label() const { return exterior_label_; }
-    Space space() const { return space_; }
-    void set_space(Space space) { space_ = space; }
+    const Coordinates& coordinates() const { return coordinates_; }
+    void set_coordinates(const Coordinates& coordinates) { coordinates_ = coordinates; }
     /// The labels of background. Files say where there are none, too: readers take 0 for background otherwise.
     std::vector<InputLabel> background_labels() const;
     FileFace face(FaceId f) const;
@@ -94,7 +94,7 @@ private:
     const LabelColours* colours_;
     std::vector<std::uint32_t> colours_of_whole_;
     InputLabel exterior_label_;
-    Space space_ = Space::kUnknown;
+    Coordinates coordinates_;
     std::uint32_t region_ranks_ = 0;      // ranks from here on are background or exterior
     std::vector<std::uint32_t> ranks_;    // by dense label: place in the order of files
     std::vector<std::uint32_t> numbers_;  // by vertex id: number in the file; empty if ids are the numbers

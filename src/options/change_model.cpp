@@ -53,7 +53,8 @@ WantedVolumes volumes_of(const CheckReport& report) {
 }  // namespace
 
 ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
-                           const std::optional<Lattice>& samples, const OnModelChange& on_change) {
+                           const std::optional<Vec3>& spacing, const std::optional<Lattice>& samples,
+                           const OnModelChange& on_change) {
     const auto note = [&](const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all) {
         if (on_change) on_change(stage, gone, in_all);
     };
@@ -62,13 +63,15 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     Report& report = change.report;
     SimplifyOptions options = simplify_options(settings, mesh);
     options.samples = axes.samples();
+    if (spacing && !settings.reconstruct.min_quality && !settings.reconstruct.improve)
+        options.min_quality = usual_quality_bound(*spacing);
     std::optional<std::uint64_t> in_all;  // known where the target is a number of faces
     if (options.target_faces > 0) in_all = report.initial_faces - options.target_faces;
     options.on_progress = [&](std::uint64_t left) { note("decimate", report.initial_faces - left, in_all); };
     {
         const Timer timer(report.seconds["decimate"]);
         note_simplified(simplify(mesh, options), report);
-        report.quality_bound = options.min_quality;
+        if (has_target(settings)) report.quality_bound = options.min_quality;
     }
     if (settings.reconstruct.improve) {
         const Timer timer(report.seconds["improve"]);

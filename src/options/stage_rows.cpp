@@ -148,10 +148,11 @@ Rows validity_rows() {
     return {
         option(
             {.name = "min-quality",
-             .help = "lowest quality of the faces that smoothing and decimation make; 0.26 is equilateral. Faces that "
-                     "come in below it may stay: a value above 0.14 is no bound of the model. 0.1 if not given; for "
-                     "decimation of sections 0.1 times the smallest spacing over the largest, unless with improve or "
-                     "preserve-volume",
+             .help =
+                 "lowest quality of the faces that smoothing and decimation make; 0.26 is equilateral. Faces that "
+                 "come in below it may stay: a value above 0.14 is no bound of the model. 0.1 if not given; for "
+                 "decimation 0.1 times the smallest spacing of the sections over the largest, where it is known and "
+                 "unless with --improve or --preserve-volume",
              .group = kGroup,
              .commands = kWriters},
             [](Settings& s) { return &s.reconstruct.min_quality; }, kQualities),

@@ -19,6 +19,7 @@
 #include "regionmesh/output_file.h"
 #include "regionmesh/page.h"
 #include "regionmesh/simplify.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 namespace {
@@ -163,6 +164,14 @@ Json page_json(const std::filesystem::path& path, const PageOptions& options) {
     return json;
 }
 
+/// The unit of length that all models have.
+Json unit_json(const std::vector<PageModel>& models) {
+    const std::optional<double> metres = models.front().metres;
+    const bool is_common =
+        metres && std::ranges::all_of(models, [&](const PageModel& m) { return m.metres == metres; });
+    return is_common ? Json(length_symbol(*metres)) : Json(nullptr);
+}
+
 std::string title_of(const std::vector<PageModel>& models) {
     std::string title;
     for (const PageModel& model : models) title += (title.empty() ? "" : " and ") + model.title;
@@ -179,6 +188,7 @@ void write_page(const std::filesystem::path& path, const std::vector<PageModel>&
                         fmt::format("{}: {} distances for {} vertices; give one for each", path.string(),
                                     model.distances.size(), model.mesh.vertex_end()));
     Json json = page_json(path, options);
+    json["unit"] = unit_json(models);
     OutputFile& file = files.add(path);
     const std::size_t title = kPageTemplate.find(kTitlePlace), data = kPageTemplate.find(kDataPlace);
     file.write(kPageTemplate.substr(0, title));

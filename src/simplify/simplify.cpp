@@ -85,6 +85,11 @@ void require_in_range(const SimplifyOptions& options) {
 
 }  // namespace
 
+double usual_quality_bound(const Vec3& spacing) {
+    const auto [least, greatest] = std::minmax({spacing.x, spacing.y, spacing.z});
+    return SimplifyOptions{}.min_quality / (greatest / least);
+}
+
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
     require_in_range(options);
     SimplifyResult result;

@@ -62,13 +62,10 @@ double section_scale(const VolumeInfo& volume, const ReconstructOptions& options
 
 double quality_bound(const ReconstructOptions& options, const SourceShape& shape) {
     if (options.min_quality) return *options.min_quality;
-    const double usual = SimplifyOptions{}.min_quality;
-    // Volumes are restored by moving vertices, which bad faces would not let go.
-    if (!shape.has_samples || options.improve || options.preserve_volume) return usual;
-    // A face of the usual quality in a lattice of cubes keeps at least about this when the lattice is stretched.
-    const auto [least, greatest] =
-        std::minmax({shape.lattice.spacing.x, shape.lattice.spacing.y, shape.lattice.spacing.z});
-    return usual * least / greatest;
+    // Faces are improved for the sake of their shape; volumes are restored by moving vertices, which bad faces hold
+    // back.
+    const bool is_usual = !shape.has_samples || options.improve || options.preserve_volume;
+    return is_usual ? SimplifyOptions{}.min_quality : usual_quality_bound(shape.lattice.spacing);
 }
 
 SimplifyOptions simplify_options(const ReconstructOptions& options, const SourceShape& shape) {

@@ -264,6 +264,26 @@ TEST_F(BlockProgram, options_of_whole_models_are_refused_for_pieces) {
     EXPECT_THAT(text_of(out("a&b.pvtp")), testing::HasSubstr("<Piece Source=\"a&amp;b-"));
 }
 
+TEST_F(BlockProgram, a_folder_for_neuroglancer_is_scaled_by_the_unit_that_the_input_says) {
+    std::string labels =
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nspacings: 1 1 1\n"
+        "units: \"um\" \"um\" \"um\"\nencoding: raw\n\n";
+    for (int n = 0; n < 512; ++n) labels += static_cast<char>(1 + n / 256);
+    put_text(path("um.nrrd"), labels);
+    ASSERT_EQ(run("reconstruct " + path("um.nrrd").string() + " --block-size 5 -o " + out("model")).code, 0);
+    const auto converted = [&](const std::string& model, const std::string& options) {
+        const fs::path folder = out("m.precomputed");
+        fs::remove_all(folder);
+        EXPECT_EQ(run("convert " + out(model) + ' ' + folder.string() + " --precomputed legacy" + options).code, 0);
+        return text_of(folder / "state.json");
+    };
+    const std::string scaled = converted("model", " --units um");
+    EXPECT_EQ(converted("model", ""), scaled);
+    EXPECT_NE(converted("model", " --units nm"), scaled);
+    ASSERT_EQ(run("convert " + out("model") + ' ' + out("m.vtp")).code, 0);
+    EXPECT_EQ(converted("m.vtp", ""), scaled);
+}
+
 TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {
     ASSERT_EQ(run(grains("model")).code, 0);
     const Ran ran = run("convert " + out("model") + ' ' + out("m.precomputed") + " --units um --precomputed legacy");

@@ -12,7 +12,7 @@ class CliDicom : public Program {
 protected:
     static std::string file(const std::string& name) { return "'" + data("dicom/" + name) + "' "; }
     void make(const std::string& input, const std::string& model) const {
-        const Ran ran = run("reconstruct " + input + "-o " + out(model));
+        const Ran ran = run("reconstruct " + input + "--units mm -o " + out(model));
         EXPECT_EQ(ran.code, 0) << ran.error;
         EXPECT_EQ(ran.error, "");
     }

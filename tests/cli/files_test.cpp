@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "cli/program.h"
+#include "regionmesh/blocks.h"
 #include "regionmesh/check.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/options.h"
@@ -135,13 +137,13 @@ TEST_F(CliFiles, models_say_their_space_as_slicer_reads_it) {
     for (const std::string name : {"m.vtp", "m.vtu", "m.ply", "m.obj", "m.stl"}) {
         SCOPED_TRACE(name);
         expect_good("reconstruct " + labels + "-o " + out(name));
-        EXPECT_EQ(read_mesh(out(name)).space, Space::kRas);
+        EXPECT_EQ(read_mesh(out(name)).coordinates.space, Space::kRas);
         const bool is_vtk = name == "m.vtp" || name == "m.vtu";
         EXPECT_THAT(read(name), HasSubstr(is_vtk ? "Name=\"SPACE\"" : "SPACE=RAS"));
         EXPECT_THAT(read_mesh(out(name)).names, testing::IsEmpty());
         expect_good("convert " + out(name) + " --space lps " + out("turned.ply"));
         const MeshFile there = read_mesh(out("turned.ply")), here = read_mesh(out(name));
-        EXPECT_EQ(there.space, Space::kLps);
+        EXPECT_EQ(there.coordinates.space, Space::kLps);
         const Vec3 p = here.mesh.position(VertexId{0}), q = there.mesh.position(VertexId{0});
         EXPECT_EQ(q, (Vec3{-p.x, -p.y, p.z}));
         if (name != "m.stl") expect_good("check " + out("turned.ply") + " --sections " + labels);
@@ -149,14 +151,14 @@ TEST_F(CliFiles, models_say_their_space_as_slicer_reads_it) {
     expect_good("reconstruct " + labels + "--block-size 9 -o " + out("pieces"));
     expect_good("convert " + out("pieces") + " --space lps " + out("turned.ply"));
     const MeshFile pieces = read_block_folder(out("pieces")), turned = read_mesh(out("turned.ply"));
-    EXPECT_EQ(turned.space, Space::kLps);
+    EXPECT_EQ(turned.coordinates.space, Space::kLps);
     const Vec3 p = pieces.mesh.position(VertexId{0});
     EXPECT_EQ(turned.mesh.position(VertexId{0}), (Vec3{-p.x, -p.y, p.z}));
     EXPECT_THAT(run("compare " + out("pieces") + ' ' + out("turned.ply")).error, HasSubstr("is in RAS and "));
     expect_good("reconstruct " + labels + "-o " + out("lps.ply") + " --space lps");
     expect_good("check " + out("lps.ply") + " --sections " + labels);
     expect_good("reconstruct " + volume(4, 0, "left-posterior-superior") + "-o " + out("other.ply"));
-    EXPECT_EQ(read_mesh(out("other.ply")).space, Space::kLps);
+    EXPECT_EQ(read_mesh(out("other.ply")).coordinates.space, Space::kLps);
 }
 
 TEST_F(CliFiles, vtk_colours_by_region) {
@@ -228,6 +230,52 @@ TEST_F(CliFiles, units_scale_glb_to_metres) {
     EXPECT_THAT(read("m.glb"), HasSubstr("\"scale\":[0.001,0.001,0.001]"));
     expect_good("reconstruct " + volume() + "-o " + out("m.glb"));
     EXPECT_THAT(read("m.glb"), Not(HasSubstr("\"scale\"")));
+}
+
+TEST_F(CliFiles, the_unit_of_a_volume_is_that_of_its_models) {
+    std::string labels = text_of(volume().substr(0, volume().size() - 1));
+    labels.insert(labels.find("encoding"), "space units: \"um\" \"um\" \"um\"\n");
+    put_text(path("v.nrrd"), labels);
+    const std::string input = path("v.nrrd").string() + ' ', scaled = "\"scale\":[1e-06,1e-06,1e-06]";
+    expect_good("reconstruct " + input + "-o " + out("m.glb"));
+    EXPECT_THAT(read("m.glb"), HasSubstr(scaled));
+    expect_good("reconstruct " + input + "-o " + out("m.vtp") + " --html " + out("m.html"));
+    EXPECT_THAT(read("m.html"), HasSubstr("\"unit\":\"um\""));
+    for (const std::string name : {"m.ply", "m.obj", "m.vtu"}) {
+        expect_good("decimate " + out("m.vtp") + " --reduce 20% -o " + out(name));
+        expect_good("convert " + out(name) + ' ' + out("m.glb"));
+        EXPECT_THAT(read("m.glb"), HasSubstr(scaled)) << name;
+    }
+    expect_good("convert " + out("m.vtp") + ' ' + out("m.glb") + " --units mm");
+    EXPECT_THAT(read("m.glb"), HasSubstr("\"scale\":[0.001,0.001,0.001]"));
+    EXPECT_THAT(run("info " + input).out, HasSubstr("spacing    1 x 1 x 2 um\n"));
+    EXPECT_THAT(run("info " + out("m.vtp")).out, HasSubstr("to 30.3462 um\n"));
+    expect_good("convert " + out("m.vtp") + ' ' + out("mm.vtp") + " --units mm");
+    EXPECT_THAT(run("compare " + out("m.vtp") + ' ' + out("mm.vtp")).error, HasSubstr("m.vtp is in um and "));
+    expect_good("view " + out("mm.vtp") + " -o " + out("v.html"));
+    EXPECT_THAT(read("v.html"), HasSubstr("\"unit\":\"mm\""));
+    expect_good("reconstruct " + input + "--block-size 9 -o " + out("pieces"));
+    EXPECT_EQ(read_block_folder(out("pieces")).coordinates, (Coordinates{Space::kRas, 1e-6, Vec3{1, 1, 2}}));
+}
+
+TEST_F(CliFiles, decimation_knows_the_spacing_that_a_model_says) {
+    std::string labels = text_of(volume().substr(0, volume().size() - 1));
+    labels.replace(labels.find("(0,0,2)"), 7, "(0,0,8)");
+    put_text(path("v.nrrd"), labels);
+    const auto bound = [&](const std::string& model) {
+        expect_good("reconstruct " + path("v.nrrd").string() + " -o " + out(model));
+        expect_good("decimate " + out(model) + " --reduce 50% -o " + out("d.vtp") + " --report " + out("r.json"));
+        return nlohmann::json::parse(read("r.json")).at("quality_bound").get<double>();
+    };
+    EXPECT_EQ(bound("m.vtp"), 0.1 / 8);
+    EXPECT_EQ(bound("m.ply"), 0.1 / 8);
+    EXPECT_EQ(bound("m.stl"), 0.1) << "which does not say it";
+    const std::string page = " --html " + out("m.html");
+    expect_good("decimate " + out("m.vtp") + " --reduce 50% -o " + out("d.vtp") + page);
+    EXPECT_THAT(read("m.html"), HasSubstr("\"min_quality\":0.0125,"));
+    expect_good("decimate " + out("m.vtp") + " --improve -o " + out("d.vtp") + page + " --report " + out("r.json"));
+    EXPECT_THAT(read("m.html"), HasSubstr("\"min_quality\":null,"));
+    EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("quality_bound")) << "nothing was decimated";
 }
 
 TEST_F(CliFiles, a_part_of_a_volume_is_checked_against_the_same_part) {

@@ -34,7 +34,7 @@ TEST(ChangeModel, simplifies_improves_and_reports_what_it_did) {
     const std::uint32_t faces = made.mesh.face_count();
     std::set<std::string> stages;
     const ModelChange change = simplify_model(made.mesh, settings_of({{"reduce", "70%"}, {"improve", "true"}}), {}, {},
-                                              [&](const char* stage, auto, const auto&) { stages.insert(stage); });
+                                              {}, [&](const char* stage, auto, const auto&) { stages.insert(stage); });
     const Report& report = change.report;
     EXPECT_EQ(report.initial_faces, faces);
     EXPECT_EQ(report.peak_faces, faces);
@@ -45,6 +45,18 @@ TEST(ChangeModel, simplifies_improves_and_reports_what_it_did) {
     EXPECT_EQ(report.seconds.count("decimate") + report.seconds.count("improve"), 2u);
     EXPECT_EQ(report.check.violation_count() + change.before.violation_count() + change.locked.vertices, 0u);
     EXPECT_TRUE(stages.contains("improve") && stages.contains("check"));
+}
+
+TEST(ChangeModel, the_bound_on_quality_is_that_of_the_spacing_where_it_is_known) {
+    const auto bound = [](OptionValues options, const std::optional<Vec3>& spacing) {
+        Reconstruction made = blocky(test::grain_volume({9, 9, 9}, 3, 3));
+        options.emplace_back("reduce", "20%");
+        return simplify_model(made.mesh, settings_of(options), {}, spacing).report.quality_bound;
+    };
+    EXPECT_EQ(bound({}, {}), 0.1);
+    EXPECT_EQ(bound({}, Vec3{2, 4, 20}), 0.01);
+    EXPECT_EQ(bound({{"min-quality", "0.05"}}, Vec3{2, 4, 20}), 0.05);
+    EXPECT_EQ(bound({{"improve", "true"}}, Vec3{2, 4, 20}), 0.1);
 }
 
 TEST(ChangeModel, what_has_violations_stays_and_is_not_fixed_afterwards) {

@@ -433,6 +433,9 @@ TEST(Anisotropy, the_bound_on_quality_falls_with_the_ratio_of_the_spacings_unles
     EXPECT_EQ(bound({.reduce = 0.5, .improve = true}), 0.1) << "made for the shape of faces";
     EXPECT_EQ(bound({.reduce = 0.5, .preserve_volume = true}), 0.1) << "vertices must be able to move";
     EXPECT_EQ(bound({}), -1) << "nothing is decimated";
+    EXPECT_EQ(bound({.reduce = 0.5, .min_quality = 0}), 0);
+    volume.spaced({0.7, 0.7, 0.7});  // in floating point 0.1 * 0.7 / 0.7 is not 0.1
+    EXPECT_EQ(bound({.reduce = 0.5}), 0.1);
 }
 
 TEST(Anisotropy, decimation_between_sections_far_apart_ends_no_sooner_than_elsewhere) {

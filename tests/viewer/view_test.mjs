@@ -335,6 +335,22 @@ async function claims_are_those_that_were_tested(browser) {
     await other.close();
 }
 
+async function the_share_of_faces_below_the_bound_is_not_understated(browser) {
+    const whole = readFileSync(`${folder}/poly.html`, "utf8"), errors = [];
+    const said = async (bound) => {
+        writeFileSync(`${folder}/bound.html`, whole.replace('"min_quality":null', `"min_quality":${bound}`));
+        const page = await open(browser, `${folder}/bound.html`, errors);
+        const texts = await page.$$eval(".certificates .said", (found) => found.map((e) => e.textContent));
+        await page.close();
+        return texts.find((text) => text.startsWith("lowest "));
+    };
+    const share = (text, pattern) => Number(pattern.exec(text)?.[1] ?? assert.fail(text));
+    const edge = share(await said(0.2), /; ([0-9.]+) % of the faces are below the bound 0.2$/);
+    assert.ok(share(await said(0.205), /; at most ([0-9.]+) % of the faces/) > edge, "a bound inside a bin counts all of it");
+    assert.match(await said(0), /no bound of decimation$/);
+    assert.deepEqual(errors, []);
+}
+
 async function one_is_singular_and_long_labels_are_in_order(browser) {
     writeFileSync(`${folder}/one.raw`, new Uint8Array(8).fill(1));
     run("reconstruct", `${folder}/one.raw`, "--size", "2,2,2", "--type", "uint8", "-o", `${folder}/one.vtp`, "--quiet", "--html", `${folder}/one.html`);
@@ -364,7 +380,8 @@ try {
         marks_go_along_with_their_regions, the_legend_is_beside_the_buttons_or_above_them, a_lost_picture_comes_back,
         a_selected_region_keeps_the_colours_of_values, where_there_is_no_curvature_it_is_grey,
         a_click_hits_the_region_that_the_picture_shows, a_click_goes_through_transparent_regions,
-        an_incomplete_page_says_so, claims_are_those_that_were_tested, one_is_singular_and_long_labels_are_in_order]) {
+        an_incomplete_page_says_so, claims_are_those_that_were_tested,
+        the_share_of_faces_below_the_bound_is_not_understated, one_is_singular_and_long_labels_are_in_order]) {
         await test(browser);
         console.log(`ok ${test.name}`);
     }

@@ -38,16 +38,22 @@ function topology({ has_labels: has, boundary_is_open: isOpen }, { violation_cou
 }
 
 function qualityFloor({ min_quality: bound }, { quality }) {
-    const meaning = "Quality is 0.26 for an equilateral face, 0 for a degenerate one. Decimation makes no face below its bound; faces that were below it may stay.";
-    if (bound === null) return { name: "Quality floor", verdict: "none", said: `lowest ${short(quality.min, 3)}; no bound was asked`, meaning };
+    const meaning = "Quality is 0.26 for an equilateral face, 0 for a degenerate one. Decimation makes no face below its bound, measured with z scaled as --scale-z says; faces that were below it may stay.";
+    if (!bound) return { name: "Quality floor", verdict: "none", said: `lowest ${short(quality.min, 3)}; no bound of decimation`, meaning };
     if (quality.min >= bound * (1 - 1e-9))
         return { name: "Quality floor", verdict: "good", said: `lowest ${short(quality.min, 3)}, at least the bound ${short(bound)}`, meaning };
-    const { bin_width: width, counts } = quality.histogram, all = sum(counts) || 1;
-    const below = counts.filter((_, n) => (n + 1) * width <= bound * (1 + 1e-9)).reduce((a, b) => a + b, 0);
     return {
         name: "Quality floor", verdict: "none", meaning,
-        said: `lowest ${short(quality.min, 3)}; ${short((100 * below) / all, 2)} % of the faces are below ${short(bound)}, left from before decimation`,
+        said: `lowest ${short(quality.min, 3)}; ${shareBelow(bound, quality.histogram)} of the faces are below the bound ${short(bound)}`,
     };
+}
+
+/** A bound inside a bin of the histogram leaves open how many faces of that bin are below it. */
+function shareBelow(bound, { bin_width: width, counts }) {
+    const bins = bound / width, whole = Math.floor(bins + 1e-9), all = sum(counts) || 1;
+    const isInside = bins > whole + 1e-9;
+    const below = sum(counts.slice(0, isInside ? whole + 1 : whole));
+    return `${isInside ? "at most " : ""}${short((100 * below) / all, 2)} %`;
 }
 
 function errorBound({ max_error: bound }, { stopped, error_bound: found }) {

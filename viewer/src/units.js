@@ -1,8 +1,7 @@
 // What the numbers of the page are measured in.
 
-/** Few files say their unit of length; the page has it where the run was given one. */
-export function unitText({ report }) {
-    const unit = report?.options?.units;
+/** Few files say their unit of length; the page has it where one was found or given. */
+export function unitText({ unit }) {
     if (!unit) return "Lengths, areas and volumes are in model units: those of the coordinates.";
-    return `Lengths are in ${unit}, areas in ${unit}², volumes in ${unit}³.`;
+    return /^[0-9]/.test(unit) ? `Lengths are in units of ${unit}, areas and volumes in their squares and cubes.` : `Lengths are in ${unit}, areas in ${unit}², volumes in ${unit}³.`;
 }

@@ -43,7 +43,7 @@ struct Precomputed {
     NewFiles& files;
 
     /// Nanometres in a unit of the model.
-    double nanometres() const { return options.metres * 1e9; }
+    double nanometres() const { return options.metres.value_or(1) * 1e9; }
     /// Not the exterior, not background.
     bool is_region(Label label) const;
     /// The name of a region in Neuroglancer: a decimal number. Throws Error(kInput) for a negative label.

@@ -154,6 +154,7 @@ PrecomputedResult write_precomputed(const fs::path& folder, const fs::path& outp
     PrecomputedOptions options = given;
     options.background = dense_background(manifest.background, labels);
     options.source = folder.string();
+    if (!options.metres) options.metres = manifest.metres;
     if (options.names.empty()) options.names = manifest.names;
     if (options.colours.empty()) options.colours = manifest.colours;
     NewFiles files(output);

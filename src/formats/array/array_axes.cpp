@@ -131,6 +131,7 @@ void place(VolumeInfo& info, const Placement& placement, const ReadOptions& opti
         info.lattice.origin[axis] = origin;
         info.lattice.direction[axis * 4] = sign;
     }
+    info.metres = placement.metres;
     info.warning = placement.warning;
 }
 
@@ -154,9 +155,11 @@ Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const 
         }
         return true;
     };
-    for (const char* name : {"element_size_um", "voxel_size", "resolution", "spacing"}) {
-        if (take(name, placement.spacing)) break;
-    }
+    if (take("element_size_um", placement.spacing))
+        placement.metres = 1e-6;
+    else
+        for (const char* name : {"voxel_size", "resolution", "spacing"})
+            if (take(name, placement.spacing)) break;
     if (options.spacing) placement.warning.clear();
     for (const char* name : {"offset", "origin", "translation"}) {
         if (take(name, placement.origin)) break;

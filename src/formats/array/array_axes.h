@@ -41,7 +41,8 @@ struct Placement {
     std::array<double, 3> spacing{1, 1, 1};
     std::array<double, 3> origin{0, 0, 0};
     std::array<double, 3> steps{0, 0, 0};
-    std::string warning = {};  // as VolumeInfo has it
+    std::optional<double> metres = {};  // in the unit of these numbers
+    std::string warning = {};           // as VolumeInfo has it
 };
 
 /// Sets the lattice of `info`, and its warning. A negative spacing mirrors the axis. Throws if a number is not finite

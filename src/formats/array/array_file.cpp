@@ -147,6 +147,7 @@ std::unique_ptr<SectionReader> open_array(const ArrayFile& array, const ReadOpti
     VolumeInfo info = volume_info(array.source, array.format, array.sample.type, size);
     info.lattice = array.lattice;
     info.space = array.space;
+    info.metres = array.metres;
     info.names = array.names;
     info.colours = array.colours;
     info.warning = array.warning;

@@ -35,6 +35,7 @@ struct ArrayFile {
     std::uint32_t blocks = 1;  // volumes one after another, and the index of the one to read
     std::uint32_t block = 0;
     Space space = Space::kUnknown;
+    std::optional<double> metres = {};  // in the unit of the lattice
     LabelNames names = {};
     LabelColours colours = {};
     std::string warning = {};   // as VolumeInfo has it

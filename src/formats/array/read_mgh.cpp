@@ -91,6 +91,7 @@ std::unique_ptr<SectionReader> open_mgh(const std::filesystem::path& path, const
     array.lattice.size = header.size();
     header.place(options, array.lattice);
     array.space = Space::kRas;
+    array.metres = 1e-3;  // as the format has it
     array.skipped_bytes = kHeaderBytes;
     take_table_beside(array);
     return open_array(array, options);

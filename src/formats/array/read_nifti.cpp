@@ -32,6 +32,7 @@ constexpr Field<float, double> kPixdim{76, 104}, kQuatern{256, 352}, kQoffset{26
 constexpr Field<float, std::int64_t, double> kVoxOffset{108, 168};
 constexpr Field<float, double> kSclSlope{112, 176}, kSclInter{116, 184};
 constexpr Field<std::int16_t, std::int32_t> kQformCode{252, 344}, kSformCode{254, 348};
+constexpr Field<char, std::int32_t> kXyztUnits{123, 500};
 constexpr Field<char, char> kMagic{344, 4};
 
 template <class Value>
@@ -158,6 +159,20 @@ void read_affine(const std::filesystem::path& path, const Header& header, const 
     }
 }
 
+/// The metres of the unit of space, which has three bits beside that of time.
+std::optional<double> metres_of(const Header& header) {
+    switch (static_cast<unsigned>(header.at(kXyztUnits)) & 7u) {
+        case 1:
+            return 1;
+        case 2:
+            return 1e-3;
+        case 3:
+            return 1e-6;
+        default:
+            return {};
+    }
+}
+
 /// Labels are the stored values; a file that wants them scaled holds something else. No slope, 0 or NaN, scales
 /// nothing.
 void check_unscaled(const std::filesystem::path& path, const Header& header) {
@@ -206,6 +221,7 @@ std::unique_ptr<SectionReader> open_nifti(const std::filesystem::path& path, con
     check_unscaled(path, header);
     read_affine(path, header, options, array.lattice);
     array.space = Space::kRas;
+    array.metres = metres_of(header);
     array.skipped_bytes = data_offset(path, header);
     take_table_beside(array);
     return open_array(array, options);

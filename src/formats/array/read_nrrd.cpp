@@ -18,6 +18,7 @@
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
 #include "formats/text/header_text.h"
+#include "formats/text/length_unit.h"
 #include "regionmesh/label_names_file.h"
 
 namespace regionmesh::formats {
@@ -292,6 +293,22 @@ void place_in_space(const HeaderFields& fields, const std::vector<Axis>& axes, c
     set_affine(path, "map to space", kRemedy, columns, origin, lattice);
 }
 
+/// The metres of the one unit that `space units`, or `units`, names for all axes that have one: "mm" "mm" "mm".
+std::optional<double> metres_of(const HeaderFields& fields) {
+    const std::string_view field = fields.text({"spaceunits", "units"});
+    std::optional<std::string_view> unit;
+    for (std::size_t at = field.find('"'); at != std::string_view::npos; at = field.find('"', at + 1)) {
+        const std::size_t end = field.find('"', at + 1);
+        if (end == std::string_view::npos) return {};
+        const std::string_view word = field.substr(at + 1, end - at - 1);
+        at = end;
+        if (word.empty()) continue;
+        if (unit && *unit != word) return {};
+        unit = word;
+    }
+    return unit ? metres_in(*unit) : std::nullopt;
+}
+
 void set_files(const NrrdText& text, ArrayFile& array) {
     const std::string_view data = text.field("datafile");
     if (data.empty()) {
@@ -350,6 +367,7 @@ std::unique_ptr<SectionReader> open_nrrd(const fs::path& path, const ReadOptions
     array.lattice.size = checked_size(path, size);
     place_in_space(text.fields, roles.space, options, array.lattice);
     array.space = place_in_named_space(text.fields.text({"space"}), array.lattice);
+    array.metres = metres_of(text.fields);
     set_files(text, array);
     const std::uint32_t layer = chosen_layer(path, roles.layers, options);
     (roles.has_layers_first ? array.components : array.blocks) =

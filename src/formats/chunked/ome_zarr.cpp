@@ -8,6 +8,7 @@
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
 #include "formats/text/json_text.h"
+#include "formats/text/length_unit.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -49,18 +50,8 @@ void transform(const fs::path& group, const Json& transformations, OmeLevel& lev
     }
 }
 
-/// The femtometres of a unit of length, as UDUNITS-2 calls it: whole numbers, so that their ratios are exact.
-std::optional<double> femtometres_in(const std::string& unit) {
-    constexpr std::pair<const char*, double> kUnits[] = {
-        {"femtometer", 1},   {"picometer", 1e3},   {"angstrom", 1e5},    {"nanometer", 1e6},
-        {"micrometer", 1e9}, {"millimeter", 1e12}, {"centimeter", 1e13}, {"decimeter", 1e14},
-        {"meter", 1e15},     {"kilometer", 1e18},  {"inch", 2.54e13},    {"foot", 3.048e14}};
-    for (const auto& [name, femtometres] : kUnits)
-        if (unit == name) return femtometres;
-    return {};
-}
-
-/// Turns axes that have another unit than x into that of x. An axis without a unit stays as it is.
+/// Turns axes that have another unit than x into that of x, which becomes that of the level. An axis without a unit
+/// stays as it is.
 void use_one_unit(const fs::path& group, const Json& image, OmeLevel& level) {
     std::vector<std::string> units(level.axes.size());
     std::string wanted;
@@ -81,6 +72,7 @@ void use_one_unit(const fs::path& group, const Json& image, OmeLevel& level) {
         level.scale[axis] *= *own / *in_wanted;
         level.translation[axis] *= *own / *in_wanted;
     }
+    level.metres = metres_in(wanted);
 }
 
 bool leaves_its_folder(const fs::path& path) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct OmeLevel {
     std::filesystem::path folder;
     std::vector<std::string> axes;
     std::vector<double> scale, translation;
+    std::optional<double> metres = {};  // in their unit
 };
 
 /// The resolutions of the first image of a group, the finest first; empty if the attributes are not those of OME-Zarr.

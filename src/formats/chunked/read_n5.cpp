@@ -9,6 +9,7 @@
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
 #include "formats/text/json_text.h"
+#include "formats/text/length_unit.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -102,7 +103,23 @@ std::vector<double> factors_of_level(const fs::path& array, const Json& attribut
 /// The numbers of the array come before those of the groups around it, and nearer groups before farther ones.
 struct Found {
     std::vector<double> resolution, factors, offset;
+    std::optional<double> metres = {};  // in the unit of the resolution
 };
+
+/// The metres of the unit that a list names for each axis. None for several, and for unknown ones.
+std::optional<double> common_unit(const Json& units) {
+    if (!units.is_array() || units.empty() || !units.front().is_string()) return {};
+    const bool is_one = std::ranges::all_of(units, [&](const Json& unit) { return unit == units.front(); });
+    return is_one ? metres_in(units.front().get<std::string>()) : std::nullopt;
+}
+
+/// {"pixelResolution": {"dimensions": [4, 4, 40], "unit": "nm"}}, or {"resolution": [4, 4, 40], "units": ["nm", ...]}.
+std::optional<double> unit_of(const Json& attributes, const char* key) {
+    const Json& resolution = attributes.at(key);
+    if (!resolution.is_object()) return common_unit(attributes.value("units", Json()));
+    const Json unit = resolution.value("unit", Json());
+    return unit.is_string() ? metres_in(unit.get<std::string>()) : std::nullopt;
+}
 
 Found find_numbers(const fs::path& array) {
     Found found;
@@ -110,8 +127,11 @@ Found find_numbers(const fs::path& array) {
         fs::path folder = whole;
         for (int depth = 0; depth <= kMaxLevelDepth; ++depth, folder = folder.parent_path()) {
             const Json attributes = attributes_of(folder);
-            for (const char* key : {"pixelResolution", "resolution"})
-                if (found.resolution.empty()) found.resolution = numbers_of(attributes, key);
+            for (const char* key : {"pixelResolution", "resolution"}) {
+                if (!found.resolution.empty()) break;
+                found.resolution = numbers_of(attributes, key);
+                if (!found.resolution.empty()) found.metres = unit_of(attributes, key);
+            }
             if (found.offset.empty()) found.offset = numbers_of(attributes, "offset");
             if (found.factors.empty() && depth == 0) found.factors = numbers_of(attributes, "downsamplingFactors");
             if (found.factors.empty() && depth > 0) found.factors = factors_of_level(whole, attributes);
@@ -121,7 +141,7 @@ Found find_numbers(const fs::path& array) {
     return found;
 }
 
-/// With named axes: {"axes": ["z", "y", "x"], "scale": [...], "translate": [...]}.
+/// With named axes: {"axes": ["z", "y", "x"], "scale": [...], "translate": [...], "units": ["nm", "nm", "nm"]}.
 bool take_transform(const Json& attributes, Placement& placement) {
     const Json transform = attributes.value("transform", Json());
     if (!transform.is_object() || !transform.value("axes", Json()).is_array()) return false;
@@ -134,6 +154,7 @@ bool take_transform(const Json& attributes, Placement& placement) {
         if (i < scale.size()) placement.spacing[axis] = scale[i];
         if (i < translate.size()) placement.origin[axis] = translate[i];
     }
+    placement.metres = common_unit(transform.value("units", Json()));
     return true;
 }
 
@@ -143,6 +164,7 @@ Placement placement_of(const StoreArray& array, const ArrayAxes& axes) {
     Placement placement;
     if (take_transform(array.attributes, placement)) return placement;
     const Found found = find_numbers(array.folder);
+    placement.metres = found.metres;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto number = [&](const std::vector<double>& numbers, double otherwise) {
             std::size_t at = axis;

@@ -75,6 +75,7 @@ Placement level_placement(const fs::path& folder, const OmeLevel& level, const A
                           std::size_t axis_count) {
     Placement placement;
     if (level.scale.empty()) return placement;
+    placement.metres = level.metres;
     if (level.scale.size() != axis_count) fail(folder, "the image's scale has another number of axes than the array");
     for (int axis = 0; axis < 3; ++axis) {
         if (axes.axis[axis] < 0) continue;

@@ -160,6 +160,7 @@ std::unique_ptr<SectionReader> open_dicom(const fs::path& path, const ReadOption
         volume_info(path, "dicom", object.bits == 8 ? SampleType::kU8 : SampleType::kU16, grid.lattice.size);
     info.lattice = grid.lattice;
     info.space = Space::kLps;
+    info.metres = 1e-3;
     info.names = object.names;
     info.colours = object.colours;
     apply_options(info, options);

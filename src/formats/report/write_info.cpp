@@ -32,22 +32,27 @@ std::string axis_text(const Sweep& sweep) { return {"xyz"[sweep.axes[2]]}; }
 
 Json three(Vec3 v) { return {v.x, v.y, v.z}; }
 
+void put_unit(const std::optional<double>& metres, Json& json) {
+    if (metres) json["unit"] = length_symbol(*metres);
+}
+
 }  // namespace
 
 std::string info_json(const VolumeInfo& info, const Census& census) {
     const Lattice& lattice = info.lattice;
-    const Json json{{"kind", "volume"},
-                    {"file", info.source},
-                    {"format", info.format},
-                    {"type", to_string(info.type)},
-                    {"size", lattice.size},
-                    {"spacing", three(lattice.spacing)},
-                    {"origin", three(lattice.origin)},
-                    {"direction", lattice.direction},
-                    {"sweep", axis_text(info.sweep)},
-                    {"labels", labels_json(census, info.names, "samples")},
-                    {"unsimplified_faces", census.face_count},
-                    {"region_pairs", census.oracle.region_pairs}};
+    Json json{{"kind", "volume"},
+              {"file", info.source},
+              {"format", info.format},
+              {"type", to_string(info.type)},
+              {"size", lattice.size},
+              {"spacing", three(lattice.spacing)},
+              {"origin", three(lattice.origin)},
+              {"direction", lattice.direction},
+              {"sweep", axis_text(info.sweep)},
+              {"labels", labels_json(census, info.names, "samples")},
+              {"unsimplified_faces", census.face_count},
+              {"region_pairs", census.oracle.region_pairs}};
+    put_unit(info.metres, json);
     return text_of(json);
 }
 
@@ -81,13 +86,14 @@ std::string info_json(const std::string& source, const MeshFile& file, const Mod
         all.back()["area"] = region.area;
         all.back()["components"] = region.components;
     }
-    const Json json{{"kind", "model"},
-                    {"file", source},
-                    {"faces", size.faces},
-                    {"vertices", size.vertices},
-                    {"box", {{"low", three(size.box.low)}, {"high", three(size.box.high)}}},
-                    {"regions", std::move(all)},
-                    {"region_pairs", report.region_pairs}};
+    Json json{{"kind", "model"},
+              {"file", source},
+              {"faces", size.faces},
+              {"vertices", size.vertices},
+              {"box", {{"low", three(size.box.low)}, {"high", three(size.box.high)}}},
+              {"regions", std::move(all)},
+              {"region_pairs", report.region_pairs}};
+    put_unit(file.coordinates.metres, json);
     return text_of(json);
 }
 

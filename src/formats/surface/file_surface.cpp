@@ -34,10 +34,33 @@ Vec3 take_point(const formats::ByteReader& file, std::string_view& line) {
     return point;
 }
 
+namespace {
+
+/// The length that a text begins with. None where it is not above 0.
+std::optional<double> take_length(std::string_view& text) {
+    const auto length = formats::parse_finite(formats::take_word(text));
+    return length && *length > 0 ? length : std::nullopt;
+}
+
+std::optional<Vec3> take_spacing(std::string_view text) {
+    Vec3 spacing;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto length = take_length(text);
+        if (!length) return {};
+        spacing[axis] = *length;
+    }
+    return spacing;
+}
+
+}  // namespace
+
 void read_comment(FileSurface& surface, std::string_view comment) {
-    if (comment.find("SPACE=RAS") != std::string_view::npos) surface.space = Space::kRas;
-    if (comment.find("SPACE=LPS") != std::string_view::npos) surface.space = Space::kLps;
+    Coordinates& coordinates = surface.coordinates;
+    if (comment.find("SPACE=RAS") != std::string_view::npos) coordinates.space = Space::kRas;
+    if (comment.find("SPACE=LPS") != std::string_view::npos) coordinates.space = Space::kLps;
     const std::string_view word = formats::take_word(comment);
+    if (word == "metres_per_unit") coordinates.metres = take_length(comment);
+    if (word == "sample_spacing") coordinates.spacing = take_spacing(comment);
     const auto label = formats::parse_label(formats::take_word(comment));
     if (!label) return;
     const std::string name = formats::one_line(comment);
@@ -50,6 +73,15 @@ void read_comment(FileSurface& surface, std::string_view comment) {
     if (word == "colour")
         if (const auto colour = formats::parse_colour(name)) surface.colours.try_emplace(*label, *colour);
     if (word == "region" && !name.empty()) surface.names.try_emplace(*label, name);
+}
+
+std::vector<std::string> coordinate_comments(const Coordinates& coordinates) {
+    std::vector<std::string> comments;
+    const auto& [space, metres, spacing] = coordinates;
+    if (space != Space::kUnknown) comments.push_back(std::string("SPACE=") + space_name(space));
+    if (metres) comments.push_back(fmt::format("metres_per_unit {}", *metres));
+    if (spacing) comments.push_back(fmt::format("sample_spacing {} {} {}", spacing->x, spacing->y, spacing->z));
+    return comments;
 }
 
 void append(FileSurface& surface, const FileSurface& other) {

@@ -31,7 +31,7 @@ struct FileSurface {
     bool is_unsigned = false;  // labels are unsigned 64-bit numbers
     LabelNames names = {};
     LabelColours colours = {};
-    Space space = Space::kUnknown;
+    Coordinates coordinates = {};
     std::optional<std::vector<InputLabel>> background = {};  // none: the file does not say
     bool is_by_region = false;      // each face has a region on one side and the exterior on the other
     bool has_shared_points = true;  // false: each face or region has its own points
@@ -49,8 +49,11 @@ void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, c
 Vec3 take_point(const formats::ByteReader& file, std::string_view& line);
 
 /// Evaluates a comment of our own files, "exterior_label -1", "background 2" or "region 3 liver", "colour 3 #ff8000",
-/// and "SPACE=RAS" as 3D Slicer writes it; ignores others.
+/// "metres_per_unit 0.001" or "sample_spacing 1 1 4", and "SPACE=RAS" as 3D Slicer writes it; ignores others.
 void read_comment(FileSurface& surface, std::string_view comment);
+
+/// Comments of our files that say what is known of the coordinates, one a line, as read_comment() takes them.
+std::vector<std::string> coordinate_comments(const Coordinates& coordinates);
 
 /// Appends the points and the labelled faces of `other`.
 void append(FileSurface& surface, const FileSurface& other);

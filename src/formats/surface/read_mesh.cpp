@@ -28,10 +28,11 @@ bool is_surface(const std::filesystem::path& path) {
 
 /// Half a turn about z leads from RAS to LPS and back.
 void turn(FileSurface& surface, Space space) {
-    if (space == Space::kUnknown || space == surface.space) return;
-    if (surface.space != Space::kUnknown)
+    Space& own = surface.coordinates.space;
+    if (space == Space::kUnknown || space == own) return;
+    if (own != Space::kUnknown)
         for (Vec3& point : surface.points) point = {-point.x, -point.y, point.z};
-    surface.space = space;
+    own = space;
 }
 
 /// The surfaces in a folder, in natural order of their names. Each is a region, called what the file is. Files in
@@ -58,8 +59,9 @@ FileSurface read_folder(const std::filesystem::path& folder) {
         for (auto& labels : surface.labels) labels = {group, 0};
         surface.names.clear();
         surface.colours.clear();
-        turn(surface, all.space);
-        all.space = surface.space;
+        turn(surface, all.coordinates.space);
+        all.coordinates.space = surface.coordinates.space;
+        if (paths.front() == path) all.coordinates = surface.coordinates;
         append(all, surface);
         if (all.points.size() > kMostVertices || all.faces.size() > kMostFaces)
             formats::fail(folder, "has more points or faces than a model can hold");
@@ -93,7 +95,7 @@ MeshFile assemble(FileSurface&& surface) {
             .labels = std::move(labels),
             .names = std::move(surface.names),
             .colours = std::move(surface.colours),
-            .space = surface.space,
+            .coordinates = surface.coordinates,
             .background = std::move(surface.background)};
 }
 

@@ -82,8 +82,8 @@ private:
             "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" xmlns:rm=\"urn:regionmesh\">\n"
             "<metadata name=\"Application\">regionmesh</metadata>\n",
             unit_);
-        if (view_.space() != Space::kUnknown)
-            put("<metadata name=\"rm:Space\">{}</metadata>\n", space_name(view_.space()));
+        if (view_.coordinates().space != Space::kUnknown)
+            put("<metadata name=\"rm:Space\">{}</metadata>\n", space_name(view_.coordinates().space));
         put("<resources>\n<basematerials id=\"{}\">\n", kMaterials);
         const std::vector<std::uint32_t> colours = region_colours(view_);
         for (const FileRegion& region : regions_.all())

@@ -59,7 +59,9 @@ const Format& format_of(const Path& path, const WriteOptions& options, bool has_
     if (has_point_arrays && !found->has_point_arrays) refuse("only .vtp and .vtu files hold a number for each vertex");
     if (options.per_region && !found->write_region)
         refuse("a file for each region is written as " + formats::extensions_with(&Format::write_region));
-    if (options.metres) require_number("metres", *options.metres, kPositive);
+    if (const auto& metres = options.coordinates.metres) require_number("metres", *metres, kPositive);
+    if (const auto& spacing = options.coordinates.spacing)
+        for (int axis = 0; axis < 3; ++axis) require_number("spacing", (*spacing)[axis], kPositive);
     if (options.boundary_is_open && found->needs_closed_regions)
         refuse("holds closed regions only: leave out --boundary open");
     if (found->forbidden_in_name && !is_plain(path.filename().string(), found->forbidden_in_name))
@@ -108,7 +110,7 @@ std::vector<Path> write_regions(const FileView& view, const Format& format, Outp
         const Mesh part = part_of(view.mesh(), faces, n);
         written.push_back(file_of(view, regions.all()[n], path));
         FileView part_view(part, view.labels(), others, view.names());
-        part_view.set_space(view.space());
+        part_view.set_coordinates(view.coordinates());
         part_view.set_given_colours(view.given_colours());
         const RegionStyle style{colours[view.rank(own)], regions.all()[n].word, companion.filename().string()};
         format.write_region(part_view, style, files.add(written.back()));
@@ -159,7 +161,7 @@ std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const P
     require_arrays(mesh, path, options);
     const LabelNames names = in_one_line(options.names);
     FileView view(mesh, labels, options.background, names);
-    view.set_space(options.space);
+    view.set_coordinates(options.coordinates);
     view.set_given_colours(options.colours);
     if (options.per_region) return write_regions(view, format, files, path);
     std::vector<Path> written{path};

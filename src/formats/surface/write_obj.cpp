@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/surface/file_regions.h"
+#include "formats/surface/file_surface.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/text_writer.h"
 #include "mesh/region_colours.h"
@@ -22,8 +23,8 @@ InputLabel number_of(const FileView& view, Label label) {
     return is_exterior(label) ? view.exterior_label() : view.labels().input(label);
 }
 
-void add_space(const FileView& view, TextWriter& text) {
-    if (view.space() != Space::kUnknown) text.line(std::string("# SPACE=") + space_name(view.space()));
+void add_coordinates(const FileView& view, TextWriter& text) {
+    for (const std::string& comment : coordinate_comments(view.coordinates())) text.line("#", comment);
 }
 
 /// The name of an object and its material: both programs and people read it.
@@ -95,7 +96,7 @@ void Objects::share_out(const std::vector<std::array<std::uint32_t, 2>>& both) {
 void write_comments(const FileView& view, const FileRegions& regions, TextWriter& text) {
     text.line("# o REGION: interfaces of this region, normals outward; each interface is in one of its two regions");
     text.line("# g interface_A_B: faces whose normals point from label A to label B");
-    add_space(view, text);
+    add_coordinates(view, text);
     text.line("# exterior_label", view.exterior_label());
     const std::vector<InputLabel> background = view.background_labels();
     if (background.empty()) text.line("# no_background 0");
@@ -165,7 +166,7 @@ void write_materials_of_regions(const FileView& view, OutputFile& file) {
 /// The group has no second label: the file has one region, with normals outward.
 void write_region_obj(const FileView& view, const RegionStyle& style, OutputFile& file) {
     TextWriter text(file);
-    add_space(view, text);
+    add_coordinates(view, text);
     text.line("mtllib", style.material_file);
     text.line("g", FileRegions(view).all().front().title);
     text.line("usemtl", style.material);

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "formats/codec/number_writer.h"
+#include "formats/surface/file_surface.h"
 #include "formats/surface/mesh_formats.h"
 #include "mesh/region_colours.h"
 
@@ -39,7 +40,8 @@ void write(const FileView& view, FaceLabels face_labels, const ColourOf& colour_
     const Mesh& mesh = view.mesh();
     const bool is_wide = !all_labels_fit_32_bits(view);
     std::string comments = fmt::format("comment exterior_label {}\n", view.exterior_label());
-    if (view.space() != Space::kUnknown) comments += fmt::format("comment SPACE={}\n", space_name(view.space()));
+    for (const std::string& comment : coordinate_comments(view.coordinates()))
+        comments += fmt::format("comment {}\n", comment);
     if (face_labels == FaceLabels::kBoth) {
         const std::vector<InputLabel> background = view.background_labels();
         if (background.empty()) comments += "comment no_background 0\n";

@@ -19,7 +19,8 @@ Vec3 unit_normal(const std::array<Vec3, 3>& p) {
 
 /// " SPACE=RAS": 3D Slicer looks for it in the first line, or in the header of a binary file.
 std::string space_text(const FileView& view) {
-    return view.space() == Space::kUnknown ? std::string() : std::string(" SPACE=") + space_name(view.space());
+    const Space space = view.coordinates().space;
+    return space == Space::kUnknown ? std::string() : std::string(" SPACE=") + space_name(space);
 }
 
 }  // namespace

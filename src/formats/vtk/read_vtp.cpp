@@ -33,6 +33,7 @@ private:
     void read_colours(pugi::xml_node fields);
     void read_background(pugi::xml_node fields);
     void read_space(pugi::xml_node fields);
+    void read_lengths(pugi::xml_node fields);
     void refuse_other_cells(pugi::xml_node piece) const;
     void read_node_types(pugi::xml_node piece, std::uint64_t count);
     void read_types(pugi::xml_node cells, std::uint64_t count) const;
@@ -107,12 +108,33 @@ void VtkSurfaceReader::read_space(pugi::xml_node fields) {
     if (const auto texts = read_strings(xml_, array); texts.size() == 1) read_comment(surface_, "SPACE=" + texts[0]);
 }
 
+void VtkSurfaceReader::read_lengths(pugi::xml_node fields) {
+    const auto require_length = [&](pugi::xml_node array, double value) {
+        if (!(value > 0 && std::isfinite(value)))
+            xml_.fail(array, fmt::format("has {:g}, which is no length; a number above 0 is needed", value));
+    };
+    if (const pugi::xml_node array = array_named(fields, "MetresPerUnit")) {
+        VtkNumbers number(xml_, array, 1);
+        surface_.coordinates.metres = number.real();
+        number.finish();
+        require_length(array, *surface_.coordinates.metres);
+    }
+    if (const pugi::xml_node array = array_named(fields, "SampleSpacing")) {
+        VtkNumbers numbers(xml_, array, 3);
+        const Vec3 spacing = numbers.point();
+        numbers.finish();
+        for (int axis = 0; axis < 3; ++axis) require_length(array, spacing[axis]);
+        surface_.coordinates.spacing = spacing;
+    }
+}
+
 FileSurface VtkSurfaceReader::read(bool is_grid) {
     const pugi::xml_node fields = xml_.dataset().child("FieldData"), exterior = array_named(fields, "ExteriorLabel");
     read_names(fields);
     read_colours(fields);
     read_background(fields);
     read_space(fields);
+    read_lengths(fields);
     if (exterior) {
         VtkNumbers number = integers_of(xml_, exterior, 1);
         surface_.exterior_label = number.integer();

@@ -200,6 +200,19 @@ void write_space(Space space, OutputFile& file) {
                            codes));
 }
 
+void write_lengths(const Coordinates& coordinates, OutputFile& file) {
+    if (coordinates.metres)
+        file.write(
+            fmt::format("<DataArray type=\"Float64\" Name=\"MetresPerUnit\" NumberOfTuples=\"1\" format=\"ascii\">"
+                        "{}</DataArray>\n",
+                        *coordinates.metres));
+    if (const auto& spacing = coordinates.spacing)
+        file.write(
+            fmt::format("<DataArray type=\"Float64\" Name=\"SampleSpacing\" NumberOfComponents=\"3\" "
+                        "NumberOfTuples=\"1\" format=\"ascii\">{} {} {}</DataArray>\n",
+                        spacing->x, spacing->y, spacing->z));
+}
+
 void write_background(const FileView& view, OutputFile& file) {
     const std::vector<InputLabel> labels = view.background_labels();
     std::string text;
@@ -216,7 +229,8 @@ void write_head(const FileView& view, DataSet kind, OutputFile& file) {
     if (const InputLabel exterior = view.exterior_label(); exterior != -1)
         write_label_array(view, "ExteriorLabel", 1, view.labels().text(exterior), file);
     write_background(view, file);
-    write_space(view.space(), file);
+    write_space(view.coordinates().space, file);
+    write_lengths(view.coordinates(), file);
     write_names(view, file);
     write_given_colours(view, file);
     const std::uint64_t vertices = view.mesh().vertex_count(), faces = view.mesh().face_count();

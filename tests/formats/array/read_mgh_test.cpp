@@ -36,6 +36,7 @@ TEST_F(ReadMghTest, raw_files_sweep_along_every_axis_and_gzipped_ones_along_z) {
 TEST_F(ReadMghTest, places_in_space_are_those_of_the_header) {
     const VolumeInfo placed = info_of(data("mgh/turned_int32.mgz"));
     EXPECT_EQ(placed.space, Space::kRas);
+    EXPECT_EQ(placed.metres, 1e-3);
     expect_in_space(placed, {10, -20, 30}, {-0.5, 0, 0, 0, 0, 2, 0, -0.75, 0});
     // Without a place FreeSurfer takes coronal sections of 1 mm around 0: 5 x 4 x 3 samples.
     expect_in_space(info_of(data("mgh/uint8.mgh")), {2.5, -1.5, 2}, {-1, 0, 0, 0, 0, 1, 0, -1, 0});

@@ -56,6 +56,17 @@ TEST_F(ReadNiftiTest, nibabels_files_come_back_label_for_label) {
     }
 }
 
+TEST_F(ReadNiftiTest, the_unit_of_length_is_that_of_space_beside_that_of_time) {
+    constexpr std::size_t kXyztUnits = 123;
+    const auto metres = [&](int code) {
+        return open_sections({patched(kXyztUnits, std::string(1, static_cast<char>(code)))})->info().metres;
+    };
+    EXPECT_EQ(metres(1 | 8), 1);
+    EXPECT_EQ(metres(2 | 16), 1e-3);
+    EXPECT_EQ(metres(3), 1e-6);
+    for (const int code : {0, 8, 4, 7}) EXPECT_EQ(metres(code), std::nullopt) << code;
+}
+
 TEST_F(ReadNiftiTest, lattice_repeats_the_affine_that_nibabel_sees) {
     std::ifstream list(data("nifti/affines.txt"));
     int count = 0;

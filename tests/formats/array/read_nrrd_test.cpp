@@ -51,6 +51,14 @@ TEST_F(ReadNrrdTest, raw_files_sweep_along_every_axis_and_others_along_z) {
         EXPECT_THAT(info_of(data(std::string("nrrd/") + name)).can_sweep, ElementsAre(false, false, true));
 }
 
+TEST_F(ReadNrrdTest, the_unit_of_length_is_one_that_all_axes_have) {
+    const auto metres = [&](const std::string& line) { return info_of(nrrd("", line)).metres; };
+    EXPECT_EQ(metres("space units: \"mm\" \"mm\" \"mm\""), 1e-3);
+    EXPECT_EQ(metres("units: \"micrometers\" \"\" \"micrometers\""), 1e-6);
+    for (const char* line : {"units: \"mm\" \"mm\" \"cm\"", "units: \"\" \"\" \"\"", "units: \"s\"", "units: \"mm", ""})
+        EXPECT_EQ(metres(line), std::nullopt) << line;
+}
+
 TEST_F(ReadNrrdTest, text_has_as_many_numbers_as_its_sizes_say) {
     const auto text = [&](const std::string& numbers) {
         put_text(path("a.nrrd"), "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 2\nencoding: ascii\n\n" + numbers);

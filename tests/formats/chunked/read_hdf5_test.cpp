@@ -106,6 +106,8 @@ TEST_F(ReadHdf5Test, spacing_and_origin_come_from_common_attributes_along_z_y_x)
         return open_sections({inside("spaced.h5", dataset)})->info().lattice;
     };
     EXPECT_EQ(lattice("/element_size_um").spacing, (Vec3{0.5, 2, 5}));
+    EXPECT_EQ(open_sections({inside("spaced.h5", "/element_size_um")})->info().metres, 1e-6);
+    EXPECT_EQ(open_sections({inside("spaced.h5", "/resolution")})->info().metres, std::nullopt);
     EXPECT_EQ(lattice("/resolution").spacing, (Vec3{0.5, 2, 5}));
     EXPECT_EQ(lattice("/resolution").origin, (Vec3{10, 20, 30}));
     EXPECT_EQ(lattice("/LabDCT/Data/GrainId").spacing, (Vec3{0.25, 0.5, 0.75}));

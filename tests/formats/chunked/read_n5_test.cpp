@@ -62,9 +62,27 @@ TEST_F(ReadN5Test, numbers_of_a_group_are_found_however_the_path_is_written) {
 }
 
 TEST_F(ReadN5Test, transform_with_named_axes_goes_before_resolutions) {
-    const Lattice lattice = open_sections({data("chunked/n5/bad/cosem.n5")})->info().lattice;
-    EXPECT_EQ(lattice.spacing, (Vec3{0.5, 2, 5}));
-    EXPECT_EQ(lattice.origin, (Vec3{10, 20, 30}));
+    const VolumeInfo info = open_sections({data("chunked/n5/bad/cosem.n5")})->info();
+    EXPECT_EQ(info.lattice.spacing, (Vec3{0.5, 2, 5}));
+    EXPECT_EQ(info.lattice.origin, (Vec3{10, 20, 30}));
+    EXPECT_EQ(info.metres, std::nullopt) << "the unit is that of the resolution, which is not used";
+}
+
+TEST_F(ReadN5Test, the_unit_of_length_is_that_of_the_numbers_that_are_used) {
+    const fs::path store = path("units.n5");
+    fs::copy(data("chunked/n5/bad/cosem.n5"), store, fs::copy_options::recursive);
+    const auto metres = [&](const char* key, const nlohmann::json& value) {
+        nlohmann::json attributes = nlohmann::json::parse(text_of(store / "attributes.json"));
+        attributes.erase("transform");
+        attributes[key] = value;
+        put_text(store / "attributes.json", attributes.dump());
+        return open_sections({store})->info().metres;
+    };
+    EXPECT_EQ(metres("other", 1), 1e-9) << "of pixelResolution";
+    EXPECT_EQ(metres("pixelResolution", {4, 4, 40}), std::nullopt);
+    EXPECT_EQ(metres("units", {"um", "um", "um"}), 1e-6);
+    EXPECT_EQ(metres("units", {"um", "um", "mm"}), std::nullopt);
+    EXPECT_EQ(metres("units", "um"), std::nullopt);
 }
 
 TEST_F(ReadN5Test, what_is_not_read_is_refused_by_name) {

@@ -132,6 +132,8 @@ TEST_F(ReadZarrTest, axes_in_other_units_get_that_of_x) {
     EXPECT_NEAR(length(lattice.spacing - Vec3{0.5, 2, 5000}), 0, 1e-9);
     EXPECT_NEAR(length(lattice.origin - Vec3{10, 20, 30000}), 0, 1e-9);
     EXPECT_EQ(open_sections(with_unit_of_x("micrometer"))->info().lattice.spacing, (Vec3{0.5, 2, 5}));
+    EXPECT_EQ(open_sections(with_unit_of_x("micrometer"))->info().metres, 1e-6);
+    EXPECT_EQ(open_sections({data("chunked/ome/image_04.zarr")})->info().metres, std::nullopt);
     EXPECT_THAT(refusal(with_unit_of_x("cubit")), HasSubstr("axis z is in micrometer and axis x in cubit"));
 }
 

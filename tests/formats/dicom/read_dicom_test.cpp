@@ -28,6 +28,7 @@ std::vector<InputLabel> all_labels(const std::vector<int>& sections = {0, 1, 2, 
 /// origin, and direction * spacing by rows, of all volumes of 6 sections.
 void expect_oblique(const VolumeInfo& info) {
     EXPECT_EQ(info.space, Space::kLps);
+    EXPECT_EQ(info.metres, 1e-3);
     expect_in_space(info, {-10.5, 20.25, 30}, {0.18, -0.6, 1.2, 0.24, 0.45, 1.6, -0.4, 0, 1.5});
 }
 

@@ -336,7 +336,7 @@ TEST_F(TextSurfaces, files_of_a_folder_come_into_the_space_of_the_first_that_nam
     put_text(path("parts/2.stl"), solid("b SPACE=RAS", tetrahedron(at, 1)));
     const auto low_of = [&](Space space) {
         const MeshFile file = read_mesh(path("parts"), {.space = space});
-        EXPECT_EQ(file.space, space == Space::kUnknown ? Space::kLps : space);
+        EXPECT_EQ(file.coordinates.space, space == Space::kUnknown ? Space::kLps : space);
         Box first, second;
         for (std::uint32_t f = 0; f < file.mesh.face_end(); ++f)
             for (const Vec3 p : file.mesh.corners(FaceId{f}))

@@ -72,7 +72,8 @@ TEST_F(Write3mf, has_a_closed_outward_object_for_each_region) {
 TEST_F(Write3mf, has_names_colours_and_space) {
     const LabelNames names{{7, "a <\"core\"> & more"}};
     const LabelColours colours{{7, 0xFF8000}};
-    const pugi::xml_node root = model({.background = {2}, .names = names, .colours = colours, .space = Space::kLps});
+    const pugi::xml_node root =
+        model({.background = {2}, .names = names, .colours = colours, .coordinates = {.space = Space::kLps}});
     const pugi::xml_node materials = root.child("resources").child("basematerials");
     const pugi::xml_node object = root.child("resources").find_child_by_attribute("object", "id", "3");
     EXPECT_STREQ(object.attribute("name").value(), "a <\"core\"> & more");
@@ -85,7 +86,7 @@ TEST_F(Write3mf, has_names_colours_and_space) {
 
 TEST_F(Write3mf, says_the_unit) {
     const auto unit_and_size = [&](std::optional<double> metres) {
-        const pugi::xml_node root = model({.background = {2}, .metres = metres});
+        const pugi::xml_node root = model({.background = {2}, .coordinates = {.metres = metres}});
         double most = 0;
         for (const pugi::xml_node v : root.child("resources").child("object").child("mesh").child("vertices"))
             most = std::max(most, v.attribute("x").as_double());

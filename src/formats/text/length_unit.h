@@ -1,0 +1,16 @@
+// Units of length by name.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace regionmesh::formats {
+
+/// The femtometres of a unit: "millimeter" as UDUNITS-2 calls it, "millimetre", "millimeters", "mm" and so on. Whole
+/// numbers, so that their ratios are exact. None for another word.
+std::optional<double> femtometres_in(std::string_view unit);
+
+/// The metres of a unit. None for another word.
+std::optional<double> metres_in(std::string_view unit);
+
+}  // namespace regionmesh::formats
