@@ -65,6 +65,7 @@ public:
         return true;
     }
     const CsvRows& rows() const { return rows_; }
+    const std::string& title(std::size_t column) const { return titles_[column]; }
 
     std::string_view text(std::size_t column) const {
         return column < rows_.field_count() ? rows_.field(column) : std::string_view();
@@ -95,11 +96,12 @@ struct Collar {
 
 using Collars = std::map<std::string, Collar, std::less<>>;
 
-Collars read_collars(const std::filesystem::path& path) {
+Collars read_collars(const std::filesystem::path& path, TitleUnit& unit) {
     NamedColumns table(path);
     const std::size_t hole = table.require_hole(), x = table.require("x", {titles::kX}),
                       y = table.require("y", {titles::kY}),
                       z = table.require("the elevation", {titles::kSurface, titles::kZ});
+    for (const std::size_t column : {x, y, z}) unit.add(table.rows(), table.title(column));
     Collars collars;
     while (table.next()) {
         const Collar collar{{table.number(x), table.number(y), table.number(z)}, table.rows().number()};
@@ -118,9 +120,10 @@ struct SurveyRow {
     std::uint64_t row;
 };
 
-std::vector<SurveyRow> read_survey_rows(NamedColumns& table, bool& dips_are_inclinations) {
+std::vector<SurveyRow> read_survey_rows(NamedColumns& table, bool& dips_are_inclinations, TitleUnit& unit) {
     const std::size_t hole = table.require_hole(), depth = table.require("the depth", {titles::kDepth}),
                       azimuth = table.require("the azimuth", {titles::kAzimuth});
+    unit.add(table.rows(), table.title(depth));
     const auto inclination = table.find({titles::kInclination});
     dips_are_inclinations = inclination && !table.find({titles::kDip});
     const std::size_t dip = dips_are_inclinations ? *inclination : table.require("the dip", {titles::kDip});
@@ -144,10 +147,11 @@ std::vector<SurveyRow> read_survey_rows(NamedColumns& table, bool& dips_are_incl
 using Stations = std::map<std::string, std::vector<Station>, std::less<>>;
 
 /// The stations of holes that have a collar.
-Stations read_stations(const std::filesystem::path& path, const std::filesystem::path& collars, const Collars& known) {
+Stations read_stations(const std::filesystem::path& path, const std::filesystem::path& collars, const Collars& known,
+                       TitleUnit& unit) {
     NamedColumns table(path);
     bool are_inclinations = false;
-    std::vector<SurveyRow> rows = read_survey_rows(table, are_inclinations);
+    std::vector<SurveyRow> rows = read_survey_rows(table, are_inclinations, unit);
     for (const SurveyRow& row : rows)
         if (!known.contains(row.hole))
             table.rows().refuse(row.row, fmt::format("hole '{}' has a station but no collar in {}; add its row there",
@@ -207,10 +211,10 @@ Vec3 HolePath::direction_at(double depth) const {
     return between(a.direction, b.direction, (depth - a.depth) / (b.depth - a.depth));
 }
 
-HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys) {
-    const Collars known = read_collars(collars);
+HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys, TitleUnit& unit) {
+    const Collars known = read_collars(collars, unit);
     Stations stations;
-    if (!surveys.empty()) stations = read_stations(surveys, collars, known);
+    if (!surveys.empty()) stations = read_stations(surveys, collars, known, unit);
     HolePaths paths;
     for (const auto& [hole, collar] : known) {
         const auto found = stations.find(hole);

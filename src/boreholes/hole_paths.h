@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "boreholes/drill_holes.h"
+#include "boreholes/table_columns.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh::formats {
@@ -43,8 +44,8 @@ using HolePaths = std::map<std::string, HolePath, std::less<>>;
 /// table are negative, negative is down, else positive is) or inclination (degrees from straight down). Holes without
 /// stations, or without a table of stations, are vertical. Throws Error(kInput) naming file and row; also for a dip
 /// outside -90 to 90, an inclination outside 0 to 180, and opposite directions at two stations, between which there is
-/// no one arc.
-HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys);
+/// no one arc. Adds the titles of lengths to `unit`.
+HolePaths read_hole_paths(const std::filesystem::path& collars, const std::filesystem::path& surveys, TitleUnit& unit);
 
 /// Cuts intervals at stations and puts their ends where the paths lead; before, `from` and `length` are depths along
 /// the hole. Sets the collars and `is_at_collar`. Throws Error(kInput) naming the row of a hole without a collar, or

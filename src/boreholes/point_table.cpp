@@ -31,7 +31,7 @@ public:
     PointTableReader(const std::filesystem::path& path, const TetrahedraOptions& options)
         : options_(options), rows_(path), labels_(path) {
         rows_.next();
-        columns_ = find_columns(rows_, options.columns, !options.collars.empty());
+        columns_ = find_columns(rows_, options.columns, !options.collars.empty(), unit_);
         holes_.is_by_name = !options.collars.empty();
         holes_.path = path;
     }
@@ -60,6 +60,7 @@ private:
 
     const TetrahedraOptions& options_;
     CsvRows rows_;
+    TitleUnit unit_;
     TableColumns columns_;
     TableLabels labels_;
     DrillHoles holes_;
@@ -96,7 +97,7 @@ void PointTableReader::read_rows() {
     if (holes_.intervals.empty()) fail(rows_.path(), "has no interval with a length; give it other bottoms");
     refuse_overlaps(holes_, labels_);
     if (holes_.is_by_name)
-        place_on_paths(holes_, read_hole_paths(options_.collars, options_.surveys));
+        place_on_paths(holes_, read_hole_paths(options_.collars, options_.surveys, unit_));
     else
         find_collars(holes_);
 }

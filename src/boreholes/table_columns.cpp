@@ -10,6 +10,7 @@
 
 #include "boreholes/column_titles.h"
 #include "formats/text/header_text.h"
+#include "formats/text/length_unit.h"
 #include "regionmesh/error.h"
 
 namespace regionmesh::formats {
@@ -197,20 +198,53 @@ void ColumnFinder::refuse_without(const std::string& what) const {
                              titles, has_collars_ ? "hole" : "x"));
 }
 
+constexpr std::string_view kBetweenWords = " \t\r\n_-.";
+
+bool is_unit(std::string_view word) {
+    constexpr std::array<std::string_view, 5> kUnits{"m", "ft", "km", "mm", "um"};
+    return std::ranges::find(kUnits, word) != kUnits.end();
+}
+
+/// The metres of the unit in a title: of the first word in brackets, or else of a last word that is a unit.
+std::optional<double> metres_in_title(std::string_view title) {
+    const std::string lowered = lower(title);
+    const std::size_t bracket = lowered.find_first_of("([");
+    const Words words = split_words(std::string_view(lowered).substr(0, bracket), kBetweenWords);
+    if (bracket != std::string::npos) {
+        const Words inside = split_words(std::string_view(lowered).substr(bracket), " \t\r\n_-.,()[]");
+        if (const auto metres = inside.empty() ? std::nullopt : metres_in(inside.front())) return metres;
+    }
+    return words.size() > 1 && is_unit(words.back()) ? metres_in(words.back()) : std::nullopt;
+}
+
 }  // namespace
+
+void TitleUnit::add(const CsvRows& rows, std::string_view title) {
+    const auto metres = metres_in_title(title);
+    if (!metres) return;
+    if (metres_ == 0) {
+        metres_ = *metres;
+        where_ = fmt::format("'{}' in {}", shown(title), rows.path().string());
+    }
+    if (*metres != metres_)
+        rows.refuse(
+            fmt::format("column '{}' is in another unit of length than {}; convert one of them", shown(title), where_));
+}
 
 std::string plain_column_title(std::string_view title) {
     const std::string lowered = lower(title.substr(0, title.find_first_of("([")));
-    Words words = split_words(lowered, " \t\r\n_-.");
-    constexpr std::array<std::string_view, 5> kUnits{"m", "ft", "km", "mm", "um"};
-    if (words.size() > 1 && std::find(kUnits.begin(), kUnits.end(), words.back()) != kUnits.end()) words.pop_back();
+    Words words = split_words(lowered, kBetweenWords);
+    if (words.size() > 1 && is_unit(words.back())) words.pop_back();
     std::string plain;
     for (const std::string_view word : words) plain += word;
     return plain;
 }
 
-TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars) {
-    return ColumnFinder(rows, has_collars).find(wanted);
+TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars, TitleUnit& unit) {
+    TableColumns found = ColumnFinder(rows, has_collars).find(wanted);
+    for (const Role role : {Role::kX, Role::kY, Role::kZ, Role::kTop, Role::kBottom, Role::kSurface})
+        if (found.has_header && found.has(role)) unit.add(rows, rows.field(found.of(role)));
+    return found;
 }
 
 }  // namespace regionmesh::formats

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/text/csv_rows.h"
@@ -28,6 +29,17 @@ struct TableColumns {
     bool are_intervals() const { return !has(Role::kZ); }
 };
 
+/// The unit of length that titles of columns name, "x (m)" or "from_ft": one in all tables of a model.
+class TitleUnit {
+public:
+    /// Requires `rows` at the header. Throws Error(kInput) where the title names another unit than one before.
+    void add(const CsvRows& rows, std::string_view title);
+
+private:
+    double metres_ = 0;       // 0: no title has named one yet
+    std::string where_ = {};  // "'x (m)' in holes.csv"
+};
+
 /// The title without units, blanks and case: "X_m", "x (m)" and "X [m]" are x, "Depth from" is depthfrom.
 std::string plain_column_title(std::string_view title);
 
@@ -35,8 +47,8 @@ std::string plain_column_title(std::string_view title);
 /// number from 1, or pairs "x=east,label=3"; other columns are found by their usual names. It is a table of intervals
 /// where `wanted` has a top, bottom or surface, or where the header has both and no column z. It has no header where
 /// `wanted` gives x and y by number and the first row has numbers there. With `has_collars` another table has x, y and
-/// the surface: rows have hole, top, bottom and label, and neither. Throws Error(kInput) that names the missing column,
-/// and Error(kUsage) where `wanted` contradicts itself.
-TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars = false);
+/// the surface: rows have hole, top, bottom and label, and neither. Adds the titles of lengths to `unit`. Throws
+/// Error(kInput) that names the missing column, and Error(kUsage) where `wanted` contradicts itself.
+TableColumns find_columns(const CsvRows& rows, const std::string& wanted, bool has_collars, TitleUnit& unit);
 
 }  // namespace regionmesh::formats

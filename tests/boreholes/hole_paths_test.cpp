@@ -147,6 +147,17 @@ TEST_F(InclinedHoles, repeated_intervals_of_many_stations_are_refused_before_the
     EXPECT_THAT(failure(), HasSubstr("intervals of hole 'A' overlap so often that stations cut them into more than"));
 }
 
+TEST_F(InclinedHoles, all_tables_have_one_unit_of_length) {
+    put_text(path("intervals.csv"), "hole,from_ft,to_ft,lith\nA,0,10,sand\nB,0,20,sand\n");
+    EXPECT_EQ(failure(), "nothing thrown") << "the others do not say";
+    put_text(path("collars.csv"), "hole,x,y,z (m)\nA,100,200,50\nB,0,0,40\n");
+    EXPECT_THAT(failure(),
+                HasSubstr("collars.csv: row 1: column 'z (m)' is in another unit of length than 'from_ft' in "));
+    put_text(path("collars.csv"), "hole,x,y,z (ft)\nA,100,200,50\nB,0,0,40\n");
+    put_text(path("surveys.csv"), "hole,depth (m),azimuth,dip\nA,0,90,-60\n");
+    EXPECT_THAT(failure(), HasSubstr("surveys.csv: row 1: column 'depth (m)' is in another unit"));
+}
+
 TEST_F(InclinedHoles, errors_name_what_is_missing) {
     put_text(path("collars.csv"), "hole,x,y,z\nA,100,200,50\n");
     EXPECT_THAT(failure(), HasSubstr("row 4: hole 'B' has no row in --collars"));

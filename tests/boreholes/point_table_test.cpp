@@ -68,10 +68,18 @@ TEST_F(PointTableFile, columns_are_known_by_their_usual_titles) {
     const auto expected = ElementsAre(Vec3{1, 2, 3});
     EXPECT_THAT(read("label;Z;Y;X\n5;3;2;1\n").points.positions, expected);
     EXPECT_THAT(read("Easting\tNorthing\tElevation\tLithology\n1\t2\t3\ta\n").points.positions, expected);
-    EXPECT_THAT(read("X_m,Y (m),z [ft],Formation\n1,2,3,a\n").points.positions, expected);
+    EXPECT_THAT(read("X_m,Y (m),z [M],Formation\n1,2,3,a\n").points.positions, expected);
     EXPECT_THAT(read("x,easting,y,z,elev,lith,label\n1,9,2,3,9,a,5\n").points.labels, ElementsAre(5))
         << "the likeliest title wins";
     EXPECT_THAT(read("id,x,y,elev,from,unit\n9,1,2,3,9,4\n").points.positions, expected);
+}
+
+TEST_F(PointTableFile, titles_in_different_units_are_refused) {
+    EXPECT_THAT(failure_of("x_m,y_m,z [ft],lith\n1,2,3,a\n"),
+                testing::EndsWith("row 1: column 'z [ft]' is in another unit of length than 'x_m' in " +
+                                  path("points.csv").string() + "; convert one of them"));
+    EXPECT_THAT(failure_of("x (UTM),y (feet),z (m a.s.l.),lith\n1,2,3,a\n"), HasSubstr("column 'z (m a.s.l.)'"));
+    EXPECT_THAT(read("x (UTM),y (m),z,lith\n1,2,3,a\n").points.positions, ElementsAre(Vec3{1, 2, 3}));
 }
 
 TEST_F(PointTableFile, columns_can_be_named_and_numbered) {
