@@ -444,6 +444,12 @@ class Mesh:
             warnings.warn(
                 f"compare: the meshes are in {self.space} and {other.space}; they are compared as they are", stacklevel=2
             )
+        if self.metres and other.metres and self.metres != other.metres:
+            warnings.warn(
+                f"compare: the units of the meshes are {self.metres:g} m and {other.metres:g} m; they are compared as "
+                "they are",
+                stacklevel=2,
+            )
         return json.loads(_core.compare(self._model, other._model, _options.pairs("compare", options)))
 
     def voxelise(self, like=None, *, shape=None, spacing=None, origin=None, direction=None, dtype=None, outside=0):
