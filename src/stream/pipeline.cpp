@@ -185,7 +185,8 @@ Reconstruction reconstruct_sections(SectionReader& reader, const ReconstructOpti
                                     const OnProgress& on_progress, const OnModel& on_model) {
     const bool is_lattice = options.smooth.passes > 0 && options.smooth.filter == SmoothFilter::kLattice;
     std::optional<ReadAhead> ahead;
-    if (options.threads != 1) ahead.emplace(reader);
+    const std::uint64_t samples = std::uint64_t{reader.section_width()} * reader.section_height();
+    if (options.threads != 1 && samples >= stream::kFewestReadAhead) ahead.emplace(reader);
     const CensusOptions census{
         .cap = options.cap, .background = options.background, .cells = cell_kind(options), .threads = options.threads};
     SectionFaces source(ahead ? *ahead : reader, census, is_lattice ? QuadCuts::kCones : QuadCuts::kBestQuality,
