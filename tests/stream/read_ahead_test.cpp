@@ -11,6 +11,7 @@
 #include "base/parallel_for.h"
 #include "base/parallel_invoke.h"
 #include "regionmesh/error.h"
+#include "stream/tuning.h"
 #include "support/digest.h"
 #include "support/runs.h"
 
@@ -164,11 +165,14 @@ TEST(ReadAhead, reads_nothing_before_it_is_asked_and_one_section_ahead_then) {
     EXPECT_EQ(volume.read, 2u) << "no further, while nobody asks";
 }
 
-TEST(ReadAhead, one_thread_reads_by_itself) {
+TEST(ReadAhead, is_for_large_sections_and_several_threads) {
     for (std::uint32_t threads : {1u, 2u, 0u}) {
-        FailingVolume volume(noise(), kNever);
-        reconstruct(volume, {.reduce = 0.5, .background = {}, .threads = threads});
-        EXPECT_EQ(volume.threads.contains(std::this_thread::get_id()), threads == 1) << threads << " threads";
+        FailingVolume large(test::ball_volume({512, 512, 2}, 9), kNever), small(noise(), kNever);
+        static_assert(512 * 512 == stream::kFewestReadAhead);
+        reconstruct(large, {.reduce = 0.5, .background = {}, .threads = threads});
+        EXPECT_EQ(large.threads.contains(std::this_thread::get_id()), threads == 1) << threads << " threads";
+        reconstruct(small, {.reduce = 0.5, .background = {}, .threads = threads});
+        EXPECT_TRUE(small.threads.contains(std::this_thread::get_id())) << threads << " threads";
     }
 }
 
