@@ -205,14 +205,16 @@ bool is_unit(std::string_view word) {
     return std::ranges::find(kUnits, word) != kUnits.end();
 }
 
-/// The metres of the unit in a title: of the first word in brackets, or else of a last word that is a unit.
+/// The metres of the unit in a title: of the first unit in brackets, or else of a last word that is one. "in" is one
+/// where it stands alone: not in "z (in m)".
 std::optional<double> metres_in_title(std::string_view title) {
     const std::string lowered = lower(title);
     const std::size_t bracket = lowered.find_first_of("([");
     const Words words = split_words(std::string_view(lowered).substr(0, bracket), kBetweenWords);
     if (bracket != std::string::npos) {
         const Words inside = split_words(std::string_view(lowered).substr(bracket), " \t\r\n_-.,()[]");
-        if (const auto metres = inside.empty() ? std::nullopt : metres_in(inside.front())) return metres;
+        for (const std::string_view word : inside)
+            if (const auto metres = word == "in" && inside.size() > 1 ? std::nullopt : metres_in(word)) return metres;
     }
     return words.size() > 1 && is_unit(words.back()) ? metres_in(words.back()) : std::nullopt;
 }

@@ -123,6 +123,12 @@ OptionSpec word_option(OptionSpec row, std::vector<std::string_view> words, Choo
     return row;
 }
 
+/// Where not giving it is something else than giving one of its values.
+inline OptionSpec without_default(OptionSpec row) {
+    row.default_text.clear();
+    return row;
+}
+
 /// Any other value: `set` gets the settings, the flag and the text.
 template <class Set>
 OptionSpec special_option(OptionSpec row, OptionKind kind, Set set) {

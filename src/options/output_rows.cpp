@@ -70,17 +70,17 @@ Rows output_rows() {
                 constexpr Space kSpaces[] = {Space::kUnknown, Space::kRas, Space::kLps};
                 s.volume.space = s.surface.space = kSpaces[word];
             }),
-        word_option({.name = "units",
-                     .help = "unit of length, that which the input says if not given; .glb files are in metres and are "
-                             "scaled, other "
-                             "files say the unit",
-                     .group = kGroup,
-                     .commands = kWriters | kConvert},
-                    {"m", "mm", "um", "nm"},
-                    [](Settings& s, std::size_t word) {
-                        constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
-                        s.metres = kMetres[word];
-                    }),
+        without_default(word_option(
+            {.name = "units",
+             .help = "unit of length, that which the input says if not given; .glb files are in metres and are scaled, "
+                     "others say it",
+             .group = kGroup,
+             .commands = kWriters | kConvert},
+            {"m", "mm", "um", "nm"},
+            [](Settings& s, std::size_t word) {
+                constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
+                s.metres = kMetres[word];
+            })),
         word_option({.name = "precomputed",
                      .help = "meshes in a folder .precomputed for Neuroglancer: multi, levels of detail compressed by "
                              "Draco; legacy: the model, not compressed",

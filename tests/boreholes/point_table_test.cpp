@@ -79,7 +79,10 @@ TEST_F(PointTableFile, titles_in_different_units_are_refused) {
                 testing::EndsWith("row 1: column 'z [ft]' is in another unit of length than 'x_m' in " +
                                   path("points.csv").string() + "; convert one of them"));
     EXPECT_THAT(failure_of("x (UTM),y (feet),z (m a.s.l.),lith\n1,2,3,a\n"), HasSubstr("column 'z (m a.s.l.)'"));
-    EXPECT_THAT(read("x (UTM),y (m),z,lith\n1,2,3,a\n").points.positions, ElementsAre(Vec3{1, 2, 3}));
+    EXPECT_THAT(failure_of("x (m),y (m),z (above datum in ft),lith\n1,2,3,a\n"), HasSubstr("another unit of length"));
+    EXPECT_THAT(failure_of("x (m),y (m),z (in),lith\n1,2,3,a\n"), HasSubstr("another unit of length"));
+    for (const char* header : {"x (UTM),y (m),z,lith", "x (m),y (in m),z (in situ),lith"})
+        EXPECT_THAT(read(std::string(header) + "\n1,2,3,a\n").points.positions, ElementsAre(Vec3{1, 2, 3})) << header;
 }
 
 TEST_F(PointTableFile, columns_can_be_named_and_numbered) {

@@ -282,6 +282,15 @@ TEST_F(BlockProgram, a_folder_for_neuroglancer_is_scaled_by_the_unit_that_the_in
     EXPECT_NE(converted("model", " --units nm"), scaled);
     ASSERT_EQ(run("convert " + out("model") + ' ' + out("m.vtp")).code, 0);
     EXPECT_EQ(converted("m.vtp", ""), scaled);
+    EXPECT_EQ(run("convert " + out("model") + ' ' + out("m.pvtp")).code, 0);
+    EXPECT_THAT(text_of(out("m-000000.vtp")), testing::HasSubstr("Name=\"MetresPerUnit\""));
+    const Ran refused = run("convert " + out("model") + ' ' + out("m.pvtp") + " --units mm");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.error, testing::HasSubstr("--units: is not for "));
+    std::string manifest = text_of(fs::path(out("model")) / "manifest.json");
+    manifest.replace(manifest.find("1e-06"), 5, "-1.00");
+    put_text(fs::path(out("model")) / "manifest.json", manifest);
+    EXPECT_EQ(run("convert " + out("model") + ' ' + out("m.vtp")).code, 1);
 }
 
 TEST_F(BlockProgram, converts_a_folder_for_neuroglancer) {

@@ -48,8 +48,9 @@ std::string good_value(const OptionSpec& option) {
             return "";
         case OptionKind::kText:
             return text_value(option.name);
-        case OptionKind::kFile:
         case OptionKind::kWord:
+            return std::string(option.words.front());
+        case OptionKind::kFile:
             break;
     }
     return "none.json";

@@ -11,6 +11,8 @@
 #include "formats/images/image_formats.h"
 #include "formats/images/tiff_file.h"
 #include "formats/input_file.h"
+#include "formats/text/header_text.h"
+#include "formats/text/length_unit.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -73,6 +75,15 @@ Vec3 imagej_spacing(const std::string& description, const TiffFile& file) {
     return {or_one(1 / x), or_one(1 / y), or_one(z)};
 }
 
+/// The word behind unit=, where the resolution is used. ImageJ writes the micro sign as an escape.
+std::optional<double> imagej_metres(const std::string& description) {
+    constexpr std::string_view kStart = "\nunit=";
+    const std::size_t at = description.find(kStart);
+    if (at == std::string::npos) return {};
+    const std::size_t begin = at + kStart.size();
+    return metres_in(trim(std::string_view(description).substr(begin, description.find('\n', begin) - begin)));
+}
+
 void check_channels(const std::filesystem::path& path, const std::string& description) {
     const std::uint64_t channels = imagej_count(description, "channels");
     const std::uint64_t frames = imagej_count(description, "frames");
@@ -126,7 +137,7 @@ void check_array_axes(const std::filesystem::path& path, const std::string& desc
 /// ImageJ writes stacks beyond 4 GiB, and others on request, as one page; the pixels of all images follow one another.
 std::unique_ptr<SectionReader> open_imagej_stack(const std::filesystem::path& path, const TiffFile& tiff,
                                                  const ImageShape& shape, const Lattice& lattice,
-                                                 const ReadOptions& options) {
+                                                 std::optional<double> metres, const ReadOptions& options) {
     const auto offset = tiff.bare_offset();
     if (!offset || shape.channels != 1 || shape.bits < 8) {
         fail(path, "an ImageJ stack of " + std::to_string(lattice.size[2]) + " images in one page, of " +
@@ -138,6 +149,7 @@ std::unique_ptr<SectionReader> open_imagej_stack(const std::filesystem::path& pa
                        .sample = {label_type(shape), tiff.is_big_endian()},
                        .lattice = lattice,
                        .begin = *offset,
+                       .metres = metres,
                        .can_sweep_all = false},
                       options);
 }
@@ -178,12 +190,14 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
     check_array_axes(path, description, images);
     Lattice lattice{.size = checked_size(path, {shape.width, shape.height, images})};
     if (is_imagej) lattice.spacing = imagej_spacing(description, file);
-    if (images > file.page_count()) return open_imagej_stack(path, file, shape, lattice, options);
+    const std::optional<double> metres = is_imagej ? imagej_metres(description) : std::nullopt;
+    if (images > file.page_count()) return open_imagej_stack(path, file, shape, lattice, metres, options);
     for (std::uint32_t page = 1; page < file.page_count(); ++page) {
         check_same_shape(path, page, file.read_shape(page, page), shape);
     }
     VolumeInfo info = volume_info(path, "tiff", label_type(shape), lattice.size);
     info.lattice = lattice;
+    info.metres = metres;
     apply_options(info, options);
     return std::make_unique<TiffReader>(std::move(file), std::move(info), shape);
 }

@@ -5,6 +5,7 @@
 #include "formats/input_file.h"
 #include "formats/surface/cut_polygon.h"
 #include "formats/text/header_text.h"
+#include "formats/text/length_unit.h"
 
 namespace regionmesh {
 
@@ -36,20 +37,14 @@ Vec3 take_point(const formats::ByteReader& file, std::string_view& line) {
 
 namespace {
 
-/// The length that a text begins with. None where it is not above 0.
-std::optional<double> take_length(std::string_view& text) {
-    const auto length = formats::parse_finite(formats::take_word(text));
-    return length && *length > 0 ? length : std::nullopt;
-}
-
-std::optional<Vec3> take_spacing(std::string_view text) {
-    Vec3 spacing;
+std::optional<Vec3> take_vector(std::string_view text) {
+    Vec3 vector;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto length = take_length(text);
-        if (!length) return {};
-        spacing[axis] = *length;
+        const auto number = formats::parse_finite(formats::take_word(text));
+        if (!number) return {};
+        vector[axis] = *number;
     }
-    return spacing;
+    return vector;
 }
 
 }  // namespace
@@ -59,8 +54,8 @@ void read_comment(FileSurface& surface, std::string_view comment) {
     if (comment.find("SPACE=RAS") != std::string_view::npos) coordinates.space = Space::kRas;
     if (comment.find("SPACE=LPS") != std::string_view::npos) coordinates.space = Space::kLps;
     const std::string_view word = formats::take_word(comment);
-    if (word == "metres_per_unit") coordinates.metres = take_length(comment);
-    if (word == "sample_spacing") coordinates.spacing = take_spacing(comment);
+    if (word == "metres_per_unit") set_metres(surface, formats::parse_finite(formats::take_word(comment)).value_or(0));
+    if (word == "sample_spacing") set_spacing(surface, take_vector(comment).value_or(Vec3{}));
     const auto label = formats::parse_label(formats::take_word(comment));
     if (!label) return;
     const std::string name = formats::one_line(comment);
@@ -82,6 +77,16 @@ std::vector<std::string> coordinate_comments(const Coordinates& coordinates) {
     if (metres) comments.push_back(fmt::format("metres_per_unit {}", *metres));
     if (spacing) comments.push_back(fmt::format("sample_spacing {} {} {}", spacing->x, spacing->y, spacing->z));
     return comments;
+}
+
+void set_metres(FileSurface& surface, double metres) {
+    if (formats::is_unit_of_length(metres)) surface.coordinates.metres = metres;
+}
+
+void set_spacing(FileSurface& surface, Vec3 spacing) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(spacing[axis] >= kLeastLength && spacing[axis] <= kMostLength)) return;
+    surface.coordinates.spacing = spacing;
 }
 
 void append(FileSurface& surface, const FileSurface& other) {

@@ -55,6 +55,10 @@ void read_comment(FileSurface& surface, std::string_view comment);
 /// Comments of our files that say what is known of the coordinates, one a line, as read_comment() takes them.
 std::vector<std::string> coordinate_comments(const Coordinates& coordinates);
 
+/// What a file says of its coordinates. Lengths that cannot be computed with are ignored.
+void set_metres(FileSurface& surface, double metres);
+void set_spacing(FileSurface& surface, Vec3 spacing);
+
 /// Appends the points and the labelled faces of `other`.
 void append(FileSurface& surface, const FileSurface& other);
 

@@ -15,6 +15,7 @@
 #include "mesh/assemble.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 namespace {
@@ -33,6 +34,17 @@ void turn(FileSurface& surface, Space space) {
     if (own != Space::kUnknown)
         for (Vec3& point : surface.points) point = {-point.x, -point.y, point.z};
     own = space;
+}
+
+/// Adds what a further file of a folder says to what those before it say: one unit, and a spacing if all have the same.
+void join_coordinates(const Coordinates& own, const std::filesystem::path& path, bool is_first, Coordinates& all) {
+    if (own.metres && all.metres && *own.metres != *all.metres)
+        formats::fail(path, fmt::format("is in {}, and other files of the folder are in {}; convert it, or take it out",
+                                        length_symbol(*own.metres), length_symbol(*all.metres)));
+    all.space = own.space;
+    if (own.metres) all.metres = own.metres;
+    if (is_first) all.spacing = own.spacing;
+    if (own.spacing != all.spacing) all.spacing.reset();
 }
 
 /// The surfaces in a folder, in natural order of their names. Each is a region, called what the file is. Files in
@@ -60,8 +72,7 @@ FileSurface read_folder(const std::filesystem::path& folder) {
         surface.names.clear();
         surface.colours.clear();
         turn(surface, all.coordinates.space);
-        all.coordinates.space = surface.coordinates.space;
-        if (paths.front() == path) all.coordinates = surface.coordinates;
+        join_coordinates(surface.coordinates, path, path == paths.front(), all.coordinates);
         append(all, surface);
         if (all.points.size() > kMostVertices || all.faces.size() > kMostFaces)
             formats::fail(folder, "has more points or faces than a model can hold");

@@ -37,7 +37,11 @@ constexpr int kMaterials = 1, kFirstObject = 2;                                 
 
 /// A unit of the format, and that of the model in it.
 std::pair<const char*, double> unit_of(std::optional<double> metres) {
+    constexpr std::pair<const char*, double> kUnits[] = {{"micron", 1e-6}, {"millimeter", 1e-3}, {"centimeter", 1e-2},
+                                                         {"inch", 0.0254}, {"foot", 0.3048},     {"meter", 1}};
     if (!metres) return {"millimeter", 1};  // as readers assume
+    for (const auto& [name, length] : kUnits)
+        if (*metres == length) return {name, 1};
     if (*metres >= 1) return {"meter", *metres};
     if (*metres >= 1e-3) return {"millimeter", *metres / 1e-3};
     return {"micron", *metres / 1e-6};

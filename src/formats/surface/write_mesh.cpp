@@ -15,9 +15,11 @@
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
+#include "formats/text/length_unit.h"
 #include "mesh/edge_rounding.h"
 #include "mesh/region_colours.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/mesh_file.h"
 
 namespace regionmesh {
@@ -59,9 +61,11 @@ const Format& format_of(const Path& path, const WriteOptions& options, bool has_
     if (has_point_arrays && !found->has_point_arrays) refuse("only .vtp and .vtu files hold a number for each vertex");
     if (options.per_region && !found->write_region)
         refuse("a file for each region is written as " + formats::extensions_with(&Format::write_region));
-    if (const auto& metres = options.coordinates.metres) require_number("metres", *metres, kPositive);
+    if (const auto& metres = options.coordinates.metres)
+        require_number("metres", *metres, {formats::kLeastUnit, formats::kMostUnit, "1e-15 to 1e6"});
     if (const auto& spacing = options.coordinates.spacing)
-        for (int axis = 0; axis < 3; ++axis) require_number("spacing", (*spacing)[axis], kPositive);
+        for (int axis = 0; axis < 3; ++axis)
+            require_number("spacing", (*spacing)[axis], {kLeastLength, kMostLength, "1e-12 to 1e8"});
     if (options.boundary_is_open && found->needs_closed_regions)
         refuse("holds closed regions only: leave out --boundary open");
     if (found->forbidden_in_name && !is_plain(path.filename().string(), found->forbidden_in_name))

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <string>
+
 #include "formats/text/header_text.h"
 #include "regionmesh/write_report.h"
 
@@ -11,36 +15,40 @@ namespace {
 constexpr double kFemtometresInMetre = 1e15;
 
 struct LengthUnit {
-    std::string_view symbol, name;
+    std::string_view word;
     double femtometres;
 };
 
-constexpr LengthUnit kUnits[] = {
-    {"fm", "femtometer", 1},   {"pm", "picometer", 1e3},   {"A", "angstrom", 1e5},     {"nm", "nanometer", 1e6},
-    {"um", "micrometer", 1e9}, {"mm", "millimeter", 1e12}, {"cm", "centimeter", 1e13}, {"dm", "decimeter", 1e14},
-    {"m", "meter", 1e15},      {"km", "kilometer", 1e18},  {"in", "inch", 2.54e13},    {"ft", "foot", 3.048e14},
-};
+/// Those that length_symbol() gives.
+constexpr LengthUnit kSymbols[] = {{"fm", 1},   {"pm", 1e3},  {"A", 1e5},      {"nm", 1e6},
+                                   {"um", 1e9}, {"mm", 1e12}, {"cm", 1e13},    {"dm", 1e14},
+                                   {"m", 1e15}, {"km", 1e18}, {"in", 2.54e13}, {"ft", 3.048e14}};
 
-/// Other names in use.
-constexpr LengthUnit kOthers[] = {{"\u00b5m", "micron", 1e9}, {"\u03bcm", "feet", 3.048e14}};
+constexpr LengthUnit kNames[] = {{"femtometer", 1},   {"picometer", 1e3}, {"angstrom", 1e5},    {"nanometer", 1e6},
+                                 {"micrometer", 1e9}, {"micron", 1e9},    {"millimeter", 1e12}, {"centimeter", 1e13},
+                                 {"decimeter", 1e14}, {"meter", 1e15},    {"kilometer", 1e18},  {"inch", 2.54e13},
+                                 {"inches", 2.54e13}, {"foot", 3.048e14}, {"feet", 3.048e14}};
+
+/// Micrometres with the micro sign, with the Greek letter, and as ImageJ writes it.
+constexpr std::string_view kMicrometres[] = {"\u00b5m", "\u03bcm", "\\u00B5m"};
 
 /// "millimetres" as "millimeter".
 std::string usual_name(std::string_view word) {
     std::string name = lower(word);
     if (name.ends_with("metres") || name.ends_with("metre")) name.replace(name.rfind("metre"), 5, "meter");
-    if (name.size() > 5 && name.ends_with('s')) name.pop_back();
+    if (name.ends_with("meters") || name == "microns" || name == "angstroms") name.pop_back();
     return name;
 }
 
 }  // namespace
 
 std::optional<double> femtometres_in(std::string_view unit) {
+    for (const LengthUnit& known : kSymbols)
+        if (unit == known.word) return known.femtometres;
     const std::string name = usual_name(unit);
-    for (const LengthUnit& known : kUnits)
-        if (unit == known.symbol || name == known.name) return known.femtometres;
-    for (const LengthUnit& known : kOthers)
-        if (unit == known.symbol || name == known.name) return known.femtometres;
-    return {};
+    for (const LengthUnit& known : kNames)
+        if (name == known.word) return known.femtometres;
+    return std::ranges::find(kMicrometres, unit) != std::end(kMicrometres) ? std::optional(1e9) : std::nullopt;
 }
 
 std::optional<double> metres_in(std::string_view unit) {
@@ -53,8 +61,8 @@ std::optional<double> metres_in(std::string_view unit) {
 namespace regionmesh {
 
 std::string length_symbol(double metres) {
-    for (const formats::LengthUnit& known : formats::kUnits)
-        if (known.femtometres / formats::kFemtometresInMetre == metres) return std::string(known.symbol);
+    for (const formats::LengthUnit& known : formats::kSymbols)
+        if (known.femtometres / formats::kFemtometresInMetre == metres) return std::string(known.word);
     return fmt::format("{:g} m", metres);
 }
 

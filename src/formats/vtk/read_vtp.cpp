@@ -108,23 +108,23 @@ void VtkSurfaceReader::read_space(pugi::xml_node fields) {
     if (const auto texts = read_strings(xml_, array); texts.size() == 1) read_comment(surface_, "SPACE=" + texts[0]);
 }
 
+/// Arrays of these names and another shape, of other programs, are ignored.
 void VtkSurfaceReader::read_lengths(pugi::xml_node fields) {
-    const auto require_length = [&](pugi::xml_node array, double value) {
-        if (!(value > 0 && std::isfinite(value)))
-            xml_.fail(array, fmt::format("has {:g}, which is no length; a number above 0 is needed", value));
+    const auto tuple_of = [&](const char* name, std::uint64_t count) {
+        const pugi::xml_node array = array_named(fields, name);
+        const bool is_ours = array && std::string_view(array.attribute("type").value()) == "Float64" &&
+                             components(array) == count && xml_.count(array, "NumberOfTuples", UINT64_MAX) == 1;
+        return is_ours ? array : pugi::xml_node();
     };
-    if (const pugi::xml_node array = array_named(fields, "MetresPerUnit")) {
+    if (const pugi::xml_node array = tuple_of("MetresPerUnit", 1)) {
         VtkNumbers number(xml_, array, 1);
-        surface_.coordinates.metres = number.real();
+        set_metres(surface_, number.real());
         number.finish();
-        require_length(array, *surface_.coordinates.metres);
     }
-    if (const pugi::xml_node array = array_named(fields, "SampleSpacing")) {
+    if (const pugi::xml_node array = tuple_of("SampleSpacing", 3)) {
         VtkNumbers numbers(xml_, array, 3);
-        const Vec3 spacing = numbers.point();
+        set_spacing(surface_, numbers.point());
         numbers.finish();
-        for (int axis = 0; axis < 3; ++axis) require_length(array, spacing[axis]);
-        surface_.coordinates.spacing = spacing;
     }
 }
 

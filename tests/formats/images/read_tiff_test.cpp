@@ -45,6 +45,7 @@ TEST_F(ReadTiffTest, imagej_stack_in_one_page_has_all_its_sections_and_its_spaci
     const Volume volume = read_volume({data("tiff/imagej_uint16.tif")});
     EXPECT_EQ(volume.info.lattice.size[2], 3u);
     EXPECT_EQ(volume.info.lattice.spacing, (Vec3{0.25, 0.5, 3.5}));
+    EXPECT_EQ(volume.info.metres, 1e-6);
     EXPECT_THAT(refusal({data("tiff/imagej_uint16.tif")}, swept(SweepChoice::kX)), HasSubstr("only along z"));
 }
 

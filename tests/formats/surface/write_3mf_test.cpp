@@ -97,6 +97,10 @@ TEST_F(Write3mf, says_the_unit) {
     EXPECT_EQ(unit_and_size(1e-3), "millimeter 9.000000");
     EXPECT_EQ(unit_and_size(1), "meter 9.000000");
     EXPECT_EQ(unit_and_size(1e-6), "micron 9.000000");
+    EXPECT_EQ(unit_and_size(0.01), "centimeter 9.000000");
+    EXPECT_EQ(unit_and_size(0.0254), "inch 9.000000");
+    EXPECT_EQ(unit_and_size(0.3048), "foot 9.000000");
+    EXPECT_EQ(unit_and_size(1e3), "meter 9000.000000");
     EXPECT_EQ(unit_and_size(1e-9), "micron 0.009000") << "nanometres, of which the format knows nothing";
 }
 
