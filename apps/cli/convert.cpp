@@ -16,7 +16,8 @@ namespace regionmesh::cli {
 namespace {
 
 constexpr std::array<std::string_view, 3> kOfPrecomputed{"precomputed", "levels", "sharded"};
-constexpr std::array<std::string_view, 1> kOfFiles{"per-region"}, kOfOneFile{"units"};
+constexpr std::array<std::string_view, 1> kOfFiles{"per-region"};
+constexpr std::array<std::string_view, 1> kNotOfPieces{"units"};  // of a .pvtp
 
 /// Throws Error(kUsage) for options of a folder .precomputed with another output, and the other way round. A model that
 /// is missing is said first.
@@ -53,7 +54,7 @@ void convert_pieces(const Settings& settings) {
                       write_precomputed(folder, settings.output, precomputed_options(settings, std::move(described))));
         return;
     }
-    refuse_options(settings, kOfOneFile,
+    refuse_options(settings, kNotOfPieces,
                    "is not for " + settings.output + ", whose pieces have the unit of the folder");
     const VtpPiecesOptions options{
         .names = std::move(described.names), .colours = std::move(described.colours), .output = settings.writing};

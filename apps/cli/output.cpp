@@ -45,11 +45,6 @@ Described describe(const Settings& settings, const LabelNames& names, const Labe
     return described;
 }
 
-Coordinates with_units(const Settings& settings, Coordinates known) {
-    if (settings.metres) known.metres = settings.metres;
-    return known;
-}
-
 void write_tables(const Settings& settings, const Model& model, OutputFiles& files) {
     for (const auto& [path, make] :
          {std::pair(&settings.regions, &regions_csv), std::pair(&settings.interfaces, &interfaces_csv),

@@ -35,9 +35,6 @@ struct Model {
     Coordinates coordinates = {};
 };
 
-/// `known`, with the unit of --units where it is given.
-Coordinates with_units(const Settings& settings, Coordinates known);
-
 /// Writes the tables of --regions, --interfaces and --lines as some of `files`.
 void write_tables(const Settings& settings, const Model& model, OutputFiles& files);
 

@@ -156,6 +156,9 @@ bool has_background(const Settings& settings);
 /// Whether a target is given: faces, a share of them, or an error.
 bool has_target(const Settings& settings);
 
+/// `known`, with the unit of --units where it is given.
+Coordinates with_units(const Settings& settings, Coordinates known);
+
 /// How to simplify and to smooth a whole model; without a target simplify() keeps all faces.
 SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh);
 SmoothOptions smooth_options(const Settings& settings, const Mesh& mesh);

@@ -33,7 +33,7 @@ struct Report {
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
     StopReason stopped = StopReason::kNoneAsked;
-    std::optional<double> quality_bound;    // for faces that decimation changes, with z scaled; none without it
+    std::optional<double> quality_bound;    // of faces that decimation changes, with z scaled; none without decimation
     std::optional<ImproveResult> improved;  // where ReconstructOptions::improve asked for it
     double error_bound = 0;  // no point of the surface before or after decimation is farther from the other
     CheckReport check;

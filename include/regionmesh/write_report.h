@@ -20,7 +20,7 @@
 
 namespace regionmesh {
 
-/// "mm": the symbol of a unit of so many metres; "0.0252 m" where there is none.
+/// The symbol of the unit of length that has `metres`: "mm" for 0.001. "0.0252 m" where there is no symbol.
 std::string length_symbol(double metres);
 
 /// The run of the program that made a model.

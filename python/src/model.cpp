@@ -105,16 +105,10 @@ std::vector<InputLabel> background_of(const Model& model) {
     return background;
 }
 
-/// What is known, with the unit of `units` where it is given.
-Coordinates with_units(Coordinates known, const Settings& settings) {
-    if (settings.metres) known.metres = settings.metres;
-    return known;
-}
-
 /// A folder for Neuroglancer.
 Saved save_precomputed(const Model& model, const fs::path& folder, const Settings& settings) {
     make_precomputed_folder(folder);
-    const PrecomputedOptions options{.metres = with_units(model.coordinates, settings).metres,
+    const PrecomputedOptions options{.metres = with_units(settings, model.coordinates).metres,
                                      .is_legacy = settings.precomputed_is_legacy,
                                      .is_sharded = settings.precomputed_is_sharded,
                                      .levels = settings.precomputed_levels,
@@ -191,7 +185,7 @@ Saved save_model(const Model& model, const std::string& path, bool per_region, c
                                .names = model.names,
                                .colours = model.colours,
                                .per_region = per_region,
-                               .coordinates = with_units(model.coordinates, settings),
+                               .coordinates = with_units(settings, model.coordinates),
                                .boundary_is_open = model.is_open};
     Saved saved{{}, rounded_share_of_edge(model.mesh, path, writing)};
     for (const auto& file : write_mesh(model.mesh, model.labels, path, writing)) saved.paths.push_back(file.string());

@@ -21,6 +21,11 @@ bool has_target(const Settings& settings) {
     return asked.target_faces || asked.reduce || asked.max_error;
 }
 
+Coordinates with_units(const Settings& settings, Coordinates known) {
+    if (settings.metres) known.metres = settings.metres;
+    return known;
+}
+
 SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh) {
     const ReconstructOptions& asked = settings.reconstruct;
     SimplifyOptions options{.target_faces = has_target(settings) ? 0 : mesh.face_count()};

@@ -72,8 +72,9 @@ Rows output_rows() {
             }),
         without_default(word_option(
             {.name = "units",
-             .help = "unit of length, that which the input says if not given; .glb files are in metres and are scaled, "
-                     "others say it",
+             .help =
+                 "unit of length; if not given, the one that the input says. .glb files are in metres and are scaled, "
+                 "other files state the unit",
              .group = kGroup,
              .commands = kWriters | kConvert},
             {"m", "mm", "um", "nm"},

@@ -74,6 +74,8 @@ TEST_F(Tutorial, materials) { run_page("materials.md"); }
 TEST_F(Tutorial, medicine) {
     if (!fs::exists("/usr/share/mricron/templates/aal.nii.gz")) GTEST_SKIP() << "apt install mricron-data";
     run_page("medical.md");
+    EXPECT_THAT(text_of(path("root/hippocampus.glb")), testing::HasSubstr("\"scale\":[0.001,0.001,0.001]"))
+        << "millimetres, which the atlas does not say";
 }
 
 }  // namespace
