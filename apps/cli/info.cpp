@@ -52,13 +52,16 @@ void print_model(const AnyCensus& census) {
                counted(census.oracle.region_pairs, "pair"));
 }
 
+std::string unit_after(const std::optional<double>& metres) { return metres ? ' ' + length_symbol(*metres) : ""; }
+
 std::string print_info(const Settings& settings, TetrahedronReader& reader) {
     const TetrahedraInfo& info = reader.info();
     const TetrahedronCensus census = count_labels(reader, census_options(settings));
     fmt::print("file       {} ({})\n", printable(info.source), info.format);
     fmt::print("size       {} points, {} {}\n", census.point_count, census.tetrahedron_count,
                census.tetrahedron_count == 1 ? "tetrahedron" : "tetrahedra");
-    fmt::print("spacing    {:.6g} (mean){}\n", census.spacing, info.scale_z == 1 ? "" : ", z scaled");
+    fmt::print("spacing    {:.6g}{} (mean){}\n", census.spacing, unit_after(info.metres),
+               info.scale_z == 1 ? "" : ", z scaled");
     fmt::print("sweep      along {}\n", "xyz"[census.sweep.axes[2]]);
     print_labels(settings, census, info.names, info.has_cell_labels ? "tetrahedron" : "point");
     print_model(census);
@@ -73,7 +76,7 @@ std::string print_info(const Settings& settings, SectionReader& reader) {
     fmt::print("size       {} x {} x {} samples of {}\n", lattice.size[0], lattice.size[1], lattice.size[2],
                to_string(info.type));
     fmt::print("spacing    {} x {} x {}{}\n", lattice.spacing.x, lattice.spacing.y, lattice.spacing.z,
-               info.metres ? ' ' + length_symbol(*info.metres) : "");
+               unit_after(info.metres));
     const Vec3 origin = lattice.origin + Vec3{};  // 0, not -0
     fmt::print("origin     {}, {}, {}\n", origin.x, origin.y, origin.z);
     if (!lattice.is_axis_aligned()) {
@@ -109,9 +112,8 @@ std::string print_info(const Settings& given, const std::string& path) {
     const auto& [low, high] = size.box;
     fmt::print("file       {} (surface model)\n", printable(path));
     fmt::print("size       {}, {}\n", counted(size.faces, "face"), counted(size.vertices, "vertex"));
-    const auto& metres = file.coordinates.metres;
     fmt::print("box        {:g} to {:g}, {:g} to {:g}, {:g} to {:g}{}\n", low.x, high.x, low.y, high.y, low.z, high.z,
-               metres ? ' ' + length_symbol(*metres) : "");
+               unit_after(file.coordinates.metres));
     std::vector<RegionReport> regions = report.regions;
     std::ranges::sort(regions, [&](const RegionReport& a, const RegionReport& b) {
         return file.labels.less(file.labels.input(a.label), file.labels.input(b.label));

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -57,6 +58,7 @@ struct ArrayOptions {
     Vec3 spacing{1, 1, 1};
     Vec3 origin{0, 0, 0};
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // as in Lattice
+    std::optional<double> metres = {};                           // in a unit of length
     SweepChoice sweep = SweepChoice::kAuto;
     LabelNames names = {};
     std::string name = "array";  // of the array in messages

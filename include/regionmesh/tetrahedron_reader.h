@@ -4,12 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
+#include "regionmesh/lattice.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
@@ -27,15 +29,19 @@ struct LabelledTetrahedron {
 
 /// What a reader knows before the first tetrahedron is read.
 struct TetrahedraInfo {
-    std::string source = {};       // path as given, for messages
-    std::string format = {};       // "csv", "vtu", "msh"
-    bool has_cell_labels = false;  // the tetrahedra have the labels, not the points
-    bool is_unsigned = false;      // labels are unsigned 64-bit numbers
-    bool hull_is_convex = false;   // the tetrahedra fill their convex hull without gaps
-    double scale_z = 1;            // factor by which z was multiplied
-    LabelNames names = {};         // given by the file
-    std::string warning = {};      // what the reader decided that the user may not expect: a line, or empty
+    std::string source = {};            // path as given, for messages
+    std::string format = {};            // "csv", "vtu", "msh"
+    bool has_cell_labels = false;       // the tetrahedra have the labels, not the points
+    bool is_unsigned = false;           // labels are unsigned 64-bit numbers
+    bool hull_is_convex = false;        // the tetrahedra fill their convex hull without gaps
+    double scale_z = 1;                 // factor by which z was multiplied
+    std::optional<double> metres = {};  // in a unit of length, where the file says it
+    LabelNames names = {};              // given by the file
+    std::string warning = {};           // what the reader decided that the user may not expect: a line, or empty
 };
+
+/// What a model made of the tetrahedra says of its coordinates.
+inline Coordinates coordinates_of(const TetrahedraInfo& info) { return {.metres = info.metres}; }
 
 /// Pull interface of every source of labelled tetrahedra: a mesh from a file, or labelled points with their Delaunay
 /// tetrahedra.

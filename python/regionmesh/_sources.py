@@ -16,11 +16,11 @@ PATHS = (str, bytes, os.PathLike)
 _SLAB_BYTES = 64 << 20  # of sections that are read at once from an array in chunks
 
 
-def frame(spacing, origin, direction):
+def frame(spacing, origin, direction, metres=None):
     """Where samples lie; each may be None."""
     spacing = _vector("spacing", spacing, (1.0, 1.0, 1.0))
     origin = _vector("origin", origin, (0.0, 0.0, 0.0))
-    return _core.Frame(spacing, origin, _direction(direction))
+    return _core.Frame(spacing, origin, _direction(direction), metres)
 
 
 def _vector(name, value, default):
@@ -50,10 +50,11 @@ def _direction(value):
 
 
 class Placed:
-    """What an input says about its place in space; None where it says nothing."""
+    """What an input says about its place in space and its unit of length; None where it says nothing."""
 
-    def __init__(self, data, spacing=None, origin=None, direction=None):
+    def __init__(self, data, spacing=None, origin=None, direction=None, metres=None):
         self.data, self.spacing, self.origin, self.direction = data, spacing, origin, direction
+        self.metres = metres
 
 
 def is_path(labels):
@@ -81,10 +82,19 @@ def suffix_of(paths):
     return os.path.splitext(paths[0])[1].lower()
 
 
+def _metres_of_simpleitk(image):
+    """ITK converts lengths of NIfTI to millimetres, and DICOM is in millimetres. Images of other files say no unit."""
+    if not hasattr(image, "HasMetaDataKey"):
+        return None
+    nifti = image.GetMetaData("xyzt_units") if image.HasMetaDataKey("xyzt_units") else ""
+    is_known = (nifti.isdigit() and int(nifti) % 8 in (1, 2, 3)) or image.HasMetaDataKey("0008|0016")
+    return 0.001 if is_known else None
+
+
 def _from_simpleitk(image):
     module = sys.modules[type(image).__module__.split(".")[0]]
     data = module.GetArrayViewFromImage(image)
-    return Placed(data, image.GetSpacing(), image.GetOrigin(), image.GetDirection())
+    return Placed(data, image.GetSpacing(), image.GetOrigin(), image.GetDirection(), _metres_of_simpleitk(image))
 
 
 class _Turned:
@@ -100,6 +110,17 @@ class _Turned:
         return np.asanyarray(self.data[..., sections]).T
 
 
+def _metres_of_nibabel(image):
+    header = getattr(image, "header", None)
+    if type(header).__name__ == "MGHHeader":
+        return 0.001
+    try:
+        unit = header.get_xyzt_units()[0]
+    except (AttributeError, KeyError):  # of a format without units, or a code that is none
+        return None
+    return {"meter": 1.0, "mm": 0.001, "micron": 1e-6}.get(unit)
+
+
 def _from_nibabel(image):
     if len(image.shape) != 3:
         raise ValueError(f"labels: an image of {len(image.shape)} axes; give one of three")
@@ -109,7 +130,7 @@ def _from_nibabel(image):
     if np.any(spacing == 0):
         raise ValueError("labels: the affine of the image is singular; give one with three axes")
     turned = data.T if isinstance(data, np.ndarray) else _Turned(data)
-    return Placed(turned, spacing, affine[:3, 3], affine[:3, :3] / spacing)
+    return Placed(turned, spacing, affine[:3, 3], affine[:3, :3] / spacing, _metres_of_nibabel(image))
 
 
 def placed(labels):
@@ -279,7 +300,7 @@ def opened(labels, sections=None):
         data = _iterated(data, sections)
     if isinstance(data, np.ndarray) and not data.dtype.isnative and data.dtype.kind in "iu" and data.ndim == 3:
         data = _calls_of(data)
-    return Placed(data, own.spacing, own.origin, own.direction)
+    return Placed(data, own.spacing, own.origin, own.direction, own.metres)
 
 
 def size_of(input):
@@ -301,10 +322,10 @@ def place_of(input, given):
 def source(input, place, options, names, kept=None):
     """The samples of an opened input that `options` and `kept` choose."""
     if isinstance(input.data, np.ndarray):
-        return _core.array_source(input.data, frame(*place), options, kept, names, "labels")
+        return _core.array_source(input.data, frame(*place, input.metres), options, kept, names, "labels")
     if dict(options).get("sweep", "auto") not in ("auto", "z"):
         raise ValueError("sweep: these sections come along z only; leave it out, or give an array")
-    return _core.call_source(input.data, frame(*place), options, kept, names, "labels")
+    return _core.call_source(input.data, frame(*place, input.metres), options, kept, names, "labels")
 
 
 @contextlib.contextmanager

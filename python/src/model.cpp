@@ -149,7 +149,7 @@ Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Wat
         Reconstruction made =
             reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
         model = model_from(std::move(made), run.names.value_or(reader.info().names), !settings.reconstruct.cap,
-                           Coordinates{}, run.colours.value_or(LabelColours{}));
+                           coordinates_of(reader.info()), run.colours.value_or(LabelColours{}));
     };
     watch.run([&] {
         if (is_lattice(settings, {path}))

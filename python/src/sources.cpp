@@ -44,6 +44,7 @@ ArrayOptions placed(const Frame& frame, ArrayOptions rest) {
     rest.spacing = lattice.spacing;
     rest.origin = lattice.origin;
     rest.direction = lattice.direction;
+    rest.metres = frame.metres;
     return rest;
 }
 
@@ -129,6 +130,7 @@ Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& r
     const std::int64_t stand_in = 0;
     open_array({&stand_in, SampleType::kI64, calls.size, {0, 0, 0}}, placed(frame, rest));
     info.lattice = lattice_of(frame, calls.size);
+    info.metres = frame.metres;
     info.sweep = kSweepZ;
     return {py::none(), std::make_unique<CalledSections>(std::move(calls), std::move(info))};
 }

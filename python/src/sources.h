@@ -24,10 +24,11 @@ struct Source {
     std::unique_ptr<SectionReader> reader;
 };
 
-/// Where samples lie, as Python passes it: x, y, z; the direction in row-major order.
+/// Where samples lie, as Python passes it: x, y, z; the direction in row-major order; the metres in a unit of length.
 struct Frame {
     std::array<double, 3> spacing, origin;
     std::array<double, 9> direction;
+    std::optional<double> metres;
 };
 
 Lattice lattice_of(const Frame& frame, const ArraySize& size);

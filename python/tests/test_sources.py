@@ -348,6 +348,24 @@ def test_nibabel_gives_spacing_origin_and_axes(two_boxes, tmp_path):
     np.testing.assert_allclose(from_file.points, expected.points)
 
 
+def test_nibabel_gives_the_unit_of_length(two_boxes, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    from nibabel.freesurfer import MGHImage
+
+    samples = np.ascontiguousarray(two_boxes.T)
+    assert regionmesh.reconstruct(nibabel.Nifti1Image(samples, np.eye(4))).metres is None
+    for unit, metres in (("meter", 1), ("mm", 0.001), ("micron", 1e-6)):
+        image = nibabel.Nifti1Image(samples, np.eye(4))
+        image.header.set_xyzt_units(unit)
+        nibabel.save(image, tmp_path / "labels.nii")
+        for source in (image, nibabel.load(tmp_path / "labels.nii"), tmp_path / "labels.nii"):
+            assert regionmesh.reconstruct(source).metres == metres
+    image.header["xyzt_units"] = 5
+    assert regionmesh.reconstruct(image).metres is None
+    assert regionmesh.reconstruct(nibabel.Spm99AnalyzeImage(samples.astype(np.int16), np.eye(4))).metres is None
+    assert regionmesh.reconstruct(MGHImage(samples.astype(np.int32), np.eye(4))).metres == 0.001
+
+
 def test_nibabel_with_sheared_axes_is_refused(two_boxes):
     nibabel = pytest.importorskip("nibabel")
     affine = np.array([[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
@@ -383,6 +401,40 @@ def test_the_interface_of_simpleitk(two_boxes, monkeypatch):
 
     monkeypatch.setitem(sys.modules, "itk_like", module)
     same(regionmesh.reconstruct(Image()), regionmesh.reconstruct(two_boxes, spacing=(1, 2, 4), origin=(10, 20, 30)))
+
+    class Read(Image):
+        __module__ = "itk_like"
+
+        def __init__(self, **entries):
+            self.entries = entries
+
+        def HasMetaDataKey(self, key):
+            return key in self.entries
+
+        def GetMetaData(self, key):
+            return self.entries[key]
+
+    for entries, metres in (
+        ({}, None),
+        ({"xyzt_units": "0"}, None),
+        ({"xyzt_units": "8"}, None),  # seconds
+        ({"xyzt_units": "10"}, 0.001),  # millimetres and seconds
+        ({"xyzt_units": "3"}, 0.001),  # micrometres, which ITK converts
+        ({"0008|0016": "1.2.840.10008.5.1.4.1.1.66.4"}, 0.001),
+    ):
+        assert regionmesh.reconstruct(Read(**entries)).metres == metres
+
+
+def test_an_iterator_of_an_image_on_disk_keeps_its_unit(two_boxes, tmp_path):
+    """Sections that are called for, not an array."""
+    nibabel = pytest.importorskip("nibabel")
+    image = nibabel.Nifti1Image(np.ascontiguousarray(two_boxes.T), np.eye(4))
+    image.header.set_xyzt_units("mm")
+    nibabel.save(image, tmp_path / "labels.nii.gz")
+    made = regionmesh.reconstruct(nibabel.load(tmp_path / "labels.nii.gz"))
+    assert made.metres == 0.001
+    made.save(tmp_path / "m.vtp")
+    assert regionmesh.load(tmp_path / "m.vtp").metres == 0.001
 
 
 # Files

@@ -39,7 +39,8 @@ struct DrillHoles {
 struct HoleTable {
     DrillHoles holes;
     TableLabels labels;
-    std::string warning;  // as in TetrahedraInfo
+    std::optional<double> metres;  // and warning: as in TetrahedraInfo
+    std::string warning;
 };
 
 /// Sets `collars`, for holes that are vertical, and `is_at_collar` of their intervals.

@@ -205,8 +205,11 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
                                kMostHeights));
     require_places(path, table.holes);
     const LayerOrder order = order_layers(table.holes, table.labels, layers.units);
-    VolumeInfo info{
-        .source = path.string(), .format = "csv", .can_sweep = {true, true, true}, .warning = table.warning};
+    VolumeInfo info{.source = path.string(),
+                    .format = "csv",
+                    .can_sweep = {true, true, true},
+                    .metres = table.metres,
+                    .warning = table.warning};
     const LatticeFinder lattices(table, layers);
     const Lattice lattice = lattices.find();  // whose columns stay
     info.held_bytes = require_columns(table, lattice, order.units.size(), layers);

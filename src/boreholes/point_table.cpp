@@ -114,7 +114,7 @@ HoleTable PointTableReader::read_holes() {
         fail(rows_.path(), "is a table of points; --layers is for drill holes, with columns top and bottom");
     may_lack_labels_ = true;
     read_rows();
-    return {std::move(holes_), std::move(labels_), warning_of_surface()};
+    return {std::move(holes_), std::move(labels_), unit_.metres(), warning_of_surface()};
 }
 
 void PointTableReader::add_row() {
@@ -198,6 +198,7 @@ void PointTableReader::finish() {
     table_.info.source = rows_.path().string();
     table_.info.format = "csv";
     table_.info.scale_z = options_.scale_z == kAutoScale ? estimated_scale() : options_.scale_z;
+    table_.info.metres = unit_.metres();
     table_.info.warning = warning_of_surface();
     const std::vector<InputLabel> labels = labels_.labels(table_.info);
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {

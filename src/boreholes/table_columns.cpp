@@ -224,11 +224,11 @@ std::optional<double> metres_in_title(std::string_view title) {
 void TitleUnit::add(const CsvRows& rows, std::string_view title) {
     const auto metres = metres_in_title(title);
     if (!metres) return;
-    if (metres_ == 0) {
-        metres_ = *metres;
+    if (!metres_) {
+        metres_ = metres;
         where_ = fmt::format("'{}' in {}", shown(title), rows.path().string());
     }
-    if (*metres != metres_)
+    if (metres != metres_)
         rows.refuse(
             fmt::format("column '{}' is in another unit of length than {}; convert one of them", shown(title), where_));
 }

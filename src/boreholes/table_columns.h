@@ -35,8 +35,11 @@ public:
     /// Requires `rows` at the header. Throws Error(kInput) where the title names another unit than one before.
     void add(const CsvRows& rows, std::string_view title);
 
+    /// The metres of the unit; none where no title has named one.
+    const std::optional<double>& metres() const { return metres_; }
+
 private:
-    double metres_ = 0;       // 0: no title has named one yet
+    std::optional<double> metres_ = {};
     std::string where_ = {};  // "'x (m)' in holes.csv"
 };
 

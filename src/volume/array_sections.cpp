@@ -103,6 +103,7 @@ std::unique_ptr<SectionReader> open_array(const LabelArray& array, const ArrayOp
                     .format = "array",
                     .type = array.type,
                     .can_sweep = {true, true, true},
+                    .metres = options.metres,
                     .names = options.names};
     info.lattice = {array.size, options.spacing, options.origin, options.direction};
     require_lattice(options.name, info.lattice);

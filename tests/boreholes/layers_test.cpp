@@ -372,6 +372,16 @@ TEST_F(Layers, the_terrain_is_the_top) {
     for (const auto& [x, y, top] : bases(*reader, 0)) EXPECT_NEAR(top, 100 + 40 * x / 1000, 1) << x;
 }
 
+TEST_F(Layers, the_unit_is_that_of_the_titles) {
+    const auto metres = [&](const std::string& titles) {
+        put_text(path("holes.csv"), titles + row(0, 0, 0, 10, "sand") + row(0, 0, 10, 30, "clay") +
+                                        row(90, 50, 0, 20, "sand") + row(90, 50, 20, 30, "clay"));
+        return coordinates_of(open_layers(path("holes.csv"), {}, {})->info()).metres;
+    };
+    EXPECT_EQ(metres("hole,x,y,surface,from,to,unit\n"), std::nullopt);
+    EXPECT_EQ(metres("hole,x_ft,y_ft,surface_ft,from_ft,to_ft,unit\n"), 0.3048);
+}
+
 TEST_F(Layers, an_open_top_lies_above_the_highest_ground) {
     put_text(path("ground.asc"),
              "ncols 3\nnrows 3\nxllcorner -500\nyllcorner -500\ncellsize 1000\n"

@@ -85,6 +85,16 @@ TEST_F(PointTableFile, titles_in_different_units_are_refused) {
         EXPECT_THAT(read(std::string(header) + "\n1,2,3,a\n").points.positions, ElementsAre(Vec3{1, 2, 3})) << header;
 }
 
+TEST_F(PointTableFile, the_unit_is_that_of_the_titles) {
+    const auto metres = [&](const std::string& header) { return read(header + "\n1,2,3,a\n").info.metres; };
+    EXPECT_EQ(metres("x,y,z,lith"), std::nullopt);
+    EXPECT_EQ(metres("x (m),y (m),z (m),lith"), 1);
+    EXPECT_EQ(metres("x,y,z_ft,lith"), 0.3048) << "one title says it for all";
+    EXPECT_EQ(metres("x,y,z,lith (mm)"), std::nullopt) << "no length";
+    EXPECT_EQ(read("x (km),y,top,bottom,lith\n1,2,0,1,a\n").info.metres, 1000) << "drill holes";
+    EXPECT_EQ(read("1,2,3,4\n", {.columns = "1,2,3,4"}).info.metres, std::nullopt) << "no titles";
+}
+
 TEST_F(PointTableFile, columns_can_be_named_and_numbered) {
     const std::string text = "a,B,b,c,x,d\n1,2,8,3,9,5\n";
     const auto check = [&](const char* columns) {

@@ -90,6 +90,22 @@ TEST_F(CliPoints, holes_become_models_that_pass_check_against_their_table) {
     expect_sound_way(holes() + " --scale-z 3");
 }
 
+TEST_F(CliPoints, models_have_the_unit_of_their_table) {
+    std::string text = text_of(layers().c_str());
+    text.replace(0, 5, "x (ft),y (ft),z (ft)");
+    put_text(path("feet.csv"), text);
+    const std::string feet = path("feet.csv").string();
+    const Ran shown = run("info " + feet + " --json " + out("i.json"));
+    EXPECT_THAT(shown.out, HasSubstr(" ft (mean)\n"));
+    EXPECT_THAT(text_of(out("i.json")), HasSubstr("\"unit\": \"ft\""));
+    ASSERT_EQ(run("reconstruct " + feet + " -o " + out("m.vtp")).code, 0);
+    EXPECT_THAT(run("info " + out("m.vtp")).out, testing::ContainsRegex("\nbox  .* ft\n"));
+    ASSERT_EQ(run("convert " + out("m.vtp") + ' ' + out("m.glb")).code, 0);
+    EXPECT_THAT(text_of(out("m.glb")), HasSubstr("\"scale\":[0.3048,0.3048,0.3048]"));
+    ASSERT_EQ(run("reconstruct " + feet + " --units m -o " + out("m.vtp")).code, 0);
+    EXPECT_THAT(run("info " + out("m.vtp")).out, testing::ContainsRegex("\nbox  .* m\n"));
+}
+
 TEST_F(CliTetrahedra, meshes_become_models_that_pass_check_against_them) {
     for (const std::string name : {"meshio_ascii.vtu", "vtk_points.vtu", "vtk_raw_zlib_64.vtu",
                                    "gmsh_41_ascii_volumes.msh", "gmsh_22_binary.msh"})

@@ -328,9 +328,11 @@ async function claims_are_those_that_were_tested(browser) {
     assert.deepEqual(await page.$$eval(".chip", (found) => found.map((e) => e.textContent)), ["✓ Violations: none"]);
     assert.ok(await page.$eval("#table", (e) => e.textContent.includes("in model units")));
     await page.close();
-    run("reconstruct", `${folder}/halves.raw`, "--size", "20,20,20", "--type", "uint8", "--units", "mm", "-o", `${folder}/mm.vtp`, "--quiet", "--html", `${folder}/mm.html`);
+    run("reconstruct", `${folder}/halves.raw`, "--size", "20,20,20", "--type", "uint8", "--units", "mm", "--max-error", "0.5", "-o", `${folder}/mm.vtp`, "--quiet", "--html", `${folder}/mm.html`);
     const other = await open(browser, `${folder}/mm.html`, errors);
     assert.ok(await other.$eval("#table", (e) => e.textContent.includes("volumes in mm³")), "the unit is known");
+    const said = await other.$$eval(".certificates .said", (found) => found.map((e) => e.textContent));
+    assert.ok(said.some((text) => text.startsWith("at most 0.5 mm")), said.join("; "));
     assert.deepEqual(errors, []);
     await other.close();
 }

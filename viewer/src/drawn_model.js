@@ -233,5 +233,5 @@ export class DrawnModel {
 function distances(model) {
     if (!model.distances) return null;
     const values = Float32Array.from(model.surface.source, (v) => model.distances[v]);
-    return { values, low: 0, high: quantile(values, 0.99) || model.largest_distance || 1, ramp: "viridis", title: "distance to the other model, in model units; the largest 1 % have one colour" };
+    return { values, low: 0, high: quantile(values, 0.99) || model.largest_distance || 1, ramp: "viridis", title: "distance to the other model; the largest 1 % have one colour" };
 }

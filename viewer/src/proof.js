@@ -1,7 +1,7 @@
 // What was proved, and what the run did: from the report in the page.
 import { barRow, histogram } from "./charts.js";
 import { byId, counted, element, grouped, short } from "./dom.js";
-import { unitText } from "./units.js";
+import { lengthText, unitText } from "./units.js";
 
 const sum = (numbers) => Object.values(numbers ?? {}).reduce((a, b) => a + b, 0);
 const kOfLabels = ["euler", "quadruple_points", "region_pairs", "nesting"];
@@ -56,12 +56,13 @@ function shareBelow(bound, { bin_width: width, counts }) {
     return `${isInside ? "at most " : ""}${short((100 * below) / all, 2)} %`;
 }
 
-function errorBound({ max_error: bound }, { stopped, error_bound: found }) {
-    const meaning = "No point of the model is farther than this, in model units, from the surface before decimation, and no point of that surface is farther from the model.";
+function errorBound(data, { stopped, error_bound: found }) {
+    const { max_error: bound } = data;
+    const meaning = "No point of the model is farther than this from the surface before decimation, and no point of that surface is farther from the model.";
     if (bound === null) return { name: "Error bound", verdict: "none", said: "none was asked", meaning };
     if (found > bound * (1 + 1e-9))
-        return { name: "Error bound", verdict: "none", said: `at most ${short(found)}: volumes were restored after decimation to at most ${short(bound)}`, meaning };
-    return { name: "Error bound", verdict: "good", said: `at most ${short(bound)}${stopped === "max_error" ? "; decimation ended there" : ""}`, meaning };
+        return { name: "Error bound", verdict: "none", said: `at most ${lengthText(found, data)}: volumes were restored after decimation to at most ${lengthText(bound, data)}`, meaning };
+    return { name: "Error bound", verdict: "good", said: `at most ${lengthText(bound, data)}${stopped === "max_error" ? "; decimation ended there" : ""}`, meaning };
 }
 
 function sameBytes({ models }) {

@@ -57,17 +57,18 @@ std::string info_json(const VolumeInfo& info, const Census& census) {
 }
 
 std::string info_json(const TetrahedraInfo& info, const TetrahedronCensus& census) {
-    const Json json{{"kind", "tetrahedra"},
-                    {"file", info.source},
-                    {"format", info.format},
-                    {"points", census.point_count},
-                    {"tetrahedra", census.tetrahedron_count},
-                    {"mean_spacing", census.spacing},
-                    {"scale_z", info.scale_z},
-                    {"sweep", axis_text(census.sweep)},
-                    {"labels", labels_json(census, info.names, info.has_cell_labels ? "tetrahedra" : "points")},
-                    {"unsimplified_faces", census.face_count},
-                    {"region_pairs", census.oracle.region_pairs}};
+    Json json{{"kind", "tetrahedra"},
+              {"file", info.source},
+              {"format", info.format},
+              {"points", census.point_count},
+              {"tetrahedra", census.tetrahedron_count},
+              {"mean_spacing", census.spacing},
+              {"scale_z", info.scale_z},
+              {"sweep", axis_text(census.sweep)},
+              {"labels", labels_json(census, info.names, info.has_cell_labels ? "tetrahedra" : "points")},
+              {"unsimplified_faces", census.face_count},
+              {"region_pairs", census.oracle.region_pairs}};
+    put_unit(info.metres, json);
     return text_of(json);
 }
 

@@ -33,7 +33,7 @@ private:
     void read_colours(pugi::xml_node fields);
     void read_background(pugi::xml_node fields);
     void read_space(pugi::xml_node fields);
-    void read_lengths(pugi::xml_node fields);
+    void read_lengths();
     void refuse_other_cells(pugi::xml_node piece) const;
     void read_node_types(pugi::xml_node piece, std::uint64_t count);
     void read_types(pugi::xml_node cells, std::uint64_t count) const;
@@ -108,24 +108,10 @@ void VtkSurfaceReader::read_space(pugi::xml_node fields) {
     if (const auto texts = read_strings(xml_, array); texts.size() == 1) read_comment(surface_, "SPACE=" + texts[0]);
 }
 
-/// Arrays of these names and another shape, of other programs, are ignored.
-void VtkSurfaceReader::read_lengths(pugi::xml_node fields) {
-    const auto tuple_of = [&](const char* name, std::uint64_t count) {
-        const pugi::xml_node array = array_named(fields, name);
-        const bool is_ours = array && std::string_view(array.attribute("type").value()) == "Float64" &&
-                             components(array) == count && xml_.count(array, "NumberOfTuples", UINT64_MAX) == 1;
-        return is_ours ? array : pugi::xml_node();
-    };
-    if (const pugi::xml_node array = tuple_of("MetresPerUnit", 1)) {
-        VtkNumbers number(xml_, array, 1);
-        set_metres(surface_, number.real());
-        number.finish();
-    }
-    if (const pugi::xml_node array = tuple_of("SampleSpacing", 3)) {
-        VtkNumbers numbers(xml_, array, 3);
-        set_spacing(surface_, numbers.point());
-        numbers.finish();
-    }
+void VtkSurfaceReader::read_lengths() {
+    if (const auto metres = tuple_of(xml_, "MetresPerUnit", 1); !metres.empty()) set_metres(surface_, metres[0]);
+    if (const auto spacing = tuple_of(xml_, "SampleSpacing", 3); !spacing.empty())
+        set_spacing(surface_, {spacing[0], spacing[1], spacing[2]});
 }
 
 FileSurface VtkSurfaceReader::read(bool is_grid) {
@@ -134,7 +120,7 @@ FileSurface VtkSurfaceReader::read(bool is_grid) {
     read_colours(fields);
     read_background(fields);
     read_space(fields);
-    read_lengths(fields);
+    read_lengths();
     if (exterior) {
         VtkNumbers number = integers_of(xml_, exterior, 1);
         surface_.exterior_label = number.integer();

@@ -114,6 +114,18 @@ VtkNumbers integers_of(const VtkXml& xml, pugi::xml_node array, std::optional<st
     return {xml, array, count};
 }
 
+std::vector<double> tuple_of(const VtkXml& xml, const char* name, std::uint64_t count) {
+    const pugi::xml_node array = array_named(xml.dataset().child("FieldData"), name);
+    if (!array || std::string_view(array.attribute("type").value()) != "Float64" || components(array) != count ||
+        xml.count(array, "NumberOfTuples", UINT64_MAX) != 1)
+        return {};
+    VtkNumbers numbers(xml, array, count);
+    std::vector<double> tuple(count);
+    for (double& number : tuple) number = numbers.real();
+    numbers.finish();
+    return tuple;
+}
+
 VtkNumbers points_of(const VtkXml& xml, pugi::xml_node piece, std::uint64_t count) {
     const pugi::xml_node array = piece.child("Points").child("DataArray");
     if (!array || components(array) != 3) xml.fail("needs an array of points with three components");

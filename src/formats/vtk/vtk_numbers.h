@@ -53,6 +53,10 @@ private:
 /// The same for an array of integers: throws for one of reals.
 VtkNumbers integers_of(const VtkXml& xml, pugi::xml_node array, std::optional<std::uint64_t> count);
 
+/// The reals of an array in the field data: one tuple of `count` of them. Empty where there is none, or one of another
+/// type or shape, which is another program's.
+std::vector<double> tuple_of(const VtkXml& xml, const char* name, std::uint64_t count);
+
 /// The array of points of a piece. Throws where it has not three components.
 VtkNumbers points_of(const VtkXml& xml, pugi::xml_node piece, std::uint64_t count);
 

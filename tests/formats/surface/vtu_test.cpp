@@ -49,6 +49,18 @@ TEST_F(ReadVtuMesh, labels_may_be_those_of_points) {
     EXPECT_THAT(labels_of(*reader), ElementsAre(10, 11, 12, 10, 11, 12, 10, 11, 12, 10, 11, 12));
 }
 
+TEST_F(ReadVtuMesh, the_unit_of_length_is_read) {
+    const auto metres = [&](const std::string& attributes, const std::string& text) {
+        const std::string fields = "<FieldData>" + array(attributes, text) + "</FieldData>";
+        return open_text(grid(fields + piece()))->info().metres;
+    };
+    const std::string attributes = "type=\"Float64\" Name=\"MetresPerUnit\" NumberOfTuples=\"1\"";
+    EXPECT_EQ(metres(attributes, "0.001"), 0.001);
+    EXPECT_EQ(metres(attributes, "-1"), std::nullopt) << "no length";
+    EXPECT_EQ(metres("type=\"Float64\" Name=\"MetresPerUnit\" NumberOfTuples=\"2\"", "1 1"), std::nullopt);
+    EXPECT_EQ(open_text(grid(piece()))->info().metres, std::nullopt);
+}
+
 TEST_F(ReadVtuMesh, pieces_are_read_one_after_the_other) {
     const auto reader = open_text(grid(piece() + "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"></Piece>" +
                                        piece(array("type=\"Int32\" Name=\"region\"", "7 -9"))));
