@@ -96,6 +96,13 @@ void warn_of_absent_labels(const Settings& settings, const Mesh& mesh, const Lab
     }
 }
 
+void warn_of_units(const std::string& a, const std::optional<double>& metres_a, const std::string& b,
+                   const std::optional<double>& metres_b) {
+    if (metres_a && metres_b && *metres_a != *metres_b)
+        warn(fmt::format("{} is in {} and {} in {}: they are compared as they are", a, length_symbol(*metres_a), b,
+                         length_symbol(*metres_b)));
+}
+
 void warn_of_passes(const Settings& settings) {
     const SmoothOptions& smooth = settings.reconstruct.smooth;
     const bool is_lattice = smooth.filter == SmoothFilter::kAuto || smooth.filter == SmoothFilter::kLattice;

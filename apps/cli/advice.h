@@ -1,6 +1,7 @@
 // What a run says about an input that is probably not meant.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "regionmesh/formats.h"
@@ -18,6 +19,10 @@ void warn_of_absent_labels(const Settings& settings, const Mesh& mesh, const Lab
 
 /// Warns of options for filters with passes where the lattice filter smooths. `settings` are of sections.
 void warn_of_passes(const Settings& settings);
+
+/// Warns where what is compared is in two units of length, as far as both say one.
+void warn_of_units(const std::string& a, const std::optional<double>& metres_a, const std::string& b,
+                   const std::optional<double>& metres_b);
 
 /// Warns where the sections look like a grey-scale image: many values, and samples that differ from all four neighbours
 /// in their section, which labels have few of. Reads sections until it has seen enough, at most kGreySections, and

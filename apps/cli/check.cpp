@@ -1,3 +1,4 @@
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
 #include "messages.h"
@@ -33,12 +34,16 @@ bool has_samples(const Settings& settings) {
 }
 
 /// What the labels of the input say, of either kind.
-std::optional<LabelOracle> oracle_of(const Settings& settings, LabelTable& labels) {
+std::optional<LabelOracle> oracle_of(const Settings& settings, MeshFile& file) {
     if (settings.sections.empty()) return {};
-    const CensusOptions census = census_options(settings);
-    const auto in_labels = [&](const auto& counted) { return relabelled(counted.oracle, counted.labels, labels); };
-    if (is_lattice(settings, settings.sections)) return in_labels(count_labels(*open_modelled(settings), census));
-    return in_labels(count_labels(*open_unstructured(settings, settings.sections), census));
+    const auto oracle_from = [&](auto& reader) {
+        warn_of_units(settings.models.front(), file.coordinates.metres, settings.sections.front(),
+                      reader.info().metres);
+        const auto counted = count_labels(reader, census_options(settings));
+        return relabelled(counted.oracle, counted.labels, file.labels);
+    };
+    if (is_lattice(settings, settings.sections)) return oracle_from(*open_modelled(settings));
+    return oracle_from(*open_unstructured(settings, settings.sections));
 }
 
 /// Sections are read for the labels, and again where there are samples to compare.
@@ -72,6 +77,7 @@ int check_folder(const Settings& given) {
     std::optional<SampleAgreement> samples;
     if (!settings.sections.empty()) {
         const auto reader = open_modelled(settings);
+        warn_of_units(path, file.coordinates.metres, settings.sections.front(), reader->info().metres);
         const Census census = count_labels(*reader, census_options(settings));
         options.oracle = relabelled(census.oracle, census.labels, file.labels);
         if (!has_lattice_of(path, reader->info()))
@@ -114,7 +120,7 @@ int run_check(const Settings& given) {
     }
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);
-    options.oracle = oracle_of(settings, file.labels);
+    options.oracle = oracle_of(settings, file);
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
     const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
 #include "messages.h"
@@ -236,10 +237,7 @@ int run_compare(const Settings& given) {
             fmt::format("{} is in {} and {} in {}: they are compared as they are; turn one of them with regionmesh "
                         "convert --space",
                         given.models[0], space_name(space_a), given.models[1], space_name(space_b)));
-    const auto &metres_a = a.coordinates.metres, &metres_b = b.coordinates.metres;
-    if (metres_a && metres_b && *metres_a != *metres_b)
-        warn(fmt::format("{} is in {} and {} in {}: they are compared as they are", given.models[0],
-                         length_symbol(*metres_a), given.models[1], length_symbol(*metres_b)));
+    warn_of_units(given.models[0], a.coordinates.metres, given.models[1], b.coordinates.metres);
     const Settings settings = settings_for(given, a.background && !a.background->empty() ? a : b);
     const CompareReport report = compare(*inputs[0]->model, *inputs[1]->model,
                                          {.samples = settings.samples,

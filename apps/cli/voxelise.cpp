@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "advice.h"
 #include "commands.h"
 #include "input.h"
 #include "printable.h"
@@ -15,11 +16,13 @@ int run_voxelise(const Settings& given) {
     const Settings settings = settings_for(given, file);
     VolumeInfo info = open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume)->info();
     const Lattice& lattice = info.lattice;
+    const std::optional<double>& metres = file.coordinates.metres;
+    warn_of_units(path, metres, settings.sections.front(), info.metres);
     VoxeliseOptions options{.lattice = lattice};
     for (const InputLabel label : settings.reconstruct.background)
         options.background.push_back(file.labels.dense(label));
-    const auto writer =
-        create_volume(settings.output, lattice, info.space, info.type, settings.writing, file.labels.is_unsigned());
+    const auto writer = create_volume(settings.output, lattice, {info.space, info.metres ? info.metres : metres},
+                                      info.type, settings.writing, file.labels.is_unsigned());
     std::vector<InputLabel> written(std::size_t{lattice.size[0]} * lattice.size[1]);
     const auto write = [&](std::span<const Label> section) {
         for (std::size_t n = 0; n < section.size(); ++n)

@@ -58,7 +58,7 @@ struct ArrayOptions {
     Vec3 spacing{1, 1, 1};
     Vec3 origin{0, 0, 0};
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // as in Lattice
-    std::optional<double> metres = {};                           // in a unit of length
+    std::optional<double> metres = {};                           // in a unit of length: 1e-15 to 1e6
     SweepChoice sweep = SweepChoice::kAuto;
     LabelNames names = {};
     std::string name = "array";  // of the array in messages
@@ -67,7 +67,7 @@ struct ArrayOptions {
 /// A reader of the array's sections. The array must outlive it and stay unchanged; the reader holds no copy, so
 /// ReconstructOptions::memory does not include the array. Labels of unsigned 64-bit arrays keep their bits. Throws
 /// Error(kInput) for an array without data or samples, a type that is no integer of whole bytes, spacing that is not
-/// positive, a direction or origin that is not finite, or directions that are not of length 1, to a thousandth.
+/// positive, a direction, origin or unit that is out of range, or directions that are not of length 1, to a thousandth.
 std::unique_ptr<SectionReader> open_array(const LabelArray& array, const ArrayOptions& options = {});
 
 }  // namespace regionmesh

@@ -36,6 +36,11 @@ inline constexpr double kMostExtent = 1e20;
 /// 1/4096 of the smallest spacing everywhere in the volume.
 inline constexpr double kMostSpacings = 0x1p40;
 
+/// The least and the most metres that a unit of length may have. Files that say others are damaged, or mean another
+/// thing.
+inline constexpr double kLeastUnit = 1e-15, kMostUnit = 1e6;
+constexpr bool is_unit_of_length(double metres) { return metres >= kLeastUnit && metres <= kMostUnit; }
+
 /// Bytes that work is planned for where nothing else is asked.
 inline constexpr std::uint64_t kDefaultMemory = std::uint64_t{2} << 30;
 

@@ -23,11 +23,12 @@ public:
 
 /// By extension: .npy (shape z, y, x), .nii and .nii.gz (the affine as sform; NIfTI-1, but NIfTI-2 if single precision
 /// does not hold the affine, or an axis has more than 32767 samples), .nrrd (raw), .raw (bare samples); little endian.
-/// `space` is that of the lattice: NIfTI files are in RAS, NRRD files name it. `has_unsigned_labels`: those below 0
-/// stand for 2^63 and more, as in an unsigned LabelTable. Throws Error(kOutput) for another extension, and
-/// Error(kInput) for a lattice that cannot be read back.
-std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, Space space,
-                                             SampleType type, const OutputOptions& options = {},
-                                             bool has_unsigned_labels = false);
+/// `coordinates` are those of the lattice: NIfTI files are in RAS, NRRD files name the space; both say the unit of
+/// length, NIfTI if it is the metre, the millimetre or the micrometre. `has_unsigned_labels`: those below 0 stand for
+/// 2^63 and more, as in an unsigned LabelTable. Throws Error(kOutput) for another extension, and Error(kInput) for a
+/// lattice that cannot be read back.
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice,
+                                             const Coordinates& coordinates, SampleType type,
+                                             const OutputOptions& options = {}, bool has_unsigned_labels = false);
 
 }  // namespace regionmesh

@@ -71,7 +71,7 @@ def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
 
 
 def from_arrays(
-    points, faces, labels, *, background=0, exterior_label=-1, names=None, boundary="cap", node_types=None
+    points, faces, labels, *, background=0, exterior_label=-1, names=None, boundary="cap", node_types=None, units=None
 ):
     """Make a model from arrays, such as those of another program.
 
@@ -94,6 +94,8 @@ def from_arrays(
     node_types : (n,) array_like of int, optional
         `Mesh.node_types`, which says what points lie on the box. Needed where no faces lie there, as in open models
         and between backgrounds.
+    units : {"km", "m", "cm", "mm", "um", "nm", "ft", "in"}, optional
+        Unit of length, `Mesh.metres`.
 
     Returns
     -------
@@ -130,7 +132,7 @@ def from_arrays(
     model = _core.from_arrays(
         (points, faces.astype(np.uint32), np.ascontiguousarray(whole), _node_types(node_types, len(points))),
         ([bits(label) for label in outside], [], names_of(names) or {}, colours_of(names) or {}, None),
-        ("", None, None),
+        ("", _core.metres_of(_options.output_pairs({"units": units}, "from_arrays")), None),
         bits(exterior_label), bool(is_unsigned), boundary == "open",
     )  # fmt: skip
     return Mesh(model)

@@ -345,6 +345,7 @@ class Mesh:
             opened = self._file_source if _sources.is_path(labels) else self._array_source
             source = opened(labels, (spacing, origin, direction))
             self._require_same_size(source.info)
+            self._warn_of_units("check", "labels", source.info["metres"])
         room = (self._lattice or {}).get("made", {}).get("room", 0)
         return json.loads(_core.check(self._model, threads, source, room))
 
@@ -444,13 +445,15 @@ class Mesh:
             warnings.warn(
                 f"compare: the meshes are in {self.space} and {other.space}; they are compared as they are", stacklevel=2
             )
-        if self.metres and other.metres and self.metres != other.metres:
-            warnings.warn(
-                f"compare: the units of the meshes are {self.metres:g} m and {other.metres:g} m; they are compared as "
-                "they are",
-                stacklevel=2,
-            )
+        self._warn_of_units("compare", "the other", other.metres)
         return json.loads(_core.compare(self._model, other._model, _options.pairs("compare", options)))
+
+    def _warn_of_units(self, function, what, metres):
+        if self.metres and metres and self.metres != metres:
+            mine, theirs = _core.length_symbol(self.metres), _core.length_symbol(metres)
+            warnings.warn(
+                f"{function}: the mesh is in {mine} and {what} in {theirs}; they are compared as they are", stacklevel=3
+            )
 
     def voxelise(self, like=None, *, shape=None, spacing=None, origin=None, direction=None, dtype=None, outside=0):
         """Return the label of each sample of a lattice: the inverse of `reconstruct`.
@@ -510,7 +513,7 @@ class Mesh:
         per_region : bool
             .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
             name.
-        units : {"m", "mm", "um", "nm"}, optional
+        units : {"km", "m", "cm", "mm", "um", "nm", "ft", "in"}, optional
             The unit of length of the model: .glb files are in metres and .precomputed in nanometres, and are scaled;
             other files say the unit, where they can. Default: that of the model (`metres`), else metres, and
             millimetres in .3mf.

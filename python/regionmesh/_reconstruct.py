@@ -61,6 +61,7 @@ def reconstruct(
     names=None,
     labels_to_keep=None,
     sections=None,
+    units=None,
     progress=None,
     **options,
 ):
@@ -70,7 +71,8 @@ def reconstruct(
     ----------
     labels : array_like, path, iterable or image
         A volume of integers [z, y, x] of any type and strides: a numpy array or memory map (not copied); an array
-        of dask, zarr or h5py (read section by section); an image of SimpleITK or nibabel, with its place in space;
+        of dask, zarr or h5py (read section by section); an image of SimpleITK or nibabel, with its place in space
+        and its unit of length;
         an iterable of sections [y, x]; or the path of a file that the program `regionmesh` reads, or a list of paths
         of sections.
     spacing : (3,) sequence of float, optional
@@ -86,6 +88,8 @@ def reconstruct(
     sections : int, optional
         Number of sections of an iterator. With it the sections are used as they come and the volume is never
         stored; without it they go through a temporary file in TMPDIR.
+    units : {"km", "m", "cm", "mm", "um", "nm", "ft", "in"}, optional
+        Unit of length of the model, `Mesh.metres`. Default: that of the image or file, where it says one.
     progress : bool or callable, optional
         True: a progress bar, by tqdm where it is installed. A callable gets (stage, done, total); total is None where
         it is not known.
@@ -126,6 +130,7 @@ def reconstruct(
     from_files = _sources.is_path(labels)
     kept = _kept(labels_to_keep)
     described = names_of(names), colours_of(names)
+    unit = _options.output_pairs({"units": units}, "reconstruct")
     with _progress.bar(progress) as report:
         if from_files:
             if origin is not None or direction is not None:
@@ -134,11 +139,12 @@ def reconstruct(
                 raise TypeError("reconstruct(): sections applies to iterators, not to files; leave it out")
             if spacing is not None:
                 options = {"spacing": spacing, **options}
-            return _from_files(labels, _options.pairs("reconstruct", options), kept, described, report)
+            pairs = _options.pairs("reconstruct", options) + unit
+            return _from_files(labels, pairs, kept, described, report)
         for name in _OF_FILES:
             if options.get(name) is not None:
                 raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
-        pairs = _options.pairs("reconstruct", options)
+        pairs = _options.pairs("reconstruct", options) + unit
         given = _sources.opened(labels, sections)
         place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
         source = _sources.source(given, place, chosen, described[0] or {}, kept)

@@ -114,11 +114,9 @@ def _metres_of_nibabel(image):
     header = getattr(image, "header", None)
     if type(header).__name__ == "MGHHeader":
         return 0.001
-    try:
-        unit = header.get_xyzt_units()[0]
-    except (AttributeError, KeyError):  # of a format without units, or a code that is none
+    if not hasattr(header, "get_xyzt_units"):  # of a format without units
         return None
-    return {"meter": 1.0, "mm": 0.001, "micron": 1e-6}.get(unit)
+    return {1: 1.0, 2: 0.001, 3: 1e-6}.get(int(header["xyzt_units"]) % 8)
 
 
 def _from_nibabel(image):

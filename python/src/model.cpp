@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -133,31 +134,38 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
         StageProgress progress(watch, options);
         Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
         const VolumeInfo& info = sections.info();
-        model = model_from(std::move(made), run.names.value_or(info.names), !options.cap, coordinates_of(info),
-                           run.colours.value_or(info.colours));
+        model = model_from(std::move(made), run.names.value_or(info.names), !options.cap,
+                           with_units(settings, coordinates_of(info)), run.colours.value_or(info.colours));
     });
     return model;
 }
 
 Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Watch& watch) {
     const Settings settings = settings_from(run.options, {path});
-    Model model;
-    std::string warning;
-    const auto make = [&](auto& reader) {
-        warning = reader.info().warning;
-        StageProgress progress(watch, settings.reconstruct);
-        Reconstruction made =
-            reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
-        model = model_from(std::move(made), run.names.value_or(reader.info().names), !settings.reconstruct.cap,
-                           coordinates_of(reader.info()), run.colours.value_or(LabelColours{}));
-    };
+    std::unique_ptr<SectionReader> layers;
+    std::unique_ptr<TetrahedronReader> tetrahedra;
     watch.run([&] {
         if (is_lattice(settings, {path}))
-            make(*open_lattice(settings, {path}));
+            layers = open_lattice(settings, {path});
         else
-            make(*open_tetrahedra(path, settings.tetrahedra));
+            tetrahedra = open_tetrahedra(path, settings.tetrahedra);
     });
-    warn_of(path, warning);
+    Model model;
+    const auto make = [&](auto& reader) {
+        const auto& info = reader.info();
+        warn_of(path, info.warning);
+        watch.run([&] {
+            StageProgress progress(watch, settings.reconstruct);
+            Reconstruction made =
+                reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
+            model = model_from(std::move(made), run.names.value_or(info.names), !settings.reconstruct.cap,
+                               with_units(settings, coordinates_of(info)), run.colours.value_or(LabelColours{}));
+        });
+    };
+    if (layers)
+        make(*layers);
+    else
+        make(*tetrahedra);
     return model;
 }
 

@@ -10,6 +10,7 @@
 #include "regionmesh/process.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/stop.h"
+#include "regionmesh/write_report.h"
 #include "settings.h"
 #include "sources.h"
 
@@ -46,6 +47,7 @@ py::dict info_of(const Source& source) {
     result["direction"] = lattice.direction;
     result["names"] = info.names;
     result["can_rewind"] = info.can_rewind;
+    result["metres"] = info.metres;
     return result;
 }
 
@@ -181,6 +183,8 @@ PYBIND11_MODULE(_core, module) {
     module.attr("version") = REGIONMESH_VERSION;
     py::register_exception_translator(raise_in_python);
     module.def("option_rows", option_rows);
+    module.def("metres_of", [](const OptionValues& options) { return settings_from(options).metres; });
+    module.def("length_symbol", length_symbol);
     module.def("check_options", [](const OptionValues& options) { settings_from(options); });
     module.def("kind_of_input", [](const std::vector<std::string>& paths) {
         return kind_of_input(paths) == kVolumeInput ? "volume" : "tetrahedra";

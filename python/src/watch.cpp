@@ -46,6 +46,7 @@ void Watch::forget_all() { watches().clear(); }
 void Watch::run(const std::function<void()>& work) {
     const Listed listed(*this);
     std::exception_ptr failure, own;
+    is_done_ = false;
     std::thread worker([&] {
         const StopScope scope(is_cancelled_);
         try {

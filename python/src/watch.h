@@ -30,7 +30,7 @@ public:
     explicit Watch(py::object on_progress) : on_progress_(std::move(on_progress)) {}
 
     /// Requires the GIL; releases it while the work runs. Throws what the work, a signal handler or the callable
-    /// throws.
+    /// throws. May be called again where it did not throw.
     void run(const std::function<void()>& work);
 
     /// Ends the runs of all threads: when the interpreter ends, it ends threads that wait for the GIL. Waits two

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tempfile
 import types
+import warnings
 
 import numpy as np
 import pytest
@@ -360,8 +361,11 @@ def test_nibabel_gives_the_unit_of_length(two_boxes, tmp_path):
         nibabel.save(image, tmp_path / "labels.nii")
         for source in (image, nibabel.load(tmp_path / "labels.nii"), tmp_path / "labels.nii"):
             assert regionmesh.reconstruct(source).metres == metres
-    image.header["xyzt_units"] = 5
-    assert regionmesh.reconstruct(image).metres is None
+    for code, metres in ((5, None), (8, None), (66, 0.001)):  # the others are times
+        image.header["xyzt_units"] = code
+        nibabel.save(image, tmp_path / "labels.nii")
+        for source in (image, tmp_path / "labels.nii"):
+            assert regionmesh.reconstruct(source).metres == metres
     assert regionmesh.reconstruct(nibabel.Spm99AnalyzeImage(samples.astype(np.int16), np.eye(4))).metres is None
     assert regionmesh.reconstruct(MGHImage(samples.astype(np.int32), np.eye(4))).metres == 0.001
 
@@ -425,16 +429,31 @@ def test_the_interface_of_simpleitk(two_boxes, monkeypatch):
         assert regionmesh.reconstruct(Read(**entries)).metres == metres
 
 
-def test_an_iterator_of_an_image_on_disk_keeps_its_unit(two_boxes, tmp_path):
-    """Sections that are called for, not an array."""
+def test_a_model_in_a_unit_that_is_given(two_boxes, tmp_path):
+    np.save(tmp_path / "labels.npy", two_boxes)
+    for source in (two_boxes, tmp_path / "labels.npy"):
+        assert regionmesh.reconstruct(source).metres is None
+        made = regionmesh.reconstruct(source, units="ft")
+        assert made.metres == 0.3048
+    made.save(tmp_path / "m.vtp")
+    assert regionmesh.load(tmp_path / "m.vtp").metres == 0.3048
+    copy = regionmesh.from_arrays(made.points, made.faces, made.labels, units="mm")
+    assert copy.metres == 0.001
+    with pytest.warns(UserWarning, match="the mesh is in mm and the other in ft; they are compared as they are"):
+        copy.compare(made)
+    with pytest.raises(ValueError, match="--units furlong"):
+        regionmesh.reconstruct(two_boxes, units="furlong")
+
+
+def test_labels_in_another_unit_are_worth_a_warning(two_boxes, tmp_path):
     nibabel = pytest.importorskip("nibabel")
     image = nibabel.Nifti1Image(np.ascontiguousarray(two_boxes.T), np.eye(4))
-    image.header.set_xyzt_units("mm")
-    nibabel.save(image, tmp_path / "labels.nii.gz")
-    made = regionmesh.reconstruct(nibabel.load(tmp_path / "labels.nii.gz"))
-    assert made.metres == 0.001
-    made.save(tmp_path / "m.vtp")
-    assert regionmesh.load(tmp_path / "m.vtp").metres == 0.001
+    image.header.set_xyzt_units("meter")
+    nibabel.save(image, tmp_path / "labels.nii")
+    made = regionmesh.reconstruct(tmp_path / "labels.nii", units="mm")
+    for labels in (image, tmp_path / "labels.nii"):
+        with pytest.warns(UserWarning, match="check: the mesh is in mm and labels in m; they are compared"):
+            assert made.check(labels)["samples_wrong"] == 0
 
 
 # Files
@@ -480,6 +499,10 @@ def test_a_word_among_the_labels_of_a_table_is_a_warning(tmp_path):
     with pytest.warns(UserWarning, match="holes.csv: label '1' is a whole number and 'sand' is none"):
         made = regionmesh.reconstruct(tmp_path / "holes.csv", layers="auto")
     assert made.names == {1: "1", 2: "sand"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(UserWarning):  # before the run
+            regionmesh.reconstruct(tmp_path / "holes.csv", layers="auto", progress=lambda *_: pytest.fail("it runs"))
 
 
 def test_a_missing_file_is_not_found(tmp_path):

@@ -10,7 +10,6 @@
 #include "formats/report/json_parts.h"
 #include "formats/text/header_text.h"
 #include "formats/text/json_text.h"
-#include "formats/text/length_unit.h"
 #include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
@@ -171,7 +170,7 @@ void require_sound(const Manifest& manifest, const fs::path& path) {
     if (std::ranges::min(size) < 2 || std::ranges::max(size) > kMostCells) damaged();
     if (manifest.block_cells < 1 || manifest.block_cells > kMostCells || manifest.shift >= manifest.block_cells)
         damaged();
-    if (manifest.metres && !formats::is_unit_of_length(*manifest.metres)) damaged();
+    if (manifest.metres && !is_unit_of_length(*manifest.metres)) damaged();
     if (!(manifest.scale_z > 0) || manifest.passes > kMostBlockPasses) damaged();
     require_lattice(path.string(), manifest.lattice);
     const BlockGrid grid = piece_grid(manifest);

@@ -200,23 +200,35 @@ void ColumnFinder::refuse_without(const std::string& what) const {
 
 constexpr std::string_view kBetweenWords = " \t\r\n_-.";
 
-bool is_unit(std::string_view word) {
-    constexpr std::array<std::string_view, 5> kUnits{"m", "ft", "km", "mm", "um"};
-    return std::ranges::find(kUnits, word) != kUnits.end();
+/// The metres of a unit in a title, in small letters: "ft", "(in.)". "fm" and "pm" are no units of tables, and "masl",
+/// "m.b.g.l." and so on are metres above or below something.
+std::optional<double> metres_in_word(std::string_view word) {
+    while (word.ends_with('.')) word.remove_suffix(1);
+    std::string letters(word);
+    std::erase(letters, '.');
+    constexpr std::array<std::string_view, 5> kHeights{"masl", "mamsl", "mbsl", "mbgl", "mbgs"};
+    if (std::ranges::find(kHeights, letters) != kHeights.end()) return 1;
+    return word == "fm" || word == "pm" ? std::nullopt : metres_in(word);
 }
 
+/// Whether the last word of a title without brackets is a unit: "in" may be a word.
+bool is_unit(std::string_view word) { return word != "in" && metres_in_word(word).has_value(); }
+
 /// The metres of the unit in a title: of the first unit in brackets, or else of a last word that is one. "in" is one
-/// where it stands alone: not in "z (in m)".
+/// where it stands alone: not in "z (in m)". None after a number: "x (1000 m)".
 std::optional<double> metres_in_title(std::string_view title) {
     const std::string lowered = lower(title);
     const std::size_t bracket = lowered.find_first_of("([");
     const Words words = split_words(std::string_view(lowered).substr(0, bracket), kBetweenWords);
     if (bracket != std::string::npos) {
-        const Words inside = split_words(std::string_view(lowered).substr(bracket), " \t\r\n_-.,()[]");
-        for (const std::string_view word : inside)
-            if (const auto metres = word == "in" && inside.size() > 1 ? std::nullopt : metres_in(word)) return metres;
+        const Words inside = split_words(std::string_view(lowered).substr(bracket), " \t\r\n_-,()[]");
+        for (const std::string_view word : inside) {
+            if (parse_real(word)) break;
+            if (const auto metres = word == "in" && inside.size() > 1 ? std::nullopt : metres_in_word(word))
+                return metres;
+        }
     }
-    return words.size() > 1 && is_unit(words.back()) ? metres_in(words.back()) : std::nullopt;
+    return words.size() > 1 && is_unit(words.back()) ? metres_in_word(words.back()) : std::nullopt;
 }
 
 }  // namespace

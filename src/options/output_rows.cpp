@@ -70,18 +70,17 @@ Rows output_rows() {
                 constexpr Space kSpaces[] = {Space::kUnknown, Space::kRas, Space::kLps};
                 s.volume.space = s.surface.space = kSpaces[word];
             }),
-        without_default(word_option(
-            {.name = "units",
-             .help =
-                 "unit of length; if not given, the one that the input says. .glb files are in metres and are scaled, "
-                 "other files state the unit",
-             .group = kGroup,
-             .commands = kWriters | kConvert},
-            {"m", "mm", "um", "nm"},
-            [](Settings& s, std::size_t word) {
-                constexpr double kMetres[] = {1, 1e-3, 1e-6, 1e-9};
-                s.metres = kMetres[word];
-            })),
+        without_default(word_option({.name = "units",
+                                     .help = "unit of length; if not given, the one that the input says. .glb (metres) "
+                                             "and .precomputed (nanometres) "
+                                             "are scaled by it; .vtp, .vtu, .ply, .obj and .3mf state it",
+                                     .group = kGroup,
+                                     .commands = kWriters | kConvert},
+                                    {"km", "m", "cm", "mm", "um", "nm", "ft", "in"},
+                                    [](Settings& s, std::size_t word) {
+                                        constexpr double kMetres[] = {1e3, 1, 1e-2, 1e-3, 1e-6, 1e-9, 0.3048, 0.0254};
+                                        s.metres = kMetres[word];
+                                    })),
         word_option({.name = "precomputed",
                      .help = "meshes in a folder .precomputed for Neuroglancer: multi, levels of detail compressed by "
                              "Draco; legacy: the model, not compressed",

@@ -21,8 +21,9 @@ protected:
     /// A file of grains.
     std::filesystem::path put_grains(const test::Size& size, std::uint32_t grains) {
         test::ArrayVolume volume = test::grain_volume(size, grains, 3);
-        const std::unique_ptr<SectionWriter> writer = create_volume(
-            path("grains.npy"), volume.info().lattice, volume.info().space, volume.info().type, {.sync = false});
+        const std::unique_ptr<SectionWriter> writer =
+            create_volume(path("grains.npy"), volume.info().lattice, coordinates_of(volume.info()), volume.info().type,
+                          {.sync = false});
         std::vector<InputLabel> section(std::size_t{volume.section_width()} * volume.section_height());
         while (volume.next(section)) writer->write(section);
         writer->commit();

@@ -380,6 +380,10 @@ TEST_F(Layers, the_unit_is_that_of_the_titles) {
     };
     EXPECT_EQ(metres("hole,x,y,surface,from,to,unit\n"), std::nullopt);
     EXPECT_EQ(metres("hole,x_ft,y_ft,surface_ft,from_ft,to_ft,unit\n"), 0.3048);
+    put_text(path("intervals.csv"), "hole,from,to,unit\nA,0,10,sand\nA,10,30,clay\nB,0,20,sand\nB,20,30,clay\n");
+    put_text(path("collars.csv"), "hole,x,y,z (ft)\nA,0,0,100\nB,90,50,100\n");
+    const auto reader = open_layers(path("intervals.csv"), {.collars = path("collars.csv")}, {});
+    EXPECT_EQ(reader->info().metres, 0.3048) << "of collars";
 }
 
 TEST_F(Layers, an_open_top_lies_above_the_highest_ground) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/temporary_folder.h"
+#include "formats/text/length_unit.h"
 #include "regionmesh/error.h"
 #include "support/paths.h"
 
@@ -91,6 +92,14 @@ TEST_F(PointTableFile, the_unit_is_that_of_the_titles) {
     EXPECT_EQ(metres("x (m),y (m),z (m),lith"), 1);
     EXPECT_EQ(metres("x,y,z_ft,lith"), 0.3048) << "one title says it for all";
     EXPECT_EQ(metres("x,y,z,lith (mm)"), std::nullopt) << "no length";
+    for (const char* unit : {"cm", "feet", "inch", "metres", "km", "mm", "nm"})
+        EXPECT_EQ(metres(std::string("x_") + unit + ",y,z,lith"), formats::metres_in(unit)) << unit;
+    EXPECT_EQ(metres("x (in.),y,z,lith"), 0.0254);
+    for (const char* height : {"m a.s.l.", "m.a.s.l.", "masl", "A.M.S.L. m"})
+        EXPECT_EQ(metres("x,y,z (" + std::string(height) + "),lith"), 1) << height;
+    for (const char* none : {"a.m.s.l.", "1000 m", "fm", "m/s", "WGS84"})
+        EXPECT_EQ(metres("x,y,z (" + std::string(none) + "),lith"), std::nullopt) << none;
+    EXPECT_EQ(metres("x (ft),y (ft),z (a.m.s.l.),lith"), 0.3048);
     EXPECT_EQ(read("x (km),y,top,bottom,lith\n1,2,0,1,a\n").info.metres, 1000) << "drill holes";
     EXPECT_EQ(read("1,2,3,4\n", {.columns = "1,2,3,4"}).info.metres, std::nullopt) << "no titles";
 }

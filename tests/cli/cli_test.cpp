@@ -426,6 +426,34 @@ TEST_F(Cli, compare_warns_where_models_name_a_label_differently) {
     EXPECT_EQ(run("compare" + soil + bare).error, "");
 }
 
+TEST_F(Cli, other_units_are_worth_a_warning) {
+    const auto sections = [&](const char* name, const std::string& unit) {
+        put_text(path(name),
+                 "NRRD0004\ntype: uint8\ndimension: 3\nspace dimension: 3\nsizes: 2 2 2\nspace directions: (1,0,0) "
+                 "(0,1,0) (0,0,1)\n" +
+                     unit + "encoding: ascii\n\n1 1 1 1 2 2 2 2\n");
+        return " " + path(name).string();
+    };
+    const std::string mm = sections("mm.nrrd", "space units: \"mm\" \"mm\" \"mm\"\n"),
+                      m = sections("m.nrrd", "space units: \"m\" \"m\" \"m\"\n"), none = sections("none.nrrd", "");
+    ASSERT_EQ(run("reconstruct" + mm + " -o " + out("mm.vtp")).code, 0);
+    ASSERT_EQ(run("reconstruct" + m + " -o " + out("m.vtp")).code, 0);
+    ASSERT_EQ(run("reconstruct" + mm + " --block-size 2 -o " + out("folder")).code, 0);
+    for (const std::string& use : {"compare " + out("m.vtp") + ' ', "check " + out("m.vtp") + " --sections",
+                                   "voxelise " + out("m.vtp") + " -o " + out("v.nrrd") + " --like"}) {
+        const bool is_compare = use.starts_with("compare");
+        const Ran other = run(use + (is_compare ? out("mm.vtp") : mm));
+        EXPECT_EQ(other.code, 0) << other.error;
+        EXPECT_THAT(other.error, testing::ContainsRegex("m.vtp is in m and .*mm.(vtp|nrrd) in mm: they are compared"));
+        EXPECT_EQ(run(use + (is_compare ? out("m.vtp") : m)).error, "");
+        if (!is_compare) {
+            EXPECT_EQ(run(use + none).error, "");
+        }
+    }
+    EXPECT_THAT(run("check " + out("folder") + " --sections" + m).error, HasSubstr(" in m: they are compared"));
+    EXPECT_THAT(run("info " + out("v.nrrd")).out, HasSubstr("spacing    1 x 1 x 1 m\n")) << "that of the model";
+}
+
 TEST_F(Cli, compare_refuses_what_it_cannot_use) {
     const LabelTable labels = test::labels_from({5, 7});
     write_mesh(test::octahedron(), labels, path("good.vtp"), {});

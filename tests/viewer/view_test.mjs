@@ -353,6 +353,30 @@ async function the_share_of_faces_below_the_bound_is_not_understated(browser) {
     assert.deepEqual(errors, []);
 }
 
+async function the_model_stays_in_the_picture_when_the_window_changes(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    const reach = (width, height) => page.setViewport({ width, height }).then(() => page.evaluate(async () => {
+        await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));  // the observer has seen it
+        const { stage } = window.regionmesh, p = stage.camera.position.clone(), most = [0, 0];
+        stage.renderNow();
+        stage.forShown(null, (x, y, z) => {
+            p.set(x, y, z).project(stage.camera);
+            most[0] = Math.max(most[0], Math.abs(p.x));
+            most[1] = Math.max(most[1], Math.abs(p.y));
+        });
+        return most;
+    }));
+    const wide = await reach(1200, 700);
+    assert.ok(Math.max(...wide) > 0.8 && Math.max(...wide) < 1, `fitted: ${wide}`);
+    for (const [width, height] of [[700, 700], [500, 800], [1200, 400], [1200, 700]]) {
+        const found = await reach(width, height);
+        assert.ok(Math.max(...found) < 1, `${width} x ${height}: ${found}`);
+    }
+    assert.deepEqual(await reach(1200, 700), wide, "as before");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 async function one_is_singular_and_long_labels_are_in_order(browser) {
     writeFileSync(`${folder}/one.raw`, new Uint8Array(8).fill(1));
     run("reconstruct", `${folder}/one.raw`, "--size", "2,2,2", "--type", "uint8", "-o", `${folder}/one.vtp`, "--quiet", "--html", `${folder}/one.html`);
@@ -383,7 +407,8 @@ try {
         a_selected_region_keeps_the_colours_of_values, where_there_is_no_curvature_it_is_grey,
         a_click_hits_the_region_that_the_picture_shows, a_click_goes_through_transparent_regions,
         an_incomplete_page_says_so, claims_are_those_that_were_tested,
-        the_share_of_faces_below_the_bound_is_not_understated, one_is_singular_and_long_labels_are_in_order]) {
+        the_share_of_faces_below_the_bound_is_not_understated, the_model_stays_in_the_picture_when_the_window_changes,
+        one_is_singular_and_long_labels_are_in_order]) {
         await test(browser);
         console.log(`ok ${test.name}`);
     }

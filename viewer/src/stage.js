@@ -53,6 +53,9 @@ export class Stage extends EventTarget {
         return Math.max(Math.hypot(...this.stretched(size)) / 2, 1e-9);
     }
 
+    /** Half the height of what the camera sees at a distance of 1. */
+    get halfHeight() { return Math.tan((kFieldOfView * Math.PI) / 360) / this.camera.zoom; }
+
     /** A place relative to the centre of the box, as it is in the picture; and back. */
     stretched([x, y, z]) { return [x, y, z * this.shared.stretch.value]; }
     unstretched([x, y, z]) { return [x, y, z / this.shared.stretch.value]; }
@@ -68,6 +71,8 @@ export class Stage extends EventTarget {
         this.renderer.setPixelRatio(this.pixelRatio);
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / this.drawn.length / height;
+        // A narrower picture shows as much from side to side as the one that the model was fitted to.
+        this.camera.zoom = this.fittedAspect ? Math.min(1, this.camera.aspect / this.fittedAspect) : 1;
         this.camera.updateProjectionMatrix();
         this.render();
     }
@@ -180,7 +185,7 @@ export class Stage extends EventTarget {
 
     /** Moves the picture by shares of its height. */
     pan(right, up) {
-        const length = 2 * Math.tan((kFieldOfView * Math.PI) / 360) * this.camera.position.distanceTo(this.controls.target);
+        const length = 2 * this.halfHeight * this.camera.position.distanceTo(this.controls.target);
         const [x, y] = [new three.Vector3(), new three.Vector3()];
         this.camera.matrix.extractBasis(x, y, new three.Vector3());
         const step = x.multiplyScalar(-right * length).addScaledVector(y, -up * length);
@@ -213,7 +218,9 @@ export class Stage extends EventTarget {
         box.getCenter(target);
         const right = new three.Vector3().crossVectors(this.camera.up, back).normalize();
         const up = new three.Vector3().crossVectors(back, right);
-        const tall = Math.tan((kFieldOfView * Math.PI) / 360) * 0.92, wide = tall * this.camera.aspect;
+        this.fittedAspect = this.camera.aspect;
+        this.camera.zoom = 1;
+        const tall = this.halfHeight * 0.92, wide = tall * this.camera.aspect;
         let distance = this.radius / 1e4;
         this.forShown(isShown, (x, y, z) => {
             p.set(x, y, z).sub(target);
@@ -229,7 +236,7 @@ export class Stage extends EventTarget {
         const direction = from ? new three.Vector3(...from) : this.camera.position.clone().sub(this.controls.target);
         direction.normalize();
         this.controls.target.set(...this.stretched(place));
-        this.camera.position.copy(this.controls.target).addScaledVector(direction, radius / Math.tan((kFieldOfView * Math.PI) / 360));
+        this.camera.position.copy(this.controls.target).addScaledVector(direction, radius / (this.halfHeight * Math.min(1, this.camera.aspect)));
         this.controls.update();
         this.moved();
     }

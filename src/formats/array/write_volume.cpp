@@ -9,14 +9,17 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/codec/sample_format.h"
+#include "formats/text/length_unit.h"
 #include "regionmesh/error.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/output_file.h"
+#include "regionmesh/write_report.h"
 
 namespace regionmesh {
 namespace {
@@ -59,7 +62,7 @@ const TypeNames& names_of(SampleType type) {
     throw Error(ErrorCode::kOutput, "no such type of samples");
 }
 
-std::string npy_header(const Lattice& lattice, Space, const TypeNames& type) {
+std::string npy_header(const Lattice& lattice, const Coordinates&, const TypeNames& type) {
     std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}, {}), }}", type.npy,
                                    lattice.size[2], lattice.size[1], lattice.size[0]);
     text.append((64 - (10 + text.size() + 1) % 64) % 64, ' ');
@@ -77,13 +80,19 @@ Vec3 step(const Lattice& lattice, int axis) {
     return lattice.spacing[axis] * Vec3{d[axis], d[3 + axis], d[6 + axis]};
 }
 
-std::string nrrd_header(const Lattice& lattice, Space space, const TypeNames& type) {
-    const char* where = space == Space::kRas   ? "space: right-anterior-superior"
-                        : space == Space::kLps ? "space: left-posterior-superior"
-                                               : "space dimension: 3";
+/// The line of the unit of all axes; none where it has no name, but would be a number of others.
+std::string nrrd_unit(const std::optional<double>& metres) {
+    const std::string symbol = metres ? length_symbol(*metres) : "";
+    return formats::metres_in(symbol) ? fmt::format("space units: \"{0}\" \"{0}\" \"{0}\"\n", symbol) : "";
+}
+
+std::string nrrd_header(const Lattice& lattice, const Coordinates& coordinates, const TypeNames& type) {
+    const char* where = coordinates.space == Space::kRas   ? "space: right-anterior-superior"
+                        : coordinates.space == Space::kLps ? "space: left-posterior-superior"
+                                                           : "space dimension: 3";
     std::string text =
-        fmt::format("NRRD0004\ntype: {}\ndimension: 3\n{}\nsizes: {} {} {}\nspace directions:", type.nrrd, where,
-                    lattice.size[0], lattice.size[1], lattice.size[2]);
+        fmt::format("NRRD0004\ntype: {}\ndimension: 3\n{}\n{}sizes: {} {} {}\nspace directions:", type.nrrd, where,
+                    nrrd_unit(coordinates.metres), lattice.size[0], lattice.size[1], lattice.size[2]);
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3 s = step(lattice, axis);
         text += fmt::format(" ({},{},{})", s.x, s.y, s.z);
@@ -135,7 +144,12 @@ void put_affine(Places& header, std::size_t at, const Affine& affine) {
         header.put<Real>(at + sizeof(Real) * n, static_cast<Real>(affine[n]));
 }
 
-std::string nifti1_header(const Lattice& lattice, const Affine& affine, const TypeNames& type) {
+/// NIFTI_UNITS_METER, _MM, _MICRON or _UNKNOWN.
+std::int8_t nifti_unit(const std::optional<double>& metres) {
+    return metres == 1 ? 1 : metres == 1e-3 ? 2 : metres == 1e-6 ? 3 : 0;
+}
+
+std::string nifti1_header(const Lattice& lattice, const Affine& affine, std::int8_t unit, const TypeNames& type) {
     Places header(352);
     header.put<std::int32_t>(0, 348);
     header.put<std::int16_t>(40, 3);
@@ -149,13 +163,14 @@ std::string nifti1_header(const Lattice& lattice, const Affine& affine, const Ty
     header.put<std::int16_t>(72, static_cast<std::int16_t>(8 * formats::sample_bytes(type.type)));
     header.put<float>(108, 352);
     header.put<float>(112, 1);
+    header.put<std::int8_t>(123, unit);
     header.put<std::int16_t>(254, 1);  // sform: scanner coordinates
     put_affine<float>(header, 280, affine);
     header.put_text(344, "n+1");
     return header.take();
 }
 
-std::string nifti2_header(const Lattice& lattice, const Affine& affine, const TypeNames& type) {
+std::string nifti2_header(const Lattice& lattice, const Affine& affine, std::int8_t unit, const TypeNames& type) {
     Places header(544);
     header.put<std::int32_t>(0, 540);
     header.put_text(4, std::string_view("n+2\0\r\n\x1a\n", 8));
@@ -172,21 +187,23 @@ std::string nifti2_header(const Lattice& lattice, const Affine& affine, const Ty
     header.put<double>(176, 1);
     header.put<std::int32_t>(348, 1);  // sform: scanner coordinates
     put_affine<double>(header, 400, affine);
+    header.put<std::int32_t>(500, unit);
     return header.take();
 }
 
-std::string nifti_header(const Lattice& lattice, Space space, const TypeNames& type) {
-    const Affine affine = affine_in_ras(lattice, space);
+std::string nifti_header(const Lattice& lattice, const Coordinates& coordinates, const TypeNames& type) {
+    const Affine affine = affine_in_ras(lattice, coordinates.space);
+    const std::int8_t unit = nifti_unit(coordinates.metres);
     const bool fits = std::ranges::all_of(lattice.size, [](std::uint32_t n) { return n <= 32767; });
-    return fits && is_single(affine, lattice) ? nifti1_header(lattice, affine, type)
-                                              : nifti2_header(lattice, affine, type);
+    return fits && is_single(affine, lattice) ? nifti1_header(lattice, affine, unit, type)
+                                              : nifti2_header(lattice, affine, unit, type);
 }
 
-std::string no_header(const Lattice&, Space, const TypeNames&) { return {}; }
+std::string no_header(const Lattice&, const Coordinates&, const TypeNames&) { return {}; }
 
 struct Format {
     const char* extension;
-    std::string (*header)(const Lattice&, Space, const TypeNames&);
+    std::string (*header)(const Lattice&, const Coordinates&, const TypeNames&);
     bool is_gzipped;
 };
 constexpr std::array<Format, 5> kFormats{{{".npy", npy_header, false},
@@ -241,7 +258,7 @@ private:
 
 struct VolumeKind {
     const Lattice& lattice;
-    Space space;
+    const Coordinates& coordinates;
     SampleType type;
     bool has_unsigned_labels;
 };
@@ -255,7 +272,7 @@ public:
           type_(names_of(kind.type)),
           has_unsigned_labels_(kind.has_unsigned_labels),
           output_(path, format.is_gzipped, options) {
-        output_.write(format.header(kind.lattice, kind.space, type_));
+        output_.write(format.header(kind.lattice, kind.coordinates, type_));
     }
 
     void write(std::span<const InputLabel> section) override {
@@ -300,15 +317,16 @@ private:
 
 }  // namespace
 
-std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice, Space space,
-                                             SampleType type, const OutputOptions& options, bool has_unsigned_labels) {
+std::unique_ptr<SectionWriter> create_volume(const std::filesystem::path& path, const Lattice& lattice,
+                                             const Coordinates& coordinates, SampleType type,
+                                             const OutputOptions& options, bool has_unsigned_labels) {
     require_lattice(path.string(), lattice);
     const std::string name = path.filename().string();
     std::string known;
     for (const Format& format : kFormats) {
         if (name.ends_with(format.extension))
-            return std::make_unique<VolumeWriter>(path, format, VolumeKind{lattice, space, type, has_unsigned_labels},
-                                                  options);
+            return std::make_unique<VolumeWriter>(path, format,
+                                                  VolumeKind{lattice, coordinates, type, has_unsigned_labels}, options);
         known += std::string(" ") + format.extension;
     }
     throw Error(ErrorCode::kOutput, path.string() + ": labels are written as" + known);

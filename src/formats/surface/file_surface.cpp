@@ -5,7 +5,7 @@
 #include "formats/input_file.h"
 #include "formats/surface/cut_polygon.h"
 #include "formats/text/header_text.h"
-#include "formats/text/length_unit.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 
@@ -80,7 +80,7 @@ std::vector<std::string> coordinate_comments(const Coordinates& coordinates) {
 }
 
 void set_metres(FileSurface& surface, double metres) {
-    if (formats::is_unit_of_length(metres)) surface.coordinates.metres = metres;
+    if (is_unit_of_length(metres)) surface.coordinates.metres = metres;
 }
 
 void set_spacing(FileSurface& surface, Vec3 spacing) {

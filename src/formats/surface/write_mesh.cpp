@@ -15,7 +15,6 @@
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
-#include "formats/text/length_unit.h"
 #include "mesh/edge_rounding.h"
 #include "mesh/region_colours.h"
 #include "regionmesh/error.h"
@@ -62,7 +61,7 @@ const Format& format_of(const Path& path, const WriteOptions& options, bool has_
     if (options.per_region && !found->write_region)
         refuse("a file for each region is written as " + formats::extensions_with(&Format::write_region));
     if (const auto& metres = options.coordinates.metres)
-        require_number("metres", *metres, {formats::kLeastUnit, formats::kMostUnit, "1e-15 to 1e6"});
+        require_number("metres", *metres, {kLeastUnit, kMostUnit, "1e-15 to 1e6"});
     if (const auto& spacing = options.coordinates.spacing)
         for (int axis = 0; axis < 3; ++axis)
             require_number("spacing", (*spacing)[axis], {kLeastLength, kMostLength, "1e-12 to 1e8"});

@@ -13,9 +13,4 @@ std::optional<double> femtometres_in(std::string_view unit);
 /// The metres of a unit. None for another word.
 std::optional<double> metres_in(std::string_view unit);
 
-/// The least and the most metres that a unit of length may have. Files that say others are damaged, or mean another
-/// thing.
-inline constexpr double kLeastUnit = 1e-15, kMostUnit = 1e6;
-constexpr bool is_unit_of_length(double metres) { return metres >= kLeastUnit && metres <= kMostUnit; }
-
 }  // namespace regionmesh::formats

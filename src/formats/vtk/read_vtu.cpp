@@ -14,8 +14,8 @@
 #include "formats/surface/file_surface.h"
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
-#include "formats/text/length_unit.h"
 #include "formats/vtk/vtk_numbers.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/tetrahedron_reader.h"
 
 namespace regionmesh::formats {

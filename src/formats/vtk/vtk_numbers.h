@@ -54,7 +54,7 @@ private:
 VtkNumbers integers_of(const VtkXml& xml, pugi::xml_node array, std::optional<std::uint64_t> count);
 
 /// The reals of an array in the field data: one tuple of `count` of them. Empty where there is none, or one of another
-/// type or shape, which is another program's.
+/// type or shape, which is another program's. Throws where its numbers cannot be read.
 std::vector<double> tuple_of(const VtkXml& xml, const char* name, std::uint64_t count);
 
 /// The array of points of a piece. Throws where it has not three components.

@@ -13,8 +13,8 @@ namespace {
 
 class WriteVolume : public TemporaryFolder {
 protected:
-    std::filesystem::path written(const char* name, const Lattice& lattice, Space space) {
-        const auto writer = create_volume(path(name), lattice, space, SampleType::kU16, {.sync = false});
+    std::filesystem::path written(const char* name, const Lattice& lattice, const Coordinates& coordinates) {
+        const auto writer = create_volume(path(name), lattice, coordinates, SampleType::kU16, {.sync = false});
         for (std::uint32_t z = 0; z < lattice.size[2]; ++z)
             writer->write(std::span(labels_).subspan(std::size_t{z} * lattice.size[0] * lattice.size[1],
                                                      std::size_t{lattice.size[0]} * lattice.size[1]));
@@ -31,7 +31,7 @@ protected:
 
 TEST_F(WriteVolume, another_number_of_sections_or_samples_is_refused) {
     const Lattice lattice{.size = {4, 3, 2}};
-    const auto writer = create_volume(path("v.npy"), lattice, Space::kUnknown, SampleType::kU16, {.sync = false});
+    const auto writer = create_volume(path("v.npy"), lattice, {}, SampleType::kU16, {.sync = false});
     EXPECT_THROW(writer->write(std::span(labels_).first(11)), Error);
     writer->write(std::span(labels_).first(12));
     EXPECT_THROW(writer->commit(), Error);
@@ -41,8 +41,7 @@ TEST_F(WriteVolume, another_number_of_sections_or_samples_is_refused) {
 
 TEST_F(WriteVolume, a_lattice_that_cannot_be_read_back_is_refused) {
     for (const double bad : {std::nan(""), 0.0, -1.0})
-        EXPECT_THROW(create_volume(path("v.nii"), {.size = {4, 3, 2}, .spacing = {bad, 1, 1}}, Space::kUnknown,
-                                   SampleType::kU16),
+        EXPECT_THROW(create_volume(path("v.nii"), {.size = {4, 3, 2}, .spacing = {bad, 1, 1}}, {}, SampleType::kU16),
                      Error);
     EXPECT_TRUE(std::filesystem::is_empty(path("")));
 }
@@ -72,7 +71,7 @@ TEST_F(WriteVolume, keeps_the_place_in_every_space) {
             SCOPED_TRACE(std::string(name) + " " + space_name(space));
             ReadOptions options;
             options.space = space;
-            const Volume back = read_volume({written(name, oblique(), space)}, options);
+            const Volume back = read_volume({written(name, oblique(), {space})}, options);
             EXPECT_EQ(back.info.space, space);
             EXPECT_EQ(back.labels, labels_);
             expect_same_place(back.info.lattice, oblique());
@@ -80,24 +79,39 @@ TEST_F(WriteVolume, keeps_the_place_in_every_space) {
 }
 
 TEST_F(WriteVolume, nrrd_of_no_known_space_names_none) {
-    const Volume back = read_volume({written("v.nrrd", oblique(), Space::kUnknown)});
+    const Volume back = read_volume({written("v.nrrd", oblique(), {})});
     EXPECT_EQ(back.info.space, Space::kUnknown);
     expect_same_place(back.info.lattice, oblique());
 }
 
 TEST_F(WriteVolume, nifti_has_single_precision_where_that_holds_the_affine) {
     Lattice lattice = oblique();
-    EXPECT_EQ(text_of(written("v.nii", lattice, Space::kRas)).substr(0, 2), "\x1C\x02") << "540: NIfTI-2";
+    EXPECT_EQ(text_of(written("v.nii", lattice, {Space::kRas})).substr(0, 2), "\x1C\x02") << "540: NIfTI-2";
     // Rounded to single precision, as a NIfTI-1 file would have it.
     for (int axis = 0; axis < 3; ++axis) {
         lattice.origin[axis] = static_cast<float>(lattice.origin[axis]);
         lattice.spacing[axis] = static_cast<float>(lattice.spacing[axis]);
     }
     lattice.direction = {0, -1, 0, 1, 0, 0, 0, 0, -1};
-    EXPECT_EQ(text_of(written("v.nii", lattice, Space::kLps)).substr(0, 2), "\x5C\x01") << "348: NIfTI-1";
+    EXPECT_EQ(text_of(written("v.nii", lattice, {Space::kLps})).substr(0, 2), "\x5C\x01") << "348: NIfTI-1";
     ReadOptions options;
     options.space = Space::kLps;
     expect_same_place(read_volume({path("v.nii")}, options).info.lattice, lattice);
+}
+
+TEST_F(WriteVolume, the_unit_of_length_is_kept_as_far_as_the_format_has_it) {
+    Lattice single{.size = {4, 3, 2}};
+    const auto back = [&](const char* name, const Lattice& lattice, std::optional<double> metres) {
+        return read_volume({written(name, lattice, {.metres = metres})}).info.metres;
+    };
+    for (const Lattice& lattice : {single, oblique()})  // NIfTI-1 and NIfTI-2
+        for (const char* name : {"v.nii", "v.nrrd"}) {
+            EXPECT_EQ(back(name, lattice, std::nullopt), std::nullopt) << name;
+            for (const double metres : {1.0, 1e-3, 1e-6}) EXPECT_EQ(back(name, lattice, metres), metres) << name;
+        }
+    EXPECT_EQ(back("v.nrrd", single, 0.3048), 0.3048);
+    EXPECT_EQ(back("v.nii", single, 0.3048), std::nullopt) << "NIfTI has no feet";
+    EXPECT_EQ(back("v.nrrd", single, 0.0123), std::nullopt) << "a unit without a name";
 }
 
 }  // namespace
