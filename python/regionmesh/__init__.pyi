@@ -121,7 +121,7 @@ class Mesh:
         path: _Path,
         *,
         per_region: bool = False,
-        units: Literal["m", "mm", "um", "nm"] | None = None,
+        units: Literal["km", "m", "cm", "mm", "um", "nm", "ft", "in"] | None = None,
         precomputed: Literal["multi", "legacy"] | None = None,
         levels: _Int | None = None,
         sharded: bool = False,
@@ -141,6 +141,7 @@ def reconstruct(
     names: Mapping[int, str] | _Path | None = None,
     labels_to_keep: Iterable[_Int] | None = None,
     sections: _Int | None = None,
+    units: Literal["km", "m", "cm", "mm", "um", "nm", "ft", "in"] | None = None,
     progress: _Progress | None = None,
     sweep: Literal["auto", "x", "y", "z"] | None = None,
     layer: _Int | None = None,
@@ -202,4 +203,5 @@ def from_arrays(
     names: Mapping[int, str] | _Path | None = None,
     boundary: Literal["cap", "open"] = "cap",
     node_types: npt.ArrayLike | None = None,
+    units: Literal["km", "m", "cm", "mm", "um", "nm", "ft", "in"] | None = None,
 ) -> Mesh: ...
