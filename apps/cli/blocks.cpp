@@ -129,6 +129,16 @@ RunIdentity identity_of(const Settings& settings) {
     return identity;
 }
 
+/// A folder that is not there yet and would be called model.vtp is not what was meant.
+void require_folder_name(const std::string& output) {
+    std::error_code missing;
+    if (output.ends_with('/') || !has_extension(output, writable_extensions()) || fs::is_directory(output, missing))
+        return;
+    throw Error(ErrorCode::kUsage, "--output " + output +
+                                       ": blocks are written into a folder; name one, put a / at its end, or leave out "
+                                       "--block-size");
+}
+
 void require_fit_of_blocks(const Settings& settings) {
     refuse_options(settings, kOneFile,
                    "is for a model in one file, and --output is a folder of pieces; leave it out, and give the folder "
@@ -208,6 +218,7 @@ void make_block_folder(const Settings& settings) {
             return;
         return make_precomputed_folder(folder);
     }
+    require_folder_name(settings.output);
     make_folder(folder);
 }
 

@@ -35,8 +35,15 @@ Vec3 corner_of(const Vec3& low, const Vec3& high, int corner) {
     return {corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z};
 }
 
-/// Makes `samples` smaller: the samples in `box`. An index within 1e-4 of a whole number counts as that number:
-/// headers of NIfTI files have places in single precision.
+/// Whether each axis of the lattice lies along one of the coordinates, in either direction.
+bool lies_along_axes(const Lattice& lattice) {
+    constexpr double kRounding = 1e-6;
+    return std::ranges::all_of(
+        lattice.direction, [](double d) { return std::abs(d) < kRounding || std::abs(std::abs(d) - 1) < kRounding; });
+}
+
+/// Makes `samples` smaller: the samples in `box`, or, in an oblique lattice, the smallest block that encloses it. An
+/// index within 1e-4 of a whole number counts as that number: headers of NIfTI files have places in single precision.
 void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box, IndexBox& samples) {
     constexpr double kRounding = 1e-4;
     const Box extent = volume.lattice.extent();
@@ -50,9 +57,11 @@ void cut_to_box(const VolumeInfo& volume, const std::array<LengthRange, 3>& box,
     }
     Box indices;
     for (int corner = 0; corner < 8; ++corner) indices.add(index_of(volume.lattice, corner_of(low, high, corner)));
+    const bool is_inside = lies_along_axes(volume.lattice);
     for (int axis = 0; axis < 3; ++axis) {
-        const double first = std::ceil(indices.low[axis] - kRounding),
-                     last = std::floor(indices.high[axis] + kRounding);
+        const double low_index = indices.low[axis], high_index = indices.high[axis],
+                     first = is_inside ? std::ceil(low_index - kRounding) : std::floor(low_index + kRounding),
+                     last = is_inside ? std::floor(high_index + kRounding) : std::ceil(high_index - kRounding);
         const double begin = std::max<double>(first, samples.low[axis]),
                      end = std::min<double>(last + 1, samples.high[axis]);
         if (begin >= end) refuse(volume, "--box holds no sample; give a larger one, or leave out --roi");

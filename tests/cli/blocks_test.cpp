@@ -460,6 +460,21 @@ TEST_F(BlockProgram, refuses_an_input_without_cells_or_regions_and_leaves_nothin
     EXPECT_EQ(run(two + "--quiet -o " + out("m/")).code, 0) << "the folder is as good as new";
 }
 
+TEST_F(BlockProgram, a_folder_with_the_name_of_a_model_is_refused) {
+    put_text(path("two.raw"), std::string(500, '\0') + std::string(500, '\1'));
+    const std::string command =
+        "reconstruct " + path("two.raw").string() + " --type uint8 --size 10,10,10 --block-size 8 --quiet -o ";
+    for (const char* name : {"m.vtp", "m.STL"}) {
+        const Ran refused = run(command + out(name));
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_THAT(refused.error, testing::HasSubstr(std::string(name) + ": blocks are written into a folder"));
+        EXPECT_FALSE(fs::exists(out(name)));
+    }
+    EXPECT_EQ(run(command + out("m.vtp/")).code, 0) << "with a / it is meant";
+    EXPECT_EQ(run(command + out("m.vtp")).code, 0) << "that folder is there";
+    EXPECT_EQ(run(command + out("scan.1")).code, 0);
+}
+
 TEST_F(BlockProgram, an_input_that_cannot_be_read_to_its_end_leaves_nothing) {
     const std::string whole = text_of(data("nrrd/big_gzip_int16.nrrd"));
     const std::string command = "reconstruct " + path("t.nrrd").string() + " --block-size 4 -o " + out("model");

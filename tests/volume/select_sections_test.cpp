@@ -104,6 +104,18 @@ TEST(SelectSections, box_keeps_the_samples_inside) {
     EXPECT_THAT(refusal_of(volume, {.box = {{{}, {18.2, 18.4}, {}}}}), HasSubstr("--box holds no sample"));
 }
 
+TEST(SelectSections, box_of_an_oblique_volume_is_enclosed) {
+    ArrayVolume volume({9, 9, 9}, std::vector<InputLabel>(9 * 9 * 9, 1));
+    const auto kept = [&](const std::array<double, 9>& direction, const std::array<LengthRange, 3>& box) {
+        volume.lattice().direction = direction;
+        return selected(volume, {.box = box})->info().lattice.size;
+    };
+    const std::array<LengthRange, 3> box{{{2.5, 5.5}, {2.5, 5.5}, {2.5, 5.5}}};
+    EXPECT_THAT(kept({0, 1, 0, 1, 0, 0, 0, 0, 1}, box), ElementsAre(3, 3, 3)) << "3 to 5, inside";
+    // Turned about z by atan(3/4): 0.8 x + 0.6 y is 3.5 to 7.7, 0.8 y - 0.6 x is -1.3 to 2.9, and z 2.5 to 5.5.
+    EXPECT_THAT(kept({0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1}, box), ElementsAre(6, 4, 5)) << "3 to 8, 0 to 3, 2 to 6";
+}
+
 TEST(SelectSections, box_follows_the_axes_of_a_sheared_volume) {
     ArrayVolume volume = digits();
     volume.lattice().direction = {1, 0.6, 0, 0, 0.8, 0, 0, 0, 1};  // rows of samples along x, 0.8 apart

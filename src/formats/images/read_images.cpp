@@ -1,4 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "formats/array/numbered_sections.h"
@@ -61,7 +67,7 @@ private:
 
 /// The headers of all sections are read here, so that a different one is found before the work begins.
 std::unique_ptr<SectionReader> open_files(std::vector<fs::path> files, const fs::path& source,
-                                          const ReadOptions& options) {
+                                          const ReadOptions& options, const std::string& warning = "") {
     const auto shape_of = [&](std::uint64_t section) {
         return image_format(files[section], section).read_shape(files[section], section);
     };
@@ -71,6 +77,7 @@ std::unique_ptr<SectionReader> open_files(std::vector<fs::path> files, const fs:
     VolumeInfo info = volume_info(source, lower(image_format(files.front(), 0).name), label_type(shape),
                                   checked_size(source, {shape.width, shape.height, files.size()}));
     apply_options(info, options);
+    info.warning = warning;
     return std::make_unique<ImageListReader>(std::move(files), std::move(info), shape);
 }
 
@@ -88,6 +95,49 @@ std::vector<fs::path> list_directory(const fs::path& directory) {
         return natural_less(a.filename().string(), b.filename().string());
     });
     return files;
+}
+
+/// A file name in three parts: the last number is in the middle.
+struct NumberedName {
+    std::string before, after;
+    std::int64_t number = 0;
+};
+
+std::optional<NumberedName> numbered_name(const fs::path& file) {
+    constexpr std::string_view kDigits = "0123456789";
+    constexpr std::size_t kMostDigits = 18;  // of 64 bits
+    const std::string name = file.stem().string();
+    const std::size_t last = name.find_last_of(kDigits);
+    if (last == std::string::npos) return {};
+    const std::size_t before = name.find_last_not_of(kDigits, last),
+                      first = before == std::string::npos ? 0 : before + 1;
+    if (last - first >= kMostDigits) return {};
+    return NumberedName{name.substr(0, first), name.substr(last + 1), std::stoll(name.substr(first, last + 1 - first))};
+}
+
+/// What the numbers of sections say where nearly all of them rise by the same step: a line that names the first place
+/// where they do not, since a section may be missing there. Empty where there is none.
+std::string warning_of_gaps(const std::vector<fs::path>& files) {
+    constexpr std::size_t kFewest = 5, kMostOfSteps = 4;  // at most one step in four is another
+    if (files.size() < kFewest) return {};
+    std::vector<std::int64_t> steps;
+    std::optional<NumberedName> last;
+    for (const fs::path& file : files) {
+        std::optional<NumberedName> name = numbered_name(file);
+        if (!name || (last && (name->before != last->before || name->after != last->after))) return {};
+        if (last) steps.push_back(name->number - last->number);
+        last = std::move(name);
+    }
+    std::vector<std::int64_t> sorted = steps;
+    std::ranges::sort(sorted);
+    const std::int64_t usual = sorted[sorted.size() / 2];
+    const auto others = steps.size() - static_cast<std::size_t>(std::ranges::count(steps, usual));
+    if (others == 0 || others * kMostOfSteps > steps.size()) return {};
+    const auto at = std::ranges::find_if(steps, [&](std::int64_t step) { return step != usual; }) - steps.begin();
+    return fmt::format(
+        "{} is followed by {}, and other numbers rise by {}: if a section is missing, put one in, since "
+        "sections are read as equally far apart",
+        files[at].filename().string(), files[at + 1].filename().string(), usual);
 }
 
 /// DICOM files often have no extension.
@@ -128,7 +178,8 @@ std::unique_ptr<SectionReader> open_image_directory(const fs::path& directory, c
     }
     if (images.empty()) refuse_dicom_among(files);
     if (images.empty()) fail(directory, "the directory holds no PNG or TIFF file; name the directory of the sections");
-    return open_files(std::move(images), directory, options);
+    const std::string warning = warning_of_gaps(images);
+    return open_files(std::move(images), directory, options, warning);
 }
 
 }  // namespace regionmesh::formats

@@ -101,6 +101,26 @@ TEST_F(ReadImagesTest, other_files_of_a_folder_are_passed_over_but_not_other_ima
     EXPECT_THAT(refusal({folder}), HasSubstr("both PNG and TIFF"));
 }
 
+TEST_F(ReadImagesTest, a_gap_in_the_numbers_of_sections_is_worth_a_warning) {
+    const auto warning = [&](const std::vector<std::string>& names) {
+        const fs::path folder = path("numbered");
+        fs::remove_all(folder);
+        fs::create_directory(folder);
+        for (const std::string& name : names) fs::copy_file(data("png/gray8/s1.png"), folder / name);
+        return open_sections({folder})->info().warning;
+    };
+    EXPECT_EQ(warning({"s1.png", "s2.png", "s3.png", "s4.png", "s5.png"}), "");
+    EXPECT_EQ(warning({"a 08 x.png", "a 10 x.png", "a 12 x.png", "a 14 x.png", "a 16 x.png"}), "");
+    EXPECT_EQ(warning({"s8.png", "s9.png", "s10.png", "s12.png", "s13.png"}),
+              "s10.png is followed by s12.png, and other numbers rise by 1: if a section is missing, put one in, since "
+              "sections are read as equally far apart");
+    EXPECT_EQ(warning({"s1.png", "s2.png", "s3.png", "s5.png"}), "") << "too few to tell";
+    EXPECT_EQ(warning({"s1.png", "s3.png", "s4.png", "s7.png", "s12.png"}), "") << "positions, perhaps";
+    EXPECT_EQ(warning({"a1.png", "a2.png", "b1.png", "b2.png", "b4.png"}), "") << "two kinds";
+    EXPECT_EQ(warning({"a.png", "b.png", "c.png", "d.png", "f.png"}), "") << "no numbers";
+    EXPECT_EQ(warning({"s0.png", "s1.png", "s2.png", "s3.png", "s99999999999999999999.png"}), "") << "no 64 bits";
+}
+
 TEST_F(ReadImagesTest, folder_without_images_is_refused) {
     fs::create_directory(path("empty"));
     put_text(path("empty") / "notes.txt", "x");
