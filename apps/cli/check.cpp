@@ -33,7 +33,7 @@ bool has_samples(const Settings& settings) {
     return settings.reconstruct.cap && !settings.sections.empty() && is_lattice(settings, settings.sections);
 }
 
-/// What the labels of the input say, of either kind.
+/// What the labels of the input say, of either kind. Warns where it is in another unit of length than the model.
 std::optional<LabelOracle> oracle_of(const Settings& settings, MeshFile& file) {
     if (settings.sections.empty()) return {};
     const auto oracle_from = [&](auto& reader) {

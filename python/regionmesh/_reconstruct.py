@@ -72,9 +72,8 @@ def reconstruct(
     labels : array_like, path, iterable or image
         A volume of integers [z, y, x] of any type and strides: a numpy array or memory map (not copied); an array
         of dask, zarr or h5py (read section by section); an image of SimpleITK or nibabel, with its place in space
-        and its unit of length;
-        an iterable of sections [y, x]; or the path of a file that the program `regionmesh` reads, or a list of paths
-        of sections.
+        and its unit of length; an iterable of sections [y, x]; or the path of a file that the program `regionmesh`
+        reads, or a list of paths of sections.
     spacing : (3,) sequence of float, optional
         Distance between samples along x, y, z. Default: that of the image or file, else 1.
     origin : (3,) sequence of float, optional

@@ -200,8 +200,8 @@ void ColumnFinder::refuse_without(const std::string& what) const {
 
 constexpr std::string_view kBetweenWords = " \t\r\n_-.";
 
-/// The metres of a unit in a title, in small letters: "ft", "(in.)". "fm" and "pm" are no units of tables, and "masl",
-/// "m.b.g.l." and so on are metres above or below something.
+/// The metres of a unit in a title, in small letters: "ft", "in.". Heights such as "masl" (metres above sea level) and
+/// "m.b.g.l." (below ground level) are in metres. "fm" and "pm" are no units of tables.
 std::optional<double> metres_in_word(std::string_view word) {
     while (word.ends_with('.')) word.remove_suffix(1);
     std::string letters(word);

@@ -1,6 +1,9 @@
 // What to write, and what the run may use.
 #include <algorithm>
+#include <array>
+#include <string_view>
 
+#include "formats/text/length_unit.h"
 #include "options/bind_option.h"
 #include "options/option_rows.h"
 
@@ -8,6 +11,7 @@ namespace regionmesh {
 namespace {
 
 constexpr Range kAnyThreads{0, 0xFFFFFFFFu}, kAnyFaces{1, 0xFFFFFFFFu}, kBlockCells{1, 1u << 20}, kLevels{0, 8};
+constexpr std::array<std::string_view, 8> kUnits{"km", "m", "cm", "mm", "um", "nm", "ft", "in"};
 
 std::string_view output_help() {
     static const std::string text =
@@ -70,17 +74,14 @@ Rows output_rows() {
                 constexpr Space kSpaces[] = {Space::kUnknown, Space::kRas, Space::kLps};
                 s.volume.space = s.surface.space = kSpaces[word];
             }),
-        without_default(word_option({.name = "units",
-                                     .help = "unit of length; if not given, the one that the input says. .glb (metres) "
-                                             "and .precomputed (nanometres) "
-                                             "are scaled by it; .vtp, .vtu, .ply, .obj and .3mf state it",
-                                     .group = kGroup,
-                                     .commands = kWriters | kConvert},
-                                    {"km", "m", "cm", "mm", "um", "nm", "ft", "in"},
-                                    [](Settings& s, std::size_t word) {
-                                        constexpr double kMetres[] = {1e3, 1, 1e-2, 1e-3, 1e-6, 1e-9, 0.3048, 0.0254};
-                                        s.metres = kMetres[word];
-                                    })),
+        without_default(word_option(
+            {.name = "units",
+             .help = "unit of length; if not given, the one that the input says. .glb (metres) and .precomputed "
+                     "(nanometres) are scaled by it; .vtp, .vtu, .ply, .obj and .3mf state it",
+             .group = kGroup,
+             .commands = kWriters | kConvert},
+            {kUnits.begin(), kUnits.end()},
+            [](Settings& s, std::size_t word) { s.metres = formats::metres_in(kUnits[word]); })),
         word_option({.name = "precomputed",
                      .help = "meshes in a folder .precomputed for Neuroglancer: multi, levels of detail compressed by "
                              "Draco; legacy: the model, not compressed",

@@ -89,7 +89,7 @@ void require_usable(const LabelArray& array, const ArrayOptions& options) {
     if (!array.data) refuse("no data; give the address of the first sample");
     if (!copy_of(array.type)) refuse("samples are single bits; give an array of 8, 16, 32 or 64-bit integers");
     if (options.metres && !is_unit_of_length(*options.metres))
-        refuse("a unit of " + std::to_string(*options.metres) + " metres; give 1e-15 to 1e6");
+        refuse("metres are out of range; give 1e-15 to 1e6 for a unit of length");
     for (const double entry : options.direction)
         if (!std::isfinite(entry)) refuse("direction is not finite; give nine numbers");
     for (const Vec3 axis : Lattice{.direction = options.direction}.axes())

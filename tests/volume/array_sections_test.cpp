@@ -149,6 +149,8 @@ TEST(ArraySections, refuse_arrays_that_cannot_be_read) {
     EXPECT_THAT(refusal(good, {.spacing = {1, 0, 1}, .name = "ct"}), HasSubstr("ct: the spacing along y is 0"));
     EXPECT_THAT(refusal(good, {.origin = {1, 0, HUGE_VAL}}), HasSubstr("origin"));
     EXPECT_THAT(refusal(good, {.direction = {NAN}}), HasSubstr("direction"));
+    for (const double metres : {0.0, -1.0, 1e-300, double{NAN}})
+        EXPECT_THAT(refusal(good, {.metres = metres}), HasSubstr("metres are out of range")) << metres;
     EXPECT_THAT(refusal(good, {.direction = {10, 0, 0, 0, 1, 0, 0, 0, 1}}), HasSubstr("not of length 1"));
     EXPECT_EQ(refusal(good, {.direction = {0.6, 0.800001, 0, -0.8, 0.6, 0, 0, 0, 1}}), "not refused");
 }

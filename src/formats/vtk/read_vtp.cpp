@@ -109,7 +109,7 @@ void VtkSurfaceReader::read_space(pugi::xml_node fields) {
 }
 
 void VtkSurfaceReader::read_lengths() {
-    if (const auto metres = tuple_of(xml_, "MetresPerUnit", 1); !metres.empty()) set_metres(surface_, metres[0]);
+    surface_.coordinates.metres = metres_per_unit(xml_);
     if (const auto spacing = tuple_of(xml_, "SampleSpacing", 3); !spacing.empty())
         set_spacing(surface_, {spacing[0], spacing[1], spacing[2]});
 }

@@ -15,7 +15,6 @@
 #include "formats/surface/tetrahedron_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/vtk/vtk_numbers.h"
-#include "regionmesh/limits.h"
 #include "regionmesh/tetrahedron_reader.h"
 
 namespace regionmesh::formats {
@@ -223,9 +222,8 @@ VtuReader::VtuReader(const std::filesystem::path& path, const TetrahedraOptions&
              .format = "vtu",
              .has_cell_labels = grid_.labels.is_cell,
              .is_unsigned = grid_.labels.type == "UInt64",
-             .scale_z = options.scale_z};
-    const std::vector<double> metres = tuple_of(grid_.xml, "MetresPerUnit", 1);
-    if (!metres.empty() && is_unit_of_length(metres[0])) info_.metres = metres[0];
+             .scale_z = options.scale_z,
+             .metres = metres_per_unit(grid_.xml)};
 }
 
 void VtuReader::read_points(const VtuPiece& piece, LabelledPoints& points) const {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "formats/text/header_text.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -124,6 +125,11 @@ std::vector<double> tuple_of(const VtkXml& xml, const char* name, std::uint64_t 
     for (double& number : tuple) number = numbers.real();
     numbers.finish();
     return tuple;
+}
+
+std::optional<double> metres_per_unit(const VtkXml& xml) {
+    const std::vector<double> metres = tuple_of(xml, "MetresPerUnit", 1);
+    return !metres.empty() && is_unit_of_length(metres[0]) ? std::optional(metres[0]) : std::nullopt;
 }
 
 VtkNumbers points_of(const VtkXml& xml, pugi::xml_node piece, std::uint64_t count) {

@@ -57,6 +57,9 @@ VtkNumbers integers_of(const VtkXml& xml, pugi::xml_node array, std::optional<st
 /// type or shape, which is another program's. Throws where its numbers cannot be read.
 std::vector<double> tuple_of(const VtkXml& xml, const char* name, std::uint64_t count);
 
+/// The metres in a unit of length that the field data say; none where they say no such number.
+std::optional<double> metres_per_unit(const VtkXml& xml);
+
 /// The array of points of a piece. Throws where it has not three components.
 VtkNumbers points_of(const VtkXml& xml, pugi::xml_node piece, std::uint64_t count);
 
