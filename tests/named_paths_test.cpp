@@ -8,7 +8,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "support/paths.h"
@@ -138,31 +137,6 @@ TEST(NamedPaths, no_comment_cites_a_page_outside_the_repository) {
         for (std::string line; std::getline(stream, line);)
             EXPECT_EQ(line.find(outside), std::string::npos) << file.string() << ": " << line;
     }
-}
-
-std::string trimmed(const std::string& line) {
-    const std::size_t first = line.find_first_not_of(' ');
-    return first == std::string::npos ? "" : line.substr(first);
-}
-
-/// The example is compiled and run by tests; the page is not.
-TEST(ReadMe, its_program_is_the_example) {
-    std::set<std::string> example;
-    std::ifstream source(kRoot / "examples/reconstruct.cpp"), page(kRoot / "README.md");
-    for (std::string line; std::getline(source, line);) example.insert(trimmed(line));
-    int seen = 0;
-    bool is_inside = false;
-    for (std::string line; std::getline(page, line);) {
-        if (line.starts_with("```")) is_inside = line == "```cpp";
-        if (!is_inside || line.starts_with("```") || line.empty()) continue;
-        ++seen;
-        std::string code = trimmed(line);
-        for (const auto& [file, argument] : {std::pair("\"scan.nii.gz\"", "argv[1]"), {"\"model.vtp\"", "argv[2]"}})
-            if (const std::size_t at = code.find(file); at != std::string::npos)
-                code.replace(at, std::string_view(file).size(), argument);
-        EXPECT_TRUE(example.contains(code)) << line;
-    }
-    EXPECT_GT(seen, 5) << "this test looks in the wrong place";
 }
 
 }  // namespace

@@ -87,7 +87,8 @@ int check_folder(const Settings& given) {
     }
     const CheckReport report = check_block_folder(path, options);
     if (!settings.json.empty())
-        write_text(settings.json, check_json(report, file.labels, file.names, samples ? &*samples : nullptr),
+        write_text(settings.json,
+                   check_json(report, file.labels, file.names, samples ? &*samples : nullptr, file.coordinates.metres),
                    settings.writing);
     print_findings(path, report);
     if (samples) say("{}", samples_text(*samples, settings.reconstruct.room > 0));
@@ -123,7 +124,8 @@ int run_check(const Settings& given) {
     options.oracle = oracle_of(settings, file);
     const CheckReport report = check(file.mesh, options);
     const auto samples = compare_with_sections(settings, file, options);
-    const std::string json = check_json(report, file.labels, file.names, samples ? &*samples : nullptr);
+    const std::string json =
+        check_json(report, file.labels, file.names, samples ? &*samples : nullptr, file.coordinates.metres);
     OutputFiles files(settings.writing);
     if (!settings.json.empty()) files.add(settings.json).write(json);
     const Model model{file.mesh, file.labels, options.background, file.names, file.colours, file.coordinates};

@@ -35,11 +35,10 @@ int run_decimate(const Settings& given) {
     const auto written = write_model(settings, model, files);
     write_report_file(settings, report, model, made_by(kDecimate, settings), files);
     if (!settings.html.empty())
-        write_page(
-            settings.html, {page_model(settings.output, model)},
-            page_options(kDecimate, settings, report_json(report, file.labels, names, made_by(kDecimate, settings)),
-                         false, report.quality_bound),
-            files);
+        write_page(settings.html, {page_model(settings.output, model)},
+                   page_options(kDecimate, settings, report_text(report, model, made_by(kDecimate, settings)), false,
+                                report.quality_bound),
+                   files);
     files.commit();
     print_region_files(settings, written);
     print_summary(settings, report);

@@ -88,11 +88,14 @@ void print_region_files(const Settings& settings, const std::vector<std::filesys
     for (const auto& file : written) say("{}", printable(file.string()));
 }
 
+std::string report_text(const Report& report, const Model& model, const MadeBy& made_by) {
+    return report_json(report, model.labels, model.names, made_by, model.coordinates.metres);
+}
+
 void write_report_file(const Settings& settings, Report& report, const Model& model, const MadeBy& made_by,
                        OutputFiles& files) {
     report.peak_bytes = peak_resident_bytes();
-    if (!settings.report.empty())
-        files.add(settings.report).write(report_json(report, model.labels, model.names, made_by));
+    if (!settings.report.empty()) files.add(settings.report).write(report_text(report, model, made_by));
 }
 
 int exit_code(const CheckReport& report) { return report.violation_count() == 0 ? kGood : kViolations; }

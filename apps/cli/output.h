@@ -52,6 +52,9 @@ std::string output_text(const Settings& settings);
 /// Prints the files of --per-region, after their commit.
 void print_region_files(const Settings& settings, const std::vector<std::filesystem::path>& written);
 
+/// The report of the model as JSON.
+std::string report_text(const Report& report, const Model& model, const MadeBy& made_by);
+
 /// Writes the report of the model if --report asks for it, with the memory used until now.
 void write_report_file(const Settings& settings, Report& report, const Model& model, const MadeBy& made_by,
                        OutputFiles& files);

@@ -173,9 +173,8 @@ int run_reconstruct(const Settings& settings) {
     write_report_file(settings, report, model, made_by(kReconstruct, settings), files);
     if (!settings.html.empty())
         write_page(settings.html, {page_model(settings.output, model)},
-                   page_options(kReconstruct, settings,
-                                report_json(report, made.labels, names, made_by(kReconstruct, settings)), true,
-                                report.quality_bound),
+                   page_options(kReconstruct, settings, report_text(report, model, made_by(kReconstruct, settings)),
+                                true, report.quality_bound),
                    files);
     files.commit();
     print_region_files(settings, written);

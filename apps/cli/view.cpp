@@ -17,8 +17,10 @@ int run_view(const Settings& given) {
     const auto [names, colours] = describe(settings, file.names, file.colours);
     OutputFiles files(settings.writing);
     const Model model{file.mesh, file.labels, options.background, names, colours, file.coordinates};
-    write_page(settings.output, {page_model(path, model)},
-               page_options(kView, settings, check_json(report, file.labels, names), false), files);
+    write_page(
+        settings.output, {page_model(path, model)},
+        page_options(kView, settings, check_json(report, file.labels, names, nullptr, file.coordinates.metres), false),
+        files);
     files.commit();
     say("{}: {}, {}, {}", printable(settings.output), counted(file.mesh.face_count(), "face"),
         counted(report.regions.size(), "region"), counted(report.violation_count(), "violation"));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,14 +33,15 @@ struct MadeBy {
 
 /// The report of a run: JSON text, indented by two spaces, with a newline at the end; a number that is not finite is
 /// null. docs/report.md lists the keys. `regions[]` are in order of `label`, a number with the signedness of the input;
-/// regions with a name have `name`.
+/// regions with a name have `name`. `metres` are those of the model's unit of length, which is written as `unit`.
 std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names = {},
-                        const MadeBy& made_by = {});
+                        const MadeBy& made_by = {}, std::optional<double> metres = {});
 
 /// The part of a check alone (`check --json`): quality, regions, region_pairs, quadruple_points_inside, violations and
-/// violation_counts. With `samples` also samples, samples_wrong, samples_contradicting, dice and dice_of_regions[].
+/// violation_counts. With `samples` also samples, samples_wrong, samples_contradicting, dice and dice_of_regions[];
+/// with `metres` also unit.
 std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names = {},
-                       const SampleAgreement* samples = nullptr);
+                       const SampleAgreement* samples = nullptr, std::optional<double> metres = {});
 
 /// The report of a comparison, as JSON text like report_json; docs/compare.md lists the keys. Regions, interfaces and
 /// lines are in order of label; the exterior is labels.exterior_label() and last in a list. Measures that only one mesh

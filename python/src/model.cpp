@@ -31,7 +31,7 @@ Model model_from(Reconstruction made, const LabelNames& names, bool is_open, con
                  const LabelColours& colours = {}) {
     Model model{
         std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, coordinates, colours};
-    model.report = report_json(made.report, model.labels, names);
+    model.report = report_json(made.report, model.labels, names, {}, coordinates.metres);
     return model;
 }
 
@@ -97,7 +97,7 @@ CheckOptions check_options(const Model& model, std::uint32_t threads) {
 }
 
 void describe(Model& made, const ModelChange& change) {
-    made.report = report_json(change.report, made.labels, made.names);
+    made.report = report_json(change.report, made.labels, made.names, {}, made.coordinates.metres);
 }
 
 std::vector<InputLabel> background_of(const Model& model) {
@@ -266,7 +266,7 @@ std::string check_text(const Model& given, std::uint32_t threads, Source* source
             if (!model.is_open) samples = compare_samples(model.mesh, labels, model.background, sections, threads);
         }
         const CheckReport report = check(model.mesh, options);
-        text = check_json(report, labels, model.names, samples ? &*samples : nullptr);
+        text = check_json(report, labels, model.names, samples ? &*samples : nullptr, model.coordinates.metres);
     });
     return text;
 }

@@ -1,5 +1,7 @@
 #include "formats/report/json_parts.h"
 
+#include "regionmesh/write_report.h"
+
 namespace regionmesh {
 namespace {
 
@@ -19,6 +21,10 @@ Json quality_json(const QualityReport& quality) {
 
 Json label_json(InputLabel label, const LabelTable& labels) {
     return labels.is_unsigned() ? Json(static_cast<std::uint64_t>(label)) : Json(label);
+}
+
+void put_unit(const std::optional<double>& metres, Json& json) {
+    if (metres) json["unit"] = length_symbol(*metres);
 }
 
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }

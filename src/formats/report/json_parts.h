@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "regionmesh/check.h"
@@ -15,6 +16,9 @@ Json quality_json(const QualityReport& quality);
 
 /// A number in the signedness of the input.
 Json label_json(InputLabel label, const LabelTable& labels);
+
+/// `unit` of length, where it is known.
+void put_unit(const std::optional<double>& metres, Json& json);
 
 /// Two spaces of indent, a newline at the end; a number that is not finite is null.
 std::string text_of(const Json& json);

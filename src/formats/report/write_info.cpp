@@ -32,10 +32,6 @@ std::string axis_text(const Sweep& sweep) { return {"xyz"[sweep.axes[2]]}; }
 
 Json three(Vec3 v) { return {v.x, v.y, v.z}; }
 
-void put_unit(const std::optional<double>& metres, Json& json) {
-    if (metres) json["unit"] = length_symbol(*metres);
-}
-
 }  // namespace
 
 std::string info_json(const VolumeInfo& info, const Census& census) {

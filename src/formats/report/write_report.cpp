@@ -145,8 +145,8 @@ Json options_json(const std::vector<std::pair<std::string, std::string>>& option
 
 }  // namespace
 
-std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names,
-                        const MadeBy& made_by) {
+std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names, const MadeBy& made_by,
+                        std::optional<double> metres) {
     Json json{{"initial_faces", report.initial_faces},
               {"initial_vertices", report.initial_vertices},
               {"final_faces", report.final_faces},
@@ -156,6 +156,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
               {"peak_bytes", report.peak_bytes},
               {"peak_faces", report.peak_faces},
               {"bytes_per_face", report.bytes_per_face}};
+    put_unit(metres, json);
     Json& verdicts = json["verdicts"] = Json::object();
     for (std::size_t i = 0; i < report.verdicts.size(); ++i) verdicts[kVerdictNames[i]] = report.verdicts[i];
     json["refreshes"] = report.refreshes;
@@ -179,8 +180,9 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
 }
 
 std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names,
-                       const SampleAgreement* samples) {
+                       const SampleAgreement* samples, std::optional<double> metres) {
     Json json;
+    put_unit(metres, json);
     put_check(json, report, labels, names);
     if (samples) put_samples(json, *samples, labels);
     return text_of(json);

@@ -34,11 +34,12 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     report.check = two_regions();
     report.seconds = {{"mesh", 1.0}, {"total", 1.5}};
     report.quality_bound = 0.1;
-    const Json json = Json::parse(report_json(report, test::labels_from({7, 3})));
+    const Json json = Json::parse(report_json(report, test::labels_from({7, 3}), {}, {}, 0.001));
+    EXPECT_EQ(json["unit"], "mm");
     EXPECT_THAT(keys_of(json),
                 testing::UnorderedElementsAre("quality_bound", "initial_faces", "initial_vertices", "final_faces",
-                                              "final_vertices", "error_bound", "seconds", "stage_bytes", "peak_bytes",
-                                              "peak_faces", "bytes_per_face", "verdicts", "refreshes",
+                                              "final_vertices", "unit", "error_bound", "seconds", "stage_bytes",
+                                              "peak_bytes", "peak_faces", "bytes_per_face", "verdicts", "refreshes",
                                               "samples_in_room", "stopped", "smoothing", "volumes_preserved", "quality",
                                               "regions", "triple_lines", "region_pairs", "pinned_vertices",
                                               "quadruple_points_inside", "violations", "violation_counts"));
@@ -90,7 +91,8 @@ TEST(CheckJson, regions_stand_in_order_of_their_labels) {
 }
 
 TEST(CheckJson, unsigned_labels_keep_their_sign) {
-    const Json json = Json::parse(check_json(two_regions(), test::labels_from({-1, 3}, true)));
+    const Json json = Json::parse(check_json(two_regions(), test::labels_from({-1, 3}, true), {}, nullptr, 1.0));
+    EXPECT_EQ(json["unit"], "m");
     EXPECT_EQ(json["regions"][1]["label"], 0xFFFFFFFFFFFFFFFFu);
     EXPECT_EQ(json["regions"][0]["label"], 3);
 }
