@@ -77,7 +77,11 @@ inline Float4 square_root(Float4 x) {
 #endif
 }
 
+inline double square_root(double x) { return std::sqrt(x); }
+
 /// Lane by lane a < b ? a : b, and a < b ? b : a.
+inline double least(double a, double b) { return a < b ? a : b; }
+inline double greatest(double a, double b) { return a < b ? b : a; }
 #if defined(__SSE2__)
 inline Double2 least(Double2 a, Double2 b) { return _mm_min_pd(a, b); }
 inline Double2 greatest(Double2 a, Double2 b) { return _mm_max_pd(b, a); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lanes.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
@@ -23,14 +24,20 @@ struct QualityTerms {
     double value() const { return product * product > 0 ? area / std::cbrt(product * product) : 0.0; }
 };
 
+/// QualityTerms::product of one triangle or of several, one per lane, from area and squared edge lengths.
+template <class T>
+T quality_product(T area, T l0, T l1, T l2) {
+    const T a = square_root(l0), b = square_root(l1), c = square_root(l2);
+    const T shortest = least(a, least(b, c));
+    // a * b * c / l_min is l_max * l_med; the inscribed radius is area over half the perimeter.
+    const T others = greatest(a, greatest(b, c)) * greatest(least(a, b), least(greatest(a, b), c));
+    const T perimeter = a + b + c;
+    return others * (shortest + (perimeter > 0 ? 8 * area / perimeter : T{}));
+}
+
 /// Terms of a triangle from its area and squared edge lengths.
 inline QualityTerms quality_terms(double area, double l0, double l1, double l2) {
-    const double a = std::sqrt(l0), b = std::sqrt(l1), c = std::sqrt(l2);
-    const double shortest = std::min(a, std::min(b, c));
-    const double perimeter = a + b + c;
-    // a * b * c / l_min is l_max * l_med; the inscribed radius is area over half the perimeter.
-    const double others = std::max(a, std::max(b, c)) * std::max(std::min(a, b), std::min(std::max(a, b), c));
-    return {area, others * (shortest + (perimeter > 0 ? 8 * area / perimeter : 0.0))};
+    return {area, quality_product(area, l0, l1, l2)};
 }
 
 inline QualityTerms quality_terms(Vec3 a, Vec3 b, Vec3 c) {

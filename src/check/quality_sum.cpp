@@ -46,28 +46,45 @@ const AngleBins kAngleBins;
 
 }  // namespace
 
-void QualitySum::add(const std::array<Vec3, 3>& p) {
-    const Vec3 u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
-    const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), twice_area = length(area_vector(p[0], p[1], p[2]));
-    const bool is_finite = std::isfinite(uu + vv + ww + twice_area);
-    const double q = is_finite ? quality_terms(0.5 * twice_area, uu, vv, ww).value() : 0;
+TwoFaces::TwoFaces(const std::array<Lanes3<Double2>, 3>& corners) {
+    std::array<Double2, 3> lengths2;
+    for (int n = 0; n < 3; ++n) edges[n] = corners[(n + 1) % 3] - corners[n];
+    for (int n = 0; n < 3; ++n) lengths2[n] = dot(edges[n], edges[n]);
+    normal = cross(edges[0], corners[2] - corners[0]);
+    twice_area = square_root(dot(normal, normal));
+    quality_product = regionmesh::quality_product(0.5 * twice_area, lengths2[0], lengths2[1], lengths2[2]);
+    size2 = greatest(lengths2[0], greatest(lengths2[1], lengths2[2]));
+    fat = bits_of((twice_area >= 1e-3 * size2) & (twice_area > 1e-100));
+    for (int n = 0; n < 3; ++n) {
+        cosines[n] = -dot(edges[n], edges[(n + 2) % 3]);
+        places[n] = cosines[n] / (greatest(cosines[n], -cosines[n]) + twice_area);
+    }
+}
+
+void QualitySum::add(const TwoFaces& faces, int lane) {
+    const double twice_area = faces.twice_area[lane];
+    const bool is_finite = std::isfinite(faces.size2[lane]) && std::isfinite(twice_area);
+    const double q = is_finite ? QualityTerms{0.5 * twice_area, faces.quality_product[lane]}.value() : 0;
     ++faces_;
     min_ = std::min(min_, q);
     sum_ += q;
     ++histogram_[std::clamp(int(q * 100), 0, int(histogram_.size()) - 1)];
     if (!is_finite) return;
-    const bool is_thin = twice_area < 1e-3 * std::max({uu, vv, ww});  // then each corner needs its own sine
-    const auto sine = [&](Vec3 s, Vec3 t) { return is_thin ? length(cross(s, t)) : twice_area; };
-    add_angle(sine(u, -w), dot(u, -w));
-    add_angle(sine(v, -u), dot(v, -u));
-    add_angle(sine(w, -v), dot(w, -v));
+    if (faces.is_fat(lane)) {
+        for (int n = 0; n < 3; ++n) add_angle({twice_area, faces.cosines[n][lane], faces.places[n][lane]});
+        return;
+    }
+    for (int n = 0; n < 3; ++n) {  // each corner needs its own sine
+        const double sine = length(cross(faces.edges[n][lane], faces.edges[(n + 2) % 3][lane]));
+        const double cosine = faces.cosines[n][lane];
+        add_angle({sine, cosine, sine > 0 ? place_of(sine, cosine) : cosine < 0 ? -1.0 : 1.0});
+    }
 }
 
-void QualitySum::add_angle(double sine, double cosine) {
-    const Angle angle{sine, cosine, sine > 0 ? place_of(sine, cosine) : cosine < 0 ? -1.0 : 1.0};
+void QualitySum::add_angle(const Angle& angle) {
     if (angle.place > smallest_.place) smallest_ = angle;
     if (angle.place < largest_.place) largest_ = angle;
-    int bin = cosine == 0 && sine > 0 ? 9 : kAngleBins.bin(angle.place);
+    int bin = angle.cosine == 0 && angle.sine > 0 ? 9 : kAngleBins.bin(angle.place);
     if (bin < 0) bin = std::clamp(int(degrees(angle) / 10), 0, 17);
     ++angle_histogram_[bin];
 }

@@ -5,14 +5,30 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/lanes.h"
 #include "regionmesh/check.h"
 #include "regionmesh/vec3.h"
 
 namespace regionmesh {
 
+/// Measures of two faces, one per lane.
+struct TwoFaces {
+    std::array<Lanes3<Double2>, 3> edges;  // from each corner to the next
+    Lanes3<Double2> normal;                // twice the area vector
+    Double2 twice_area;
+    Double2 quality_product;           // QualityTerms::product
+    Double2 size2;                     // the longest edge, squared
+    std::array<Double2, 3> cosines{};  // at each corner, times the lengths of both edges
+    std::array<Double2, 3> places{};   // of the angles (see QualitySum::Angle), if twice_area is the sine of each
+    unsigned fat = 0;  // bit n is set if face n is neither thin nor tiny: then twice_area is exact enough
+
+    explicit TwoFaces(const std::array<Lanes3<Double2>, 3>& corners);
+    bool is_fat(int lane) const { return (fat >> lane & 1) != 0; }
+};
+
 class QualitySum {
 public:
-    void add(const std::array<Vec3, 3>& p);
+    void add(const TwoFaces& faces, int lane);
     /// Adds the sums of later faces.
     void append(const QualitySum& later);
     QualityReport report() const;
@@ -23,7 +39,7 @@ private:
         double sine = 0, cosine = 0, place = 0;
     };
 
-    void add_angle(double sine, double cosine);
+    void add_angle(const Angle& angle);
     static double degrees(const Angle& angle);
 
     std::uint64_t faces_ = 0;

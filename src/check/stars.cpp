@@ -183,10 +183,8 @@ private:
     }
 
     bool is_fan_simple(VertexId v, std::span<const FanPage> fan) {
-        rim_.clear();
-        for (const FanPage& page : fan) rim_.push_back(mesh_.position(page.first));
-        rim_.push_back(rim_.front());
-        return crossing_.is_simple(mesh_.position(v), rim_, true);
+        return crossing_.is_simple(mesh_.position(v), fan.size(), true,
+                                   [&](std::size_t n) { return mesh_.position(fan[n < fan.size() ? n : 0].first); });
     }
 
     void look_for_crossings(VertexId v) {
@@ -333,7 +331,6 @@ private:
     std::vector<FanPage> fans_;  // grouped by region
     std::vector<std::size_t> ends_;
     StarCrossing crossing_;
-    std::vector<Vec3> rim_;
     std::vector<StarPage> star_;
     std::vector<Use> uses_;
     std::vector<std::uint32_t> up_;  // union-find over the sides of pages

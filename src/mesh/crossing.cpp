@@ -1,9 +1,11 @@
 #include "mesh/crossing.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "base/box.h"
 #include "base/exact_predicates.h"
+#include "base/lanes.h"
 #include "base/parallel_for.h"
 #include "base/radix_sort.h"
 
@@ -21,6 +23,13 @@ public:
     explicit MeshFaces(const Mesh& mesh) : mesh_(mesh) {}
 
     const std::array<VertexId, 3>& vertices(FaceId f) const { return mesh_[f].vertices; }
+    bool share_vertex(FaceId f, FaceId g) const {
+        static_assert(offsetof(Face, vertices) == 0 && sizeof(Face) >= sizeof(Unsigned4));
+        const auto a = load<Unsigned4>(&mesh_[f]), b = load<Unsigned4>(&mesh_[g]);  // in three lanes each
+        const auto same = (a == b) | (a == __builtin_shufflevector(b, b, 1, 2, 0, 3)) |
+                          (a == __builtin_shufflevector(b, b, 2, 0, 1, 3));
+        return (bits_of(same) & 7u) != 0;
+    }
     Corners corners(FaceId f) const { return mesh_.corners(f); }
     std::uint32_t star_count() const { return mesh_.vertex_end(); }
     /// Adds the pages of star n and returns its vertex.
@@ -54,6 +63,7 @@ public:
     }
 
     const std::array<VertexId, 3>& vertices(FaceId f) const { return faces_[index(f)].placed.vertices; }
+    bool share_vertex(FaceId f, FaceId g) const { return regionmesh::share_vertex(vertices(f), vertices(g)); }
     const Corners& corners(FaceId f) const { return faces_[index(f)].placed.at; }
     std::uint32_t star_count() const { return static_cast<std::uint32_t>(starts_.size()) - 1; }
     VertexId star(std::uint32_t n, std::vector<StarPage>& pages, Vec3& at) const {
@@ -89,7 +99,7 @@ void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t f
         for (const GridTree::Pair pair : pairs) {
             const FaceId f = tree.face(pair.m()), g = tree.face(pair.n());
             strangers[count] = {f, g};
-            count += !share_vertex(faces.vertices(f), faces.vertices(g));
+            count += !faces.share_vertex(f, g);
         }
         for (std::size_t n = 0; n < count; ++n) {
             const auto [f, g] = strangers[n];

@@ -13,13 +13,6 @@ namespace {
 /// rounding error is below 2e-15 of that product.
 constexpr double kDoubt = 1e-12;
 
-/// Sizes for which no product of four overflows, or loses more than kDoubt by underflow.
-constexpr double kSmallest = 1e-60, kLargest = 1e60;
-
-bool is_usual(double size) { return size > kSmallest && size < kLargest; }
-
-double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
-
 }  // namespace
 
 void StarCrossing::find(VertexId v, Vec3 at, std::span<const StarPage> pages, std::vector<FacePair>& found) {
@@ -68,81 +61,61 @@ bool StarCrossing::is_fan_simple(Label label) {
     }
     if (fan_.size() < 2) return true;
     if (!order_fan(fan_)) return false;
-    rim_.clear();
-    for (const FanPage& page : fan_)
-        rim_.push_back(page.name & 1 ? pages_[page.name >> 1].at_b : pages_[page.name >> 1].at_a);
-    const FanPage& last = fan_.back();
-    rim_.push_back(last.name & 1 ? pages_[last.name >> 1].at_a : pages_[last.name >> 1].at_b);
-    return is_simple(at_, rim_, is_closed(fan_));
-}
-
-bool StarCrossing::is_simple(Vec3 at, std::span<const Vec3> rim, bool is_closed) {
-    return gather_spokes(at, rim) && goes_round_once(is_closed);
-}
-
-/// Returns false for sizes at which nothing can be proved.
-bool StarCrossing::gather_spokes(Vec3 at, std::span<const Vec3> rim) {
-    bool usual = true;
-    spokes_.clear();
-    for (const Vec3 end : rim) {
-        const Vec3 to = end - at;
-        spokes_.push_back({to, size(to)});
-        usual = usual && is_usual(spokes_.back().size);
-    }
-    return usual;
+    return is_simple(at_, fan_.size(), is_closed(fan_), [&](std::size_t n) {
+        const bool is_end = n == fan_.size();
+        const FanPage& page = fan_[is_end ? n - 1 : n];
+        const StarPage& star_page = pages_[page.name >> 1];
+        return ((page.name & 1) != 0) == is_end ? star_page.at_a : star_page.at_b;
+    });
 }
 
 /// Seen from above, do all pages face upward, and does none but the first (and the last, in a closed fan) touch the ray
 /// on which the first begins? Then they do not overlap.
 bool StarCrossing::goes_round_once(bool is_closed) {
-    const std::size_t count = spokes_.size() - 1;
-    normals_.clear();
-    for (std::size_t n = 0; n < count; ++n) normals_.push_back(cross(spokes_[n].to, spokes_[n + 1].to));
-    Vec3 up;
-    if (!find_up(up)) return false;
-    const Vec3 left = cross(up, spokes_[0].to);
-    const double doubt = kDoubt * size(up) * spokes_[0].size;
-    const std::size_t end = is_closed ? count - 1 : count;
+    if (!find_up()) return false;
+    const Vec3 left = cross(up_, spokes_[0].to);
+    const double doubt = kDoubt * size_of(up_) * spokes_[0].size;
+    const std::size_t end = is_closed ? count_ - 1 : count_;
+    bool is_once = true;
     for (std::size_t n = 1; n < end; ++n) {
         // The page begins left of the ray or ends right of it, since it turns by less than 180 degrees.
         const Spoke &first = spokes_[n], &second = spokes_[n + 1];
-        if (!(dot(left, first.to) > doubt * first.size) && !(dot(left, second.to) < -doubt * second.size)) return false;
+        is_once &= (dot(left, first.to) > doubt * first.size) | (dot(left, second.to) < -doubt * second.size);
     }
-    return true;
+    return is_once;
 }
 
-/// A direction that all pages face: the mean of their normals, or, by Rosenblatt's perceptron (1958), moved repeatedly
-/// toward the page that faces it least. Any direction that passes the test will do.
-bool StarCrossing::find_up(Vec3& up) {
-    up = Vec3{};
-    for (Vec3 normal : normals_) up += normal;
-    if (all_look(up)) return true;
+/// Sets up_ to a direction that all pages face: the sum of their normals, which it is, or, by Rosenblatt's perceptron
+/// (1958), moved repeatedly toward the page that faces it least. Any direction that passes the test will do.
+bool StarCrossing::find_up() {
+    if (all_face_up()) return true;
     weights_.clear();
-    up = Vec3{};
-    for (Vec3 normal : normals_) {
-        weights_.push_back(1 / length(normal));
-        up += weights_.back() * normal;
+    up_ = Vec3{};
+    for (std::size_t n = 0; n < count_; ++n) {
+        weights_.push_back(1 / length(normals_[n]));
+        up_ += weights_.back() * normals_[n];
     }
     constexpr int kAttempts = 4;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         double least = HUGE_VAL;
         std::size_t worst = 0;
-        for (std::size_t n = 0; n < normals_.size(); ++n) {
-            const double look = weights_[n] * dot(up, normals_[n]);
+        for (std::size_t n = 0; n < count_; ++n) {
+            const double look = weights_[n] * dot(up_, normals_[n]);
             worst = look < least ? n : worst;
             least = std::min(look, least);
         }
-        if (least > 0) return all_look(up);
-        up += (0.1 - 1.5 * least) * weights_[worst] * normals_[worst];
+        if (least > 0) return all_face_up();
+        up_ += (0.1 - 1.5 * least) * weights_[worst] * normals_[worst];
     }
     return false;
 }
 
-bool StarCrossing::all_look(Vec3 up) const {
-    const double doubt = kDoubt * size(up);
-    for (std::size_t n = 0; n < normals_.size(); ++n)
-        if (!(dot(up, normals_[n]) > doubt * spokes_[n].size * spokes_[n + 1].size)) return false;
-    return true;
+bool StarCrossing::all_face_up() const {
+    const double doubt = kDoubt * size_of(up_);
+    bool all = true;
+    for (std::size_t n = 0; n < count_; ++n)
+        all &= dot(up_, normals_[n]) > doubt * spokes_[n].size * spokes_[n + 1].size;
+    return all;
 }
 
 /// Tests the pairs about which nothing is proved yet.
@@ -165,8 +138,8 @@ void StarCrossing::gather_planes() {
     for (const StarPage& page : pages_) {
         const Vec3 a = page.at_a - at_, b = page.at_b - at_;
         // For sizes out of range the sides stay undecided.
-        const bool usual = is_usual(size(a)) && is_usual(size(b));
-        planes_.push_back({cross(a, b), {a, usual ? size(a) : HUGE_VAL}, {b, usual ? size(b) : HUGE_VAL}});
+        const bool usual = is_usual(size_of(a)) && is_usual(size_of(b));
+        planes_.push_back({cross(a, b), {a, usual ? size_of(a) : HUGE_VAL}, {b, usual ? size_of(b) : HUGE_VAL}});
     }
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,9 +39,10 @@ public:
     /// share no vertex before v, so that over all vertices each pair is found once. Leaves out faces without area.
     void find(VertexId v, Vec3 at, std::span<const StarPage> pages, std::vector<FacePair>& found);
 
-    /// Is it proved that no two faces of a fan round a vertex meet outside shared vertices and edges? `rim` has the
-    /// neighbours in order, one more than faces; that of a closed fan ends where it begins.
-    bool is_simple(Vec3 at, std::span<const Vec3> rim, bool is_closed);
+    /// Is it proved that no two faces of a fan round a vertex meet outside shared vertices and edges? rim(n) is where
+    /// the n-th neighbour is, in order, up to n = faces; that of a closed fan ends where it begins.
+    template <class Rim>
+    bool is_simple(Vec3 at, std::size_t faces, bool is_closed, Rim&& rim);
 
 private:
     /// The vector from the vertex to a neighbour.
@@ -59,10 +62,9 @@ private:
     bool is_interface() const;
     void gather_labels();
     bool is_fan_simple(Label label);
-    bool gather_spokes(Vec3 at, std::span<const Vec3> rim);
     bool goes_round_once(bool is_closed);
-    bool find_up(Vec3& up);
-    bool all_look(Vec3 up) const;
+    bool find_up();
+    bool all_face_up() const;
     void test_pairs(VertexId v, std::vector<FacePair>& found);
     void gather_planes();
     bool are_apart(std::size_t i, std::size_t j) const;
@@ -75,11 +77,38 @@ private:
     bool is_odd_ = false;                // some page has one label on both sides
     std::vector<std::uint32_t> proved_;  // by page; bit n: its fan of label n of labels_ is free of crossings
     std::vector<FanPage> fan_;
-    std::vector<Vec3> rim_;      // the start of each page of the fan, and the end of the last
-    std::vector<Spoke> spokes_;  // to the rim
+    std::size_t count_ = 0;      // of pages of the fan whose spokes and normals are held
+    std::vector<Spoke> spokes_;  // to the rim: one more
     std::vector<Vec3> normals_;
+    Vec3 up_;
     std::vector<double> weights_;
     std::vector<Plane> planes_;
 };
+
+/// The sum of the absolute coordinates.
+inline double size_of(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+
+/// Sizes for which no product of four overflows, or loses much more than the rounding error by underflow.
+inline bool is_usual(double size) { return (size > 1e-60) & (size < 1e60); }
+
+/// One pass over the fan: its arrays keep the size of the largest.
+template <class Rim>
+bool StarCrossing::is_simple(Vec3 at, std::size_t faces, bool is_closed, Rim&& rim) {
+    count_ = faces;
+    if (normals_.size() < faces) normals_.resize(faces), spokes_.resize(faces + 1);
+    Vec3 before = rim(0) - at;
+    spokes_[0] = {before, size_of(before)};
+    bool usual = is_usual(spokes_[0].size);
+    up_ = Vec3{};
+    for (std::size_t n = 0; n < faces; ++n) {
+        const Vec3 to = rim(n + 1) - at;
+        spokes_[n + 1] = {to, size_of(to)};
+        usual &= is_usual(spokes_[n + 1].size);
+        normals_[n] = cross(before, to);
+        up_ += normals_[n];
+        before = to;
+    }
+    return usual && goes_round_once(is_closed);
+}
 
 }  // namespace regionmesh

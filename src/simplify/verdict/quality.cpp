@@ -17,11 +17,8 @@ double cube_of_bound(const ShapeBounds& bounds) {
 /// Third power of the quality of each of two faces from a vertex to the link, given twice the areas squared
 /// (QualityTerms::cube, side by side).
 Double2 quality3(const StarPair& pair, const Lanes3<Double2>& to_a, const Lanes3<Double2>& to_b, Double2 length2) {
-    const Double2 a = square_root(dot(to_a, to_a)), b = square_root(dot(to_b, to_b)),
-                  c = square_root(pair.link_length2), area = both(0.5) * square_root(length2);
-    const Double2 shortest = least(a, least(b, c));
-    const Double2 others = greatest(a, greatest(b, c)) * greatest(least(a, b), least(greatest(a, b), c));
-    const Double2 product = others * (shortest + both(8) * area / (a + b + c));
+    const Double2 area = both(0.5) * square_root(length2);
+    const Double2 product = quality_product(area, dot(to_a, to_a), dot(to_b, to_b), pair.link_length2);
     return area * area * area / (product * product);
 }
 
