@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "regionmesh/error.h"
+
 namespace regionmesh {
 
 /// Like SlidingArray, but elements never move, and a page is released as soon as no element in it is kept. An element
@@ -55,7 +57,13 @@ private:
     static constexpr std::uint32_t kMask = kPage - 1, kBits = std::bit_width(kMask);
 
     std::uint32_t page_end() const { return first_page_ + static_cast<std::uint32_t>(pages_.size()); }
-    void add_page() { pages_.push_back(std::make_unique_for_overwrite<T[]>(kPage)); }
+    /// Throws Error(kInput) near 2^32 elements, where numbers would begin again.
+    void add_page() {
+        if (page_end() == ~std::uint32_t{0} >> kBits)
+            throw Error(ErrorCode::kInput,
+                        "smoothing: more than 2^32 faces before decimation; make the model in blocks (--block-size)");
+        pages_.push_back(std::make_unique_for_overwrite<T[]>(kPage));
+    }
 
     std::vector<std::unique_ptr<T[]>> pages_;
     std::uint32_t first_page_ = 0, first_ = 0, end_ = 0;

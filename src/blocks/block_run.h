@@ -20,8 +20,8 @@ namespace regionmesh {
 /// blocks of pass 0 again and logs the collapses; pass 3 makes those that lead to a little more than the target. Passes
 /// 4 and 5 repeat this in shifted blocks: the log goes beyond the target, the cut ends at it. So what lies at the walls
 /// of pass 2 is simplified as far as all else. Where more than the target is left, such pairs follow, up to higher
-/// thresholds. Without a target there is pass 1 alone; one block needs pass 0 alone. A pass is complete when all of its
-/// pieces are; then the manifest says so, and the pieces before it go.
+/// thresholds. Without a target the run ends after pass 1; one block needs pass 0 alone. A pass is complete when all of
+/// its pieces are; then the manifest says so, and the pieces before it go.
 class BlockRun {
 public:
     BlockRun(const OpenSections& open, const ReconstructOptions& options, const BlockOptions& blocks, BlockTasks& tasks,

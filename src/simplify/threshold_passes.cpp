@@ -10,7 +10,7 @@
 namespace regionmesh {
 namespace {
 
-/// Side in cells of cubes with about `tile_faces` faces each; along an axis that is shorter than the side there is one
+/// Side in cells of cubes of which `tiles` fill the grid; along an axis that is shorter than the side there is one
 /// tile, and `is_cut` is false.
 double side_of_tiles(const TileGrid& grid, double tiles, std::array<bool, 3>& is_cut) {
     double side = 0;

@@ -80,7 +80,8 @@ inline constexpr double kPrepassVolumeCost = 1e-3;
 inline constexpr double kLeastSweepLeft = 0.65, kLeastSweepGain = 0.02;
 inline constexpr int kMostSweeps = 16;
 
-/// Faces below the quality bound, as smoothing leaves them, go first: up to this multiple of the cost of the prepass.
+/// Faces below the quality bound, as smoothing leaves them, go after the sweeps and before ranking: up to this multiple
+/// of the cost of the prepass.
 inline constexpr double kSliverShare = 10;
 inline constexpr int kMostSliverSweeps = 3;
 

@@ -15,7 +15,7 @@ ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter a
 
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 
-/// The factor of z of sections that the options ask for: a power of two, so that scaling is exact. Throws Error(kInput)
+/// The factor of z of sections that the options ask for: a power of two, so that scaling is exact. Throws Error(kUsage)
 /// for one out of bounds.
 double section_scale(const VolumeInfo& volume, const ReconstructOptions& options);
 

@@ -27,7 +27,11 @@ struct Target {
     /// The part of the target that belongs to the faces read so far. Decimating the first sections further than the
     /// last ones would make the mesh uneven.
     std::uint64_t so_far(std::uint64_t read) const {
-        return total ? of(*total) * read / std::max<std::uint64_t>(*total, 1) : of(read);
+        if (!total) return of(read);
+        const std::uint64_t all = std::max<std::uint64_t>(*total, 1), target = of(*total);
+        if (read == 0 || target <= ~std::uint64_t{0} / read) return target * read / all;
+        return static_cast<std::uint64_t>(static_cast<double>(target) *
+                                          (static_cast<double>(read) / static_cast<double>(all)));
     }
 };
 

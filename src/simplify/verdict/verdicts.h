@@ -14,7 +14,8 @@ namespace regionmesh {
 ///              1999; Vivodtzev et al. 2005); implies that the Euler characteristics stay (P test 5). No edge moves
 ///              onto an edge of the box.
 ///   fold       no surviving face turns by more than the bound (P test 1).
-///   quality    no changed face gets below the bound, unless the star had such faces: then no more, and none worse.
+///   quality    no changed face gets below the bound, unless the star had such faces: then no more, and none worse, or
+///              fewer, and none much worse (kLeastOfWorst and kLeastOfBound in src/simplify/tuning.h).
 ///   pinch      no two faces at an edge from the merged vertex come closer than the bound (P test 2).
 ///   error      no point gets farther from the surface that decimation was given than Collapse::max_error, either way.
 ///   samples    every sample of Collapse::samples stays in its region.
