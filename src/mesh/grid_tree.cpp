@@ -150,22 +150,8 @@ public:
     /// Adds one pair for each bit of the mask.
     void add(std::uint32_t m, std::uint32_t first_n, unsigned mask) {
         const Pair first(m, first_n);
-#if defined(__SSE2__)
-        const __m128i zero = _mm_setzero_si128(), firsts = _mm_set1_epi64x(static_cast<long long>(first.both_));
-        const __m128i bits = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kSetBits.bits[mask]));
-        const __m128i eight = _mm_unpacklo_epi8(bits, zero);  // in 16 bits each
-        const auto store = [&](std::size_t k, __m128i two) {
-            _mm_storeu_si128(reinterpret_cast<__m128i*>(&pairs_[size_ + k]), _mm_add_epi64(firsts, two));
-        };
-        const __m128i low = _mm_unpacklo_epi16(eight, zero), high = _mm_unpackhi_epi16(eight, zero);
-        store(0, _mm_unpacklo_epi32(zero, low));
-        store(2, _mm_unpackhi_epi32(zero, low));
-        store(4, _mm_unpacklo_epi32(zero, high));
-        store(6, _mm_unpackhi_epi32(zero, high));
-#else
         for (std::uint32_t k = 0; k < kFan; ++k)
             pairs_[size_ + k] = Pair(first.both_ + (std::uint64_t{kSetBits.bits[mask][k]} << 32));
-#endif
         size_ += kSetBits.count[mask];
     }
     std::size_t size() const { return size_; }
