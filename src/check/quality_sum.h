@@ -20,7 +20,8 @@ struct TwoFaces {
     Double2 size2;                     // the longest edge, squared
     std::array<Double2, 3> cosines{};  // at each corner, times the lengths of both edges
     std::array<Double2, 3> places{};   // of the angles (see QualitySum::Angle), if twice_area is the sine of each
-    unsigned fat = 0;  // bit n is set if face n is neither thin nor tiny: then twice_area is exact enough
+    unsigned fat =
+        0;  // bit n is set if face n is neither thin nor tiny: twice_area then serves as the sine of each angle
 
     explicit TwoFaces(const std::array<Lanes3<Double2>, 3>& corners);
     bool is_fat(int lane) const { return (fat >> lane & 1) != 0; }

@@ -85,8 +85,8 @@ bool StarCrossing::goes_round_once(bool is_closed) {
     return is_once;
 }
 
-/// Sets up_ to a direction that all pages face: the sum of their normals, which it is, or, by Rosenblatt's perceptron
-/// (1958), moved repeatedly toward the page that faces it least. Any direction that passes the test will do.
+/// Is there a direction that all pages face? Begins with up_, the sum of their normals, and moves it repeatedly toward
+/// the page that faces it least (Rosenblatt's perceptron, 1958). Any direction that passes the test will do.
 bool StarCrossing::find_up() {
     if (all_face_up()) return true;
     weights_.clear();

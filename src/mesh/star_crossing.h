@@ -91,7 +91,7 @@ inline double size_of(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(
 /// Sizes for which no product of four overflows, or loses much more than the rounding error by underflow.
 inline bool is_usual(double size) { return (size > 1e-60) & (size < 1e60); }
 
-/// One pass over the fan: its arrays keep the size of the largest.
+/// Gathers spokes, normals and their sum in one pass. The arrays keep the size of the largest fan.
 template <class Rim>
 bool StarCrossing::is_simple(Vec3 at, std::size_t faces, bool is_closed, Rim&& rim) {
     count_ = faces;
