@@ -291,13 +291,13 @@ Piece BlockRun::reconstructed(const BlockGrid& blocks, PieceHeader header, Chunk
                      .lattice = volume_->shape.lattice,
                      .sweep = manifest_.sweep,
                      .chunk = std::move(faces)};
-    header.initial_faces = block.chunk.faces.size();
+    const auto made = static_cast<double>(block.chunk.faces.size());
     if (is_decimating_) simplify_low(block, target_.share(), simplify_options());
     if (is_decimating_ && (blocks.count() == 1 || !has_target())) {
-        header.is_at_limit = simplify_to(block, has_target() ? target() : 0, simplify_options());
+        header.stopped = simplify_to(block, has_target() ? target() : 0, simplify_options());
     } else if (is_decimating_) {
         const double left = static_cast<double>(block.chunk.faces.size()) + 1;
-        const double share = target_.share() * static_cast<double>(header.initial_faces) / left;
+        const double share = target_.share() * made / left;
         header.left = try_thresholds(block, std::min(share, 1.0) * kTrialsBelow, simplify_options());
     }
     return piece_of(block, blocks, header);
@@ -322,7 +322,7 @@ Piece BlockRun::remade(const PieceHeader& header, const PiecesBefore& before, co
         .cells = blocks.cells(header.block), .lattice = volume_->shape.lattice, .sweep = manifest_.sweep, .chunk = {}};
     gatherer.take(block);
     PieceHeader own = header;
-    own.is_at_limit = simplify(block, gatherer.goal());
+    own.stopped = simplify(block, gatherer.goal());
     return piece_of(block, blocks, own);
 }
 
@@ -336,7 +336,7 @@ void BlockRun::seam_pass() {
     const auto simplify = [&](BlockChunk& block, double goal) {
         if (!has_target()) return simplify_to(block, 0, simplify_options());
         simplify_up_to(block, manifest_.thresholds.seams, static_cast<std::uint64_t>(goal) + 1, simplify_options());
-        return false;
+        return StopReason::kTarget;
     };
     run_pass(kSeams, "seams", longest_first(blocks, before.map, before.headers),
              [&](const PieceHeader& header) { return remade(header, before, least, simplify); });
@@ -356,9 +356,9 @@ void BlockRun::cut_pass(std::uint32_t pass) {
     std::iota(all.begin(), all.end(), 0);
     run_pass(pass, "cut", all, [&](const PieceHeader& header) {
         Piece piece = read_piece(path_of(header.pass - 1, header.block));
-        const std::uint32_t is_at_limit = piece.header.is_at_limit;
+        const StopReason stopped = piece.header.stopped;
         piece.header = header;
-        piece.header.is_at_limit = is_at_limit;
+        piece.header.stopped = stopped;
         make_collapses(piece, manifest_.pieces[header.block].collapses.value_or(0));
         return piece;
     });
@@ -375,16 +375,16 @@ void BlockRun::remove_parts() {
 }
 
 void BlockRun::complete() {
-    bool is_at_limit = false;
+    bool is_over_error = false;
     for (const PieceHeader& piece : headers()) {
         manifest_.error_bound = std::max<double>(manifest_.error_bound, piece.error_bound);
-        is_at_limit = is_at_limit || piece.is_at_limit != 0;
+        is_over_error = is_over_error || piece.stopped == StopReason::kMaxError;
     }
     manifest_.faces = face_count();
     manifest_.vertices = count_vertices(manifest_, folder_);
     manifest_.stopped = !is_decimating_                               ? StopReason::kNoneAsked
                         : has_target() && manifest_.faces <= target() ? StopReason::kTarget
-                        : options_.max_error && is_at_limit           ? StopReason::kMaxError
+                        : is_over_error                               ? StopReason::kMaxError
                                                                       : StopReason::kTopology;
     manifest_.is_complete = true;
     remove_passes_before(manifest_.passes);

@@ -34,7 +34,7 @@ private:
     using MakePiece = std::function<Piece(const PieceHeader&)>;
     /// What it does to the faces of a block. `goal` is the sum of the shares of their pieces, 0 without shares. Returns
     /// whether topology, quality or the largest error ended it.
-    using SimplifyBlock = std::function<bool(BlockChunk&, double goal)>;
+    using SimplifyBlock = std::function<StopReason(BlockChunk&, double goal)>;
 
     /// What a pass makes its pieces of.
     struct PiecesBefore {

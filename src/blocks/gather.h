@@ -32,7 +32,6 @@ class SharedVertices {
 public:
     /// The number of the position; `next`, which is noted, where it is new.
     std::uint32_t number(Vec3 position, std::uint32_t next);
-    std::size_t size() const { return numbers_.size(); }
 
 private:
     std::unordered_map<PositionBits, std::uint32_t, PositionHash> numbers_;

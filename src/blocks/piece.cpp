@@ -67,11 +67,11 @@ std::vector<LoggedCollapse> log_of(const formats::InputFile& file, const PieceHe
     return log;
 }
 
-/// What the file holds before its checksum. A log that is empty is left out: zlib would begin the checksum again.
+/// What the file holds before its checksum. Parts that are empty are left out: zlib would begin the checksum again.
 std::vector<std::string_view> parts_of(const Piece& piece) {
     std::vector<std::string_view> parts{bytes_of(std::span(&piece.header, 1)), bytes_of(std::span(piece.vertices)),
-                                        bytes_of(std::span(piece.faces))};
-    if (!piece.log.empty()) parts.push_back(bytes_of(std::span(piece.log)));
+                                        bytes_of(std::span(piece.faces)), bytes_of(std::span(piece.log))};
+    std::erase_if(parts, [](std::string_view part) { return part.empty(); });
     return parts;
 }
 

@@ -9,6 +9,7 @@
 
 #include "regionmesh/label.h"
 #include "regionmesh/output_file.h"
+#include "regionmesh/simplify.h"
 #include "regionmesh/vec3.h"
 #include "simplify/collapse_log.h"
 
@@ -41,10 +42,10 @@ struct PieceHeader {
     std::uint64_t job = 0;  // hash of the options and the input
     std::uint32_t pass = 0, block = 0;
     std::uint64_t vertices = 0, faces = 0;
-    std::uint64_t initial_faces = 0;  // before any simplification; of the first pass
-    std::uint32_t is_at_limit = 0;    // topology, quality or the largest error allow no more collapses
-    float error_bound = 0;            // largest of a vertex
-    Box box = {};                     // of the vertices
+    std::uint64_t unused = 0;
+    StopReason stopped = StopReason::kTarget;  // kTarget also where it had none, but a threshold
+    float error_bound = 0;                     // largest of a vertex
+    Box box = {};                              // of the vertices
     /// Share of the faces left after collapses up to the thresholds tried; 0 after the last one.
     std::array<double, kMostThresholdTrials> left{};
 };

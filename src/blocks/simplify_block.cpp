@@ -36,17 +36,13 @@ TilePlan plan_of(const BlockChunk& block) {
     for (int axis = 0; axis < 3; ++axis) lattice.size[axis] = block.cells.size()[axis] + 1;
     return {.lattice = lattice,
             .sweep = block.sweep,
-            .run_strips = kTileCells,
+            .chunk_strips = kTileCells,
             .tile_cells = kTileCells,
             .first_cell = block.cells.low};
 }
 
 TileOptions tile_options(const BlockSimplifyOptions& options) {
-    return {.threshold = kTileThreshold,
-            .keep_share = 0,
-            .threads = options.threads,
-            .in_flight = options.in_flight,
-            .simplify = options.simplify};
+    return {.threshold = kTileThreshold, .keep_share = 0, .threads = options.threads, .simplify = options.simplify};
 }
 
 /// Side in cells of tiles with about `faces` faces.
@@ -144,12 +140,13 @@ void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, co
     }
 }
 
-bool simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options) {
+StopReason simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options) {
     std::vector<VertexId> ids;
     Mesh mesh = sorted_mesh_of(block.chunk, 1, &ids);
     CollapseLog log;
     const bool is_last = threshold == HUGE_VAL;
-    collapse_edges(mesh, up_to(threshold, options), {.limits = limits_of(block), .refresh = is_last, .log = &log});
+    const CollapseResult done =
+        collapse_edges(mesh, up_to(threshold, options), {.limits = limits_of(block), .refresh = is_last, .log = &log});
     std::vector<std::uint32_t> numbers(mesh.vertex_end());
     for (std::uint32_t v = 0; v < ids.size(); ++v) {
         numbers[index(ids[v])] = v;
@@ -160,17 +157,17 @@ bool simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOp
         collapse.goes = numbers[collapse.goes];
         collapse.stays = numbers[collapse.stays];
     }
-    return is_last;
+    return is_last ? done.stopped : StopReason::kTarget;
 }
 
-bool simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options) {
+StopReason simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options) {
     const std::uint64_t goal = target + block.other_faces;
-    if (block.chunk.faces.size() <= goal) return false;
+    if (block.chunk.faces.size() <= goal) return StopReason::kTarget;
     const PassOptions passes{.target_faces = target == 0 ? 0 : goal, .tiles = tile_options(options)};
     simplify_in_passes(block.chunk, plan_of(block), passes);
     SimplifyOptions own = options.simplify;
     own.target_faces = static_cast<std::uint32_t>(std::min(goal, kMostFaces));
-    return collapse_whole(block, own, true).stopped != StopReason::kTarget;
+    return collapse_whole(block, own, true).stopped;
 }
 
 }  // namespace regionmesh

@@ -28,7 +28,6 @@ struct BlockChunk {
 struct BlockSimplifyOptions {
     SimplifyOptions simplify;  // without a target
     std::uint32_t threads = 0;
-    std::uint32_t in_flight = 16;
 };
 
 /// The first stage: tiles, up to the threshold of the first stage of a run without blocks, and never below the share
@@ -47,12 +46,10 @@ std::array<double, kMostThresholdTrials> try_thresholds(const BlockChunk& block,
 /// tiles, at whose walls cheaper edges may be left.
 void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, const BlockSimplifyOptions& options);
 
-/// Simplifies the block as a whole up to a threshold, in its log alone. Returns whether topology, quality or the
-/// largest error ended it.
-bool simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options);
+/// Simplifies the block as a whole up to a threshold, in its log alone. Returns kTarget where the threshold ended it.
+StopReason simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options);
 
-/// Simplifies to `target` faces of the block's own, or as far as topology, quality and the largest error allow, and
-/// returns whether these ended it.
-bool simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options);
+/// Simplifies to `target` faces of the block's own, or as far as topology, quality and the largest error allow.
+StopReason simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options);
 
 }  // namespace regionmesh

@@ -12,8 +12,9 @@ struct HeightSample {
     double x = 0, y = 0, z = 0;
 };
 
-/// Most samples of one surface: the time to solve for the weights grows with the cube of their number.
-inline constexpr std::size_t kMostHeights = 3000;
+/// Most drill holes of a table. Each gives a surface a sample, or two where one bounds it from above and one from
+/// below: the time to solve for the weights grows with the cube of their number.
+inline constexpr std::size_t kMostHoles = 3000;
 
 /// Below this distance two places count as one: a hundredth of the median distance from a place to its third neighbour,
 /// which neither pairs nor places far off decide. The slope between two holes side by side would otherwise tilt the
@@ -24,8 +25,8 @@ double near_distance(const std::vector<HeightSample>& samples);
 /// at the samples, as the linear variogram makes them, and tends to the mean far from them.
 class Kriging {
 public:
-    /// Samples no farther from each other than `near` are one sample at their mean height. Requires 1 to kMostHeights
-    /// samples with finite coordinates. `threads` as in parallel_for(); the result does not depend on them.
+    /// Samples no farther from each other than `near` are one sample at their mean height. Requires at
+    /// least one sample, and finite coordinates. `threads` as in parallel_for(); the result does not depend on them.
     Kriging(std::vector<HeightSample> samples, double near, std::uint32_t threads = 0);
 
     double at(double x, double y) const;

@@ -200,9 +200,9 @@ std::vector<InputLabel> labels_of(const TableLabels& labels, const LayerOrder& o
 std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& path, const TetrahedraOptions& options,
                                                    const LayerOptions& layers, LayerSummary* summary) {
     const HoleTable table = read_hole_table(path, options);
-    if (table.holes.collars.size() > kMostHeights)
+    if (table.holes.collars.size() > kMostHoles)
         fail(path, fmt::format("has {} holes; --layers takes at most {}, leave some out", table.holes.collars.size(),
-                               kMostHeights));
+                               kMostHoles));
     require_places(path, table.holes);
     const LayerOrder order = order_layers(table.holes, table.labels, layers.units);
     VolumeInfo info{.source = path.string(),

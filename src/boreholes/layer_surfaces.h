@@ -32,7 +32,7 @@ struct LayerSurfaces {
 /// Heights of the ground: those of the terrain, and between `collars` where it has none.
 class Ground {
 public:
-    /// Requires 1 to kMostHeights collars. `terrain` may be null.
+    /// Requires 1 to kMostHoles collars. `terrain` may be null.
     Ground(const std::vector<HeightSample>& collars, const Terrain* terrain, std::uint32_t threads)
         : between_(collars, near_distance(collars), threads), terrain_(terrain) {}
 

@@ -184,8 +184,8 @@ void PointTableReader::add_depths(std::uint32_t row) {
 /// The power of two nearest to the mean distance from a hole to the next, in mean distances of points of a hole.
 double PointTableReader::estimated_scale() {
     if (!columns_.are_intervals()) fail(rows_.path(), "--scale-z auto is for drill holes; give a number");
-    if (holes_.collars.size() > kMostHeights)
-        fail(rows_.path(), "--scale-z auto takes at most 3000 holes; give a number");
+    if (holes_.collars.size() > kMostHoles)
+        fail(rows_.path(), fmt::format("--scale-z auto takes at most {} holes; give a number", kMostHoles));
     double length = 0;
     for (const Interval& interval : holes_.intervals) length += interval.length;
     const double distance = mean_distance(holes_.collars);

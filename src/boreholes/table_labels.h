@@ -20,6 +20,10 @@ inline constexpr std::uint32_t kNoLabel = std::numeric_limits<std::uint32_t>::ma
 /// Numbers distinct texts from 0 in order of first use; stores each once.
 class TextTable {
 public:
+    TextTable() = default;
+    TextTable(TextTable&&) = default;  // texts_ points into numbers_
+    TextTable& operator=(TextTable&&) = default;
+
     std::uint32_t number_of(std::string_view text);
     const std::string& text(std::uint32_t number) const { return *texts_[number]; }
     std::uint32_t size() const { return static_cast<std::uint32_t>(texts_.size()); }

@@ -47,7 +47,7 @@ std::uint64_t Candidates::refresh(std::uint32_t threads) {
     for_chunks(mesh_.vertex_end(), kVertices, placement_.ranks_in_parallel() ? threads : 1, find, [&](Part part) {
         for (const Best& best : part.best) {
             floor_[v] = kNoFloor;
-            rank(VertexId{v++}, best);
+            enqueue(VertexId{v++}, best);
         }
         notes.forbidden += part.notes.forbidden;
         notes.has_edges_over_error |= part.notes.has_edges_over_error;
@@ -129,7 +129,7 @@ Candidates::Best Candidates::best(VertexId v, Best after, VertexId fresh, Scratc
     return best;
 }
 
-void Candidates::rank(VertexId v, Best best) {
+void Candidates::enqueue(VertexId v, Best best) {
     partner_[index(v)] = best.stays;
     if (best.stays == kNoVertex)
         queue_.remove(v);
@@ -141,7 +141,7 @@ void Candidates::refuse() {
     const VertexId v = queue_.top();
     const Best refused{partner_[index(v)], queue_.top_key()};
     floor_[index(v)] = std::max(floor_[index(v)], refused.key);
-    rank(v, best(v, refused, kNoVertex, scratch_));
+    enqueue(v, best(v, refused, kNoVertex, scratch_));
 }
 
 void Candidates::update(VertexId goes, VertexId stays) {
@@ -161,16 +161,16 @@ void Candidates::update(VertexId goes, VertexId stays) {
         }
         const VertexId held = partner_[index(w)];
         if (held == goes || held == stays) {
-            rank(w, best(w, {kNoVertex, floor_[index(w)]}, stays, scratch_));
+            enqueue(w, best(w, {kNoVertex, floor_[index(w)]}, stays, scratch_));
         } else if (owner_of_edge == w) {
             const Best fresh{stays, key(w, stays, costs_round_merged_[n], scratch_)};
             if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, queue_.key(w)})))
-                rank(w, fresh);
+                enqueue(w, fresh);
         }
     }
     floor_[index(stays)] = kNoFloor;
     if (std::isinf(own.key)) own.stays = kNoVertex;
-    rank(stays, own);
+    enqueue(stays, own);
 }
 
 }  // namespace regionmesh

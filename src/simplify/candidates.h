@@ -64,7 +64,7 @@ private:
     VertexId owner(VertexId a, VertexId b, int edge_label_count) const;
     float key(VertexId goes, VertexId stays, EdgeCost cost, Scratch& scratch) const;
     Best best(VertexId v, Best after, VertexId fresh, Scratch& scratch) const;
-    void rank(VertexId v, Best best);
+    void enqueue(VertexId v, Best best);
 
     const Mesh& mesh_;
     Placement& placement_;

@@ -22,7 +22,7 @@ TilePlan plan_of(const Mesh& mesh, double edge, std::uint32_t threads) {
     const Box extent = extent_of(mesh, threads);
     const Vec3 size = extent.high - extent.low;
     const double cell = std::max(edge, std::max({size.x, size.y, size.z}) / kMostCells);
-    TilePlan plan{.lattice = {}, .sweep = kSweepZ, .run_strips = 1, .tile_cells = 1, .is_bounded = false};
+    TilePlan plan{.lattice = {}, .sweep = kSweepZ, .chunk_strips = 1, .tile_cells = 1, .is_bounded = false};
     plan.lattice.origin = extent.low;
     plan.lattice.spacing = {cell, cell, cell};
     for (int axis = 0; axis < 3; ++axis)

@@ -41,7 +41,7 @@ TileGrid grid_of(const TilePlan& plan, const PassOptions& options, std::uint64_t
     std::array<bool, 3> is_cut;
     const double side = side_of_tiles(grid, std::max(static_cast<double>(faces) / options.tile_faces, 1.0), is_cut);
     for (int axis = 0; axis < 3; ++axis) {
-        const std::uint32_t step = std::max(axis == sweep ? plan.run_strips : plan.tile_cells, 1u);
+        const std::uint32_t step = std::max(axis == sweep ? plan.chunk_strips : plan.tile_cells, 1u);
         const auto steps = static_cast<std::uint32_t>(std::max(std::round(side / step), 1.0));
         grid.cells[axis] = is_cut[axis] ? steps * step : std::max(grid.size[axis], 1u);
         if (!is_cut[axis]) continue;

@@ -37,10 +37,8 @@ public:
     /// Appends them to a chunk that begins with the locked vertices.
     void put_back(Chunk& made) const;
 
-    std::size_t left_faces() const { return left_faces_.size(); }
     /// Vertices that are not locked: taken out, and left.
     std::size_t inside_count() const { return inside_count_; }
-    std::size_t left_inside() const { return left_vertices_.size(); }
 
 private:
     void put_in(TiledFaces& faces, std::uint32_t f, Mesh::Arrays& arrays);

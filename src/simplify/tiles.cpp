@@ -41,12 +41,12 @@ TilePlan plan_tiles(const Lattice& lattice, Sweep sweep) {
     const std::uint64_t section = std::uint64_t{lattice.size[sweep.axes[0]]} * lattice.size[sweep.axes[1]];
     const std::uint32_t side = tile_side(lattice, sweep);
     const auto strips =
-        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kSamplesPerRun / section, kShortestRun, side));
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(kSamplesPerChunk / section, kShortestChunk, side));
     return {lattice, sweep, strips, side};
 }
 
-TileResult simplify_run(const Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe,
-                        const TilePlan& plan, const TileOptions& options) {
+TileResult simplify_chunk(const Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe,
+                          const TilePlan& plan, const TileOptions& options) {
     const TileGrid grid = grid_of(plan, safe);
     TiledFaces faces(chunk, carried, grid, options.threads);
     return simplify_tiles(faces, options);

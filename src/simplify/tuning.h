@@ -100,9 +100,9 @@ inline constexpr std::uint32_t kTileCells = 24;
 /// cells need 29.3 seconds and 12 MB more.
 inline constexpr std::uint32_t kFewestAlong = 8;
 
-/// Strips of a run, and the samples that it aims at: a run holds a fraction of the mesh, and its tiles are cubes.
-inline constexpr std::uint32_t kShortestRun = 8;
-inline constexpr std::uint64_t kSamplesPerRun = 2u << 20;
+/// Strips of a chunk, and the samples that it aims at: a chunk holds a fraction of the mesh, and its tiles are cubes.
+inline constexpr std::uint32_t kShortestChunk = 8;
+inline constexpr std::uint64_t kSamplesPerChunk = 2u << 20;
 
 /// Tiles in work at a time where memory is not short: one that is slow keeps no thread waiting, and they hold less than
 /// the heap over the whole mesh takes.
@@ -117,12 +117,12 @@ inline constexpr double kTileThreshold = 3e-2;
 /// (106 thousand faces), and the AAL atlas 1.08 instead of 1.86 times the seconds of a tenth.
 inline constexpr double kTileMargin = 1.25, kFreeMargin = 1.02, kFreeFrom = 0.45;
 
-/// Collapses below kFreeCost count as free. The first stage leaves the tiles of a run to the second stage, which visits
-/// all faces anyway, if they may keep kNearShare or more, and if the run before had few free collapses: in addition to
-/// the collapses with a cost they removed less than kLeastFreeGain of its faces, and less than half of what the target
-/// allows. The first stage is omitted if the target leaves about 1 - kLeastFreeGain or more. A smoothed head to 2
-/// million: 6.0 to 5.5 s, rms 0.0054 to 0.0050. With a kNearShare of 0.85 instead of 0.75 targets of 0.64 gain nothing;
-/// with 0.6, targets of 0.55 take up to 10 % less time and 8 to 15 % more memory.
+/// Collapses below kFreeCost count as free. The first stage leaves the tiles of a chunk to the second stage, which
+/// visits all faces anyway, if they may keep kNearShare or more, and if a chunk before had few free collapses: in
+/// addition to the collapses with a cost they removed less than kLeastFreeGain of its faces, and less than half of what
+/// the target allows. The first stage is omitted if the target leaves about 1 - kLeastFreeGain or more. A smoothed head
+/// to 2 million: 6.0 to 5.5 s, rms 0.0054 to 0.0050. With a kNearShare of 0.85 instead of 0.75 targets of 0.64 gain
+/// nothing; with 0.6, targets of 0.55 take up to 10 % less time and 8 to 15 % more memory.
 inline constexpr double kFreeCost = 1e-6, kLeastFreeGain = 0.05, kNearShare = 0.75;
 inline constexpr std::uint64_t kFreeTrialFaces = 1u << 16;
 

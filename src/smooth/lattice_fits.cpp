@@ -37,10 +37,9 @@ constexpr float kOwnWeight = 1e-6f;
 constexpr int kRounds = 2, kFinestRounds = 1;
 
 using Points4 = std::array<Unsigned4, 3>;
-Lanes3<Float4> offset(const Points4& at, const LatticePoint& from) {
+Lanes3<Float4> offset(const LatticeSteps& steps, const LatticePoint& from, const Points4& at) {
     const auto along = [&](int axis) {
-        constexpr auto kStep = static_cast<float>(LatticePoint::kStep);
-        return kStep * __builtin_convertvector(reinterpret_cast<Lane4>(at[axis] - from.at[axis]), Float4);
+        return steps.size(axis) * __builtin_convertvector(reinterpret_cast<Lane4>(at[axis] - from.at[axis]), Float4);
     };
     return {along(0), along(1), along(2)};
 }
@@ -92,7 +91,7 @@ public:
             const double size = blocks.size_along(axis);
             const std::int64_t block = blocks.block_of(own, axis);
             const auto place = [&](const LatticePoint& p) {
-                return p.at[axis] * LatticePoint::kStep / size - static_cast<double>(block);
+                return blocks.steps.coordinate(p, axis) / size - static_cast<double>(block);
             };
             const double begin = place(low), end = place(high);
             for (int k = -NearRuns::kRings; k <= NearRuns::kRings; ++k) {
@@ -120,7 +119,7 @@ public:
             const std::int64_t first = blocks.block_of(own, axis) - NearRuns::kRings;
             for (int k = 0; k < 2 * NearRuns::kRings + 1; ++k) {
                 const auto steps = static_cast<std::int32_t>(blocks.corner_of(first + k, axis) - centre.at[axis]);
-                from_centre_[axis][k] = static_cast<float>(LatticePoint::kStep) * static_cast<float>(steps);
+                from_centre_[axis][k] = blocks.steps.size(axis) * static_cast<float>(steps);
             }
         }
     }
@@ -153,14 +152,15 @@ void LatticeFits::find_near(const LatticeRow& row, std::uint32_t run, std::span<
     const LatticePoint& first = sites_[row.sites[row.runs[run].site]].centroid;
     const LatticePoint corner = blocks_.corner_of_block(first);
     const Float3 low = blocks_.from_units(row.runs[run].low), high = blocks_.from_units(row.runs[run].high);
-    const Gaps gaps(blocks_, first, corner + low, corner + high);
+    const LatticeSteps& steps = blocks_.steps;
+    const Gaps gaps(blocks_, first, steps.moved(corner, low), steps.moved(corner, high));
     constexpr float kRadius = kNearShare * kBlend;
     const auto beyond = [](float at, float low_, float high_) { return std::max({low_ - at, at - high_, 0.0f}); };
     for (const NearRun& other : near) {
         if (!gaps.is_within(kRadius, other)) continue;
         const bool is_own = other.row == &row && other.run == run;
         for (std::uint32_t f = (*other).fit; f < other.next().fit; ++f) {
-            const Float3 d = other.row->fits[f].quadric.centre - corner;
+            const Float3 d = steps.between(corner, other.row->fits[f].quadric.centre);
             const Float3 gap{beyond(d.x, low.x, high.x), beyond(d.y, low.y, high.y), beyond(d.z, low.z, high.z)};
             if (is_own || blocks_.distance2(gap) < kRadius * kRadius) found.push_back({other.row, other.run, f});
         }
@@ -219,7 +219,8 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
             const std::uint32_t end = other.next().site;
             for (std::uint32_t n = (*other).site; n < end; n += 4 * stride) {
                 const Sites4 sites = gather(&row.sites[n], end - n);
-                consider(offset(sites.at, quadric.centre), dot(sites.normal, normal), in_use(end - n), sites.kind);
+                consider(offset(blocks_.steps, quadric.centre, sites.at), dot(sites.normal, normal), in_use(end - n),
+                         sites.kind);
             }
             continue;
         }
@@ -252,8 +253,8 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
             const std::uint32_t end = other.next().site;
             for (std::uint32_t n = (*other).site + start; n < end; n += 16) {
                 const Sites4 sites = gather(&other.row->sites[n], end - n);
-                const Mask4 counts =
-                    share(offset(sites.at, quadric.centre)) > 0 && dot(sites.normal, all_four(normal)) > kSameSheet;
+                const Mask4 counts = share(offset(blocks_.steps, quadric.centre, sites.at)) > 0 &&
+                                     dot(sites.normal, all_four(normal)) > kSameSheet;
                 if (bits_of(counts) == 0) continue;
                 const Passage4 passes = passage(quadric, sites);
                 worst = greatest(worst, counts ? passes.missed : Float4{});
@@ -274,7 +275,7 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
 
 /// How a quadric passes through simplices, or by them.
 LatticeFits::Passage4 LatticeFits::passage(const HeightQuadric& quadric, const Sites4& sites) const {
-    const auto [height, slope] = quadric.at(offset(sites.at, quadric.centre));
+    const auto [height, slope] = quadric.at(offset(blocks_.steps, quadric.centre, sites.at));
     const Extent4 extent =
         extent_of(sites.kind, [&, slope = slope](int n) { return dot(slope, steps_.to_node(sites.kind, n)); });
     const auto share = [&](int lane) { return 1 / static_cast<float>(kKinds[sites.kind[lane]].node_count); };
@@ -314,7 +315,7 @@ LatticeFits::Blend4 LatticeFits::blended(const Sites4& sites, const LatticeRow& 
     for (const FitPlace& place : fits) {
         const auto& [quadric, accepted] = place.row->fits[place.fit];
         if (accepted < 0) continue;
-        const Lanes3<Float4> d = offset(sites.at, quadric.centre);
+        const Lanes3<Float4> d = offset(blocks_.steps, quadric.centre, sites.at);
         const Float4 share = share_of(d), along = dot(sites.normal, all_four(quadric.normal)) - kSameSheet;
         Float4 weight = share > 0 && along > 0 ? share * share * along : Float4{};
         if (place.row == &row && place.run == run) weight += along > -kSameSheet ? all_four(kOwnWeight) : Float4{};

@@ -109,11 +109,13 @@ void LatticeLevel::refine_layer(std::int64_t layer) {
 
 bool LatticeLevel::is_wanted(const LatticeRow& row, const LatticeRun& run, int rings) const {
     const LatticePoint corner = blocks_.corner_of_block(sites_[row.sites[run.site]].centroid);
-    const LatticePoint low = corner + blocks_.from_units(run.low), high = corner + blocks_.from_units(run.high);
+    const LatticeSteps& steps = blocks_.steps;
+    const LatticePoint low = steps.moved(corner, blocks_.from_units(run.low));
+    const LatticePoint high = steps.moved(corner, blocks_.from_units(run.high));
     for (int axis = 0; axis < 3; ++axis) {
         const double margin = rings * blocks_.size_along(axis);
-        if (high.at[axis] * LatticePoint::kStep < options_.wanted.low[axis] - margin) return false;
-        if (low.at[axis] * LatticePoint::kStep > options_.wanted.high[axis] + margin) return false;
+        if (steps.coordinate(high, axis) < options_.wanted.low[axis] - margin) return false;
+        if (steps.coordinate(low, axis) > options_.wanted.high[axis] + margin) return false;
     }
     return true;
 }

@@ -74,7 +74,10 @@ std::vector<Group>& groups_of(std::span<const LatticeSamples> samples) {
 }  // namespace
 
 LatticeBlocks::LatticeBlocks(const LatticeFrame& frame, double block_size, int sweep_axis)
-    : layer_axis(sweep_axis), row_axis((sweep_axis + 2) % 3), place_axis((sweep_axis + 1) % 3) {
+    : steps(frame.spacing / frame.finest()),
+      layer_axis(sweep_axis),
+      row_axis((sweep_axis + 2) % 3),
+      place_axis((sweep_axis + 1) % 3) {
     spacing = Float3(frame.spacing / frame.finest());
     const auto least = static_cast<float>(block_size);
     size = {std::max(least, spacing.x), std::max(least, spacing.y), std::max(least, spacing.z)};
@@ -84,11 +87,9 @@ LatticeBlocks::LatticeBlocks(const LatticeFrame& frame, double block_size, int s
     for (int axis = 0; axis < 3; ++axis) {
         cells_per_length_[axis] = kCells / size_along(axis);
         int& bits = unit_bits_[axis];
-        while (bits < kMostUnitBits && std::ldexp(kMostUnits, bits) * LatticePoint::kStep < size_along(axis)) ++bits;
+        while (bits < kMostUnitBits && std::ldexp(kMostUnits, bits) * steps.size(axis) < size_along(axis)) ++bits;
     }
-    const auto unit_along = [&](int axis) {
-        return std::ldexp(static_cast<float>(LatticePoint::kStep), unit_bits_[axis]);
-    };
+    const auto unit_along = [&](int axis) { return std::ldexp(steps.size(axis), unit_bits_[axis]); };
     unit = {unit_along(0), unit_along(1), unit_along(2)};
 }
 
@@ -184,13 +185,14 @@ void LatticeRow::make_samples(const LatticeSites& of, const LatticeBlocks& block
             note(site.centroid);
             for (next = first + 1; next < end && keyed[next].key == keyed[first].key; ++next) {
                 const LatticeSite& other = of[sites[next]];
-                offset += other.centroid - site.centroid;
+                offset += blocks.steps.between(site.centroid, other.centroid);
                 normal += other.normal;
                 note(other.centroid);
             }
             const auto count = static_cast<float>(next - first);
             if (next > first + 1) normal = unit_vector(normal);
-            const LatticePoint at = next > first + 1 ? site.centroid + (1 / count) * offset : site.centroid;
+            const LatticePoint at =
+                next > first + 1 ? blocks.steps.moved(site.centroid, (1 / count) * offset) : site.centroid;
             if (lane == 4) {
                 samples.emplace_back();
                 lane = 0;
@@ -215,8 +217,8 @@ void LatticeRow::place_fits(const LatticeSites& of, const LatticeBlocks& blocks)
         const LatticePoint corner = blocks.corner_of_block(of[sites[runs[r].site]].centroid);
         const std::span own(samples.data() + runs[r].samples, samples.data() + runs[r + 1].samples);
         for (const Group& group : groups_of(own)) {
-            fits.emplace_back().quadric.centre =
-                corner + blocks.from_units(own[0].position_of(0) + (1 / group.count) * group.position);
+            const Float3 centre = blocks.from_units(own[0].position_of(0) + (1 / group.count) * group.position);
+            fits.emplace_back().quadric.centre = blocks.steps.moved(corner, centre);
             fits.back().quadric.normal = unit_vector(group.normal);
         }
     }

@@ -20,6 +20,7 @@ struct LatticeBlocks {
     Float3 spacing, size;  // of samples, of blocks; in finest spacings
     Float3 per_size;       // inverses of size
     Float3 unit;           // of positions in a block, in finest spacings
+    LatticeSteps steps;
     int layer_axis, row_axis, place_axis;
 
     LatticeBlocks(const LatticeFrame& frame, double block_size, int sweep_axis);
@@ -31,17 +32,14 @@ struct LatticeBlocks {
     double size_along(int axis) const { return axis == 0 ? size.x : axis == 1 ? size.y : size.z; }
     /// The cell of a coordinate in finest spacings.
     std::int64_t cell_of(double coordinate, int axis) const;
-    std::int64_t cell_of(const LatticePoint& p, int axis) const {
-        return cell_of(p.at[axis] * LatticePoint::kStep, axis);
-    }
+    std::int64_t cell_of(const LatticePoint& p, int axis) const { return cell_of(steps.coordinate(p, axis), axis); }
     std::int64_t block_of(const LatticePoint& p, int axis) const { return cell_of(p, axis) / kCells; }
 
     /// Positions in a block have 16 bits along each axis: they count from its corner in units, which are powers of two
     /// of steps.
     std::uint32_t corner_of(std::int64_t block, int axis) const {
         constexpr std::int64_t kBefore = 16;  // units; the small shift of cell_of is less
-        const auto begin =
-            static_cast<std::int64_t>(static_cast<double>(block) * size_along(axis) / LatticePoint::kStep);
+        const auto begin = static_cast<std::int64_t>(static_cast<double>(block) * size_along(axis) / steps.size(axis));
         return static_cast<std::uint32_t>(begin - (kBefore << unit_bits_[axis]));
     }
     LatticePoint corner_of_block(const LatticePoint& p) const {

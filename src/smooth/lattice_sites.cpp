@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "regionmesh/error.h"
@@ -12,6 +13,12 @@ namespace {
 Float3 unit(Float3 v, Float3 otherwise) {
     const float size = length(v);
     return size > 0 ? (1 / size) * v : otherwise;
+}
+
+[[noreturn]] void refuse_place(double units, int axis) {
+    throw Error(ErrorCode::kInput, "smoothing in the lattice: sample " + std::to_string(std::llround(units)) +
+                                       " along " + "xyz"[axis] +
+                                       " is too far from the first; use --smooth-filter taubin");
 }
 
 }  // namespace
@@ -29,9 +36,11 @@ void LatticeSites::add(const Chunk& chunk, std::span<const LatticeVertex> vertic
 void LatticeSites::add_vertex(const ChunkVertex& vertex, const LatticeSimplex& simplex) {
     LatticeSite site{{}, kNoInterface | std::uint32_t{simplex.kind} << LatticeSite::kKindBit, {}};
     const Vec3 middle = simplex.base + kCentroids[simplex.kind], scale = frame_.spacing / frame_.finest();
-    for (int axis = 0; axis < 3; ++axis)
-        site.centroid.at[axis] = static_cast<std::uint32_t>(
-            static_cast<std::int64_t>(middle[axis] * scale[axis] * (1 / LatticePoint::kStep) + 0.5));
+    for (int axis = 0; axis < 3; ++axis) {
+        const double steps = middle[axis] * scale[axis] / steps_.size(axis) + 0.5;
+        if (steps > LatticeSteps::kMost) refuse_place(middle[axis], axis);
+        site.centroid.at[axis] = static_cast<std::uint32_t>(steps);
+    }
     const std::uint32_t first = sites_.end();
     for (std::uint32_t n = 0; n < count_of(simplex); ++n) sites_.push_back(site);
     locals_.push_back({vertex.position, {first, sites_.end()}});

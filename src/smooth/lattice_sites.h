@@ -18,7 +18,7 @@ namespace regionmesh {
 /// A vertex in one interface between two regions. A vertex of an interface has one, of a triple line three, of a
 /// quadruple point six.
 struct LatticeSite {
-    LatticePoint centroid;  // of its simplex, in finest spacings from the origin of the lattice
+    LatticePoint centroid;  // of its simplex
     std::uint32_t code;     // interface() and kind(), which are loaded four at a time with what is beside them
     Float3 normal;          // of the unsmoothed interface near by, unit length; from the first label to the second
 
@@ -35,7 +35,9 @@ static_assert(sizeof(LatticeSite) == 28);
 /// vertex, and of a chunk, have consecutive numbers. Faces with the exterior have no sites: the box is plane.
 class LatticeSites {
 public:
-    explicit LatticeSites(const LatticeFrame& frame) : frame_(frame) { starts_.push_back({0, 0}); }
+    explicit LatticeSites(const LatticeFrame& frame) : frame_(frame), steps_(frame.spacing / frame.finest()) {
+        starts_.push_back({0, 0});
+    }
 
     /// A vertex of k labels has as many sites as there are pairs of them; where a model leaves out regions, fewer are
     /// used.
@@ -44,7 +46,8 @@ public:
         return kPairs[simplex.node_count()];
     }
 
-    /// Makes the sites of the chunk that follows, and adds its faces to the normals of their vertices.
+    /// Makes the sites of the chunk that follows, and adds its faces to the normals of their vertices. Throws
+    /// Error(kInput) where positions do not fit a LatticePoint.
     void add(const Chunk& chunk, std::span<const LatticeVertex> vertices);
     /// Ends the sums of normals of a chunk. Requires that the chunk that follows was added, if there is one.
     void end_normals(std::uint32_t chunk);
@@ -84,6 +87,7 @@ private:
     std::uint32_t chunk_end() const { return starts_.end() - 1; }
 
     LatticeFrame frame_;
+    LatticeSteps steps_;
     std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  // of interfaces, in order of first use
     std::uint64_t last_pair_ = 0;
     std::uint32_t last_number_ = kNoInterface;

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "regionmesh/error.h"
+
 namespace regionmesh {
 
 SurfaceWindow::SurfaceWindow() { starts_.push_back({0, 0}); }
@@ -18,7 +20,11 @@ std::span<const std::uint32_t> SurfaceWindow::carried_by(std::uint32_t chunk) co
 void SurfaceWindow::add(const Chunk& chunk) {
     const std::span<const std::uint32_t> carried = carried_by(chunk_end());
     assert(chunk.carried == carried.size());
-    const std::uint32_t first = origin.end();
+    const std::uint32_t first = origin.end(), most = ~std::uint32_t{0};
+    if (chunk.vertices.size() > most - first || chunk.faces.size() > most - faces.end())
+        throw Error(ErrorCode::kInput,
+                    "smoothing: more than 2^32 faces before decimation; with --smooth-filter lattice "
+                    "the model can be made in blocks (--block-size)");
     const auto number = [&](std::uint32_t local) {
         return local < chunk.carried ? carried[local] : first + (local - chunk.carried);
     };

@@ -28,7 +28,7 @@ public:
 
     SurfaceWindow();
 
-    /// Appends the chunk that follows.
+    /// Appends the chunk that follows. Throws Error(kInput) where a surface has 2^32 faces or vertices.
     void add(const Chunk& chunk);
     /// Appends the vertices and faces of a mesh as a chunk, in their order. Fixed vertices are marked as lying on all
     /// sides of the box, so that they stay. Returns the number in the window of each vertex of the mesh.

@@ -55,10 +55,11 @@ struct Budget {
     std::uint32_t in_flight = 1;     // tiles worked on at a time, as demanded unless only fewer fit
     double share_in_flight = 1;      // of the faces of a chunk that these tiles may hold
     std::vector<ChunkMemory> chunks;
-    MemoryNeed least;                                // the least memory that is enough
-    std::uint64_t in_the_end = 0;                    // bytes of the process with the model, which it holds in any case
-    bool is_largest_in_the_end = false;              // no chunk needs more while it is gathered
-    std::optional<std::uint64_t> asked_budget = {};  // as demanded
+    MemoryNeed least;                    // the least memory that is enough
+    std::uint64_t in_the_end = 0;        // bytes of the process with the model, which it holds in any case
+    bool is_largest_in_the_end = false;  // no chunk needs more while it is gathered
+    // Faces, as demanded; or more, where the model cannot be kept to the budget.
+    std::optional<std::uint64_t> asked_budget = {};
 
     bool holds() const { return asked_budget || least.sum() <= memory; }
     /// True if there is less room than that: freed memory must be given back at once.

@@ -16,8 +16,10 @@ namespace {
 /// Tiles of a chunk: columns along the sweep.
 std::uint32_t tile_count(const TilePlan& tiles) {
     std::uint32_t count = 1;
-    for (int a = 0; a < 2; ++a)
-        count *= (tiles.lattice.size[tiles.sweep.axes[a]] + tiles.tile_cells - 1) / tiles.tile_cells;
+    for (int a = 0; a < 2; ++a) {
+        const std::uint32_t cells = std::max(tiles.lattice.size[tiles.sweep.axes[a]], 2u) - 1;
+        count *= (cells + tiles.tile_cells - 1) / tiles.tile_cells;
+    }
     return count;
 }
 
@@ -29,7 +31,7 @@ std::uint64_t samples_of_section(const Lattice& lattice, const Sweep& sweep) {
 std::uint32_t strips_per_chunk(const SourceShape& shape, const TilePlan& tiles, const ReconstructOptions& options) {
     if (!is_decimating(options)) return options.strips_per_chunk;
     const std::uint64_t cells = std::max(shape.lattice.size[shape.axis()], 2u) - 1;
-    return std::max(static_cast<std::uint32_t>(std::uint64_t{tiles.run_strips} * shape.strip_count / cells), 1u);
+    return std::max(static_cast<std::uint32_t>(std::uint64_t{tiles.chunk_strips} * shape.strip_count / cells), 1u);
 }
 
 /// Bytes of each strip in the window of smoothing.
@@ -109,7 +111,7 @@ Plan make_plan(const SourceShape& shape, std::optional<FaceCount> counted, std::
         demand_of(shape, plan.target, std::move(strip_faces), window_strips, plan.tiles, options);
     plan.budget = plan_budget(options.memory, demand);
     require_budget(plan.budget, demand);
-    plan.tiles.run_strips = plan.budget.chunk_strips;
+    plan.tiles.chunk_strips = plan.budget.chunk_strips;
     return plan;
 }
 

@@ -66,9 +66,9 @@ public:
 
     /// Notes the bytes of the mesh, and of what works on it, with `faces` faces.
     void note_bytes(std::uint64_t faces, std::size_t bytes) {
+        result_.report.peak_faces = std::max(result_.report.peak_faces, faces);
         if (faces == 0 || bytes < most_bytes_) return;
         most_bytes_ = bytes;
-        result_.report.peak_faces = std::max(result_.report.peak_faces, faces);
         result_.report.bytes_per_face = static_cast<double>(bytes) / static_cast<double>(faces);
     }
 

@@ -44,7 +44,7 @@ Chunk TileStage::run(GatheredStrips& gathered) {
     options.faces_in_flight = static_cast<std::uint64_t>(
         std::ceil(plan_.budget.share_in_flight * static_cast<double>(gathered.chunk.faces.size())));
     const std::size_t given = gathered.chunk.faces.size();
-    TileResult done = simplify_run(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, options);
+    TileResult done = simplify_chunk(gathered.chunk, gathered.carried, gathered.safe, plan_.tiles, options);
     log_.add(done.verdicts);
     strips_done_ = gathered.end;
     if (given < kFreeTrialFaces) return std::move(done.left);

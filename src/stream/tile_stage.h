@@ -17,7 +17,7 @@ public:
     /// Whether run() does anything.
     bool is_on() const { return is_on_; }
     /// Coarsens the caps of the chunk, and decimates it up to a fixed cost; never below what the target leaves. If
-    /// the target is near, and the chunk before had few free collapses, only coarsens the caps: the second stage takes
+    /// the target is near, and a chunk before had few free collapses, only coarsens the caps: the second stage takes
     /// less time for the other collapses. Returns the chunk that is left. If its faces were decimated, the gathered
     /// chunk keeps its arrays.
     Chunk run(GatheredStrips& gathered);
@@ -30,7 +30,7 @@ private:
     TileOptions tile_options_;
     RunLog& log_;
     std::uint32_t strips_done_ = 0;
-    bool had_few_free_ = false;  // the last chunk with kFreeTrialFaces or more
+    bool had_few_free_ = false;  // a chunk of kFreeTrialFaces or more
     bool coarsens_caps_;
     bool is_on_;
 };

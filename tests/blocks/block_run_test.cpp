@@ -135,6 +135,17 @@ TEST(BlockRun, keeps_to_the_largest_error) {
     expect_lossless(model, volume);
 }
 
+TEST(BlockRun, says_that_topology_ended_it_where_the_largest_error_did_not) {
+    for (const std::uint32_t cells : {17u, 100u}) {  // several blocks, and one
+        const TestFolder folder;
+        test::ArrayVolume volume = foam();
+        ReconstructOptions options = options_for({});
+        options.max_error = 1e6;
+        BlockTasks alone;
+        EXPECT_EQ(run_blocks(folder.path, volume, options, alone, cells).stopped, StopReason::kTopology);
+    }
+}
+
 /// Ends the run, as if killed, after `blocks` blocks of all passes.
 struct Ended {};
 BlockReport run_until(int blocks, const fs::path& folder, const test::ArrayVolume& volume,

@@ -54,17 +54,17 @@ struct Batch {
     LabelOracle oracle;
 };
 
-/// Tiles of so many cells, one run for all sections.
+/// Tiles of so many cells, one chunk for all sections.
 TilePlan plan_of(const Batch& batch, std::uint32_t cells) {
     return {batch.lattice, kSweepZ, batch.lattice.size[2], cells};
 }
 
-/// One run of all sections: nothing comes before or after.
+/// One chunk of all sections: nothing comes before or after.
 SafeInterval extent_of(const Batch& batch) { return {0, (batch.lattice.size[2] - 1) * batch.lattice.spacing.z}; }
 
 /// In tiles of so many cells.
 VerdictCounts simplify(Batch& batch, std::uint32_t cells, const TileOptions& options) {
-    TileResult done = simplify_run(batch.whole, {}, extent_of(batch), plan_of(batch, cells), options);
+    TileResult done = simplify_chunk(batch.whole, {}, extent_of(batch), plan_of(batch, cells), options);
     batch.whole = std::move(done.left);
     return done.verdicts;
 }
@@ -276,29 +276,29 @@ TEST(Tiles, leave_carried_and_active_vertices_as_they_are) {
     SectionWindow window(volume, labels);
     StripMesher mesher(volume.info().lattice, kSweepZ, {});
     Merger merger;
-    Chunk run;
+    Chunk chunk;
     std::vector<ChunkVertex> carried;
     const TilePlan plan{volume.info().lattice, kSweepZ, 3, 8};
     for (std::uint32_t strip = 0; window.advance(); ++strip) {
         Chunk next;
         mesher.mesh(window.low(), window.high(), next);
-        run.append(next);
+        chunk.append(next);
         if (strip % 3 != 2) continue;
         std::vector<ChunkVertex> active;
-        for (std::uint32_t v : run.active)
-            active.push_back(v < run.carried ? carried[v] : run.vertices[v - run.carried]);
-        run = simplify_run(run, carried, {strip - 2.0, strip + 1.0}, plan,
-                           {.threshold = 1e-2, .keep_share = 0, .threads = 1, .simplify = {}})
-                  .left;
-        ASSERT_EQ(run.active.size(), active.size());
+        for (std::uint32_t v : chunk.active)
+            active.push_back(v < chunk.carried ? carried[v] : chunk.vertices[v - chunk.carried]);
+        chunk = simplify_chunk(chunk, carried, {strip - 2.0, strip + 1.0}, plan,
+                               {.threshold = 1e-2, .keep_share = 0, .threads = 1, .simplify = {}})
+                    .left;
+        ASSERT_EQ(chunk.active.size(), active.size());
         for (std::size_t n = 0; n < active.size(); ++n) {
-            const std::uint32_t v = run.active[n];
-            const ChunkVertex& left = v < run.carried ? carried[v] : run.vertices[v - run.carried];
+            const std::uint32_t v = chunk.active[n];
+            const ChunkVertex& left = v < chunk.carried ? carried[v] : chunk.vertices[v - chunk.carried];
             EXPECT_EQ(left.position, active[n].position);
         }
-        merger.add(run);
+        merger.add(chunk);
         carried = std::move(active);
-        run.clear();
+        chunk.clear();
     }
     test::expect_sound(check(merger.take_mesh()));
 }
@@ -317,21 +317,21 @@ TEST(Determinism, any_number_of_threads_gives_the_same_bytes) {
 TEST(TilePlan, comes_from_the_size_alone) {
     Lattice lattice;
     lattice.size = {360, 360, 100};
-    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 16u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).chunk_strips, 16u);
     lattice.size = {64, 64, 64};
-    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 24u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).chunk_strips, 24u);
     lattice.size = {5000, 5000, 64};
-    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 8u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).chunk_strips, 8u);
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 24u);
 }
 
 TEST(TilePlan, tiles_of_thin_volumes_are_wider) {
     Lattice lattice;
     lattice.size = {5, 1303, 1740};
-    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 58u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).chunk_strips, 58u);
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 58u);
     lattice.size = {5, 1303, 321};  // at least eight runs
-    EXPECT_EQ(plan_tiles(lattice, kSweepZ).run_strips, 40u);
+    EXPECT_EQ(plan_tiles(lattice, kSweepZ).chunk_strips, 40u);
     lattice.size = {201, 3, 900};  // at least eight tiles
     EXPECT_EQ(plan_tiles(lattice, kSweepZ).tile_cells, 25u);
     lattice.size = {3, 20, 900};

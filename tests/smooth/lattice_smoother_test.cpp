@@ -206,6 +206,35 @@ TEST(LatticeFilter, is_in_a_stream_what_it_is_in_core) {
     }
 }
 
+/// A thousand times farther apart along y than along z: coordinates in finest spacings are large.
+TEST(LatticeFilter, smooths_a_box_far_from_the_origin_as_in_the_whole) {
+    const auto volume =
+        sampled({3, 700, 12}, {1, 1000, 1}, [](Vec3 p) { return p.z - 5.3 - 2 * std::sin(p.y / 40000); });
+    const std::vector<Chunk> chunks = test::cone_chunks(volume);
+    ChunkOrder order = order_of(volume);
+    const std::vector<Vec3> before = positions_of(test::mesh_of(chunks)),
+                            whole = positions_of(test::mesh_of(streamed(chunks, order)));
+    order.wanted.low.y = 600e3;
+    order.wanted.high.y = 650e3;
+    const std::vector<Vec3> part = positions_of(test::mesh_of(streamed(chunks, order)));
+    std::size_t moved = 0;
+    for (std::size_t v = 0; v < whole.size(); ++v) {
+        if (before[v].y < order.wanted.low.y || before[v].y > order.wanted.high.y) continue;
+        EXPECT_EQ(part[v], whole[v]);
+        moved += length(whole[v] - before[v]) > 0.1;
+    }
+    EXPECT_GT(moved, 50u);
+}
+
+TEST(LatticeFilter, refuses_samples_too_far_from_the_first) {
+    auto volume = test::grain_volume({8, 8, 8}, 4, 3);
+    volume.lattice().spacing = {1, 1.9, 1};
+    std::vector<Chunk> chunks = test::cone_chunks(volume);
+    for (Chunk& chunk : chunks)
+        for (ChunkVertex& vertex : chunk.vertices) vertex.position.y += 1.9 * 300000;
+    EXPECT_THROW(streamed(chunks, order_of(volume)), Error);
+}
+
 TEST(LatticeFilter, refuses_a_surface_that_is_not_of_the_lattice) {
     auto volume = test::grain_volume({8, 8, 8}, 4, 3);
     const ChunkOrder order = order_of(volume);

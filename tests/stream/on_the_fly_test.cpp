@@ -104,14 +104,14 @@ TEST(OnTheFly, every_sweep_and_chunk_stays_sound) {
 }
 
 /// A run of strips is decimated and joins the model as one: the budget may be passed by so many faces.
-constexpr std::uint64_t kFacesOfRun = 10000;
+constexpr std::uint64_t kFacesOfChunk = 10000;
 
 TEST(Memory, peak_is_near_the_budget) {
     test::ArrayVolume volume = test::grain_blocks(16, 10);
     for (std::uint64_t budget : {10000u, 20000u}) {
         const Reconstruction made = run(volume, with_budget(5000, budget));
         EXPECT_GT(made.report.initial_faces, 2 * budget);
-        EXPECT_LE(made.report.peak_faces, budget + kFacesOfRun);
+        EXPECT_LE(made.report.peak_faces, budget + kFacesOfChunk);
     }
 }
 
