@@ -36,13 +36,19 @@ public:
 
 private:
     static constexpr int kCuts = 65;
-    static int cut_of(double place) { return std::clamp(int((1 - place) * (kCuts / 2) + 0.5), 0, kCuts - 1); }
+    static int cut_of(double place) { return static_cast<int>((1 - place) * (kCuts / 2) + 0.5); }
 
     std::array<int, kCuts> first_;    // the bin of the smallest angles in a cut
     std::array<double, kCuts> next_;  // where the next bin begins in a cut
 };
 
 const AngleBins kAngleBins;
+
+/// QualityTerms::value() of each lane.
+Double2 quality_of(Double2 area, Double2 product) {
+    const Double2 product2 = product * product;
+    return product2 > 0 ? area / cube_root(product2) : Double2{};
+}
 
 }  // namespace
 
@@ -52,7 +58,7 @@ TwoFaces::TwoFaces(const std::array<Lanes3<Double2>, 3>& corners) {
     for (int n = 0; n < 3; ++n) lengths2[n] = dot(edges[n], edges[n]);
     normal = cross(edges[0], corners[2] - corners[0]);
     twice_area = square_root(dot(normal, normal));
-    quality_product = regionmesh::quality_product(0.5 * twice_area, lengths2[0], lengths2[1], lengths2[2]);
+    quality = quality_of(0.5 * twice_area, quality_product(0.5 * twice_area, lengths2[0], lengths2[1], lengths2[2]));
     size2 = greatest(lengths2[0], greatest(lengths2[1], lengths2[2]));
     fat = bits_of((twice_area >= 1e-3 * size2) & (twice_area > 1e-100));
     for (int n = 0; n < 3; ++n) {
@@ -64,21 +70,21 @@ TwoFaces::TwoFaces(const std::array<Lanes3<Double2>, 3>& corners) {
 void QualitySum::add(const TwoFaces& faces, int lane) {
     const double twice_area = faces.twice_area[lane];
     const bool is_finite = std::isfinite(faces.size2[lane]) && std::isfinite(twice_area);
-    const double q = is_finite ? QualityTerms{0.5 * twice_area, faces.quality_product[lane]}.value() : 0;
+    const double q = is_finite ? faces.quality[lane] : 0;
     ++faces_;
     min_ = std::min(min_, q);
     sum_ += q;
     ++histogram_[std::clamp(int(q * 100), 0, int(histogram_.size()) - 1)];
     if (!is_finite) return;
-    if (faces.is_fat(lane)) {
-        for (int n = 0; n < 3; ++n) add_angle({twice_area, faces.cosines[n][lane], faces.places[n][lane]});
-        return;
-    }
-    for (int n = 0; n < 3; ++n) {  // each corner needs its own sine
-        const double sine = length(cross(faces.edges[n][lane], faces.edges[(n + 2) % 3][lane]));
-        const double cosine = faces.cosines[n][lane];
-        add_angle({sine, cosine, sine > 0 ? place_of(sine, cosine) : cosine < 0 ? -1.0 : 1.0});
-    }
+    std::array<Angle, 3> angles;
+    for (int n = 0; n < 3; ++n) angles[n] = {twice_area, faces.cosines[n][lane], faces.places[n][lane]};
+    if (!faces.is_fat(lane))  // each corner needs its own sine
+        for (int n = 0; n < 3; ++n) {
+            auto& [sine, cosine, place] = angles[n];
+            sine = length(cross(faces.edges[n][lane], faces.edges[(n + 2) % 3][lane]));
+            place = sine > 0 ? place_of(sine, cosine) : cosine < 0 ? -1.0 : 1.0;
+        }
+    for (const Angle& angle : angles) add_angle(angle);
 }
 
 void QualitySum::add_angle(const Angle& angle) {

@@ -12,18 +12,19 @@ namespace regionmesh {
 class RegionSums {
 public:
     RegionReport& operator[](Label label) {
-        if (label >= places_.size()) places_.resize(label + 1, kNone);
-        std::uint32_t& place = places_[label];
-        if (place == kNone) {
-            place = static_cast<std::uint32_t>(sums_.size());
-            sums_.push_back({.label = label});
-        }
-        return sums_[place];
+        if (label >= places_.size() || places_[label] == kNone) add(label);
+        return sums_[places_[label]];
     }
     std::vector<RegionReport> take() { return std::move(sums_); }
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    [[gnu::noinline]] void add(Label label) {  // rarely: not copied into each loop
+        if (label >= places_.size()) places_.resize(label + 1, kNone);
+        places_[label] = static_cast<std::uint32_t>(sums_.size());
+        sums_.push_back({.label = label});
+    }
 
     std::vector<std::uint32_t> places_;  // by label
     std::vector<RegionReport> sums_;
