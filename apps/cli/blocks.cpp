@@ -198,11 +198,11 @@ void require_fit_of_pieces(const Settings& settings) {
                        ", which is written piece by piece; leave it out, or name a model such as model.vtp");
 }
 
-void make_block_folder(const Settings& settings) {
+void make_block_folder(const Settings& settings, std::uint32_t command) {
     if (settings.output.empty()) return;
     const fs::path folder = folder_of(settings.output);
     const bool is_model = !settings.inputs.empty() && writes_blocks(settings);
-    const bool is_for_viewer = !settings.models.empty() && is_precomputed(settings.output);
+    const bool is_for_viewer = command == kConvert && is_precomputed(settings.output);
     if (!is_model && !is_for_viewer) return;
     if (is_model) require_fit_of_blocks(settings);
     for (const std::vector<std::string>* files : {&settings.inputs, &settings.models})
@@ -225,6 +225,13 @@ void make_block_folder(const Settings& settings) {
 void share_blocks(BlockTasks& tasks) { shared_tasks = &tasks; }
 
 bool has_other_processes() { return shared_tasks != nullptr; }
+
+void silence_others(Settings& settings) {
+    if (!shared_tasks || shared_tasks->is_first()) return;
+    settings.quiet = true;
+    settings.verbose = false;
+    settings.log.clear();
+}
 
 int run_blocks(const Settings& settings) {
     BlockTasks alone;

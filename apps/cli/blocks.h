@@ -18,13 +18,15 @@ bool is_precomputed(const std::string& output);
 /// Throws Error(kUsage) where such an output is not made from a folder of pieces, or options do not fit it.
 void require_fit_of_pieces(const Settings& settings);
 
-/// Makes the folder of pieces, or one .precomputed, if the command writes one: a confined process cannot. Throws
+/// Makes the folder of pieces, or one .precomputed, if `command` writes one: a confined process cannot. Throws
 /// Error(kOutput) where it cannot be made.
-void make_block_folder(const Settings& settings);
+void make_block_folder(const Settings& settings, std::uint32_t command);
 
 /// Shares the blocks of the run with other processes. Once called, reconstruct writes folders only.
 void share_blocks(BlockTasks& tasks);
 bool has_other_processes();
+/// Of these processes the first one prints, and writes the log.
+void silence_others(Settings& settings);
 
 /// Runs reconstruct block by block. Returns the exit code.
 int run_blocks(const Settings& settings);

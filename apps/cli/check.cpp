@@ -71,6 +71,7 @@ bool has_exterior_for_background(const Settings& settings, const MeshFile& file)
 /// Piece by piece: memory never holds the model.
 int check_folder(const Settings& given) {
     const std::string& path = given.models.front();
+    require_fit_of_folder(path, given.surface);
     MeshFile file = describe_block_folder(path);
     const Settings settings = settings_for(given, file);
     CheckOptions options = check_options(settings, file.labels);

@@ -52,8 +52,8 @@ void add_option(CLI::App& command, const OptionSpec& spec, bool has_config, Text
 }
 
 /// Before the first thread of the work starts, so that all are confined. Returns what the kernel enforces.
-std::optional<SandboxState> confine(const Settings& settings) {
-    make_block_folder(settings);
+std::optional<SandboxState> confine(const Settings& settings, std::uint32_t command) {
+    make_block_folder(settings, command);
     if (!settings.sandbox) return std::nullopt;
     const SandboxState state = enter_sandbox(sandbox_rules(settings));
     if (settings.needs_sandbox && !(state.files && state.calls))
@@ -89,8 +89,9 @@ void add_command(CLI::App& app, const CommandSpec& command, int (*run)(const Set
             Settings settings;
             apply_options(settings, values);
             require_distinct_files(settings);
+            silence_others(settings);
             begin_messages(command.command, settings);
-            const std::optional<SandboxState> confined = confine(settings);
+            const std::optional<SandboxState> confined = confine(settings, command.command);
             remove_outputs_on_signals();  // its thread is confined, too
             const int code = run(settings);
             say_confined(confined);

@@ -53,10 +53,16 @@ void refuse_options(const Settings& settings, std::span<const std::string_view> 
         if (std::ranges::find(names, name) != names.end()) throw Error(ErrorCode::kUsage, "--" + name + ": " + why);
 }
 
-MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {
-    if (!is_block_folder(path)) return read_mesh(path, options);
+void require_fit_of_folder(const std::string& path, const ReadMeshOptions& options) {
     if (options.weld)
         throw Error(ErrorCode::kUsage, "--weld: the pieces of " + path + " share their points already; leave it out");
+    if (options.orient)
+        throw Error(ErrorCode::kUsage, "--orient: the pieces of " + path + " are oriented already; leave it out");
+}
+
+MeshFile read_model(const std::string& path, const ReadMeshOptions& options) {
+    if (!is_block_folder(path)) return read_mesh(path, options);
+    require_fit_of_folder(path, options);
     MeshFile file = read_block_folder(path);
     turn(file, options.space);
     return file;

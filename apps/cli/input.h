@@ -35,6 +35,8 @@ bool has_extension(const std::string& path, const std::string& extensions);
 void refuse_options(const Settings& settings, std::span<const std::string_view> names, const std::string& why);
 
 /// A surface from a file, or from a folder of pieces.
+/// Throws Error(kUsage) for options about how a file becomes a model, which a folder of pieces is already.
+void require_fit_of_folder(const std::string& path, const ReadMeshOptions& options);
 MeshFile read_model(const std::string& path, const ReadMeshOptions& options = {});
 
 /// What count_labels() takes from the settings.

@@ -12,9 +12,10 @@ int run_voxelise(const Settings& given) {
     const std::string& path = given.models.front();
     require_writable(given.output, given.writing);
     const bool is_folder = is_block_folder(path);
+    if (is_folder) require_fit_of_folder(path, given.surface);
     MeshFile file = is_folder ? describe_block_folder(path) : read_mesh(path, given.surface);
     const Settings settings = settings_for(given, file);
-    VolumeInfo info = open_sections({settings.sections.begin(), settings.sections.end()}, settings.volume)->info();
+    VolumeInfo info = open_volume(settings, settings.sections)->info();
     const Lattice& lattice = info.lattice;
     const std::optional<double>& metres = file.coordinates.metres;
     warn_of_units(path, metres, settings.sections.front(), info.metres);

@@ -94,19 +94,12 @@ bool has(const std::vector<std::string>& arguments, const std::string& flag) {
 }
 
 /// The command line of a rank: one thread unless the user says otherwise; no confinement, which would cut the rank off
-/// from the others; and only the first rank prints.
-std::vector<std::string> arguments_of(int argc, char** argv, int rank) {
+/// from the others.
+std::vector<std::string> arguments_of(int argc, char** argv) {
     std::vector<std::string> arguments(argv, argv + argc);
     if (argc < 2 || arguments[1] != "reconstruct") return arguments;
     if (!has(arguments, "--threads")) arguments.emplace_back("--threads=1");
     if (!has(arguments, "--no-sandbox")) arguments.emplace_back("--no-sandbox");
-    if (rank == 0) return arguments;
-    if (!has(arguments, "--quiet")) arguments.emplace_back("--quiet");
-    // One rank writes the log.
-    for (auto at = arguments.begin(); at != arguments.end();) {
-        const bool is_log = *at == "--log", has_value = is_log && at + 1 != arguments.end();
-        at = is_log || at->starts_with("--log=") ? arguments.erase(at, at + (has_value ? 2 : 1)) : at + 1;
-    }
     return arguments;
 }
 
@@ -128,7 +121,7 @@ int main(int argc, char** argv) {
         rank = tasks.rank();
         regionmesh::cli::name_process("regionmesh-mpi: " + (rank > 0 ? "rank " + std::to_string(rank) + ": " : ""),
                                       rank == 0);
-        const std::vector<std::string> arguments = arguments_of(argc, argv, rank);
+        const std::vector<std::string> arguments = arguments_of(argc, argv);
         if (provided < MPI_THREAD_MULTIPLE) {
             if (rank == 0) std::fputs("regionmesh-mpi: this MPI library has no MPI_THREAD_MULTIPLE\n", stderr);
         } else if (argc >= 2 && arguments[1] != "reconstruct" && arguments[1][0] != '-') {

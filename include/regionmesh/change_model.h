@@ -15,7 +15,7 @@ namespace regionmesh {
 
 /// What a change did.
 struct ModelChange {
-    CheckReport before;  // of the mesh as it came
+    CheckReport before;  // of the mesh as it came, turned into the axes of its box (BoxAxes)
     LockedPart locked;   // because of violations that it came with
     Report report;       // as reconstruct() gives it
 };

@@ -80,7 +80,7 @@ public:
     /// otherwise.
     void trim() {
         if (capacity_ - size_ <= std::size_t{size_} / 2 || capacity_ <= 1024) return;
-        const std::size_t capacity = std::max<std::size_t>(size_ + size_ / 8, 1024);
+        const std::size_t capacity = std::max<std::size_t>(std::size_t{size_} + size_ / 8, 1024);
         T* trimmed = static_cast<T*>(std::realloc(static_cast<void*>(data_), capacity * sizeof(T)));
         if (!trimmed) return;
         data_ = trimmed;

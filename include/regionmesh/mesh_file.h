@@ -41,19 +41,20 @@ struct WriteOptions {
 ///   .vtp    VTK PolyData, inline base64 with zlib, UInt64 header. Points Float64; cell array BoundaryLabels (2
 ///           components of Int64, or of UInt64 where a label is 2^63 or more); point array NodeType (Int8: 2, 3 or 4
 ///           labels, where each side of the box counts as one; +10 on the box); cell array RGB (UInt8, 3 components);
-///           field data ExteriorLabel where it is not -1, RegionLabels and RegionNames where there are names,
-///           ColourLabels and RegionColours where colours were given.
+///           field data ExteriorLabel where it is not -1, BackgroundLabels where they are known, RegionLabels and
+///           RegionNames where there are names, ColourLabels and RegionColours where colours were given.
 ///   .vtu    the same as VTK UnstructuredGrid.
 ///   .ply    binary little endian: double x, y, z, uchar node_type; faces with vertex_indices (uint) and int
 ///           label_first, label_second; where a label needs more than 32 bits all are uint words label_first_low,
 ///           label_first_high, label_second_low, label_second_high; then uchar red, green, blue. Header
-///           lines `comment exterior_label` and `comment region LABEL NAME`; background is not named.
+///           lines `comment exterior_label`, `comment background` and `comment region LABEL NAME`.
 ///   .obj    an object and a material for each first label, a group interface_A_B for each pair of labels; a .mtl file
 ///           beside it has the colours, which are those of the first labels in all formats.
 ///   .stl    text, a solid for each region (not the background), its normals outward. Per region: binary.
 ///   .msh    MSH 4.1, text: a surface for each interface of two solid parts; a .geo file beside it makes volumes.
 ///   .smesh .poly  for TetGen: faces with a marker for each interface, points in holes and regions.
 ///   .inp    for Abaqus and CalculiX: S3 elements, sets of interfaces, regions and sides of the box, surfaces.
+///   .3mf    for 3D printers: an object for each region.
 ///   .glb    binary glTF, single precision relative to the centre of the model: a mesh for each region.
 ///   .dream3d  version 8, single precision: a TriangleGeom with FaceLabels (32 bits; the exterior is -1) and NodeType.
 /// Doubles in text round-trip. The bytes depend only on the model, the labels and the options. Memory: a few megabytes;
@@ -90,10 +91,10 @@ double rounded_share_of_edge(const Mesh& mesh, const std::filesystem::path& path
 std::string writable_extensions();
 std::string readable_extensions();
 
-/// A model from a file, with signed labels. Faces with the exterior label of the file (-1 by default) become sides of
-/// the box where all of them lie exactly in planes of the bounding box of all faces; their vertices get these sides.
-/// Otherwise (an oblique volume, a box of another program) all exterior faces get one side, and no vertex is on a
-/// plane.
+/// A model from a file. Labels are signed unless the file says otherwise (UInt64 in .vtp and .vtu). Faces with the
+/// exterior label of the file (-1 by default) become sides of the box where all of them lie exactly in planes of the
+/// bounding box of all faces; their vertices get these sides. Otherwise (an oblique volume, a box of another program)
+/// all exterior faces get one side, and no vertex is on a plane.
 struct MeshFile {
     Mesh mesh;
     LabelTable labels;

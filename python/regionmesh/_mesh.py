@@ -493,7 +493,8 @@ class Mesh:
             raise ValueError("voxelise: no lattice; give like or shape with three axes")
         if not all(0 < n < 1 << 32 for n in shape):
             raise ValueError(f"voxelise: shape {tuple(shape)}; give 1 to {(1 << 32) - 1} samples along each axis")
-        dtype = np.dtype(own.get("type", "int64") if dtype is None else dtype)
+        of_own = own.get("type", "int64")
+        dtype = np.dtype(dtype if dtype is not None else "uint8" if of_own == "bool" else of_own)
         regions = [row["label"] for row in self.report["regions"]] + self.background + [outside]
         if dtype.kind not in "iu" or min(regions) < np.iinfo(dtype).min or max(regions) > np.iinfo(dtype).max:
             raise ValueError(f"voxelise: {dtype} cannot hold the labels {min(regions)} to {max(regions)}; give dtype")

@@ -52,6 +52,10 @@ ArrayOptions placed(const Frame& frame, ArrayOptions rest) {
 class CalledSections : public SectionReader {
 public:
     CalledSections(SectionCalls calls, VolumeInfo info) : calls_(std::move(calls)), info_(std::move(info)) {}
+    ~CalledSections() override {
+        const py::gil_scoped_acquire acquire;  // an error may end a reader without it
+        calls_ = {};
+    }
 
     const VolumeInfo& info() const override { return info_; }
 

@@ -308,6 +308,12 @@ def test_voxelise_like_a_mask(two_boxes):
     np.testing.assert_array_equal(again, two_boxes > 0)
 
 
+def test_voxelise_of_a_file_of_truth_values(tmp_path, two_boxes):
+    np.save(tmp_path / "mask.npy", two_boxes > 0)
+    again = regionmesh.reconstruct(tmp_path / "mask.npy").voxelise()
+    assert again.dtype == np.uint8 and (again == (two_boxes > 0)).all()
+
+
 def test_voxelise_like_a_list(filled):
     assert (filled.voxelise(like=filled.voxelise().tolist()) == filled.voxelise()).all()
 

@@ -63,8 +63,8 @@ TetrahedronPatches make_tetrahedron_patches();
 using TrianglePatches = std::array<std::vector<CasePatch>, 8>;
 TrianglePatches make_triangle_patches();
 
-/// All cases of the tetrahedron with corners at the given steps: 0, 2, 2 (one against three, two against two), 5 or 12
-/// faces for 1 to 4 labels: 1, 2, 5, 12. Patterns that no labels make are empty.
+/// All cases of the tetrahedron with corners at the given steps: no face for one label, 1 (one corner against three) or
+/// 2 (two against two) for two labels, 5 for three, 12 for four. Patterns that no labels make are empty.
 using TetrahedronCases = std::array<std::vector<CaseFace>, 64>;
 TetrahedronCases make_tetrahedron_cases(const std::array<Step, 4>& corners, QuadCuts cuts = QuadCuts::kBestQuality);
 

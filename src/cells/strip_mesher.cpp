@@ -89,7 +89,7 @@ void StripMesher::plan_triangles() {
             // From the corner of the cell's square, along one axis of the side, then along both.
             const Step base = is_high ? across : 0;
             std::array<Step, 3> increasing{base, base | 1 << first, base | 1 << first | 1 << second};
-            TrianglePlan plan{.side = side, .corners = increasing, .simplices = {}, .cases = {}};
+            TrianglePlan plan{.corners = increasing, .simplices = {}, .cases = {}};
             // e_first x (e_first + e_second) points along +axis when (first, second, axis) is cyclic.
             const bool points_high = (first + 1) % 3 == second;
             const bool turn = points_high != is_high;

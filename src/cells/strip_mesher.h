@@ -67,7 +67,6 @@ private:
         TetrahedronCases cases;
     };
     struct TrianglePlan {
-        int side;
         std::array<Step, 3> corners;  // within the cell, turned outward
         std::array<SimplexPlace, 8> simplices;
         TriangleCases cases;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/box.h"
+#include "base/triangle.h"
 #include "check/findings.h"
 
 namespace regionmesh {
@@ -21,7 +22,7 @@ using NestedVolumes = std::map<Label, double>;
 inline void add_volume(NestedVolumes& volumes, const Mesh& mesh, FaceId f, Vec3 origin) {
     const auto& labels = mesh[f].labels;
     const auto p = mesh.corners(f);
-    const double sixfold = dot(p[0] - origin, cross(p[1] - origin, p[2] - origin));
+    const double sixfold = dot(p[0] - origin, area_vector(p[0], p[1], p[2]));
     volumes[labels[0]] += sixfold;
     volumes[labels[1]] -= sixfold;
 }

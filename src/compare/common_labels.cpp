@@ -2,9 +2,24 @@
 
 #include <algorithm>
 
+#include "regionmesh/error.h"
+
 namespace regionmesh {
 
-CommonLabels::CommonLabels(const LabelTable& a, const LabelTable& b) : table_(a.is_unsigned() && b.is_unsigned()) {
+namespace {
+
+bool has_negative(const LabelTable& table) {
+    for (Label dense = 0; dense < table.size(); ++dense)
+        if (!table.is_unsigned() && table.input(dense) < 0) return true;
+    return false;
+}
+
+}  // namespace
+
+CommonLabels::CommonLabels(const LabelTable& a, const LabelTable& b) : table_(a.has_large() || b.has_large()) {
+    if (table_.is_unsigned() && (has_negative(a) || has_negative(b)))
+        throw Error(ErrorCode::kInput,
+                    "one model has labels of 2^63 and more, and the other negative labels; give both the same labels");
     std::vector<InputLabel> labels;
     for (const LabelTable* table : {&a, &b})
         for (Label dense = 0; dense < table->size(); ++dense) labels.push_back(table->input(dense));

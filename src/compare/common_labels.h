@@ -9,9 +9,12 @@
 
 namespace regionmesh {
 
-/// Numbers the labels of both tables in ascending order. All sides of the box are one label, exterior(0).
+/// Numbers the labels of both tables in ascending order, as numbers: where one has labels of 2^63 and more, they are
+/// not the negative labels of the other, for which there is no room then. All sides of the box are one label,
+/// exterior(0).
 class CommonLabels {
 public:
+    /// Throws Error(kInput) where one table has labels of 2^63 and more, and the other negative ones.
     CommonLabels(const LabelTable& a, const LabelTable& b);
 
     /// The common label of a dense label of model 0 or 1.

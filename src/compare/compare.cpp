@@ -179,7 +179,7 @@ std::vector<double> distances_of_vertices(const ComparedModel& model, ModelSide&
 std::array<CheckReport, 2> measure(const std::array<const ComparedModel*, 2>& models, const CompareOptions& options) {
     std::array<CheckReport, 2> reports;
     parallel_for(2, options.threads, [&](std::uint32_t n) {
-        CheckOptions check_options{.crossing = false, .listed = 0};
+        CheckOptions check_options{.crossing = false, .threads = options.threads, .listed = 0};
         const LabelTable& labels = models[n]->labels();
         for (Label dense = 0; dense < labels.size(); ++dense)
             if (std::ranges::find(options.background, labels.input(dense)) != options.background.end())

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/input_file.h"
@@ -57,15 +58,22 @@ std::optional<std::uint32_t> colour_at(const Fields& fields, const Places& place
     return colour;
 }
 
-/// The first column called one of `words`, capitals and signs aside.
-std::optional<std::size_t> column_of(const Fields& header, std::initializer_list<std::string_view> words) {
+bool is_label(const std::string& field) { return formats::parse_table_label(field).has_value(); }
+
+/// The first column called one of `words`, capitals and signs aside, that `is_wanted`.
+template <class IsWanted>
+std::optional<std::size_t> column_of(const Fields& header, std::initializer_list<std::string_view> words,
+                                     IsWanted&& is_wanted) {
     for (const std::string_view word : words)
         for (std::size_t column = 0; column < header.size(); ++column) {
             std::string name = formats::lower(header[column]);
             std::erase_if(name, [](unsigned char c) { return !std::isalnum(c); });
-            if (name == word) return column;
+            if (name == word && is_wanted(column)) return column;
         }
     return {};
+}
+std::optional<std::size_t> column_of(const Fields& header, std::initializer_list<std::string_view> words) {
+    return column_of(header, words, [](std::size_t) { return true; });
 }
 
 /// Where a table with a header has labels and colours.
@@ -80,12 +88,18 @@ struct Columns {
     }
 };
 
-Columns columns_of(const Fields& header) {
-    Columns columns{.label = column_of(header, {"label", "labelvalue", "labelid", "index", "value", "id", "key",
-                                                "number", "roi", "no"})
-                                 .value_or(0),
-                    .hex = column_of(header, {"color", "colour", "hex", "rgb"}),
-                    .parts = {}};
+/// Labels are in a column where the first row has one: "label" may be the title of names. Of the titles of old, or else
+/// the first column.
+Columns columns_of(const Fields& header, const Fields& first_row) {
+    const auto has_label = [&](std::size_t column) { return column < first_row.size() && is_label(first_row[column]); };
+    const std::size_t first = std::ranges::find_if(first_row, is_label) - first_row.begin();
+    Columns columns{
+        .label =
+            column_of(header, {"label", "labelvalue", "labelid", "index", "value", "id", "key", "number", "roi", "no"},
+                      has_label)
+                .value_or(first),
+        .hex = column_of(header, {"color", "colour", "hex", "rgb"}),
+        .parts = {}};
     const auto red = column_of(header, {"r", "red", "colorr"}), green = column_of(header, {"g", "green", "colorg"}),
                blue = column_of(header, {"b", "blue", "colorb"});
     if (red && green && blue) columns.parts = Places{*red, *green, *blue};
@@ -127,8 +141,6 @@ std::optional<Fields> take_row(std::string_view& text) {
     return {};
 }
 
-bool is_label(const std::string& field) { return formats::parse_table_label(field).has_value(); }
-
 }  // namespace
 
 LabelColours read_label_colours(const std::filesystem::path& path) {
@@ -140,9 +152,10 @@ LabelColours read_label_colours(const std::filesystem::path& path) {
     if (!row) return {};
     Columns columns;
     if (std::ranges::none_of(*row, is_label)) {  // a header
-        columns = columns_of(*row);
-        if (row->size() > kMostFields || (!columns.hex && !columns.parts)) return {};
-        row = take_row(rest);
+        const Fields header = *std::exchange(row, take_row(rest));
+        if (!row || header.size() > kMostFields) return {};
+        columns = columns_of(header, *row);
+        if (!columns.hex && !columns.parts) return {};
     }
     const bool is_by_place = !columns.hex && !columns.parts;
     LabelColours colours;

@@ -30,7 +30,7 @@ constexpr SetBits make_set_bits() {
 inline constexpr SetBits kSetBits = make_set_bits();
 
 /// A tree of degree 8 over the places 0 .. count - 1 of a list of boxes; fast if their order is spatial. Boxes are
-/// rounded outward to 1/65535 of the whole extent, 2 bytes per coordinate: 14 bytes per place in total.
+/// rounded outward to 1/65500 of the whole extent, 2 bytes per coordinate: 14 bytes per place in total.
 class GridTree {
 public:
     static constexpr std::uint32_t kFan = 8;

@@ -5,17 +5,19 @@
 #include <optional>
 #include <vector>
 
+#include "base/triangle.h"
 #include "regionmesh/mesh.h"
 
 namespace regionmesh {
 
 /// Adds the volume of the cone from `apex` over a face to its first label, and subtracts it from the second: over a
 /// closed boundary the sum is the volume. The apex is a corner of the first face that is added: far from the surface
-/// large cones would cancel. `volumes` is by dense label and grows as needed; exteriors have no entry.
+/// large cones would cancel. Of a face far from it the area vector is exact, as it is from corner to corner. `volumes`
+/// is by dense label and grows as needed; exteriors have no entry.
 inline void add_cone(std::vector<double>& volumes, std::optional<Vec3>& apex, const std::array<Label, 2>& labels,
                      Vec3 a, Vec3 b, Vec3 c) {
     if (!apex) apex = a;
-    const double cone = dot(a - *apex, cross(b - *apex, c - *apex)) / 6;
+    const double cone = dot(a - *apex, area_vector(a, b, c)) / 6;
     for (int side = 0; side < 2; ++side) {
         if (is_exterior(labels[side])) continue;
         if (labels[side] >= volumes.size()) volumes.resize(labels[side] + 1);

@@ -125,10 +125,11 @@ InputLabel RoomReader::cleaned(std::int32_t i, std::int32_t j, Weights& weights)
             known->second += offset.weight;
     }
     const InputLabel own = weights.front().first;
+    const InputLabelOrder is_before{info_.type == SampleType::kU64};
     auto best = weights.front();
     for (const auto& other : weights)
         if (other.second > best.second ||
-            (other.second == best.second && best.first != own && other.first < best.first))
+            (other.second == best.second && best.first != own && is_before(other.first, best.first)))
             best = other;
     return best.first;
 }

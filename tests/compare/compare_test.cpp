@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "regionmesh/error.h"
 #include "regionmesh/write_report.h"
 #include "support/labels.h"
 #include "support/runs.h"
@@ -236,6 +238,20 @@ TEST(Compare, labels_match_as_the_input_has_them) {
     EXPECT_NEAR(report.regions[0].measures[1]->volume, 0.75, 1e-12);
     ASSERT_EQ(report.interfaces.size(), 3u);
     expect_all(report.interfaces[0].distance, 0.25);
+}
+
+TEST(Compare, labels_of_2_to_the_63_and_more_are_not_negative_ones) {
+    const Mesh mesh = stack(1);
+    const LabelTable large = test::labels_from({std::numeric_limits<InputLabel>::min(), 5}, true),
+                     small = test::labels_from({5, 7}), byte = test::labels_from({5, 7}, true),
+                     negative = test::labels_from({std::numeric_limits<InputLabel>::min(), 5});
+    for (const LabelTable* other : {&small, &byte}) {
+        const CompareReport report = compare({mesh, large}, {mesh, *other}, kFew);
+        EXPECT_EQ(report.labels.size(), 3u);
+        EXPECT_EQ(report.labels.text(report.labels.input(2)), "9223372036854775808");
+    }
+    EXPECT_EQ(compare({mesh, negative}, {mesh, byte}, kFew).labels.size(), 3u);
+    EXPECT_THROW(compare({mesh, large}, {mesh, negative}, kFew), Error);
 }
 
 TEST(Compare, background_is_no_region_and_its_faces_with_the_exterior_count_nowhere) {

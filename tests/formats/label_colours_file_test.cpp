@@ -49,6 +49,8 @@ TEST_F(LabelColoursFile, of_columns_under_any_of_their_names) {
         << "3D Slicer";
     EXPECT_THAT(colours_of("blue;red;id;green\n3;1;7;2\n"), ElementsAre(Pair(7, 0x010203u))) << "in any order";
     EXPECT_THAT(colours_of("1\tname\n2\tother\n"), IsEmpty());
+    for (const std::string header : {"label,value,color", "structure,num,color"})
+        EXPECT_THAT(colours_of(header + "\nliver,3,#ff0000\n"), ElementsAre(Pair(3, 0xFF0000u))) << header;
 }
 
 TEST_F(LabelColoursFile, rows_that_are_damaged_have_none) {

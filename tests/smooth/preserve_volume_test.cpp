@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string_view>
 
 #include "mesh/alive.h"
@@ -38,6 +39,20 @@ TEST(RegionVolumes, are_as_exact_far_from_the_origin) {
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].position += Vec3{0x1p23, -0x1p24, 0x1p22};
     const std::vector<double> far = region_volumes(mesh);
     for (std::size_t label = 0; label < near.size(); ++label) EXPECT_NEAR(far[label] / near[label], 1, 1e-10);
+}
+
+/// Of a region, too, that lies far from the others.
+TEST(RegionVolumes, are_as_exact_far_from_the_first_face) {
+    Mesh mesh = test::run(test::ball_volume({9, 9, 9}, 3)).mesh;
+    const double near = region_volumes(mesh)[1];
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].position += Vec3{20001, -30003, 10007};
+    std::vector<double> volumes;
+    std::optional<Vec3> apex = Vec3{0, 0, 0};
+    for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
+        const auto p = mesh.corners(FaceId{f});
+        add_cone(volumes, apex, mesh[FaceId{f}].labels, p[0], p[1], p[2]);
+    }
+    EXPECT_NEAR(volumes[1] / near, 1, 1e-9);
 }
 
 TEST(PreserveVolume, gives_a_shrunk_ball_its_volume_back) {

@@ -398,6 +398,37 @@ async function one_is_singular_and_long_labels_are_in_order(browser) {
     await long.close();
 }
 
+/** The interface of two backgrounds is in the model, but in no region that is drawn. */
+async function places_that_only_backgrounds_have_are_not_gone_to(browser) {
+    for (const [name, border] of [["near", 3], ["far", 6]]) {
+        const sample = (x, y, z) => ([x, y, z].every((place) => place > 0 && place < 3) ? 1 : x < border ? 0 : 5);
+        writeFileSync(`${folder}/${name}.raw`, Uint8Array.from({ length: 10 ** 3 }, (_, n) => sample(n % 10, Math.floor(n / 10) % 10, Math.floor(n / 100))));
+        run("reconstruct", `${folder}/${name}.raw`, "--size", "10,10,10", "--type", "uint8", "-o", `${folder}/${name}.vtp`, "--background", "0,5", "--quiet");
+    }
+    run("compare", `${folder}/near.vtp`, `${folder}/far.vtp`, "--background", "0,5", "--html", `${folder}/backgrounds.html`);
+    const errors = [], page = await open(browser, `${folder}/backgrounds.html`, errors);
+    await page.select("#colour-by", "distance");
+    await page.click("#go-farthest");
+    assert.ok(await page.evaluate("regionmesh.stage.camera.position.toArray().every(Number.isFinite)"));
+    assert.ok((await picture(page)).drawn > 0, "a region is shown");
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
+async function another_height_keeps_the_side_of_the_section(browser) {
+    const errors = [], page = await open(browser, `${folder}/poly.html`, errors);
+    await page.select("#section-axis", "z");
+    const before = await page.$eval("#section-turn", (e) => e.checked);
+    await page.click("#section-turn");
+    await page.$eval("#stretch", (e) => {
+        e.value = 2;
+        e.dispatchEvent(new Event("change"));
+    });
+    assert.equal(await page.$eval("#section-turn", (e) => e.checked), !before);
+    assert.deepEqual(errors, []);
+    await page.close();
+}
+
 const browser = await launch(repository);
 try {
     run("reconstruct", `${repository}/tests/data/solvers/polycrystal.nii.gz`, "-o", `${folder}/poly.vtp`, "--reduce", "80%", "--quiet");
@@ -408,7 +439,8 @@ try {
         a_click_hits_the_region_that_the_picture_shows, a_click_goes_through_transparent_regions,
         an_incomplete_page_says_so, claims_are_those_that_were_tested,
         the_share_of_faces_below_the_bound_is_not_understated, the_model_stays_in_the_picture_when_the_window_changes,
-        one_is_singular_and_long_labels_are_in_order]) {
+        one_is_singular_and_long_labels_are_in_order, places_that_only_backgrounds_have_are_not_gone_to,
+        another_height_keeps_the_side_of_the_section]) {
         await test(browser);
         console.log(`ok ${test.name}`);
     }

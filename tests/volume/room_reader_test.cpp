@@ -51,6 +51,15 @@ TEST(RoomReader, measures_lengths_in_the_finest_spacing) {
     EXPECT_EQ(cleaned(volume, 1)[4 * 81 + 4 * 9 + 4], 1);
 }
 
+/// A sheet of one sample between two regions of equal weight goes to the smaller label; -1 has the bits of the largest.
+TEST(RoomReader, gives_ties_to_the_smaller_label) {
+    std::vector<InputLabel> labels;
+    for (const InputLabel label : {-1, -1, 5, 2, 2}) labels.insert(labels.end(), 49, label);
+    test::ArrayVolume volume({7, 7, 5}, labels);
+    EXPECT_EQ(cleaned(volume, 2)[2 * 49 + 3 * 7 + 3], -1);
+    EXPECT_EQ(cleaned(volume.unsigned_labels(), 2)[2 * 49 + 3 * 7 + 3], 2);
+}
+
 TEST(RoomReader, does_not_depend_on_threads_or_on_rewinding) {
     test::ArrayVolume volume = test::noise_volume({12, 11, 10}, 4, 3);
     const std::vector<InputLabel> once = cleaned(volume, 2);

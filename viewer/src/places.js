@@ -1,11 +1,11 @@
 // What lies at a place of a model.
 
-/** The number of the vertex nearest to a place, which is relative to the centre of the box. */
-export function nearestVertex({ positions }, place) {
+/** The number of the vertex of a region nearest to a place, which is relative to the centre of the box. */
+export function nearestVertex({ positions, surface }, place) {
     let best = 0, least = Infinity;
-    for (let at = 0; at < positions.length; at += 3) {
-        const distance = (positions[at] - place[0]) ** 2 + (positions[at + 1] - place[1]) ** 2 + (positions[at + 2] - place[2]) ** 2;
-        if (distance < least) [best, least] = [at / 3, distance];
+    for (const vertex of surface.source) {
+        const distance = place.reduce((sum, x, axis) => sum + (positions[3 * vertex + axis] - x) ** 2, 0);
+        if (distance < least) [best, least] = [vertex, distance];
     }
     return best;
 }
@@ -23,7 +23,7 @@ export function outsideAt({ surface }, vertex) {
     return { label: surface.labels[2 * n], normal: normal.some((x) => x !== 0) ? normal : null };
 }
 
-/** The vertex with the largest distance to the other model. */
-export function farthestVertex({ distances }) {
-    return distances.reduce((best, distance, vertex) => (distance > distances[best] ? vertex : best), 0);
+/** The vertex of a region with the largest distance to the other model. */
+export function farthestVertex({ distances, surface }) {
+    return surface.source.reduce((best, vertex) => (distances[vertex] > distances[best] ? vertex : best), surface.source[0]);
 }

@@ -89,6 +89,7 @@ export class Stage extends EventTarget {
     }
 
     setCoarse(isCoarse) {
+        clearTimeout(this.resting);
         this.isCoarse = isCoarse;
         const most = Math.max(5000, (this.faceCount * kSlow) / this.frameTime / 2);
         for (const drawn of this.drawn) drawn.useLevel(isCoarse ? "coarse" : "fine", most);

@@ -96,7 +96,11 @@ export class Tools {
             if (axis !== "none") byId("section-turn").checked = this.stage.looksFromBelow(axis);
             update();
         };
-        this.updateSection = () => chooseAxis(byId("section-axis").value);
+        this.updateSection = update;
+        this.setSection = (axis) => {
+            byId("section-axis").value = axis;
+            chooseAxis(axis);
+        };
         return group("Section",
             choice("section-axis", "Across ", [["none", "no axis"], ["x", "x"], ["y", "y"], ["z", "z"]], chooseAxis),
             slider("section-share", "Place ", 0.5, () => {
@@ -104,11 +108,6 @@ export class Tools {
                 else update();
             }),
             toggle("section-turn", "Keep the other side", update), place);
-    }
-
-    setSection(axis) {
-        byId("section-axis").value = axis;
-        this.updateSection();
     }
 
     shapeGroup() {

@@ -193,11 +193,11 @@ bool is_there(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-/// Of version 3; a draft of it had another `zarr.json`.
+/// Of version 3; a draft of it had another `zarr.json`. Other programs have files of this name, too.
 std::optional<Json> read_version_3(const fs::path& folder) {
     const fs::path metadata = folder / "zarr.json";
     auto json = read_json(metadata);
-    if (!json) return std::nullopt;
+    if (!json || !json->is_object() || !json->contains("zarr_format")) return std::nullopt;
     return reading(metadata, [&] {
         if (json->at("zarr_format") != 3)
             fail(metadata, "Zarr version " + json->at("zarr_format").dump() + "; 2 and 3 are read");

@@ -64,24 +64,29 @@ std::uint64_t imagej_count(const std::string& description, std::string_view key)
     return imagej_value<std::uint64_t>(description, key, 1);
 }
 
+/// The word behind unit=. ImageJ writes the micro sign as an escape.
+std::optional<std::string_view> imagej_unit(std::string_view description) {
+    constexpr std::string_view kStart = "\nunit=";
+    const std::size_t at = description.find(kStart);
+    if (at == std::string_view::npos) return {};
+    const std::size_t begin = at + kStart.size();
+    return trim(description.substr(begin, description.find('\n', begin) - begin));
+}
+
 /// The resolution tags have pixels per unit along x and y, the description has the distance of sections. Without a unit
 /// the resolution is that of a screen, and not used.
 Vec3 imagej_spacing(const std::string& description, const TiffFile& file) {
-    const std::size_t unit = description.find("\nunit=");
-    if (unit == std::string::npos || description.compare(unit, 12, "\nunit=pixel") == 0) return {1, 1, 1};
+    const auto unit = imagej_unit(description);
+    if (!unit || *unit == "pixel" || *unit == "pixels") return {1, 1, 1};
     const auto [x, y] = file.resolution();
     const double z = std::abs(imagej_value<double>(description, "spacing", 1));
     const auto or_one = [](double length) { return std::isfinite(length) && length > 0 ? length : 1; };
     return {or_one(1 / x), or_one(1 / y), or_one(z)};
 }
 
-/// The word behind unit=, where the resolution is used. ImageJ writes the micro sign as an escape.
 std::optional<double> imagej_metres(const std::string& description) {
-    constexpr std::string_view kStart = "\nunit=";
-    const std::size_t at = description.find(kStart);
-    if (at == std::string::npos) return {};
-    const std::size_t begin = at + kStart.size();
-    return metres_in(trim(std::string_view(description).substr(begin, description.find('\n', begin) - begin)));
+    const auto unit = imagej_unit(description);
+    return unit ? metres_in(*unit) : std::nullopt;
 }
 
 void check_channels(const std::filesystem::path& path, const std::string& description) {

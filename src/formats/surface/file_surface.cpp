@@ -49,19 +49,22 @@ std::optional<Vec3> take_vector(std::string_view text) {
 
 }  // namespace
 
+void read_space(FileSurface& surface, std::string_view text) {
+    if (text.find("SPACE=RAS") != std::string_view::npos) surface.coordinates.space = Space::kRas;
+    if (text.find("SPACE=LPS") != std::string_view::npos) surface.coordinates.space = Space::kLps;
+}
+
 void read_comment(FileSurface& surface, std::string_view comment) {
-    Coordinates& coordinates = surface.coordinates;
-    if (comment.find("SPACE=RAS") != std::string_view::npos) coordinates.space = Space::kRas;
-    if (comment.find("SPACE=LPS") != std::string_view::npos) coordinates.space = Space::kLps;
+    read_space(surface, comment);
     const std::string_view word = formats::take_word(comment);
     if (word == "metres_per_unit") set_metres(surface, formats::parse_finite(formats::take_word(comment)).value_or(0));
     if (word == "sample_spacing") set_spacing(surface, take_vector(comment).value_or(Vec3{}));
     const auto label = formats::parse_label(formats::take_word(comment));
     if (!label) return;
     const std::string name = formats::one_line(comment);
-    if (word == "exterior_label") surface.exterior_label = *label;
-    if (word == "no_background") surface.background.emplace();
-    if (word == "background") {
+    if (name.empty() && word == "exterior_label") surface.exterior_label = *label;
+    if (name.empty() && word == "no_background") surface.background.emplace();
+    if (name.empty() && word == "background") {
         if (!surface.background) surface.background.emplace();
         surface.background->push_back(*label);
     }

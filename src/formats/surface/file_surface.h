@@ -48,8 +48,11 @@ void add_polygon(FileSurface& surface, std::span<const std::uint32_t> corners, c
 /// Takes three coordinates off the front of a line of text. Throws Error(kInput) that names the line.
 Vec3 take_point(const formats::ByteReader& file, std::string_view& line);
 
+/// Takes "SPACE=RAS", as 3D Slicer writes it, out of a text; ignores others.
+void read_space(FileSurface& surface, std::string_view text);
+
 /// Evaluates a comment of our own files, "exterior_label -1", "background 2" or "region 3 liver", "colour 3 #ff8000",
-/// "metres_per_unit 0.001" or "sample_spacing 1 1 4", and "SPACE=RAS" as 3D Slicer writes it; ignores others.
+/// "metres_per_unit 0.001" or "sample_spacing 1 1 4", and that of read_space(); ignores others.
 void read_comment(FileSurface& surface, std::string_view comment);
 
 /// Comments of our files that say what is known of the coordinates, one a line, as read_comment() takes them.

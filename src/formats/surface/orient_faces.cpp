@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -135,9 +136,18 @@ public:
         for (const Part& part : parts_) extent.join(part.box);
         boxes_.build(static_cast<std::uint32_t>(parts_.size()), extent, 1,
                      [&](std::uint32_t n) { return parts_[n].box; });
+        // Parts round others come first.
+        std::vector<std::uint32_t> order(parts_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::ranges::stable_sort(order, std::greater{}, [&](std::uint32_t n) { return size_of(parts_[n]); });
+        turns_.resize(parts_.size());
+        for (const std::uint32_t n : order) turns_[n] = decide(parts_[n]);
     }
 
-    bool turns(const Part& part) const {
+    const std::vector<bool>& turns() const { return turns_; }
+
+private:
+    bool decide(const Part& part) const {
         const bool may_be_inside = part.volumes.size() == 2 && !part.volumes.contains(exterior_);
         const Part* const outer = may_be_inside ? part_round(part) : nullptr;
         if (!outer) return must_turn(part, exterior_);
@@ -147,10 +157,9 @@ public:
         const bool has_first = outer->volumes.contains(first->first),
                    has_second = outer->volumes.contains(second->first);
         if (has_first != has_second && part.open.empty()) return (has_first ? first : second)->second > 0;
-        return part.turned == 0 && outer->turned == 0 ? turns(*outer) : must_turn(part, exterior_);
+        return part.turned == 0 && outer->turned == 0 ? turns_[outer - parts_.data()] : must_turn(part, exterior_);
     }
 
-private:
     /// The smallest box round that of the part, of those that have one of its labels.
     const Part* part_round(const Part& part) const {
         const Part* found = nullptr;
@@ -181,6 +190,7 @@ private:
     const std::vector<Part>& parts_;
     InputLabel exterior_;
     GridTree boxes_;
+    std::vector<bool> turns_;  // by part
 };
 
 }  // namespace
@@ -210,8 +220,7 @@ void orient_faces(FileSurface& surface) {
     }
     for (const auto& [face, label] : ends) parts[part_of[face]].open.insert(label);
     const Orientation orientation(parts, surface.exterior_label);
-    std::vector<bool> turns;
-    for (const Part& part : parts) turns.push_back(orientation.turns(part));
+    const std::vector<bool>& turns = orientation.turns();
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f)
         if (is_turned[f] != turns[part_of[f]]) std::swap(surface.faces[f][1], surface.faces[f][2]);
 }

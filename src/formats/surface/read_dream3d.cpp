@@ -101,6 +101,8 @@ public:
             numbers.resize(count * kColumns);
             const auto type =
                 table.sample_type ? formats::number_type(*table.sample_type) : formats::NumberType::kFloat64;
+            if (bytes.size() != numbers.size() * bytes_of(type))
+                formats::fail(path_, table.path + ": changed while it was read; start again");
             formats::load_all(bytes.data(), bytes_of(type), type, false, std::span(numbers));
             for (std::size_t n = 0; n < numbers.size(); n += kColumns)
                 visit(std::span<const T, kColumns>(&numbers[n], kColumns));

@@ -126,20 +126,27 @@ void PlyReader::read_points(const PlyElement& element, PlyNumbers& numbers) {
 
 /// The properties with labels: the first pair that the faces have, or else the first single name.
 PlyReader::LabelPlaces PlyReader::find_labels(const PlyElement& element) {
+    const auto find = [&](std::string_view name) {
+        const auto place = element.find(name);
+        if (place && element.properties[*place].count_type)
+            file_.fail(
+                fmt::format("has lists in '{}', which names the labels of faces; write one number a face", name));
+        return place;
+    };
     for (const auto& pair : kPairs) {
         LabelPlaces places;
         for (int side = 0; side < 2; ++side) {
-            places.low[side] = element.find(pair[side]);
+            places.low[side] = find(pair[side]);
             if (places.low[side]) continue;
-            places.low[side] = element.find(std::string(pair[side]) + "_low");
-            places.high[side] = element.find(std::string(pair[side]) + "_high");
+            places.low[side] = find(std::string(pair[side]) + "_low");
+            places.high[side] = find(std::string(pair[side]) + "_high");
             if (!places.high[side]) places.low[side].reset();
         }
         if (places.low[0] && places.low[1]) return places;
     }
     LabelPlaces places;
     for (const std::string_view name : kSingles)
-        if (!places.low[0]) places.low[0] = element.find(name);
+        if (!places.low[0]) places.low[0] = find(name);
     surface_.is_by_region = true;
     return places;
 }

@@ -31,7 +31,7 @@ void add_face(FileSurface& surface, const std::array<Vec3, 3>& points, std::uint
 
 void read_binary(formats::ByteReader& file, std::uint32_t count, RegionGroups& groups, FileSurface& surface) {
     const auto head = file.take(kHeadBytes);
-    read_comment(surface, std::string_view(reinterpret_cast<const char*>(head.data()), head.size()));
+    read_space(surface, std::string_view(reinterpret_cast<const char*>(head.data()), head.size()));
     file.take(4);
     const std::uint32_t group = groups.add({}, true);
     for (std::uint32_t f = 0; f < count; ++f) {
@@ -57,7 +57,7 @@ void read_text(formats::ByteReader& file, RegionGroups& groups, FileSurface& sur
         file.require_line_ends(rest);
         const std::string word = formats::lower(formats::take_word(rest));
         if (word == "solid") {
-            read_comment(surface, rest);
+            read_space(surface, rest);
             rest = rest.substr(0, rest.find(" SPACE="));
             group = groups.add(formats::one_line(rest), true);
             is_open = true;

@@ -105,7 +105,8 @@ void VtkSurfaceReader::read_background(pugi::xml_node fields) {
 void VtkSurfaceReader::read_space(pugi::xml_node fields) {
     const pugi::xml_node array = fields.find_child_by_attribute("Array", "Name", "SPACE");
     if (!array || std::string_view(array.attribute("type").value()) != "String") return;
-    if (const auto texts = read_strings(xml_, array); texts.size() == 1) read_comment(surface_, "SPACE=" + texts[0]);
+    if (const auto texts = read_strings(xml_, array); texts.size() == 1)
+        regionmesh::read_space(surface_, "SPACE=" + texts[0]);
 }
 
 void VtkSurfaceReader::read_lengths() {

@@ -153,6 +153,13 @@ TEST_F(ReadZarrTest, names_of_axes_may_be_capital_and_one_may_be_missing) {
     EXPECT_THAT(refusal({changed(store, file, "\"z\"", "\"lat\"")}), HasSubstr("axis 'lat' has"));
 }
 
+TEST_F(ReadZarrTest, files_of_other_programs_above_an_array_are_left_alone) {
+    const std::string store = "zarr3/names_dot_uint16.zarr";
+    fs::copy(data("chunked/" + store), path("v.zarr"), fs::copy_options::recursive);
+    put_text(path("zarr.json"), "{\"a\": 1}");
+    EXPECT_EQ(read_volume({path("v.zarr")}).labels, read_volume({data("chunked/" + store)}).labels);
+}
+
 TEST_F(ReadZarrTest, labels_of_an_image_bring_names) {
     for (const char* version : {"04", "05"}) {
         for (const char* level : {"", "/0"}) {

@@ -49,6 +49,18 @@ TEST_F(ReadTiffTest, imagej_stack_in_one_page_has_all_its_sections_and_its_spaci
     EXPECT_THAT(refusal({data("tiff/imagej_uint16.tif")}, swept(SweepChoice::kX)), HasSubstr("only along z"));
 }
 
+TEST_F(ReadTiffTest, imagej_stack_measured_in_pixels_has_no_spacing) {
+    const std::string text = text_of(data("tiff/imagej_uint16.tif")), old = "mode=grayscale\nspacing=3.5\nunit=um\n";
+    for (const std::string other :
+         {"m=gray\nspacing=3.5\nunit=pixel\nab=c\n", "m=gray\nspacing=3.5\nunit=pixels\na=c\n"}) {
+        ASSERT_EQ(other.size(), old.size());
+        put_text(path("pixels.tif"), std::string(text).replace(text.find(old), old.size(), other));
+        const VolumeInfo info = read_volume({path("pixels.tif")}).info;
+        EXPECT_EQ(info.lattice.spacing, (Vec3{1, 1, 1}));
+        EXPECT_EQ(info.metres, std::nullopt);
+    }
+}
+
 TEST_F(ReadTiffTest, imagej_stack_cut_short_or_of_several_channels_is_refused) {
     const std::string whole = text_of(data("tiff/imagej_uint16.tif"));
     put_text(path("cut.tif"), whole.substr(0, whole.size() - 45));

@@ -75,6 +75,36 @@ TEST(OrientFaces, a_cavity_is_turned_as_the_surface_round_it) {
     EXPECT_EQ(oriented(sound, [] { return true; }), sound.faces);
 }
 
+/// Cubes of 1 and 2 in each other: each is as right as the one round it.
+TEST(OrientFaces, many_parts_round_each_other_are_decided_one_after_the_other) {
+    constexpr std::uint32_t kCubes = 2000;
+    constexpr std::array<std::array<std::uint32_t, 3>, 12> kOutward{{{0, 2, 1},
+                                                                     {1, 2, 3},
+                                                                     {4, 5, 6},
+                                                                     {5, 7, 6},
+                                                                     {0, 1, 4},
+                                                                     {1, 5, 4},
+                                                                     {2, 6, 3},
+                                                                     {3, 6, 7},
+                                                                     {0, 4, 2},
+                                                                     {2, 4, 6},
+                                                                     {1, 3, 5},
+                                                                     {3, 7, 5}}};
+    FileSurface sound;
+    for (std::uint32_t n = 0; n < kCubes; ++n) {
+        const double half = 1 + n;
+        for (int corner = 0; corner < 8; ++corner)
+            sound.points.push_back({corner & 1 ? half : -half, corner & 2 ? half : -half, corner & 4 ? half : -half});
+        for (const auto& face : kOutward) {
+            sound.faces.push_back({8 * n + face[0], 8 * n + face[1], 8 * n + face[2]});
+            const InputLabel outside = n + 1 == kCubes ? sound.exterior_label : 1 + (n + 1) % 2;
+            sound.labels.push_back({1 + n % 2, outside});
+        }
+    }
+    EXPECT_EQ(oriented(sound, [] { return false; }), sound.faces);
+    EXPECT_EQ(oriented(sound, [] { return true; }), sound.faces);
+}
+
 /// A cube of 2 in the mouth of a U of 1: neither is inside the other one, though its box is.
 TEST(OrientFaces, an_island_in_a_bay_is_no_cavity) {
     const FileSurface sound =

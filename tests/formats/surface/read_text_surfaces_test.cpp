@@ -91,6 +91,16 @@ TEST_F(TextSurfaces, each_solid_is_a_region_and_common_faces_become_one) {
     EXPECT_EQ(report.region_pairs, 1u);
 }
 
+TEST_F(TextSurfaces, names_of_solids_are_no_comments_of_ours) {
+    const MeshFile file =
+        read("m.stl", solid("region 2 b", tetrahedron({}, 1)) + solid("background 1", tetrahedron({5, 0, 0}, 1)) +
+                          solid("c SPACE=RAS", tetrahedron({9, 0, 0}, 1)));
+    EXPECT_EQ(file.names, (LabelNames{{1, "region 2 b"}, {2, "background 1"}, {3, "c"}}));
+    EXPECT_NEAR(volume_of(file, 1), 1.0 / 6, 1e-6);
+    EXPECT_FALSE(file.background && !file.background->empty());
+    EXPECT_EQ(file.coordinates.space, Space::kRas);
+}
+
 TEST_F(TextSurfaces, solids_of_one_name_are_two_regions_and_without_one_too) {
     const auto low = tetrahedron({}, 1), high = tetrahedron({5, 0, 0}, 1);
     EXPECT_EQ(read("m.stl", solid("part", low) + solid("part", high)).labels.size(), 2u);
@@ -158,6 +168,13 @@ TEST_F(TextSurfaces, obj_groups_are_interfaces_or_regions) {
         EXPECT_NEAR(volume_of(regions, 2), 1.0 / 6, 1e-12);
         EXPECT_EQ(regions.names.at(1), "right");
     }
+}
+
+TEST_F(TextSurfaces, comments_of_other_programs_name_no_background) {
+    const std::string rest = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng tooth\nf 1 4 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+    const MeshFile foreign = read("m.obj", "# background 1 green, exported by another program\n" + rest);
+    EXPECT_FALSE(foreign.background && !foreign.background->empty());
+    EXPECT_EQ(read("m.obj", "# background 1\n" + rest).background, std::vector<InputLabel>{1});
 }
 
 TEST_F(TextSurfaces, obj_errors_name_the_line) {
@@ -266,6 +283,8 @@ TEST_F(TextSurfaces, ply_labels_have_many_names) {
     EXPECT_THAT(labels(list, "3 0 1 2").labels, ElementsAre(LabelPair{1, -1}));
     EXPECT_THAT(failure_of("m.ply", text(list + "property float label\r\n", "3 0 1 2 0.5")),
                 HasSubstr("face 0 has a label that is no integer"));
+    EXPECT_THAT(failure_of("m.ply", text(list + "property list uchar int label\r\n", "3 0 1 2 1 7")),
+                HasSubstr("has lists in 'label'"));
     EXPECT_THAT(failure_of("m.ply", text(list, "3 0 1 4")), HasSubstr("face 0 names vertex 4 of 4"));
     EXPECT_THAT(failure_of("m.ply", text(list, "3 0 one 2")),
                 HasSubstr("line 18: 'one' stands where a number belongs"));
