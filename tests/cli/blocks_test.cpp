@@ -260,8 +260,28 @@ TEST_F(BlockProgram, options_of_whole_models_are_refused_for_pieces) {
                                      "--background 3", "--no-background", "--orient", "--space ras"})
         refused("m.pvtp " + option, option.substr(0, option.find(' ')) + ": is not for ");
     refused("m.vtp --weld 0.1", "--weld: the pieces of ");
+    for (const std::string command : {"check ", "voxelise "})
+        for (const std::string option : {" --weld 0", " --orient"}) {
+            const std::string rest = command == "check " ? ""
+                                                         : " --like " + path("grains.raw").string() +
+                                                               " --size 40,40,40 --type uint8 -o " + out("v.npy");
+            const Ran ran = run(command + out("model") + rest + option);
+            EXPECT_EQ(ran.code, 2) << command << option;
+            EXPECT_THAT(ran.error, testing::HasSubstr(": the pieces of "));
+        }
+    EXPECT_EQ(files_left(), 1) << "the folder alone";
     ASSERT_EQ(run("convert " + out("model") + ' ' + out("'a&b.pvtp'")).code, 0);
     EXPECT_THAT(text_of(out("a&b.pvtp")), testing::HasSubstr("<Piece Source=\"a&amp;b-"));
+}
+
+TEST_F(BlockProgram, commands_that_write_no_folder_for_neuroglancer_leave_none) {
+    grains("");  // writes grains.raw
+    const std::string model = out("m.vtp"), volume = path("grains.raw").string() + " --size 40,40,40 --type uint8";
+    ASSERT_EQ(run("reconstruct " + volume + " --reduce 90% -o " + model).code, 0);
+    for (const std::string command : {"decimate", "smooth", "view"}) {
+        EXPECT_NE(run(command + ' ' + model + " -o " + out("m.precomputed")).code, 0) << command;
+        EXPECT_FALSE(fs::exists(out("m.precomputed"))) << command;
+    }
 }
 
 TEST_F(BlockProgram, a_folder_for_neuroglancer_is_scaled_by_the_unit_that_the_input_says) {
@@ -625,6 +645,14 @@ TEST_F(MpiProgram, gives_the_same_bytes_for_1_2_and_4_ranks_as_without_mpi) {
         EXPECT_THAT(ran.out, testing::HasSubstr("in 64 pieces of up to 14 cells"));
         EXPECT_EQ(files_in(folder), files_in("alone"));
     }
+}
+
+TEST_F(MpiProgram, one_rank_prints_and_writes_the_log) {
+    const Ran ran = run_ranks(2, grains("ranks") + " --verbose --log " + out("log.txt"));
+    ASSERT_EQ(ran.code, 0) << ran.error;
+    const std::string log = text_of(out("log.txt")), first = "regionmesh reconstruct ";
+    EXPECT_NE(log.find(first), std::string::npos) << log;
+    EXPECT_EQ(log.find(first), log.rfind(first)) << log;
 }
 
 TEST_F(MpiProgram, a_run_goes_on_with_ranks_where_one_process_was_killed) {
