@@ -12,8 +12,8 @@ namespace regionmesh {
 
 /// Adds the volume of the cone from `apex` over a face to its first label, and subtracts it from the second: over a
 /// closed boundary the sum is the volume. The apex is a corner of the first face that is added: far from the surface
-/// large cones would cancel. Of a face far from it the area vector is exact, as it is from corner to corner. `volumes`
-/// is by dense label and grows as needed; exteriors have no entry.
+/// large cones would cancel, and so would area vectors that were not taken from corner to corner. `volumes` is by dense
+/// label and grows as needed; exteriors have no entry.
 inline void add_cone(std::vector<double>& volumes, std::optional<Vec3>& apex, const std::array<Label, 2>& labels,
                      Vec3 a, Vec3 b, Vec3 c) {
     if (!apex) apex = a;
