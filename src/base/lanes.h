@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -79,30 +78,6 @@ inline Float4 square_root(Float4 x) {
 }
 
 inline double square_root(double x) { return std::sqrt(x); }
-
-/// The first guess at a cube root, right to 5 bits: a third of the exponent.
-inline double near_cube_root(double x) {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) / 3 + (std::uint64_t{715094163} << 32);
-    return std::bit_cast<double>(bits);
-}
-/// Halley's method: each round triples the bits.
-template <class T>
-T better_cube_root(T root, T x) {
-    for (int round = 0; round < 3; ++round) {
-        const T cube = root * root * root;
-        root += root * ((x - cube) / (cube + cube + x));
-    }
-    return root;
-}
-/// Within one unit in the last place; several times as fast as std::cbrt in both lanes.
-inline double cube_root(double x) {
-    const bool is_usual = x > 1e-290 && x < 1e290;  // no product of three overflows or loses bits
-    return is_usual ? better_cube_root(near_cube_root(x), x) : std::cbrt(x);
-}
-inline Double2 cube_root(Double2 x) {
-    if (bits_of((x > 1e-290) & (x < 1e290)) != 3) return Double2{cube_root(x[0]), cube_root(x[1])};
-    return better_cube_root(Double2{near_cube_root(x[0]), near_cube_root(x[1])}, x);
-}
 
 /// Lane by lane a < b ? a : b, and a < b ? b : a.
 inline double least(double a, double b) { return a < b ? a : b; }

@@ -21,7 +21,7 @@ struct QualityTerms {
     bool is_at_least(double bound) const { return area * area * area >= bound * bound * bound * product * product; }
     /// 0 where the square of the product is too small for a number, too.
     double cube() const { return product * product > 0 ? area * area * area / (product * product) : 0.0; }
-    double value() const { return product * product > 0 ? area / cube_root(product * product) : 0.0; }
+    double value() const { return product * product > 0 ? area / std::cbrt(product * product) : 0.0; }
 };
 
 /// QualityTerms::product of one triangle or of several, one per lane, from area and squared edge lengths.

@@ -44,12 +44,6 @@ private:
 
 const AngleBins kAngleBins;
 
-/// QualityTerms::value() of each lane.
-Double2 quality_of(Double2 area, Double2 product) {
-    const Double2 product2 = product * product;
-    return product2 > 0 ? area / cube_root(product2) : Double2{};
-}
-
 }  // namespace
 
 TwoFaces::TwoFaces(const std::array<Lanes3<Double2>, 3>& corners) {
@@ -58,7 +52,7 @@ TwoFaces::TwoFaces(const std::array<Lanes3<Double2>, 3>& corners) {
     for (int n = 0; n < 3; ++n) lengths2[n] = dot(edges[n], edges[n]);
     normal = cross(edges[0], corners[2] - corners[0]);
     twice_area = square_root(dot(normal, normal));
-    quality = quality_of(0.5 * twice_area, quality_product(0.5 * twice_area, lengths2[0], lengths2[1], lengths2[2]));
+    quality_product = regionmesh::quality_product(0.5 * twice_area, lengths2[0], lengths2[1], lengths2[2]);
     size2 = greatest(lengths2[0], greatest(lengths2[1], lengths2[2]));
     fat = bits_of((twice_area >= 1e-3 * size2) & (twice_area > 1e-100));
     for (int n = 0; n < 3; ++n) {
@@ -70,7 +64,7 @@ TwoFaces::TwoFaces(const std::array<Lanes3<Double2>, 3>& corners) {
 void QualitySum::add(const TwoFaces& faces, int lane) {
     const double twice_area = faces.twice_area[lane];
     const bool is_finite = std::isfinite(faces.size2[lane]) && std::isfinite(twice_area);
-    const double q = is_finite ? faces.quality[lane] : 0;
+    const double q = is_finite ? QualityTerms{0.5 * twice_area, faces.quality_product[lane]}.value() : 0;
     ++faces_;
     min_ = std::min(min_, q);
     sum_ += q;

@@ -16,7 +16,7 @@ struct TwoFaces {
     std::array<Lanes3<Double2>, 3> edges;  // from each corner to the next
     Lanes3<Double2> normal;                // twice the area vector
     Double2 twice_area;
-    Double2 quality;                   // face_quality()
+    Double2 quality_product;           // QualityTerms::product
     Double2 size2;                     // the longest edge, squared
     std::array<Double2, 3> cosines{};  // at each corner, times the lengths of both edges
     std::array<Double2, 3> places{};   // of the angles (see QualitySum::Angle), if twice_area is the sine of each

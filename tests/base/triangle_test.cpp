@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "support/random.h"
-
 namespace regionmesh {
 namespace {
 
@@ -39,22 +37,6 @@ TEST(QualityTerms, comparison_without_roots_agrees_with_the_value) {
 
 TEST(AreaVector, is_twice_the_area_along_the_normal) {
     EXPECT_EQ(area_vector({0, 0, 0}, {2, 0, 0}, {0, 3, 0}), (Vec3{0, 0, 6}));
-}
-
-TEST(CubeRoot, is_right_to_one_unit_in_both_lanes) {
-    test::Random random(2);
-    for (int exponent = -1073; exponent < 1024; ++exponent)
-        for (int n = 0; n < 20; ++n) {
-            const double x = std::ldexp(1 + random.unit(), exponent), y = 1 + random.unit(), root = cube_root(x);
-            const auto exact = static_cast<double>(std::cbrt(static_cast<long double>(x)));
-            EXPECT_NEAR(root / exact, 1, 7e-16) << x;  // where std::cbrt() is used
-            if (x > 1e-290 && x < 1e290) EXPECT_NEAR(root / exact, 1, 2.3e-16) << x;
-            const Double2 beside = cube_root(Double2{y, x});
-            EXPECT_EQ(beside[0], cube_root(y));
-            EXPECT_EQ(beside[1], root);
-        }
-    EXPECT_EQ(cube_root(27.0), 3);
-    EXPECT_EQ(cube_root(0.0), 0);
 }
 
 }  // namespace
