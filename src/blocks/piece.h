@@ -43,7 +43,7 @@ struct PieceHeader {
     std::uint32_t pass = 0, block = 0;
     std::uint64_t vertices = 0, faces = 0;
     std::uint64_t unused = 0;
-    StopReason stopped = StopReason::kTarget;  // kTarget also where it had none, but a threshold
+    StopReason stopped = StopReason::kTarget;  // kTarget, too, where a threshold ended it
     float error_bound = 0;                     // largest of a vertex
     Box box = {};                              // of the vertices
     /// Share of the faces left after collapses up to the thresholds tried; 0 after the last one.

@@ -50,6 +50,7 @@ void simplify_up_to(BlockChunk& block, double threshold, std::uint64_t least, co
 StopReason simplify_and_log(BlockChunk& block, double threshold, const BlockSimplifyOptions& options);
 
 /// Simplifies to `target` faces of the block's own, or as far as topology, quality and the largest error allow.
+/// Returns what ended it.
 StopReason simplify_to(BlockChunk& block, std::uint64_t target, const BlockSimplifyOptions& options);
 
 }  // namespace regionmesh

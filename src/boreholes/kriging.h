@@ -25,8 +25,8 @@ double near_distance(const std::vector<HeightSample>& samples);
 /// at the samples, as the linear variogram makes them, and tends to the mean far from them.
 class Kriging {
 public:
-    /// Samples no farther from each other than `near` are one sample at their mean height. Requires at
-    /// least one sample, and finite coordinates. `threads` as in parallel_for(); the result does not depend on them.
+    /// Samples no farther from each other than `near` are one sample at their mean height. Requires at least one
+    /// sample, and finite coordinates. `threads` as in parallel_for(); the result does not depend on them.
     Kriging(std::vector<HeightSample> samples, double near, std::uint32_t threads = 0);
 
     double at(double x, double y) const;

@@ -38,8 +38,8 @@ struct LayerOrder {
 /// that are not to be modelled. "auto" minimises the number of pairs of intervals of a hole in which the older unit
 /// lies above, by moves of one unit at a time. Intervals of units that are not in the order, or without a unit, count
 /// as not logged. Where units repeat in a hole, the base of a unit lies where the most of the hole's length is in
-/// order. Throws Error(kUsage) for an unknown unit and one that is listed twice, and Error(kInput) for fewer than two
-/// units, more than kMostUnits, holes that are not in order, and one that leads upwards.
+/// order. Throws Error(kUsage) for a unit that is listed twice, and Error(kInput) for an unknown unit, fewer than two
+/// units, more than kMostUnits, holes that are not in order, and a hole that leads upwards.
 LayerOrder order_layers(const DrillHoles& holes, const TableLabels& labels, const std::string& wanted);
 
 }  // namespace regionmesh::formats
