@@ -88,8 +88,8 @@ struct Columns {
     }
 };
 
-/// Labels are in a column where the first row has one: "label" may be the title of names. Of the titles of old, or else
-/// the first column.
+/// Labels are in the column with the first of these titles under which the first row has a label, since "label" may be
+/// the title of names; or else in the first column with one.
 Columns columns_of(const Fields& header, const Fields& first_row) {
     const auto has_label = [&](std::size_t column) { return column < first_row.size() && is_label(first_row[column]); };
     const std::size_t first = std::ranges::find_if(first_row, is_label) - first_row.begin();
