@@ -26,7 +26,7 @@ struct Spending {
 constexpr std::array kSpending{
     Spending{SIZE_MAX, UINT64_MAX, 128 << 10},    // MemoryRoom::kShort
     Spending{std::size_t{8} << 20, 24, 1 << 20},  // kSome
-    Spending{std::size_t{4} << 20, 8, 64 << 20},  // kAmple
+    Spending{std::size_t{3} << 20, 8, 64 << 20},  // kAmple
 };
 
 std::atomic<MemoryRoom> room{MemoryRoom::kAmple};

@@ -93,11 +93,11 @@ bool cross(const Faces& faces, FaceId f, FaceId g) {
 template <class Faces>
 void cross_apart(const Faces& faces, const SortedFaceTree& tree, std::uint32_t first, std::uint32_t end, Pairs& found) {
     Pairs strangers;
-    tree.boxes().visit_pairs(first, end, [&](std::span<const GridTree::Pair> pairs) {
-        strangers.resize(std::max(strangers.size(), pairs.size()));
+    tree.boxes().visit_pairs(first, end, [&](const GridTree::PartPairs& near) {
+        strangers.resize(std::max(strangers.size(), near.pairs.size()));
         std::size_t count = 0;
-        for (const GridTree::Pair pair : pairs) {
-            const FaceId f = tree.face(pair.m()), g = tree.face(pair.n());
+        for (const GridTree::Pair pair : near.pairs) {
+            const FaceId f = tree.face(near.first_m + pair.m()), g = tree.face(near.first_n + pair.n());
             strangers[count] = {f, g};
             count += !faces.share_vertex(f, g);
         }

@@ -140,20 +140,27 @@ GridTree::GridBox GridTree::Boxes::hull() const {
 
 class GridTree::PairList {
 public:
-    /// Removes all pairs and makes room for the given number.
-    void clear(std::size_t room) {
+    /// Removes all pairs and makes room for the given number, and for those that are written beyond the end.
+    Pair* clear(std::size_t room) {
         size_ = 0;
-        if (room + kFan <= room_) return;
-        room_ = 2 * (room + kFan);
-        pairs_ = std::make_unique_for_overwrite<Pair[]>(room_);
+        if (room + kFan > room_) {
+            room_ = 2 * (room + kFan);
+            pairs_ = std::make_unique_for_overwrite<Pair[]>(room_);
+        }
+        return pairs_.get();
     }
-    /// Adds one pair for each bit of the mask.
-    void add(std::uint32_t m, std::uint32_t first_n, unsigned mask) {
-        const Pair first(m, first_n);
-        for (std::uint32_t k = 0; k < kFan; ++k)
-            pairs_[size_ + k] = Pair(first.both_ + (std::uint64_t{kSetBits.bits[mask][k]} << 32));
-        size_ += kSetBits.count[mask];
+    /// Writes one pair for each bit of the mask and returns where they end.
+    static Pair* write(Pair* to, std::uint32_t m, std::uint32_t first_n, unsigned mask) {
+        const std::uint32_t first = Pair(m, first_n).both_;
+        for (std::uint32_t k = 0; k < kFan; k += 4) {
+            const Unsigned4 four = load<Unsigned4>(&kSetBits.bits[mask][k]) + first;
+            std::memcpy(to + k, &four, sizeof(four));
+        }
+        return to + kSetBits.count[mask];
     }
+    /// The pairs end here.
+    void end_at(const Pair* end) { size_ = static_cast<std::size_t>(end - pairs_.get()); }
+
     std::size_t size() const { return size_; }
     const Pair* begin() const { return pairs_.get(); }
     const Pair* end() const { return pairs_.get() + size_; }
@@ -165,18 +172,21 @@ private:
 
 /// What one level of the search for pairs passes to the next.
 struct GridTree::PairSearch {
+    std::uint32_t part, other;
     PairList groups;  // pairs of groups a, b
     PairList lanes;   // group b, and a box of a that meets the bounding box of b
     PairList pairs;   // a box of a, and a box of b that meets it
 };
 
 void GridTree::visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
-                           const std::function<void(std::span<const Pair>)>& visit) const {
+                           const std::function<void(const PartPairs&)>& visit) const {
     PairSearch search;
     for (std::uint32_t part = first_part; part < end_part; ++part) {
         for (std::uint32_t other : parts_near(part)) {
             find_pairs(part, other, search);
-            visit({search.pairs.begin(), search.pairs.end()});
+            visit({kFan * first_group(part, 0),
+                   kFan * first_group(other, 0),
+                   {search.pairs.begin(), search.pairs.end()}});
         }
     }
 }
@@ -219,8 +229,9 @@ std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
 
 /// All pairs of a place in one part and a place in the other.
 void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const {
-    search.pairs.clear(1);
-    search.pairs.add(part, other, 1);
+    search.part = part;
+    search.other = other;
+    search.pairs.end_at(PairList::write(search.pairs.clear(1), 0, 0, 1));
     for (std::uint32_t level = part_level() + 1; level-- > 0;) {
         std::swap(search.groups, search.pairs);
         pair_lanes(level, search);
@@ -230,22 +241,26 @@ void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& s
 /// From pairs of groups to pairs of their members. Without branches that depend on the data: most would be
 /// mispredicted.
 void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
-    auto& [groups, lanes, pairs] = search;
-    lanes.clear(groups.size() * kFan);
+    auto& [part, other, groups, lanes, pairs] = search;
+    const std::uint32_t first_a = first_group(part, level), first_b = first_group(other, level);
+    const Boxes *const all_a = &levels_[level][first_a], *const all_b = &levels_[level][first_b];
+    const Boxes* const hulls = level < root().level ? &levels_[level + 1][0] : nullptr;
+    Pair* to = lanes.clear(groups.size() * kFan);
     for (const Pair pair : groups) {
-        const std::uint32_t a = pair.m(), b = pair.n();
-        const bool has_hull = level < root().level;
-        const unsigned mask = has_hull ? levels_[level][a].meeting(levels_[level + 1][b / kFan][b % kFan]) : 0xFFu;
-        lanes.add(b, a * kFan, mask);
+        const std::uint32_t a = pair.m(), b = pair.n(), at = first_b + b;
+        to = PairList::write(to, b, a * kFan, hulls ? all_a[a].meeting(hulls[at / kFan][at % kFan]) : 0xFFu);
     }
-    pairs.clear(lanes.size() * kFan);
+    lanes.end_at(to);
+    // Each pair once; a place forms no pair with itself, but a group does. Groups of two parts are never the same.
+    const std::uint32_t never = part == other ? 0 : ~0u;
+    const unsigned later = level == 0 ? 0xFEu : 0xFFu;
+    to = pairs.clear(lanes.size() * kFan);
     for (const Pair pair : lanes) {
-        const std::uint32_t b = pair.m(), m = pair.n();
-        const unsigned lane = m % kFan;
-        // Each pair once; a place forms no pair with itself, but a group does.
-        const unsigned later = m / kFan == b ? (level == 0 ? 0xFEu : 0xFFu) << lane : 0xFFu;
-        pairs.add(m, b * kFan, levels_[level][b].meeting(levels_[level][m / kFan][lane]) & later & 0xFFu);
+        const std::uint32_t b = pair.m(), m = pair.n(), lane = m % kFan;
+        const unsigned wanted = (m / kFan | never) == b ? later << lane & 0xFFu : 0xFFu;
+        to = PairList::write(to, m, b * kFan, all_b[b].meeting(all_a[m / kFan][lane]) & wanted);
     }
+    pairs.end_at(to);
 }
 
 void GridTree::set(std::uint32_t place, const GridBox& box) {

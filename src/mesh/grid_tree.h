@@ -17,13 +17,13 @@ namespace regionmesh {
 
 /// For each number below 256: which bits are set, and how many.
 struct SetBits {
-    std::uint8_t bits[256][8];
+    alignas(16) std::uint32_t bits[256][8];
     std::uint8_t count[256];
 };
 constexpr SetBits make_set_bits() {
     SetBits table{};
     for (unsigned mask = 0; mask < 256; ++mask)
-        for (std::uint8_t bit = 0; bit < 8; ++bit)
+        for (std::uint32_t bit = 0; bit < 8; ++bit)
             if (mask >> bit & 1) table.bits[mask][table.count[mask]++] = bit;
     return table;
 }
@@ -88,24 +88,28 @@ public:
     }
     static constexpr std::uint32_t kMostAtOnce = 256;
 
-    /// Two places, m < n, in one number, so that several can be written at once.
+    /// Two places in two parts, each counted from the first place of its part, in one number.
     class Pair {
     public:
         Pair() = default;
-        Pair(std::uint32_t m, std::uint32_t n) : both_(std::uint64_t{n} << 32 | m) {}
-        std::uint32_t m() const { return static_cast<std::uint32_t>(both_); }
-        std::uint32_t n() const { return static_cast<std::uint32_t>(both_ >> 32); }
+        Pair(std::uint32_t m, std::uint32_t n) : both_(m << 16 | n) {}
+        std::uint32_t m() const { return both_ >> 16; }
+        std::uint32_t n() const { return both_ & 0xFFFFu; }
 
     private:
         friend class GridTree;
-        explicit Pair(std::uint64_t both) : both_(both) {}
-        std::uint64_t both_;
+        std::uint32_t both_;
+    };
+    /// Pairs of a place in one part and a place in that part or a later one: first_m + pair.m() < first_n + pair.n().
+    struct PartPairs {
+        std::uint32_t first_m, first_n;
+        std::span<const Pair> pairs;
     };
     /// The number of parts into which the pairs of places with meeting boxes are divided, by m.
     std::uint32_t part_count() const { return levels_[part_level()].size(); }
-    /// Calls visit(span<const Pair>) until all pairs of these parts have been visited, with at most 2^18 at once.
+    /// Calls visit(PartPairs) until all pairs of these parts have been visited, with at most 2^18 at once.
     void visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
-                     const std::function<void(std::span<const Pair>)>& visit) const;
+                     const std::function<void(const PartPairs&)>& visit) const;
     /// Is the order of the places spatial enough to find pairs quickly? Estimated from a sample.
     bool is_spatial() const;
 
@@ -143,6 +147,10 @@ private:
     std::vector<std::uint32_t> parts_near(std::uint32_t part) const;
     void find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const;
     void pair_lanes(std::uint32_t level, PairSearch& search) const;
+    /// The first group of a level below a part.
+    std::uint32_t first_group(std::uint32_t part, std::uint32_t level) const {
+        return part << 3 * (part_level() - level);
+    }
 
     Vec3 origin_;
     double cells_per_length_ = 1;

@@ -71,12 +71,13 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
         for (const std::uint32_t v : arrays.faces[f]) sides[v] |= static_cast<SideSet>(1u << *side);
     }
     // Vertices on edges of the box are few, so a map is cheap.
+    const auto is_on_edge = [&](std::uint32_t v) { return (sides[v] & (sides[v] - 1)) != 0; };
     std::map<std::uint32_t, std::set<InputLabel>> labels_of;
     for (std::uint32_t v = 0; v < sides.size(); ++v)
-        if (std::popcount(sides[v]) > 1) labels_of[v];
+        if (is_on_edge(v)) labels_of[v];
     for (std::size_t f = 0; f < arrays.faces.size(); ++f)
         for (const std::uint32_t v : arrays.faces[f])
-            if (std::popcount(sides[v]) > 1)
+            if (is_on_edge(v))
                 for (const InputLabel label : arrays.labels[f])
                     if (label != arrays.exterior_label) labels_of[v].insert(label);
     return std::ranges::all_of(

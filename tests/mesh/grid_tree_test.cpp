@@ -24,11 +24,12 @@ GridTree tree_over(const std::vector<Box>& boxes, std::uint32_t threads = 1) {
 Pairs pairs_in(const GridTree& tree) {
     Pairs pairs;
     for (std::uint32_t part = 0; part < tree.part_count(); ++part) {
-        tree.visit_pairs(part, part + 1, [&](std::span<const GridTree::Pair> some) {
-            for (const GridTree::Pair pair : some) {
-                EXPECT_LT(pair.m(), pair.n());
-                EXPECT_EQ(pair.m() / 512, part) << "in the part of another place";
-                EXPECT_TRUE(pairs.insert({pair.m(), pair.n()}).second) << "visited twice";
+        tree.visit_pairs(part, part + 1, [&](const GridTree::PartPairs& some) {
+            for (const GridTree::Pair pair : some.pairs) {
+                const std::uint32_t m = some.first_m + pair.m(), n = some.first_n + pair.n();
+                EXPECT_LT(m, n);
+                EXPECT_EQ(m / 512, part) << "in the part of another place";
+                EXPECT_TRUE(pairs.insert({m, n}).second) << "visited twice";
             }
         });
     }
@@ -82,8 +83,9 @@ TEST(GridTree, is_the_same_on_several_threads) {
     for (std::uint32_t part = 0; part < one.part_count(); part += 7) {
         std::vector<std::uint64_t> a, b;
         const auto to = [](std::vector<std::uint64_t>& list) {
-            return [&list](std::span<const GridTree::Pair> some) {
-                for (const GridTree::Pair pair : some) list.push_back(std::uint64_t{pair.m()} << 32 | pair.n());
+            return [&list](const GridTree::PartPairs& some) {
+                for (const GridTree::Pair pair : some.pairs)
+                    list.push_back(std::uint64_t{some.first_m + pair.m()} << 32 | (some.first_n + pair.n()));
             };
         };
         one.visit_pairs(part, part + 1, to(a));

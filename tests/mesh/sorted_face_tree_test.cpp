@@ -36,9 +36,10 @@ using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 Pairs pairs_in(const SortedFaceTree& tree) {
     Pairs pairs;
     for (std::uint32_t part = 0; part < tree.boxes().part_count(); ++part) {
-        tree.boxes().visit_pairs(part, part + 1, [&](std::span<const GridTree::Pair> some) {
-            for (const GridTree::Pair pair : some) {
-                const std::uint32_t f = index(tree.face(pair.m())), g = index(tree.face(pair.n()));
+        tree.boxes().visit_pairs(part, part + 1, [&](const GridTree::PartPairs& some) {
+            for (const GridTree::Pair pair : some.pairs) {
+                const std::uint32_t f = index(tree.face(some.first_m + pair.m()));
+                const std::uint32_t g = index(tree.face(some.first_n + pair.n()));
                 EXPECT_TRUE(pairs.insert({std::min(f, g), std::max(f, g)}).second);
             }
         });
