@@ -1,6 +1,5 @@
 // NIfTI-1 and NIfTI-2 files: https://nifti.nimh.nih.gov (nifti1.h, nifti2.h).
 #include <array>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 #include "formats/array/array_file.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
+#include "formats/codec/numbers.h"
 #include "formats/input_file.h"
 #include "regionmesh/label_names_file.h"
 
@@ -35,16 +35,6 @@ constexpr Field<std::int16_t, std::int32_t> kQformCode{252, 344}, kSformCode{254
 constexpr Field<char, std::int32_t> kXyztUnits{123, 500};
 constexpr Field<char, char> kMagic{344, 4};
 
-template <class Value>
-Value value_at(std::span<const std::byte> bytes, std::size_t place, bool is_big_endian) {
-    std::array<std::byte, sizeof(Value)> raw;
-    for (std::size_t i = 0; i < raw.size(); ++i) {
-        const bool is_same = is_big_endian == (std::endian::native == std::endian::big);
-        raw[i] = bytes[place + (is_same ? i : raw.size() - 1 - i)];
-    }
-    return std::bit_cast<Value>(raw);
-}
-
 /// A whole header. Its version and byte order show in sizeof_hdr, the first number of the file.
 struct Header {
     std::span<const std::byte> bytes;
@@ -56,9 +46,8 @@ struct Header {
     /// Number `i` of a field.
     template <class First, class Second, class Value>
     Value at(Field<First, Second, Value> field, std::size_t i = 0) const {
-        return is_first()
-                   ? static_cast<Value>(value_at<First>(bytes, field.first + i * sizeof(First), is_big_endian))
-                   : static_cast<Value>(value_at<Second>(bytes, field.second + i * sizeof(Second), is_big_endian));
+        return is_first() ? static_cast<Value>(load<First>(&bytes[field.first + i * sizeof(First)], is_big_endian))
+                          : static_cast<Value>(load<Second>(&bytes[field.second + i * sizeof(Second)], is_big_endian));
     }
     Vec3 vector(Field<float, double> field, std::size_t i = 0, std::size_t step = 1) const {
         return {at(field, i), at(field, i + step), at(field, i + 2 * step)};
@@ -193,7 +182,7 @@ std::int64_t data_offset(const std::filesystem::path& path, const Header& header
 /// `bytes` are the first of the file, kNifti2HeaderBytes if it has as many.
 Header parse_header(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     for (const bool is_big_endian : {false, true}) {
-        const auto size = bytes.size() < 4 ? 0 : value_at<std::int32_t>(bytes, 0, is_big_endian);
+        const auto size = bytes.size() < 4 ? 0 : load<std::int32_t>(bytes.data(), is_big_endian);
         if (size != kNifti1HeaderBytes && size != kNifti2HeaderBytes) continue;
         const Header header{bytes, static_cast<std::size_t>(size), is_big_endian};
         if (bytes.size() < header.size) {

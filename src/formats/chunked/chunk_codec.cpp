@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "formats/array/volume_size.h"
+#include "formats/codec/numbers.h"
 
 namespace regionmesh::formats {
 namespace {
@@ -24,11 +25,7 @@ constexpr unsigned kLz4JavaCompressed = 0x20;      // compressed
 constexpr std::uint64_t kMaxLz4Growth = 255;       // a length byte adds at most 255 bytes
 constexpr std::uint64_t kMaxZstdGrowth = 1 << 15;  // a block of 4 bytes repeats one 128 KiB long
 
-std::uint32_t little_endian(const std::byte* bytes) {
-    std::uint32_t number = 0;
-    for (int i = 3; i >= 0; --i) number = number << 8 | std::to_integer<std::uint32_t>(bytes[i]);
-    return number;
-}
+std::uint32_t little_endian(const std::byte* bytes) { return load<std::uint32_t>(bytes, false); }
 
 std::string length_problem(std::uint64_t there, std::uint64_t wanted) {
     return "it holds " + std::to_string(there) + " bytes where a chunk has " + std::to_string(wanted);

@@ -9,6 +9,7 @@
 #include "formats/array/block_reader.h"
 #include "formats/array/strided_copy.h"
 #include "formats/array/volume_size.h"
+#include "formats/codec/numbers.h"
 #include "formats/input_file.h"
 
 namespace regionmesh::formats {
@@ -80,13 +81,6 @@ void for_each_index(const Range& range, Visit&& visit) {
     }
 }
 
-std::uint64_t number_of(const std::byte* bytes, int count, bool is_big_endian) {
-    std::uint64_t number = 0;
-    for (int i = 0; i < count; ++i)
-        number = number << 8 | std::to_integer<std::uint64_t>(bytes[is_big_endian ? i : count - 1 - i]);
-    return number;
-}
-
 class ChunkSource final : public BlockSource {
 public:
     ChunkSource(StoreArray array, ArrayAxes axes)
@@ -142,7 +136,7 @@ private:
         const std::uint64_t most = product(array_.chunk) * bytes_;
         if (length > most + most / 4 + kMaxOverhead)
             refuse(std::to_string(length) + " bytes are too many for a chunk of " + std::to_string(most));
-        load(file, offset, length);
+        fetch(file, offset, length);
     }
 
     /// The index holds offset and length of each chunk; the last axis runs fastest.
@@ -153,15 +147,15 @@ private:
         const std::uint64_t index_bytes = product(counts) * 16 + 4 * array_.index_codecs.size();
         if (index_bytes > file.size()) refuse("the shard is shorter than its index");
         std::vector<std::byte> index(product(counts) * 16);
-        load(file, array_.index_is_first ? 0 : file.size() - index_bytes, index_bytes);
+        fetch(file, array_.index_is_first ? 0 : file.size() - index_bytes, index_bytes);
         if (const std::string problem = unpack(packed_, array_.index_codecs, index); !problem.empty())
             refuse("the index of the shard: " + problem);
         for_each_index(cells_of(intersect(wanted_, inside), array_.chunk), [&](const Indices& chunk) {
             std::uint64_t place = 0;
             for (std::size_t axis = 0; axis < chunk.size(); ++axis)
                 place = place * counts[axis] + chunk[axis] - cell[axis] * counts[axis];
-            const std::uint64_t offset = number_of(&index[place * 16], 8, false);
-            const std::uint64_t length = number_of(&index[place * 16 + 8], 8, false);
+            const std::uint64_t offset = load<std::uint64_t>(&index[place * 16], false);
+            const std::uint64_t length = load<std::uint64_t>(&index[place * 16 + 8], false);
             if (offset == kMissing && length == kMissing)
                 return fill(intersect(wanted_, cell_range(chunk, array_.chunk)));
             if (offset > file.size() || length > file.size() - offset)
@@ -171,7 +165,7 @@ private:
         });
     }
 
-    void load(const InputFile& file, std::uint64_t offset, std::uint64_t length) {
+    void fetch(const InputFile& file, std::uint64_t offset, std::uint64_t length) {
         packed_.resize(length);
         if (file.read(offset, packed_) < length) refuse("the file became shorter while it was read");
     }
@@ -209,16 +203,17 @@ private:
         const std::size_t axes = size.size();
         std::size_t length = 4 + 4 * axes;
         if (packed.size() < length) refuse("it is shorter than its head");
-        const std::uint64_t mode = number_of(packed.data(), 2, true);
-        if (mode > 1 || number_of(&packed[2], 2, true) != axes) refuse("its head is not one of a block of samples");
+        const std::uint64_t mode = load<std::uint16_t>(packed.data(), true);
+        if (mode > 1 || load<std::uint16_t>(&packed[2], true) != axes)
+            refuse("its head is not one of a block of samples");
         for (std::size_t axis = 0; axis < axes; ++axis) {
-            const std::uint64_t samples = number_of(&packed[4 + 4 * axis], 4, true);
+            const std::uint64_t samples = load<std::uint32_t>(&packed[4 + 4 * axis], true);
             if (samples == 0 || samples > size[axes - 1 - axis]) refuse("its head claims another size");
             size[axes - 1 - axis] = samples;
         }
         if (mode == 1) {
             length += 4;
-            if (packed.size() < length || number_of(&packed[length - 4], 4, true) != product(size))
+            if (packed.size() < length || load<std::uint32_t>(&packed[length - 4], true) != product(size))
                 refuse("it holds another number of samples than its head says");
         }
         packed = packed.subspan(length);

@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "formats/codec/byte_reader.h"
+
 namespace regionmesh::formats {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 template <class Number>
 std::optional<Number> parse_whole(std::string_view text) {
