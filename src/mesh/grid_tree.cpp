@@ -11,6 +11,14 @@
 namespace regionmesh {
 namespace {
 
+#if defined(__SSE2__)
+__m128i eight_of(const std::int16_t* numbers) { return _mm_load_si128(reinterpret_cast<const __m128i*>(numbers)); }
+/// Boxes of which some coordinate lies beyond the other's are apart.
+unsigned not_apart(__m128i apart) {
+    return ~static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(apart, apart))) & 0xFFu;
+}
+#endif
+
 constexpr std::int16_t kLowest = -32768, kHighest = 32767;
 constexpr GridTree::GridBox kNothing{{kHighest, kHighest, kHighest}, {kLowest, kLowest, kLowest}};
 
@@ -76,15 +84,12 @@ std::array<GridTree::GridBox, 2> GridTree::outward(const Lanes3<Double2>& low, c
 
 unsigned GridTree::Boxes::meeting(const Boxes& others) const {
 #if defined(__SSE2__)
-    const auto eight = [](const std::int16_t* numbers) {
-        return _mm_load_si128(reinterpret_cast<const __m128i*>(numbers));
-    };
     __m128i out = _mm_setzero_si128();
     for (int axis = 0; axis < 3; ++axis) {
-        out = _mm_or_si128(out, _mm_cmpgt_epi16(eight(low[axis]), eight(others.high[axis])));
-        out = _mm_or_si128(out, _mm_cmpgt_epi16(eight(others.low[axis]), eight(high[axis])));
+        out = _mm_or_si128(out, _mm_cmpgt_epi16(eight_of(low[axis]), eight_of(others.high[axis])));
+        out = _mm_or_si128(out, _mm_cmpgt_epi16(eight_of(others.low[axis]), eight_of(high[axis])));
     }
-    return ~static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(out, out))) & 0xFFu;
+    return not_apart(out);
 #else
     unsigned mask = 0;
     for (std::uint32_t lane = 0; lane < kFan; ++lane) {
@@ -94,6 +99,24 @@ unsigned GridTree::Boxes::meeting(const Boxes& others) const {
         mask |= static_cast<unsigned>(in) << lane;
     }
     return mask;
+#endif
+}
+
+unsigned GridTree::Boxes::meeting(const GridBox& box) const {
+#if defined(__SSE2__)
+    // Each coordinate twice in each of four lanes; then the lane of one coordinate four times.
+    const __m128i four = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(box.low));
+    const __m128i two = _mm_cvtsi32_si128(load<std::int32_t>(&box.high[1]));
+    const __m128i lows_and_high_x = _mm_unpacklo_epi16(four, four), high_y_and_z = _mm_unpacklo_epi16(two, two);
+    __m128i out = _mm_cmpgt_epi16(eight_of(low[0]), _mm_shuffle_epi32(lows_and_high_x, 0xFF));
+    out = _mm_or_si128(out, _mm_cmpgt_epi16(eight_of(low[1]), _mm_shuffle_epi32(high_y_and_z, 0x00)));
+    out = _mm_or_si128(out, _mm_cmpgt_epi16(eight_of(low[2]), _mm_shuffle_epi32(high_y_and_z, 0x55)));
+    out = _mm_or_si128(out, _mm_cmpgt_epi16(_mm_shuffle_epi32(lows_and_high_x, 0x00), eight_of(high[0])));
+    out = _mm_or_si128(out, _mm_cmpgt_epi16(_mm_shuffle_epi32(lows_and_high_x, 0x55), eight_of(high[1])));
+    out = _mm_or_si128(out, _mm_cmpgt_epi16(_mm_shuffle_epi32(lows_and_high_x, 0xAA), eight_of(high[2])));
+    return not_apart(out);
+#else
+    return meeting(all(box));
 #endif
 }
 
@@ -154,7 +177,7 @@ public:
         const std::uint32_t first = Pair(m, first_n).both_;
         for (std::uint32_t k = 0; k < kFan; k += 4) {
             const Unsigned4 four = load<Unsigned4>(&kSetBits.bits[mask][k]) + first;
-            std::memcpy(to + k, &four, sizeof(four));
+            std::memcpy(static_cast<void*>(to + k), &four, sizeof(four));
         }
         return to + kSetBits.count[mask];
     }
@@ -173,17 +196,19 @@ private:
 /// What one level of the search for pairs passes to the next.
 struct GridTree::PairSearch {
     std::uint32_t part, other;
-    PairList groups;  // pairs of groups a, b
-    PairList lanes;   // group b, and a box of a that meets the bounding box of b
-    PairList pairs;   // a box of a, and a box of b that meets it
+    std::array<std::vector<GridBox>, 3> boxes;  // of the part, by level, in order
+    PairList groups;                            // pairs of groups a, b
+    PairList lanes;                             // group b, and a box of a that meets the bounding box of b
+    PairList pairs;                             // a box of a, and a box of b that meets it
 };
 
 void GridTree::visit_pairs(std::uint32_t first_part, std::uint32_t end_part,
                            const std::function<void(const PartPairs&)>& visit) const {
     PairSearch search;
     for (std::uint32_t part = first_part; part < end_part; ++part) {
+        begin_part(part, search);
         for (std::uint32_t other : parts_near(part)) {
-            find_pairs(part, other, search);
+            find_pairs(other, search);
             visit({kFan * first_group(part, 0),
                    kFan * first_group(other, 0),
                    {search.pairs.begin(), search.pairs.end()}});
@@ -197,8 +222,9 @@ bool GridTree::is_spatial() const {
     std::uint64_t left = std::uint64_t{kTests} * kPlaces * std::min(part_count(), kParts);
     PairSearch search;
     for (std::uint32_t part = 0; part < part_count(); part += step) {
+        begin_part(part, search);
         for (std::uint32_t other : parts_near(part)) {
-            find_pairs(part, other, search);
+            find_pairs(other, search);
             if (search.lanes.size() > left) return false;
             left -= search.lanes.size();
         }
@@ -227,9 +253,18 @@ std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
     return parts;
 }
 
-/// All pairs of a place in one part and a place in the other.
-void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const {
+void GridTree::begin_part(std::uint32_t part, PairSearch& search) const {
     search.part = part;
+    for (std::uint32_t level = 0; level <= part_level(); ++level) {
+        search.boxes[level].clear();
+        const std::uint32_t end = std::min(first_group(part + 1, level), levels_[level].size());
+        for (std::uint32_t g = first_group(part, level); g < end; ++g)
+            for (std::uint32_t lane = 0; lane < kFan; ++lane) search.boxes[level].push_back(levels_[level][g][lane]);
+    }
+}
+
+/// All pairs of a place in the part that was begun and a place in the other.
+void GridTree::find_pairs(std::uint32_t other, PairSearch& search) const {
     search.other = other;
     search.pairs.end_at(PairList::write(search.pairs.clear(1), 0, 0, 1));
     for (std::uint32_t level = part_level() + 1; level-- > 0;) {
@@ -241,14 +276,15 @@ void GridTree::find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& s
 /// From pairs of groups to pairs of their members. Without branches that depend on the data: most would be
 /// mispredicted.
 void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
-    auto& [part, other, groups, lanes, pairs] = search;
+    auto& [part, other, boxes, groups, lanes, pairs] = search;
     const std::uint32_t first_a = first_group(part, level), first_b = first_group(other, level);
     const Boxes *const all_a = &levels_[level][first_a], *const all_b = &levels_[level][first_b];
     const Boxes* const hulls = level < root().level ? &levels_[level + 1][0] : nullptr;
     Pair* to = lanes.clear(groups.size() * kFan);
     for (const Pair pair : groups) {
         const std::uint32_t a = pair.m(), b = pair.n(), at = first_b + b;
-        to = PairList::write(to, b, a * kFan, hulls ? all_a[a].meeting(hulls[at / kFan][at % kFan]) : 0xFFu);
+        const unsigned mask = hulls ? all_a[a].meeting(Boxes::all(hulls[at / kFan][at % kFan])) : 0xFFu;
+        to = PairList::write(to, b, a * kFan, mask);
     }
     lanes.end_at(to);
     // Each pair once; a place forms no pair with itself, but a group does. Groups of two parts are never the same.
@@ -258,7 +294,7 @@ void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
     for (const Pair pair : lanes) {
         const std::uint32_t b = pair.m(), m = pair.n(), lane = m % kFan;
         const unsigned wanted = (m / kFan | never) == b ? later << lane & 0xFFu : 0xFFu;
-        to = PairList::write(to, m, b * kFan, all_b[b].meeting(all_a[m / kFan][lane]) & wanted);
+        to = PairList::write(to, m, b * kFan, all_b[b].meeting(boxes[level][m]) & wanted);
     }
     pairs.end_at(to);
 }

@@ -62,7 +62,8 @@ public:
         GridBox hull() const;
         /// Bit n is set if box n meets box n of the others.
         unsigned meeting(const Boxes& others) const;
-        unsigned meeting(const GridBox& box) const { return meeting(all(box)); }
+        /// The same for one box, which is fast if it was written a while ago.
+        unsigned meeting(const GridBox& box) const;
     };
 
     /// Rebuilds the tree; releases the old boxes first. box_of(n) returns the box at place n, or an empty box; it is
@@ -145,7 +146,8 @@ private:
     /// A part is a group of this level: 8^3 places.
     std::uint32_t part_level() const { return std::min<std::uint32_t>(2, root().level); }
     std::vector<std::uint32_t> parts_near(std::uint32_t part) const;
-    void find_pairs(std::uint32_t part, std::uint32_t other, PairSearch& search) const;
+    void begin_part(std::uint32_t part, PairSearch& search) const;
+    void find_pairs(std::uint32_t other, PairSearch& search) const;
     void pair_lanes(std::uint32_t level, PairSearch& search) const;
     /// The first group of a level below a part.
     std::uint32_t first_group(std::uint32_t part, std::uint32_t level) const {
