@@ -174,8 +174,9 @@ void check_unscaled(const std::filesystem::path& path, const Header& header) {
 std::int64_t data_offset(const std::filesystem::path& path, const Header& header) {
     const double offset = header.at(kVoxOffset);
     if (offset == 0) return static_cast<std::int64_t>(header.size) + 4;  // four bytes say whether extensions follow
-    if (!(offset >= static_cast<double>(header.size)) || offset > 0x1p62)
-        fail(path, "vox_offset is " + std::to_string(offset) + ", not behind the header; the header is damaged");
+    if (!(offset >= static_cast<double>(header.size)) || offset > 0x1p62 || offset != std::floor(offset))
+        fail(path, "vox_offset is " + std::to_string(offset) +
+                       ", not a whole number of bytes behind the header; the header is damaged");
     return static_cast<std::int64_t>(offset);
 }
 

@@ -145,6 +145,7 @@ TEST_F(ReadNiftiTest, headers_that_make_no_sense_are_refused) {
     EXPECT_THAT(refusal({patched_value<std::int16_t>(42, -3)}), HasSubstr("dim[1] is -3"));
     EXPECT_THAT(refusal({patched_value<std::int16_t>(44, 0)}), HasSubstr("empty volume: 5 x 0 x 3"));
     EXPECT_THAT(refusal({patched_value<float>(108, 12)}), HasSubstr("vox_offset"));
+    EXPECT_THAT(refusal({patched_value<float>(108, 352.5)}), HasSubstr("vox_offset"));
     EXPECT_THAT(refusal({patched_value<float>(108, std::numeric_limits<float>::quiet_NaN())}), HasSubstr("vox_offset"));
     EXPECT_THAT(refusal({patched_value<float>(312 + 8, 0)}), HasSubstr("the sform is no affine map"));
     EXPECT_THAT(refusal({patched_value<float>(280, std::numeric_limits<float>::infinity())}),
