@@ -97,7 +97,7 @@ void require_own_names(const std::string& path, const std::string& text) {
 std::vector<CLI::ConfigItem> items_in(const std::string& path) {
     std::ifstream stream(path);
     if (std::error_code ignored; !stream || std::filesystem::is_directory(path, ignored))
-        throw Error(ErrorCode::kInput, path + ": cannot be read; check the path and whether it may be read");
+        throw Error(ErrorCode::kInput, path + ": cannot be read; check the path and its permissions");
     std::string text(std::istreambuf_iterator<char>(stream), {});
     if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     require_no_number_sign_in_quotes(path, text);

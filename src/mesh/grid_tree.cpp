@@ -193,7 +193,7 @@ private:
     std::size_t room_ = 0, size_ = 0;
 };
 
-/// What one level of the search for pairs passes to the next.
+/// The part and the other one whose pairs are searched for, and what each level of the search passes to the next.
 struct GridTree::PairSearch {
     std::uint32_t part, other;
     std::array<std::vector<GridBox>, 3> boxes;  // of the part, by level, in order
@@ -253,6 +253,7 @@ std::vector<std::uint32_t> GridTree::parts_near(std::uint32_t part) const {
     return parts;
 }
 
+/// Lays out the boxes of a part for find_pairs().
 void GridTree::begin_part(std::uint32_t part, PairSearch& search) const {
     search.part = part;
     for (std::uint32_t level = 0; level <= part_level(); ++level) {
@@ -287,13 +288,13 @@ void GridTree::pair_lanes(std::uint32_t level, PairSearch& search) const {
         to = PairList::write(to, b, a * kFan, mask);
     }
     lanes.end_at(to);
-    // Each pair once; a place forms no pair with itself, but a group does. Groups of two parts are never the same.
-    const std::uint32_t never = part == other ? 0 : ~0u;
+    // Each pair once; a place forms no pair with itself, but a group does.
+    const bool is_same_part = part == other;
     const unsigned later = level == 0 ? 0xFEu : 0xFFu;
     to = pairs.clear(lanes.size() * kFan);
     for (const Pair pair : lanes) {
         const std::uint32_t b = pair.m(), m = pair.n(), lane = m % kFan;
-        const unsigned wanted = (m / kFan | never) == b ? later << lane & 0xFFu : 0xFFu;
+        const unsigned wanted = is_same_part & (m / kFan == b) ? later << lane & 0xFFu : 0xFFu;
         to = PairList::write(to, m, b * kFan, all_b[b].meeting(boxes[level][m]) & wanted);
     }
     pairs.end_at(to);

@@ -62,7 +62,7 @@ public:
         GridBox hull() const;
         /// Bit n is set if box n meets box n of the others.
         unsigned meeting(const Boxes& others) const;
-        /// The same for one box, which is fast if it was written a while ago.
+        /// The same for one box. Slow if single coordinates of it were written just now: four are loaded at once.
         unsigned meeting(const GridBox& box) const;
     };
 

@@ -70,8 +70,8 @@ bool exterior_is_box(const MeshArrays& arrays, const Box& box) {
         if (!side) return false;
         for (const std::uint32_t v : arrays.faces[f]) sides[v] |= static_cast<SideSet>(1u << *side);
     }
-    // Vertices on edges of the box are few, so a map is cheap.
     const auto is_on_edge = [&](std::uint32_t v) { return (sides[v] & (sides[v] - 1)) != 0; };
+    // Vertices on edges of the box are few, so a map is cheap.
     std::map<std::uint32_t, std::set<InputLabel>> labels_of;
     for (std::uint32_t v = 0; v < sides.size(); ++v)
         if (is_on_edge(v)) labels_of[v];
