@@ -1,26 +1,19 @@
 #include "mesh/face_meeting.h"
 
-#include <cmath>
-
 #include "base/exact_predicates.h"
 
 namespace regionmesh {
-namespace {
-
-double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
-
-}  // namespace
 
 bool are_apart(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
     // Relative to one corner, to reduce rounding.
     const Vec3 a = p[1] - p[0], b = p[2] - p[0], x = q[0] - p[0], y = q[1] - p[0], z = q[2] - p[0];
-    const double doubt = 1e-12 * (size(a) + size(b) + size(x) + size(y) + size(z));
+    const double doubt = 1e-12 * (size_of(a) + size_of(b) + size_of(x) + size_of(y) + size_of(z));
     const auto is_between = [](double u, double v, double r, double s, double t, double slack) {
         const double p_high = std::max({0.0, u, v}), p_low = std::min({0.0, u, v});
         return std::min({r, s, t}) > p_high + slack || std::max({r, s, t}) < p_low - slack;
     };
     const Vec3 d = x + y + z - a - b;
-    if (is_between(dot(d, a), dot(d, b), dot(d, x), dot(d, y), dot(d, z), size(d) * doubt + 1e-290)) return true;
+    if (is_between(dot(d, a), dot(d, b), dot(d, x), dot(d, y), dot(d, z), size_of(d) * doubt + 1e-290)) return true;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
         if (is_between(a[i] + a[j], b[i] + b[j], x[i] + x[j], y[i] + y[j], z[i] + z[j], doubt) ||

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "regionmesh/ids.h"
 #include "regionmesh/label.h"
@@ -21,6 +22,9 @@ struct LabelledFace {
     PlacedFace placed;
     std::array<Label, 2> labels;  // the normal points from the first to the second
 };
+
+/// The sum of the absolute coordinates: no less than the length.
+inline double size_of(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 
 /// Do the bounding boxes of two triangles overlap or touch?
 inline bool boxes_overlap(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "mesh/face_meeting.h"
 #include "mesh/fan.h"
 #include "mesh/label_set.h"
 #include "regionmesh/ids.h"
@@ -84,9 +84,6 @@ private:
     std::vector<double> weights_;
     std::vector<Plane> planes_;
 };
-
-/// The sum of the absolute coordinates.
-inline double size_of(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
 
 /// Sizes for which no product of four overflows, or loses much more than the rounding error by underflow.
 inline bool is_usual(double size) { return (size > 1e-60) & (size < 1e60); }

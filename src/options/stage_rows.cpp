@@ -1,6 +1,7 @@
 // What the stages do: decimation, smoothing, quality, comparison.
 #include <algorithm>
 
+#include "base/option_range.h"
 #include "options/bind_option.h"
 #include "options/option_rows.h"
 #include "regionmesh/limits.h"
@@ -8,11 +9,8 @@
 namespace regionmesh {
 namespace {
 
-/// Up to the quality of an equilateral face, which is 0.2595 (base/triangle.h).
-constexpr Range kQualities{0, 0.26};
-
-constexpr Range kPasses{0, kMostSmoothPasses}, kSampleCounts{1, 1e9}, kShareRange{0, 1}, kRoom{0, 8},
-    kLengths{kLeastLength, kMostLength};
+constexpr Range kQualities{kQualityRange.least, kQualityRange.most}, kRoom{kRoomRange.least, kRoomRange.most},
+    kPasses{0, kMostSmoothPasses}, kSampleCounts{1, 1e9}, kShareRange{0, 1}, kLengths{kLeastLength, kMostLength};
 
 /// Passes of taubin, laplacian and nifpms, and largest blocks of lattice.
 struct Strength {

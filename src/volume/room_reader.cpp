@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/option_range.h"
 #include "base/parallel_for.h"
-#include "regionmesh/error.h"
 #include "regionmesh/select_sections.h"
 
 namespace regionmesh {
@@ -18,11 +18,7 @@ constexpr double kCutOff = 2;
 
 }  // namespace
 
-void require_room(double room) {
-    constexpr double kMost = 8;
-    if (!(room >= 0 && room <= kMost))
-        throw Error(ErrorCode::kUsage, "room: " + std::to_string(room) + " is not a number of 0 to 8; give one");
-}
+void require_room(double room) { require_number("room", room, kRoomRange); }
 
 RoomReader::RoomReader(SectionReader& reader, double room, std::uint32_t threads)
     : reader_(reader), info_(reader.info()), threads_(threads) {

@@ -22,10 +22,10 @@ class FacePlanes {
 public:
     explicit FacePlanes(const PlacedFace& face) : face_(face) {
         const Vec3 u = face.at[1] - face.at[0], v = face.at[2] - face.at[0];
-        planes_[3] = {face.at[0], cross(u, v), size(u) * size(v)};
+        planes_[3] = {face.at[0], cross(u, v), size_of(u) * size_of(v)};
         for (int n = 0; n < 3; ++n) {
             const Vec3 edge = face.at[(n + 1) % 3] - face.at[n];
-            planes_[n] = {face.at[n], cross(edge, planes_[3].out), size(edge) * planes_[3].size};
+            planes_[n] = {face.at[n], cross(edge, planes_[3].out), size_of(edge) * planes_[3].size};
         }
         is_sure_ = length2(planes_[3].out) > 1e-12 * length2(u) * length2(v);
     }
@@ -50,14 +50,13 @@ private:
         double size;  // bounds `out` as it was computed, and its rounding
     };
 
-    static double size(Vec3 a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
     /// `edge` is the first place of the edge that the plane goes through; -1 for all places.
     static bool is_beyond(const Plane& plane, int side, const PlacedFace& other, const std::array<int, 3>& place,
                           int edge) {
         for (int n = 0; n < 3; ++n) {
             if (place[n] >= 0 && (edge < 0 || place[n] == edge || place[n] == (edge + 1) % 3)) continue;
             const Vec3 step = other.at[n] - plane.at;
-            if (!(side * dot(plane.out, step) > kDoubt * plane.size * size(step))) return false;
+            if (!(side * dot(plane.out, step) > kDoubt * plane.size * size_of(step))) return false;
         }
         return true;
     }
