@@ -33,12 +33,7 @@ int run_decimate(const Settings& given) {
                       names,     colours,     with_units(settings, file.coordinates)};
     OutputFiles files(model_writing(settings));
     const auto written = write_model(settings, model, files);
-    write_report_file(settings, report, model, made_by(kDecimate, settings), files);
-    if (!settings.html.empty())
-        write_page(settings.html, {page_model(settings.output, model)},
-                   page_options(kDecimate, settings, report_text(report, model, made_by(kDecimate, settings)), false,
-                                report.quality_bound),
-                   files);
+    write_report_and_page(kDecimate, settings, report, model, files);
     files.commit();
     print_region_files(settings, written);
     print_summary(settings, report);

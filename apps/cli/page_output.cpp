@@ -75,4 +75,15 @@ PageModel page_model(const std::string& path, const Model& model) {
             .metres = model.coordinates.metres};
 }
 
+void write_report_and_page(Command command, const Settings& settings, Report& report, const Model& model,
+                           OutputFiles& files) {
+    const MadeBy made = made_by(command, settings);
+    write_report_file(settings, report, model, made, files);
+    if (settings.html.empty()) return;
+    const bool has_labels = command == kReconstruct;
+    write_page(settings.html, {page_model(settings.output, model)},
+               page_options(command, settings, report_text(report, model, made), has_labels, report.quality_bound),
+               files);
+}
+
 }  // namespace regionmesh::cli

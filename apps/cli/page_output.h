@@ -32,4 +32,8 @@ std::string title_of(const std::string& path);
 /// A model for a page.
 PageModel page_model(const std::string& path, const Model& model);
 
+/// Writes the report and the page of the model that a command made, those that are asked for, as some of `files`.
+void write_report_and_page(Command command, const Settings& settings, Report& report, const Model& model,
+                           OutputFiles& files);
+
 }  // namespace regionmesh::cli

@@ -170,12 +170,7 @@ int run_reconstruct(const Settings& settings) {
     Report& report = made.report;
     report.seconds["write"] = writing;
     const Model model{made.mesh, made.labels, made.background, names, colours, notes.coordinates};
-    write_report_file(settings, report, model, made_by(kReconstruct, settings), files);
-    if (!settings.html.empty())
-        write_page(settings.html, {page_model(settings.output, model)},
-                   page_options(kReconstruct, settings, report_text(report, model, made_by(kReconstruct, settings)),
-                                true, report.quality_bound),
-                   files);
+    write_report_and_page(kReconstruct, settings, report, model, files);
     files.commit();
     print_region_files(settings, written);
     print_summary(settings, report);

@@ -31,7 +31,7 @@ int run_smooth(const Settings& given) {
                       names,     colours,     with_units(settings, file.coordinates)};
     OutputFiles files(model_writing(settings));
     const auto written = write_model(settings, model, files);
-    write_report_file(settings, report, model, made_by(kSmooth, settings), files);
+    write_report_and_page(kSmooth, settings, report, model, files);
     files.commit();
     print_region_files(settings, written);
     print_summary(settings, report, change.before);

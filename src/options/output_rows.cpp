@@ -144,14 +144,14 @@ Rows output_rows() {
         file_option({.name = "html",
                      .help = "page to write that shows the model and the report in a browser",
                      .group = kGroup,
-                     .commands = kReconstruct | kDecimate | kCheck | kCompare,
+                     .commands = kWriters | kCheck | kCompare,
                      .is_output = true},
                     [](Settings& s) { return &s.html; }),
         option(
             {.name = "preview-faces",
              .help = "largest number of faces in the page; a larger model is simplified for it",
              .group = kGroup,
-             .commands = kReconstruct | kDecimate | kCheck | kCompare | kView,
+             .commands = kWriters | kCheck | kCompare | kView,
              .unit = "faces"},
             [](Settings& s) { return &s.preview_faces; }, kAnyFaces),
     };

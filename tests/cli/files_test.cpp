@@ -278,6 +278,15 @@ TEST_F(CliFiles, decimation_knows_the_spacing_that_a_model_says) {
     EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("quality_bound")) << "nothing was decimated";
 }
 
+TEST_F(CliFiles, smoothed_models_have_a_page) {
+    expect_good("reconstruct " + volume() + "--smooth off -o " + out("m.vtp"));
+    expect_good("smooth " + out("m.vtp") + " --smooth 5 -o " + out("s.vtp") + " --html " + out("s.html"));
+    const std::string page = read("s.html");
+    EXPECT_THAT(page, HasSubstr("\"command_line\":\"regionmesh smooth "));
+    EXPECT_THAT(page, HasSubstr("\"title\":\"s.vtp\""));
+    EXPECT_THAT(page, HasSubstr("largest_displacement"));
+}
+
 TEST_F(CliFiles, a_part_of_a_volume_is_checked_against_the_same_part) {
     const std::string part = " --roi 2:12,:,3: --labels 1-3 --downsample 2,2,1 --min-region 3";
     expect_good("reconstruct " + volume() + "-o " + out("m.vtp") + part);
