@@ -28,14 +28,7 @@ int run_decimate(const Settings& given) {
     const CheckOptions options = check_options(settings, file.labels);
     ModelChange change = simplify_model(file.mesh, settings, options, file.coordinates.spacing);
     Report& report = change.report;
-    const auto [names, colours] = describe(settings, file.names, file.colours);
-    const Model model{file.mesh, file.labels, options.background,
-                      names,     colours,     with_units(settings, file.coordinates)};
-    OutputFiles files(model_writing(settings));
-    const auto written = write_model(settings, model, files);
-    write_report_and_page(kDecimate, settings, report, model, files);
-    files.commit();
-    print_region_files(settings, written);
+    write_changed(kDecimate, settings, file, options, report);
     print_summary(settings, report);
     print_locked_part(change);
     print_stop(settings, report);

@@ -86,4 +86,16 @@ void write_report_and_page(Command command, const Settings& settings, Report& re
                files);
 }
 
+void write_changed(Command command, const Settings& settings, const MeshFile& file, const CheckOptions& options,
+                   Report& report) {
+    const auto [names, colours] = describe(settings, file.names, file.colours);
+    const Model model{file.mesh, file.labels, options.background,
+                      names,     colours,     with_units(settings, file.coordinates)};
+    OutputFiles files(model_writing(settings));
+    const auto written = write_model(settings, model, files);
+    write_report_and_page(command, settings, report, model, files);
+    files.commit();
+    print_region_files(settings, written);
+}
+
 }  // namespace regionmesh::cli

@@ -36,4 +36,8 @@ PageModel page_model(const std::string& path, const Model& model);
 void write_report_and_page(Command command, const Settings& settings, Report& report, const Model& model,
                            OutputFiles& files);
 
+/// Writes a changed model and all that is asked for beside it, and prints the files of --per-region.
+void write_changed(Command command, const Settings& settings, const MeshFile& file, const CheckOptions& options,
+                   Report& report);
+
 }  // namespace regionmesh::cli
