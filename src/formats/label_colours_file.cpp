@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,18 +10,17 @@
 
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
+#include "formats/text/label_rows.h"
 #include "regionmesh/label_names_file.h"
 
 namespace regionmesh {
 namespace {
 
 using Fields = std::vector<std::string>;
-using formats::trim;
+using formats::column_titled, formats::is_label, formats::kMostTableColumns, formats::trim;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;  // as read_label_names()
-constexpr std::size_t kMostFields = 1000;                     // of a row, likewise
-
-/// The fields of a line, at most kMostFields + 1; quoted ones may hold the separator. Several blanks separate once.
+/// The fields of a line, at most kMostTableColumns + 1; quoted ones may hold the separator. Several blanks separate
+/// once.
 Fields split(std::string_view line, char separator) {
     const bool is_blank = separator == ' ';
     Fields fields;
@@ -33,7 +32,7 @@ Fields split(std::string_view line, char separator) {
         was_quoted = false;
     };
     for (const char letter : line) {
-        if (fields.size() > kMostFields) return fields;
+        if (fields.size() > kMostTableColumns) return fields;
         const bool ends = letter == separator || (is_blank && letter == '\t');
         if (letter == '"')
             is_quoted = !is_quoted, was_quoted = true;
@@ -58,22 +57,8 @@ std::optional<std::uint32_t> colour_at(const Fields& fields, const Places& place
     return colour;
 }
 
-bool is_label(const std::string& field) { return formats::parse_table_label(field).has_value(); }
-
-/// The first column called one of `words`, capitals and signs aside, that `is_wanted`.
-template <class IsWanted>
-std::optional<std::size_t> column_of(const Fields& header, std::initializer_list<std::string_view> words,
-                                     IsWanted&& is_wanted) {
-    for (const std::string_view word : words)
-        for (std::size_t column = 0; column < header.size(); ++column) {
-            std::string name = formats::lower(header[column]);
-            std::erase_if(name, [](unsigned char c) { return !std::isalnum(c); });
-            if (name == word && is_wanted(column)) return column;
-        }
-    return {};
-}
-std::optional<std::size_t> column_of(const Fields& header, std::initializer_list<std::string_view> words) {
-    return column_of(header, words, [](std::size_t) { return true; });
+std::optional<std::size_t> column_titled(const Fields& header, std::initializer_list<std::string_view> titles) {
+    return column_titled(header, std::span(titles.begin(), titles.size()), [](std::size_t) { return true; });
 }
 
 /// Where a table with a header has labels and colours.
@@ -93,15 +78,12 @@ struct Columns {
 Columns columns_of(const Fields& header, const Fields& first_row) {
     const auto has_label = [&](std::size_t column) { return column < first_row.size() && is_label(first_row[column]); };
     const std::size_t first = std::ranges::find_if(first_row, is_label) - first_row.begin();
-    Columns columns{
-        .label =
-            column_of(header, {"label", "labelvalue", "labelid", "index", "value", "id", "key", "number", "roi", "no"},
-                      has_label)
-                .value_or(first),
-        .hex = column_of(header, {"color", "colour", "hex", "rgb"}),
-        .parts = {}};
-    const auto red = column_of(header, {"r", "red", "colorr"}), green = column_of(header, {"g", "green", "colorg"}),
-               blue = column_of(header, {"b", "blue", "colorb"});
+    Columns columns{.label = column_titled(header, formats::kLabelTitles, has_label).value_or(first),
+                    .hex = column_titled(header, {"color", "colour", "hex", "rgb"}),
+                    .parts = {}};
+    const auto red = column_titled(header, {"r", "red", "colorr"}),
+               green = column_titled(header, {"g", "green", "colorg"}),
+               blue = column_titled(header, {"b", "blue", "colorb"});
     if (red && green && blue) columns.parts = Places{*red, *green, *blue};
     return columns;
 }
@@ -129,14 +111,10 @@ char separator_of(std::string_view line) {
     return ' ';
 }
 
-bool is_comment(std::string_view line) {
-    return line.empty() || line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
-}
-
 /// Takes the fields of the next line that is no comment off `text`; none at its end.
 std::optional<Fields> take_row(std::string_view& text) {
     while (!text.empty())
-        if (const std::string_view line = trim(formats::take_line(text)); !is_comment(line))
+        if (const std::string_view line = trim(formats::take_line(text)); !line.empty() && !formats::is_comment(line))
             return split(line, separator_of(line));
     return {};
 }
@@ -145,7 +123,7 @@ std::optional<Fields> take_row(std::string_view& text) {
 
 LabelColours read_label_colours(const std::filesystem::path& path) {
     const formats::InputFile file(path);
-    if (file.size() > kMostBytes) return {};
+    if (file.size() > formats::kMostTableBytes) return {};
     const std::string text = file.text();
     std::string_view rest = text;
     auto row = take_row(rest);
@@ -153,7 +131,7 @@ LabelColours read_label_colours(const std::filesystem::path& path) {
     Columns columns;
     if (std::ranges::none_of(*row, is_label)) {  // a header
         const Fields header = *std::exchange(row, take_row(rest));
-        if (!row || header.size() > kMostFields) return {};
+        if (!row || header.size() > kMostTableColumns) return {};
         columns = columns_of(header, *row);
         if (!columns.hex && !columns.parts) return {};
     }
@@ -161,7 +139,7 @@ LabelColours read_label_colours(const std::filesystem::path& path) {
     LabelColours colours;
     std::size_t damaged = 0;
     for (; row; row = take_row(rest)) {
-        if (row->size() > kMostFields) return {};
+        if (row->size() > kMostTableColumns) return {};
         const auto places = is_by_place ? places_in(*row) : std::nullopt;
         if (is_by_place && !places) return {};
         const auto colour = places ? colour_at(*row, *places) : columns.colour(*row);

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cstdint>
 #include <optional>
 #include <pugixml.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,24 +13,22 @@
 #include "formats/input_file.h"
 #include "formats/text/csv_rows.h"
 #include "formats/text/header_text.h"
+#include "formats/text/label_rows.h"
 #include "regionmesh/error.h"
 
 namespace regionmesh {
 namespace {
 
 namespace fs = std::filesystem;
-using formats::trim;
+using formats::is_label, formats::trim;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 20;
-constexpr std::size_t kMostColumns = 1000, kMostFields = std::size_t{1} << 20;  // of a row, and of a table
-constexpr char kBlank = ' ';  // the separator of tables that have no other
+constexpr std::size_t kMostFields = std::size_t{1} << 20;  // of a table
+constexpr char kBlank = ' ';                               // the separator of tables that have no other
 
 struct Row {
     std::uint64_t number;
     std::vector<std::string> fields;
 };
-
-bool is_label(std::string_view text) { return formats::parse_table_label(text).has_value(); }
 
 bool is_number(std::string_view text) {
     return text.find_first_not_of("0123456789+-.eE") == std::string_view::npos && formats::parse_real(text).has_value();
@@ -44,8 +39,7 @@ std::string without_comments(std::string_view text) {
     std::string kept;
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n')), words = trim(line);
-        const bool is_comment = words.starts_with('#') || words.starts_with('%') || words.starts_with("//");
-        if (!is_comment) kept += line;
+        if (!formats::is_comment(words)) kept += line;
         kept += '\n';
         text.remove_prefix(std::min(line.size() + 1, text.size()));
     }
@@ -63,8 +57,6 @@ private:
     std::vector<Row> split(char separator) const;
     bool find_rows(char separator);
     void join_words();
-    std::optional<std::size_t> column_by_header(const Row& header, std::span<const std::string_view> words,
-                                                bool has_labels, std::optional<std::size_t> other) const;
     std::optional<std::size_t> first_column(bool has_labels) const;
     bool column_has(std::size_t column, bool (*is_wanted)(std::string_view)) const;
     [[noreturn]] void refuse(std::uint64_t row, const std::string& text) const {
@@ -84,7 +76,8 @@ std::vector<Row> TableReader::split(char separator) const {
     std::vector<Row> rows;
     std::size_t fields = 0;
     for (formats::CsvRows found(formats::InputFile(path_), std::move(text), separator); found.next();) {
-        if (found.field_count() > kMostColumns) refuse(found.number(), "has more than 1000 columns: no table of names");
+        if (found.field_count() > formats::kMostTableColumns)
+            refuse(found.number(), "has more than 1000 columns: no table of names");
         if ((fields += found.field_count()) > kMostFields)
             refuse(found.number(), "is behind more than a million fields: no table of names");
         Row row{found.number(), {}};
@@ -182,24 +175,9 @@ std::optional<std::size_t> TableReader::first_column(bool has_labels) const {
     return std::nullopt;
 }
 
-/// The column whose header is the earliest possible of `words`, other than column `other`.
-std::optional<std::size_t> TableReader::column_by_header(const Row& header, std::span<const std::string_view> words,
-                                                         bool has_labels, std::optional<std::size_t> other) const {
-    for (const std::string_view word : words) {
-        for (std::size_t column = 0; column < header.fields.size(); ++column) {
-            std::string found = formats::lower(header.fields[column]);
-            std::erase_if(found, [](unsigned char c) { return !std::isalnum(c); });
-            if (found == word && column != other && (!has_labels || column_has(column, is_label))) return column;
-        }
-    }
-    return std::nullopt;
-}
-
 LabelNames TableReader::read() {
-    static constexpr std::array<std::string_view, 9> kLabelWords{"label", "labelvalue", "labelid", "index", "value",
-                                                                 "id",    "key",        "number",  "roi"};
-    static constexpr std::array<std::string_view, 9> kNameWords{
-        "name", "labelname", "regionname", "structurename", "region", "structure", "label", "description", "text"};
+    static constexpr std::string_view kNameTitles[]{"name",      "labelname", "regionname",  "structurename", "region",
+                                                    "structure", "label",     "description", "text"};
     if (!find_rows('\t') && !find_rows(';') && !find_rows(',')) {
         rows_ = split(kBlank);
         join_words();
@@ -211,9 +189,13 @@ LabelNames TableReader::read() {
     }
     if (rows_.empty()) formats::fail(path_, "holds no labels and names; write lines 'label,name'");
     std::optional<std::size_t> labels, names;
-    if (header) labels = column_by_header(*header, kLabelWords, true, {});
+    if (header)
+        labels = formats::column_titled(header->fields, formats::kLabelTitles,
+                                        [&](std::size_t column) { return column_has(column, is_label); });
     if (!labels) labels = first_column(true);
-    if (header) names = column_by_header(*header, kNameWords, false, labels);
+    if (header)
+        names =
+            formats::column_titled(header->fields, kNameTitles, [&](std::size_t column) { return column != labels; });
     if (!names) names = first_column(false);
     if (!labels) labels = 0;  // some row has no label; the error below names it
     if (!names) formats::fail(path_, "has no column of names, only numbers; write lines 'label,name'");
@@ -256,7 +238,7 @@ LabelNames read_xml(const fs::path& path, const std::string& text) {
 /// Whether at least half of the lines below a header do, so that the file is meant as a table.
 bool begins_with_labels(const fs::path& path) {
     const formats::InputFile file(path);
-    if (file.size() > kMostBytes) return false;
+    if (file.size() > formats::kMostTableBytes) return false;
     const std::string text = without_comments(file.text());
     std::size_t lines = 0, labelled = 0;
     for (std::string_view rest = text; !rest.empty();) {
@@ -271,7 +253,8 @@ bool begins_with_labels(const fs::path& path) {
 
 LabelNames read_label_names(const fs::path& path) {
     const formats::InputFile file(path);
-    if (file.size() > kMostBytes) formats::fail(path, "is larger than 4 MiB: no table of names; name another file");
+    if (file.size() > formats::kMostTableBytes)
+        formats::fail(path, "is larger than 4 MiB: no table of names; name another file");
     const std::string text = file.text();
     if (text.find('\0') != std::string::npos)
         formats::fail(path, "is no text (in UTF-8); name a table of labels and names");
