@@ -157,10 +157,10 @@ TEST_P(BothFormats, unsigned_labels_are_ordered_as_such_and_keep_their_bits) {
                 testing::Each(std::array<InputLabel, 2>{3, large}));
 }
 
-TEST_F(MeshFileTest, vtk_says_that_large_labels_are_unsigned) {
+TEST_F(MeshFileTest, large_labels_come_back_unsigned) {
     const InputLabel large = std::numeric_limits<InputLabel>::min();  // the bits of 2^63
     const LabelTable labels = test::labels_from({large, 3}, true);
-    for (const char* extension : {".vtp", ".vtu"}) {
+    for (const char* extension : {".vtp", ".vtu", ".ply"}) {
         const MeshFile file =
             round_trip(two_boxes(), labels, extension,
                        {.background = {0}, .names = {{large, "rest"}}, .colours = {{large, 0xFF8000}}});
@@ -170,7 +170,11 @@ TEST_F(MeshFileTest, vtk_says_that_large_labels_are_unsigned) {
         EXPECT_EQ(file.names, (LabelNames{{large, "rest"}}));
         EXPECT_EQ(file.colours, (LabelColours{{large, 0xFF8000}}));
         const LabelTable small = test::labels_from({7, 3}, true);
-        EXPECT_FALSE(round_trip(two_boxes(), small, extension).labels.is_unsigned()) << "written as Int64";
+        EXPECT_FALSE(round_trip(two_boxes(), small, extension).labels.is_unsigned()) << extension;
+    }
+    for (const char* name : {"large.obj", "large.stl"}) {
+        write_mesh(two_boxes(), labels, path(name));
+        EXPECT_EQ(read_mesh(path(name)).labels.text(large), "9223372036854775808") << name;
     }
 }
 

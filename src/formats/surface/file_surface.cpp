@@ -63,6 +63,7 @@ void read_comment(FileSurface& surface, std::string_view comment) {
     if (!label) return;
     const std::string name = formats::one_line(comment);
     if (name.empty() && word == "exterior_label") surface.exterior_label = *label;
+    if (name.empty() && word == "unsigned_labels") surface.is_unsigned = *label != 0;
     if (name.empty() && word == "no_background") surface.background.emplace();
     if (name.empty() && word == "background") {
         if (!surface.background) surface.background.emplace();

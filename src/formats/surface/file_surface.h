@@ -51,8 +51,8 @@ Vec3 take_point(const formats::ByteReader& file, std::string_view& line);
 /// Takes "SPACE=RAS", as 3D Slicer writes it, out of a text; ignores others.
 void read_space(FileSurface& surface, std::string_view text);
 
-/// Evaluates a comment of our own files, "exterior_label -1", "background 2" or "region 3 liver", "colour 3 #ff8000",
-/// "metres_per_unit 0.001" or "sample_spacing 1 1 4", and that of read_space(); ignores others.
+/// Evaluates a comment of our own files, "exterior_label -1", "unsigned_labels 1", "background 2", "region 3 liver",
+/// "colour 3 #ff8000", "metres_per_unit 0.001" or "sample_spacing 1 1 4", and that of read_space(); ignores others.
 void read_comment(FileSurface& surface, std::string_view comment);
 
 /// Comments of our files that say what is known of the coordinates, one a line, as read_comment() takes them.

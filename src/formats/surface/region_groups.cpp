@@ -15,7 +15,11 @@ using Labels = std::array<InputLabel, 2>;
 struct NamedLabels {
     Labels labels;
     std::string name;
+    bool is_unsigned = false;  // a label is 2^63 or more
 };
+
+/// Labels of 2^63 and more are negative as signed numbers.
+bool is_large(std::string_view text, InputLabel label) { return label < 0 && !text.starts_with('-'); }
 
 /// The label in "region_3" or "region_3 liver".
 std::optional<InputLabel> region_in(std::string_view name) {
@@ -45,16 +49,17 @@ std::optional<NamedLabels> labels_in(std::string_view name, InputLabel exterior)
     if (word.starts_with("interface_")) {
         word.remove_prefix(10);
         const std::size_t cut = word.find('_');
-        const auto first = formats::parse_label(word.substr(0, cut));
-        const auto second = cut == std::string_view::npos ? std::nullopt : formats::parse_label(word.substr(cut + 1));
-        if (first && second) return NamedLabels{{*first, *second}, {}};
-        return std::nullopt;
+        if (cut == std::string_view::npos) return std::nullopt;
+        const std::string_view one = word.substr(0, cut), other = word.substr(cut + 1);
+        const auto first = formats::parse_label(one), second = formats::parse_label(other);
+        if (!first || !second) return std::nullopt;
+        return NamedLabels{{*first, *second}, {}, is_large(one, *first) || is_large(other, *second)};
     }
     if (word.starts_with("region_")) word.remove_prefix(7);
     const auto label = formats::parse_label(word);
     if (!label || *label == exterior) return std::nullopt;
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-    return NamedLabels{{*label, exterior}, std::string(rest)};
+    return NamedLabels{{*label, exterior}, std::string(rest), is_large(word, *label)};
 }
 
 }  // namespace
@@ -79,6 +84,7 @@ void RegionGroups::put_labels(FileSurface& surface) const {
         if (!told) continue;
         is_told[n] = true;
         labels[n] = told->labels;
+        surface.is_unsigned |= told->is_unsigned;
         taken.insert(told->labels.begin(), told->labels.end());
         if (!told->name.empty()) surface.names.try_emplace(told->labels[0], told->name);
     }

@@ -18,11 +18,6 @@
 namespace regionmesh {
 namespace {
 
-/// As signed numbers, like all labels in files that we read.
-InputLabel number_of(const FileView& view, Label label) {
-    return is_exterior(label) ? view.exterior_label() : view.labels().input(label);
-}
-
 void add_coordinates(const FileView& view, TextWriter& text) {
     for (const std::string& comment : coordinate_comments(view.coordinates())) text.line("#", comment);
 }
@@ -30,7 +25,7 @@ void add_coordinates(const FileView& view, TextWriter& text) {
 /// The name of an object and its material: both programs and people read it.
 std::string object_of(const FileView& view, const FileRegions& regions, Label label) {
     const std::uint32_t number = regions.number(label);
-    return number > 0 ? regions.all()[number - 1].word : "background_" + std::to_string(number_of(view, label));
+    return number > 0 ? regions.all()[number - 1].word : "background_" + view.label_text(label);
 }
 
 /// The object that each interface belongs to, as a place in `labels`: a region, or a background label.
@@ -100,12 +95,12 @@ void write_comments(const FileView& view, const FileRegions& regions, TextWriter
     text.line("# exterior_label", view.exterior_label());
     const std::vector<InputLabel> background = view.background_labels();
     if (background.empty()) text.line("# no_background 0");
-    for (const InputLabel label : background) text.line("# background", label);
+    for (const InputLabel label : background) text.line("# background", view.labels().text(label));
     view.for_names([&](Label label, const std::string& name) {
-        if (regions.number(label) > 0) text.line("# region", number_of(view, label), name);
+        if (regions.number(label) > 0) text.line("# region", view.label_text(label), name);
     });
     view.for_given_colours(
-        [&](Label label, std::uint32_t colour) { text.line("# colour", number_of(view, label), hex_of(colour)); });
+        [&](Label label, std::uint32_t colour) { text.line("# colour", view.label_text(label), hex_of(colour)); });
 }
 
 /// A material is a diffuse colour, in shares of red, green and blue.
@@ -147,7 +142,7 @@ void write_obj(const FileView& view, OutputFiles& files, const std::filesystem::
         auto [first, second] = interfaces[n].labels;
         const bool is_outward = second != objects.labels[last];
         if (!is_outward) std::swap(first, second);
-        text.add("g interface_", number_of(view, first), '_', number_of(view, second));
+        text.add("g interface_", view.label_text(first), '_', view.label_text(second));
         text.end_line();
         faces.for_group(n, [&](FaceId f, std::uint32_t side) {
             const auto [a, b, c] = turned_vertices(view.mesh(), f, is_outward ? side : 1 - side);

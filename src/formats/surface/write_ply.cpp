@@ -40,6 +40,7 @@ void write(const FileView& view, FaceLabels face_labels, const ColourOf& colour_
     const Mesh& mesh = view.mesh();
     const bool is_wide = !all_labels_fit_32_bits(view);
     std::string comments = fmt::format("comment exterior_label {}\n", view.exterior_label());
+    if (view.labels().has_large()) comments += "comment unsigned_labels 1\n";
     for (const std::string& comment : coordinate_comments(view.coordinates()))
         comments += fmt::format("comment {}\n", comment);
     if (face_labels == FaceLabels::kBoth) {
