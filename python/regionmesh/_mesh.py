@@ -238,9 +238,16 @@ class Mesh:
         ------
         ValueError
             Without a target, and for values out of range.
+
+        Warns
+        -----
+        UserWarning
+            Where the mesh has more faces than `reduce` or `target_faces` ask for.
         """
         pairs = _options.pairs("decimate", options, "simplify")
-        return self._simplified(pairs, keep_samples, progress)
+        mesh = self._simplified(pairs, keep_samples, progress)
+        _options.warn_of_target("simplify", pairs, mesh._model)
+        return mesh
 
     def improve(self, *, min_quality=0.1, keep_samples=True, threads=0, progress=None):
         """Return a mesh with better shaped faces, for finite elements: edges are flipped, vertices moved.

@@ -2,6 +2,7 @@
 
 import operator
 import os
+import warnings
 
 from . import _core
 
@@ -11,6 +12,11 @@ _NOT_HERE |= {"memory-limit", "no-sandbox", "require-sandbox"}  # of the process
 # Options that describe a model when it is made; its methods know them.
 _OF_MODEL = {"background", "no-background", "boundary", "hull"}
 _INPUT_FILES = {"collars", "surveys", "terrain"}  # other files are arguments here, or outputs
+_WHY_STOPPED = {
+    "topology": "every further collapse would change topology, fold, cross or degrade faces, or carry samples into other "
+    "regions",
+    "max_error": "every further collapse would exceed max_error",
+}
 _FALSE_AND_TRUE = {"smooth": ("off", "normal")}
 
 
@@ -138,6 +144,15 @@ def pairs(command, options, function=None):
         For a value out of range, with the line of the command line.
     """
     return _pairs(rows(command), options, function or command)
+
+
+def warn_of_target(function, given, model):
+    """Warn where a model has more faces than the options `given`, as pairs() returns them, ask for."""
+    target = next((f"{_keyword(name)}={text}" for name, text in given if name in ("reduce", "target-faces")), None)
+    if target is None or model.stopped not in _WHY_STOPPED:
+        return
+    text = f"{function}: {target} is not reached with {model.face_count} faces: {_WHY_STOPPED[model.stopped]}"
+    warnings.warn(text, stacklevel=3)
 
 
 def output_pairs(options, function):

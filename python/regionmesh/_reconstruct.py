@@ -100,6 +100,12 @@ def reconstruct(
     Mesh
         The model. Violations are no errors: see `Mesh.certified` and `Mesh.report`.
 
+    Warns
+    -----
+    UserWarning
+        Where the model has more faces than `reduce` or `target_faces` ask for; and of tables of names that cannot be
+        read.
+
     Raises
     ------
     TypeError
@@ -139,16 +145,19 @@ def reconstruct(
             if spacing is not None:
                 options = {"spacing": spacing, **options}
             pairs = _options.pairs("reconstruct", options) + unit
-            return _from_files(labels, pairs, kept, described, report)
-        for name in _OF_FILES:
-            if options.get(name) is not None:
-                raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
-        pairs = _options.pairs("reconstruct", options) + unit
-        given = _sources.opened(labels, sections)
-        place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
-        source = _sources.source(given, place, chosen, described[0] or {}, kept)
-        model = _core.reconstruct_source(source, pairs, *described, report)
-    return Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place, _sources.size_of(given))})
+            mesh = _from_files(labels, pairs, kept, described, report)
+        else:
+            for name in _OF_FILES:
+                if options.get(name) is not None:
+                    raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
+            pairs = _options.pairs("reconstruct", options) + unit
+            given = _sources.opened(labels, sections)
+            place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
+            source = _sources.source(given, place, chosen, described[0] or {}, kept)
+            model = _core.reconstruct_source(source, pairs, *described, report)
+            mesh = Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place, _sources.size_of(given))})
+    _options.warn_of_target("reconstruct", pairs, mesh._model)
+    return mesh
 
 
 def _describe(function, command):

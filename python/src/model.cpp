@@ -32,6 +32,7 @@ Model model_from(Reconstruction made, const LabelNames& names, bool is_open, con
     Model model{
         std::move(made.mesh), std::move(made.labels), std::move(made.background), names, is_open, coordinates, colours};
     model.report = report_json(made.report, model.labels, names, {}, coordinates.metres);
+    model.stopped = made.report.stopped;
     return model;
 }
 
@@ -98,6 +99,7 @@ CheckOptions check_options(const Model& model, std::uint32_t threads) {
 
 void describe(Model& made, const ModelChange& change) {
     made.report = report_json(change.report, made.labels, made.names, {}, made.coordinates.metres);
+    made.stopped = change.report.stopped;
 }
 
 std::vector<InputLabel> background_of(const Model& model) {

@@ -11,6 +11,7 @@
 #include "regionmesh/label_names.h"
 #include "regionmesh/options.h"
 #include "regionmesh/reconstruct.h"
+#include "regionmesh/simplify.h"
 #include "sources.h"
 #include "watch.h"
 
@@ -27,6 +28,7 @@ struct Model {
     LabelColours colours = {};               // of some regions, given by the input
     std::optional<InputLabel> lacking = {};  // a background that the exterior may stand for
     std::string report = {};                 // JSON; empty where it was not checked yet
+    StopReason stopped = StopReason::kNoneAsked;
 };
 
 /// What a reconstruction takes besides its labels.

@@ -125,6 +125,7 @@ void bind_model(py::module_& module) {
     py::class_<Model>(module, "Model")
         .def_property_readonly("arrays", arrays_of)
         .def_readonly("report", &Model::report)
+        .def_property_readonly("stopped", [](const Model& model) { return to_string(model.stopped); })
         .def_readonly("names", &Model::names)
         .def_readonly("colours", &Model::colours)
         .def_readonly("is_open", &Model::is_open)

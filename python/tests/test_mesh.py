@@ -4,6 +4,7 @@ import copy
 import json
 import os
 import pickle
+import warnings
 import zipfile
 
 import numpy as np
@@ -181,11 +182,25 @@ def test_simplify_can_improve_faces_without_a_target(filled):
     assert better.certified and after["mean_quality"] > before["mean_quality"]
 
 
-@pytest.mark.parametrize("options", [{"target_faces": 10}, {"max_error": 0.2}, {"reduce": "99%"}])
-def test_simplify_says_why_it_stopped(filled, options):
-    fewer = filled.simplify(**options)
+@pytest.mark.parametrize(
+    "options, warning",
+    [
+        ({"target_faces": 10}, "simplify: target_faces=10 is not reached with .* would change topology"),
+        ({"reduce": "99.9%", "max_error": 0.2}, "simplify: reduce=.* is not reached with .* would exceed max_error"),
+    ],
+)
+def test_simplify_warns_of_a_target_that_it_misses(filled, options, warning):
+    with pytest.warns(UserWarning, match=warning):
+        fewer = filled.simplify(**options)
     assert fewer.certified
     assert fewer.report["stopped"] in ("topology", "max_error")
+
+
+def test_simplify_does_not_warn_without_a_target_or_at_it(filled):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert filled.simplify(max_error=0.2).report["stopped"] == "max_error"
+        assert filled.simplify(reduce=0.3).report["stopped"] == "target"
 
 
 def test_simplify_needs_a_target(filled):
@@ -195,6 +210,7 @@ def test_simplify_needs_a_target(filled):
         filled.simplify(memory=5)
 
 
+@pytest.mark.filterwarnings("ignore:.* is not reached")
 def test_simplify_and_improve_keep_samples(grains):
     mesh = regionmesh.reconstruct(grains, background=None)
     for changed in (mesh.simplify(reduce=0.95), mesh.improve()):
@@ -459,6 +475,7 @@ def test_save_returns_the_files_and_scales_to_metres(two_boxes, tmp_path):
             assert b'unit="' + word + b'"' in b"".join(parts.read(part) for part in parts.namelist())
 
 
+@pytest.mark.filterwarnings("ignore:.* is not reached")
 def test_the_representation_tells_samples_in_other_regions():
     noise = np.random.default_rng(1).integers(0, 3, (9, 8, 10)).astype(np.uint8)
     made = regionmesh.reconstruct(noise, reduce=0.9, keep_samples=False)

@@ -42,6 +42,14 @@ def test_reduce_removes_faces(grains):
     assert half.certified and half.report["stopped"] == "target"
 
 
+@pytest.mark.parametrize("is_file", [False, True])
+def test_a_target_that_is_missed_is_a_warning(tmp_path, is_file):
+    noise = np.random.default_rng(1).integers(0, 4, (12, 12, 12), np.uint8)
+    np.save(tmp_path / "noise.npy", noise)
+    with pytest.warns(UserWarning, match="reconstruct: reduce=99% is not reached with [0-9]+ faces"):
+        regionmesh.reconstruct(str(tmp_path / "noise.npy") if is_file else noise, reduce="99%")
+
+
 def test_the_model_does_not_depend_on_threads(grains):
     one, two = (regionmesh.reconstruct(grains, reduce="60%", threads=n) for n in (1, 2))
     np.testing.assert_array_equal(one.points, two.points)
