@@ -67,7 +67,7 @@ void convert_whole(const Settings& settings, MeshFile& file, const CheckOptions&
     Described described = describe(settings, file.names, file.colours);
     OutputFiles files(model_writing(settings));
     const Model model{file.mesh,       file.labels,       options.background,
-                      described.names, described.colours, with_units(settings, file.coordinates)};
+                      described.names, described.colours, with_units_and_space(settings, file.coordinates)};
     if (!is_precomputed(settings.output)) {
         const auto written = write_model(settings, model, files);
         files.commit();

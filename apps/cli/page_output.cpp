@@ -90,7 +90,7 @@ void write_changed(Command command, const Settings& settings, const MeshFile& fi
                    Report& report) {
     const auto [names, colours] = describe(settings, file.names, file.colours);
     const Model model{file.mesh, file.labels, options.background,
-                      names,     colours,     with_units(settings, file.coordinates)};
+                      names,     colours,     with_units_and_space(settings, file.coordinates)};
     OutputFiles files(model_writing(settings));
     const auto written = write_model(settings, model, files);
     write_report_and_page(command, settings, report, model, files);

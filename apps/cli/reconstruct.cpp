@@ -129,7 +129,7 @@ Reconstruction reconstruct_input(const Settings& settings, ModelNotes& notes, co
         LabelColours colours;
         if constexpr (requires { reader.info().colours; }) colours = reader.info().colours;
         notes.labels = describe(settings, reader.info().names, colours);
-        notes.coordinates = with_units(settings, coordinates_of(reader.info()));
+        notes.coordinates = with_units_and_space(settings, coordinates_of(reader.info()));
         warn_of_grey_scale(settings, reader);
         const auto on_progress = [&](const Progress& progress) {
             memory.show(progress);

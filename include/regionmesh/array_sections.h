@@ -59,6 +59,7 @@ struct ArrayOptions {
     Vec3 origin{0, 0, 0};
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1};  // as in Lattice
     std::optional<double> metres = {};                           // in a unit of length: 1e-15 to 1e6
+    Space space = Space::kUnknown;
     SweepChoice sweep = SweepChoice::kAuto;
     LabelNames names = {};
     std::string name = "array";  // of the array in messages

@@ -156,8 +156,8 @@ bool has_background(const Settings& settings);
 /// Whether a target is given: faces, a share of them, or an error.
 bool has_target(const Settings& settings);
 
-/// `known`, with the unit of --units where it is given.
-Coordinates with_units(const Settings& settings, Coordinates known);
+/// `known`, with the unit of --units where it is given, and the space of --space where none is known.
+Coordinates with_units_and_space(const Settings& settings, Coordinates known);
 
 /// How to simplify and to smooth a whole model; without a target simplify() keeps all faces.
 SimplifyOptions simplify_options(const Settings& settings, const Mesh& mesh);

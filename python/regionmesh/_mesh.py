@@ -113,7 +113,11 @@ class Mesh:
 
     @property
     def lines(self):
-        """(k, 2) uint32: edges where three or more regions meet, the outside counted; rows of `points`."""
+        """(k, 2) uint32: edges with three or more faces; rows of `points`.
+
+        Three or more regions meet there, the outside counted. Where a region, the background and the outside of the box
+        meet, an edge has two faces: `triple_lines` has these, too.
+        """
         return _measure.lines(self.faces)
 
     @property
@@ -415,7 +419,8 @@ class Mesh:
         return source
 
     def _array_source(self, labels, given):
-        opened = _sources.opened(labels)
+        _sources.require_axes(given[2])
+        opened = _sources.opened(labels).in_space(self.space)
         selection, kept, place = self._made()
         if self._is_chosen(_sources.size_of(opened)):
             selection, kept, place = [], None, self._place()
@@ -467,8 +472,9 @@ class Mesh:
 
         Parameters
         ----------
-        like : array_like, optional
-            A volume [z, y, x] with the shape and type of the result; uint8 for bool.
+        like : array_like, path or image, optional
+            A volume [z, y, x] with the shape and type of the result; uint8 for bool. An image or a file also says where
+            the samples lie.
         shape : (3,) sequence of int, optional
             Samples along z, y, x. Default: those the model was made from.
         spacing, origin, direction : optional
@@ -490,10 +496,12 @@ class Mesh:
         own = self._lattice or {}
         if like is not None and shape is not None:
             raise TypeError("voxelise: give like or shape, not both")
+        place = (spacing, origin, direction)
+        _sources.require_axes(direction)
         if like is not None:
-            like = like if hasattr(like, "shape") else np.asarray(like)
-            of_like = np.uint8 if like.dtype == bool else like.dtype
-            shape, dtype = like.shape, of_like if dtype is None else dtype
+            shape, of_like, own_place = self._lattice_like(like)
+            dtype = of_like if dtype is None else dtype
+            place = [given if given is not None else value for given, value in zip(place, own_place)]
         if shape is None and "size" in own:
             shape = own["size"][::-1]
         if shape is None or len(shape) != 3:
@@ -505,10 +513,23 @@ class Mesh:
         regions = [row["label"] for row in self.report["regions"]] + self.background + [outside]
         if dtype.kind not in "iu" or min(regions) < np.iinfo(dtype).min or max(regions) > np.iinfo(dtype).max:
             raise ValueError(f"voxelise: {dtype} cannot hold the labels {min(regions)} to {max(regions)}; give dtype")
-        where = _sources.frame(*self._place(spacing, origin, direction))
+        where = _sources.frame(*self._place(*place))
         result = np.empty(tuple(shape), dtype.newbyteorder("="))
         _core.voxelise(self._model, where, bits(outside), result)
         return result
+
+    def _lattice_like(self, like):
+        """Return the shape, the type and the place of a volume; the place is None where it says nothing."""
+        if _sources.is_path(like):
+            with _sources.missing_files(*_sources.paths_of(like)):
+                turn = [("space", self.space.lower())] if self.space else []
+                info = _core.file_source(_sources.paths_of(like), turn, None).info
+            shape, dtype, place = info["size"][::-1], info["type"], [info[key] for key in ("spacing", "origin", "direction")]
+        else:
+            own = _sources.placed(like).in_space(self.space)
+            data = own.data if hasattr(own.data, "shape") else np.asarray(own.data)
+            shape, dtype, place = data.shape, data.dtype, (own.spacing, own.origin, own.direction)
+        return shape, "uint8" if dtype == "bool" else dtype, place
 
     def save(self, path, *, per_region=False, units=None, precomputed=None, levels=None, sharded=False):
         """Write the model; the extension selects the format (docs/files.md).

@@ -11,7 +11,7 @@ _NOT_HERE = {"quiet", "verbose", "weld", "orient", "outside", "labels"}  # label
 _NOT_HERE |= {"memory-limit", "no-sandbox", "require-sandbox"}  # of the process, which is the interpreter's
 # Options that describe a model when it is made; its methods know them.
 _OF_MODEL = {"background", "no-background", "boundary", "hull"}
-_INPUT_FILES = {"collars", "surveys", "terrain"}  # other files are arguments here, or outputs
+_INPUT_FILES = {"collars", "surveys", "terrain", "merge"}  # other files are arguments here, or outputs
 _WHY_STOPPED = {
     "topology": "every further collapse would change topology, fold, cross or degrade faces, or carry samples into other "
     "regions",

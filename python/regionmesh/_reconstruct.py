@@ -7,14 +7,20 @@ from ._labels import bits, colours_of, names_of
 from ._mesh import Mesh
 
 # Options that say how an input is read.
-_OF_SOURCE = {"sweep", "roi", "box", "downsample", "min-region", "background", "no-background"}
+_OF_SOURCE = {"sweep", "roi", "box", "downsample", "min-region", "merge", "background", "no-background"}
 _OF_FILES = ("size", "type", "layer", "columns", "step", "layers", "collars", "surveys", "terrain", "array", "hull",
              "max_work", "external_files")  # fmt: skip
+_SPACES = {"ras": "RAS", "lps": "LPS"}
 _OF_READING = {name.replace("_", "-") for name in _OF_FILES}
 
 
 def _split(options, names):
     return [(name, text) for name, text in options if name in names]
+
+
+def _named(options):
+    """Files that options name."""
+    return [value for name, value in options if name in ("collars", "surveys", "terrain", "merge")]
 
 
 def _kept(labels):
@@ -27,8 +33,7 @@ def _kept(labels):
 
 def _from_files(labels, options, kept, described, progress):
     paths = _sources.paths_of(labels)
-    beside = [value for name, value in options if name in ("collars", "surveys", "terrain")]
-    with _sources.missing_files(*paths, *beside):
+    with _sources.missing_files(*paths, *_named(options)):
         if _core.kind_of_input(paths) == "tetrahedra":
             if len(paths) > 1:
                 raise ValueError(f"{os.fsdecode(paths[1])}: one table or mesh at a time; give one")
@@ -62,6 +67,7 @@ def reconstruct(
     labels_to_keep=None,
     sections=None,
     units=None,
+    space=None,
     progress=None,
     **options,
 ):
@@ -89,6 +95,9 @@ def reconstruct(
         stored; without it they go through a temporary file in TMPDIR.
     units : {"km", "m", "cm", "mm", "um", "nm", "ft", "in"}, optional
         Unit of length of the model, `Mesh.metres`. Default: that of the image or file, where it says one.
+    space : {"ras", "lps"}, optional
+        Space of the model, `Mesh.space`: that of an image or file is turned into it, and others are taken to be in it.
+        Default: that of the image (RAS for nibabel, LPS for SimpleITK) or file, where it says one.
     progress : bool or callable, optional
         True: a progress bar, by tqdm where it is installed. A callable gets (stage, done, total); total is None where
         it is not known.
@@ -135,7 +144,7 @@ def reconstruct(
     from_files = _sources.is_path(labels)
     kept = _kept(labels_to_keep)
     described = names_of(names), colours_of(names)
-    unit = _options.output_pairs({"units": units}, "reconstruct")
+    given = _options.output_pairs({"units": units, "space": space}, "reconstruct")
     with _progress.bar(progress) as report:
         if from_files:
             if origin is not None or direction is not None:
@@ -144,18 +153,20 @@ def reconstruct(
                 raise TypeError("reconstruct(): sections applies to iterators, not to files; leave it out")
             if spacing is not None:
                 options = {"spacing": spacing, **options}
-            pairs = _options.pairs("reconstruct", options) + unit
+            pairs = _options.pairs("reconstruct", options) + given
             mesh = _from_files(labels, pairs, kept, described, report)
         else:
             for name in _OF_FILES:
                 if options.get(name) is not None:
                     raise TypeError(f"reconstruct(): {name} applies to files, not to {type(labels).__name__}")
-            pairs = _options.pairs("reconstruct", options) + unit
-            given = _sources.opened(labels, sections)
-            place, chosen = _sources.place_of(given, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
-            source = _sources.source(given, place, chosen, described[0] or {}, kept)
+            pairs = _options.pairs("reconstruct", options) + given
+            _sources.require_axes(direction)
+            opened = _sources.opened(labels, sections).in_space(_SPACES.get(space, ""))
+            place, chosen = _sources.place_of(opened, (spacing, origin, direction)), _split(pairs, _OF_SOURCE)
+            with _sources.missing_files(*_named(pairs)):
+                source = _sources.source(opened, place, chosen, described[0] or {}, kept)
             model = _core.reconstruct_source(source, pairs, *described, report)
-            mesh = Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place, _sources.size_of(given))})
+            mesh = Mesh(model, {**source.info, "made": _made(pairs, chosen, kept, place, _sources.size_of(opened))})
     _options.warn_of_target("reconstruct", pairs, mesh._model)
     return mesh
 

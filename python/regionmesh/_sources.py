@@ -13,14 +13,16 @@ from ._options import whole
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 PATHS = (str, bytes, os.PathLike)
+_COMPRESSED = (".gz", ".bz2", ".zst")
 _SLAB_BYTES = 64 << 20  # of sections that are read at once from an array in chunks
 
 
-def frame(spacing, origin, direction, metres=None):
+def frame(spacing, origin, direction, metres=None, space=""):
     """Where samples lie; each may be None."""
     spacing = _vector("spacing", spacing, (1.0, 1.0, 1.0))
     origin = _vector("origin", origin, (0.0, 0.0, 0.0))
-    return _core.Frame(spacing, origin, _direction(direction), metres)
+    direction = IDENTITY if direction is None else tuple(_matrix(direction).ravel().tolist())
+    return _core.Frame(spacing, origin, direction, metres, space)
 
 
 def _vector(name, value, default):
@@ -37,24 +39,38 @@ def _vector(name, value, default):
     return vector
 
 
-def _direction(value):
-    if value is None:
-        return IDENTITY
-    matrix = np.asarray(value, dtype=float)
+def _matrix(direction):
+    matrix = np.asarray(direction, dtype=float)
     if matrix.size != 9:
         raise ValueError(f"direction: {matrix.size} numbers; give nine: the directions of x, y, z as columns")
-    matrix = matrix.reshape(3, 3)
-    if not np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-6):
+    return matrix.reshape(3, 3)
+
+
+def require_axes(direction):
+    """Refuse a direction given by the user that is not orthonormal; those of files and images may be sheared."""
+    matrix = np.eye(3) if direction is None else _matrix(direction)
+    if not np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-3):
         raise ValueError("direction: the columns are not orthonormal; give the directions of x, y, z as unit columns")
-    return tuple(matrix.ravel().tolist())
 
 
 class Placed:
-    """What an input says about its place in space and its unit of length; None where it says nothing."""
+    """What an input says about its place in space and its unit of length; None where it says nothing.
 
-    def __init__(self, data, spacing=None, origin=None, direction=None, metres=None):
+    `space` is "RAS", "LPS" or "".
+    """
+
+    def __init__(self, data, spacing=None, origin=None, direction=None, metres=None, space=""):
         self.data, self.spacing, self.origin, self.direction = data, spacing, origin, direction
-        self.metres = metres
+        self.metres, self.space = metres, space
+
+    def in_space(self, space):
+        """Return the same samples turned into "RAS" or "LPS", where their own is the other; "" leaves them."""
+        if not space or self.space == space:
+            return self
+        turn = np.diag([-1.0, -1.0, 1.0]) if self.space else np.eye(3)
+        origin = None if self.origin is None else turn @ np.asarray(self.origin, dtype=float)
+        direction = None if self.direction is None else turn @ _matrix(self.direction)
+        return Placed(self.data, self.spacing, origin, direction, self.metres, space)
 
 
 def is_path(labels):
@@ -94,20 +110,26 @@ def _metres_of_simpleitk(image):
 def _from_simpleitk(image):
     module = sys.modules[type(image).__module__.split(".")[0]]
     data = module.GetArrayViewFromImage(image)
-    return Placed(data, image.GetSpacing(), image.GetOrigin(), image.GetDirection(), _metres_of_simpleitk(image))
+    metres = _metres_of_simpleitk(image)
+    return Placed(data, image.GetSpacing(), image.GetOrigin(), image.GetDirection(), metres, "LPS")
 
 
 class _Turned:
-    """An array [x, y, z] on disk, read as [z, y, x]."""
+    """An array [x, y, z, 1 ...] on disk, read as [z, y, x]."""
 
     def __init__(self, data):
         self.data = data
-        self.shape = tuple(data.shape)[::-1]
+        self.shape = tuple(data.shape)[2::-1]
         self.dtype = data.dtype
-        self.ndim = len(self.shape)
+        self.ndim = 3
 
     def __getitem__(self, sections):
-        return np.asanyarray(self.data[..., sections]).T
+        return np.asanyarray(self.data[(slice(None), slice(None), sections, *_firsts(self.data))]).T
+
+
+def _firsts(data):
+    """Zeros for the axes behind the third."""
+    return (0,) * (len(data.shape) - 3)
 
 
 def _metres_of_nibabel(image):
@@ -119,16 +141,24 @@ def _metres_of_nibabel(image):
     return {1: 1.0, 2: 0.001, 3: 1e-6}.get(int(header["xyzt_units"]) % 8)
 
 
+def _is_compressed(image):
+    """Whether reading a section reads all that comes before it in the file."""
+    names = (holder.filename for holder in getattr(image, "file_map", {}).values())
+    return any(os.fspath(name).lower().endswith(_COMPRESSED) for name in names if name)
+
+
 def _from_nibabel(image):
-    if len(image.shape) != 3:
-        raise ValueError(f"labels: an image of {len(image.shape)} axes; give one of three")
+    if len(image.shape) < 3 or any(size != 1 for size in image.shape[3:]):
+        raise ValueError(f"labels: an image of shape {tuple(image.shape)}; give one of three axes")
     data = image.dataobj
+    if _is_compressed(image):
+        data = np.asanyarray(data)
     affine = np.asarray(image.affine, dtype=float)
     spacing = np.linalg.norm(affine[:3, :3], axis=0)
     if np.any(spacing == 0):
         raise ValueError("labels: the affine of the image is singular; give one with three axes")
-    turned = data.T if isinstance(data, np.ndarray) else _Turned(data)
-    return Placed(turned, spacing, affine[:3, 3], affine[:3, :3] / spacing, _metres_of_nibabel(image))
+    turned = data[(..., *_firsts(data))].T if isinstance(data, np.ndarray) else _Turned(data)
+    return Placed(turned, spacing, affine[:3, 3], affine[:3, :3] / spacing, _metres_of_nibabel(image), "RAS")
 
 
 def placed(labels):
@@ -298,7 +328,7 @@ def opened(labels, sections=None):
         data = _iterated(data, sections)
     if isinstance(data, np.ndarray) and not data.dtype.isnative and data.dtype.kind in "iu" and data.ndim == 3:
         data = _calls_of(data)
-    return Placed(data, own.spacing, own.origin, own.direction, own.metres)
+    return Placed(data, own.spacing, own.origin, own.direction, own.metres, own.space)
 
 
 def size_of(input):
@@ -319,11 +349,12 @@ def place_of(input, given):
 
 def source(input, place, options, names, kept=None):
     """The samples of an opened input that `options` and `kept` choose."""
+    where = frame(*place, input.metres, input.space)
     if isinstance(input.data, np.ndarray):
-        return _core.array_source(input.data, frame(*place, input.metres), options, kept, names, "labels")
+        return _core.array_source(input.data, where, options, kept, names, "labels")
     if dict(options).get("sweep", "auto") not in ("auto", "z"):
         raise ValueError("sweep: these sections come along z only; leave it out, or give an array")
-    return _core.call_source(input.data, frame(*place, input.metres), options, kept, names, "labels")
+    return _core.call_source(input.data, where, options, kept, names, "labels")
 
 
 @contextlib.contextmanager

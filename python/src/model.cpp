@@ -111,7 +111,7 @@ std::vector<InputLabel> background_of(const Model& model) {
 /// A folder for Neuroglancer.
 Saved save_precomputed(const Model& model, const fs::path& folder, const Settings& settings) {
     make_precomputed_folder(folder);
-    const PrecomputedOptions options{.metres = with_units(settings, model.coordinates).metres,
+    const PrecomputedOptions options{.metres = with_units_and_space(settings, model.coordinates).metres,
                                      .is_legacy = settings.precomputed_is_legacy,
                                      .is_sharded = settings.precomputed_is_sharded,
                                      .levels = settings.precomputed_levels,
@@ -137,7 +137,7 @@ Model reconstruct_source(Source& source, const RunOptions& run, Watch& watch) {
         Reconstruction made = reconstruct(sections, options, [&](const Progress& state) { progress(state); });
         const VolumeInfo& info = sections.info();
         model = model_from(std::move(made), run.names.value_or(info.names), !options.cap,
-                           with_units(settings, coordinates_of(info)), run.colours.value_or(info.colours));
+                           with_units_and_space(settings, coordinates_of(info)), run.colours.value_or(info.colours));
     });
     return model;
 }
@@ -160,8 +160,9 @@ Model reconstruct_tetrahedra(const std::string& path, const RunOptions& run, Wat
             StageProgress progress(watch, settings.reconstruct);
             Reconstruction made =
                 reconstruct(reader, settings.reconstruct, [&](const Progress& state) { progress(state); });
-            model = model_from(std::move(made), run.names.value_or(info.names), !settings.reconstruct.cap,
-                               with_units(settings, coordinates_of(info)), run.colours.value_or(LabelColours{}));
+            model =
+                model_from(std::move(made), run.names.value_or(info.names), !settings.reconstruct.cap,
+                           with_units_and_space(settings, coordinates_of(info)), run.colours.value_or(LabelColours{}));
         });
     };
     if (layers)
@@ -195,7 +196,7 @@ Saved save_model(const Model& model, const std::string& path, bool per_region, c
                                .names = model.names,
                                .colours = model.colours,
                                .per_region = per_region,
-                               .coordinates = with_units(settings, model.coordinates),
+                               .coordinates = with_units_and_space(settings, model.coordinates),
                                .boundary_is_open = model.is_open};
     Saved saved{{}, rounded_share_of_edge(model.mesh, path, writing)};
     for (const auto& file : write_mesh(model.mesh, model.labels, path, writing)) saved.paths.push_back(file.string());

@@ -58,7 +58,8 @@ void free_large_arrays_at_once() {
 
 void bind_sources(py::module_& module) {
     py::class_<Frame>(module, "Frame")
-        .def(py::init<std::array<double, 3>, std::array<double, 3>, std::array<double, 9>, std::optional<double>>());
+        .def(py::init<std::array<double, 3>, std::array<double, 3>, std::array<double, 9>, std::optional<double>,
+                      std::string>());
     py::class_<Source>(module, "Source").def_property_readonly("info", info_of);
     module.def("array_source", [](const py::array& array, const Frame& frame, const OptionValues& options,
                                   const KeptLabels& kept, const LabelNames& names, const std::string& name) {

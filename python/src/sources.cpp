@@ -45,6 +45,7 @@ ArrayOptions placed(const Frame& frame, ArrayOptions rest) {
     rest.origin = lattice.origin;
     rest.direction = lattice.direction;
     rest.metres = frame.metres;
+    rest.space = space_named(frame.space);
     return rest;
 }
 
@@ -135,6 +136,7 @@ Source call_source(SectionCalls calls, const Frame& frame, const ArrayOptions& r
     open_array({&stand_in, SampleType::kI64, calls.size, {0, 0, 0}}, placed(frame, rest));
     info.lattice = lattice_of(frame, calls.size);
     info.metres = frame.metres;
+    info.space = space_named(frame.space);
     info.sweep = kSweepZ;
     return {py::none(), std::make_unique<CalledSections>(std::move(calls), std::move(info))};
 }
@@ -157,8 +159,10 @@ Source file_source(const std::vector<std::string>& paths, const OptionValues& op
 }
 
 Source select(Source source, const OptionValues& options, const KeptLabels& kept) {
-    const Selection selection = keeping(settings_from(options).volume.select, kept);
+    const Settings settings = settings_from(options);
+    Selection selection = keeping(settings.volume.select, kept);
     const py::gil_scoped_release release;
+    if (!settings.volume.merge_table.empty()) read_merge_table(settings.volume.merge_table, selection);
     source.reader = select_sections(std::move(source.reader), selection);
     return source;
 }

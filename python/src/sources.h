@@ -24,11 +24,13 @@ struct Source {
     std::unique_ptr<SectionReader> reader;
 };
 
-/// Where samples lie, as Python passes it: x, y, z; the direction in row-major order; the metres in a unit of length.
+/// Where samples lie, as Python passes it: x, y, z; the direction in row-major order; the metres in a unit of length;
+/// the name of the space, which may be empty.
 struct Frame {
     std::array<double, 3> spacing, origin;
     std::array<double, 9> direction;
     std::optional<double> metres;
+    std::string space;
 };
 
 Lattice lattice_of(const Frame& frame, const ArraySize& size);

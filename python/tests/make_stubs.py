@@ -46,7 +46,7 @@ _OF_NAME = {
     "weld": "float | None", "orient": "bool", "boundary": 'Literal["cap", "open"]', "label": "_Int", "a": "_Int",
     "b": "_Int", "threads": "_Int", "other": "Mesh", "like": "Any", "shape": "Sequence[_Int] | None",
     "dtype": "npt.DTypeLike | None", "outside": "_Int", "per_region": "bool", "labels": "Any",
-    "keep_samples": "bool", "min_quality": "float", "units": 'Literal["km", "m", "cm", "mm", "um", "nm", "ft", "in"] | None',
+    "keep_samples": "bool", "min_quality": "float", "space": 'Literal["ras", "lps"] | None', "units": 'Literal["km", "m", "cm", "mm", "um", "nm", "ft", "in"] | None',
     "downsample": "str | _Int | None", "scale_z": 'float | Literal["auto"] | None',
     "precomputed": 'Literal["multi", "legacy"] | None', "levels": "_Int | None", "sharded": "bool",
 }  # fmt: skip

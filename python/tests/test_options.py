@@ -143,7 +143,7 @@ def test_the_signature_lists_every_option_of_the_program():
         is_here = not row["is_argument"] and row["group"] != "Output" and row["kind"] != "file"
         of_process = ("quiet", "verbose", "memory_limit", "sandbox", "require_sandbox")
         is_here = is_here and name not in of_process
-        assert (name in parameters) == (is_here or name in ("names", "collars", "surveys", "terrain", "units")), name
+        assert (name in parameters) == (is_here or name in ("names", "collars", "surveys", "terrain", "merge", "units", "space")), name
 
 
 @pytest.mark.parametrize("method", ["simplify", "smooth", "compare"])

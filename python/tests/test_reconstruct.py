@@ -77,6 +77,19 @@ def test_labels_are_kept_before_all_else_is_chosen(tmp_path, choice):
         regionmesh.reconstruct(labels, labels_to_keep=[])
 
 
+def test_labels_are_joined_by_a_table(two_boxes, tmp_path):
+    (tmp_path / "join.csv").write_text("old,new,name\n1,7,both\n2,7\n")
+    np.save(tmp_path / "labels.npy", two_boxes)
+    expected = regionmesh.reconstruct(np.where(two_boxes > 0, 7, 0))
+    for source in (two_boxes, tmp_path / "labels.npy"):
+        made = regionmesh.reconstruct(source, merge=tmp_path / "join.csv")
+        np.testing.assert_array_equal(made.points, expected.points)
+        assert made.names == {7: "both"}
+        assert made.check(two_boxes)["samples_wrong"] == 0
+        with pytest.raises(FileNotFoundError, match="none.csv"):
+            regionmesh.reconstruct(source, merge=tmp_path / "none.csv")
+
+
 @pytest.mark.parametrize("extension", [".vtp", ".ply", ".obj", ".stl"])
 def test_a_saved_model_is_loaded_again(mesh, tmp_path, extension):
     path = tmp_path / f"model{extension}"

@@ -1,6 +1,7 @@
 """Every form in which labels come."""
 
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -370,11 +371,63 @@ def test_nibabel_gives_the_unit_of_length(two_boxes, tmp_path):
     assert regionmesh.reconstruct(MGHImage(samples.astype(np.int32), np.eye(4))).metres == 0.001
 
 
-def test_nibabel_with_sheared_axes_is_refused(two_boxes):
+def test_nibabel_with_sheared_axes_is_read_as_its_file_is(two_boxes, tmp_path):
     nibabel = pytest.importorskip("nibabel")
     affine = np.array([[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
-    with pytest.raises(ValueError, match="orthonormal"):
-        regionmesh.reconstruct(nibabel.Nifti1Image(two_boxes, affine))
+    image = nibabel.Nifti1Image(np.ascontiguousarray(two_boxes.T), affine)
+    nibabel.save(image, tmp_path / "sheared.nii")
+    from_file = regionmesh.reconstruct(tmp_path / "sheared.nii", sweep="z")
+    made = regionmesh.reconstruct(image, sweep="z")
+    np.testing.assert_allclose(made.points, from_file.points)
+    for mesh in (made, from_file, pickle.loads(pickle.dumps(made))):
+        assert mesh.simplify(reduce=0.3).certified and mesh.improve().certified
+        np.testing.assert_array_equal(mesh.voxelise(), two_boxes)
+        for labels in (image, two_boxes, tmp_path / "sheared.nii"):
+            assert mesh.check(labels)["samples_wrong"] == 0
+
+
+def test_a_direction_with_sheared_axes_is_refused(two_boxes, mesh):
+    sheared, rounded = [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]], [[0.866, -0.5, 0], [0.5, 0.866, 0], [0, 0, 1]]
+    for call in (lambda turn: regionmesh.reconstruct(two_boxes, direction=turn), lambda turn: mesh.voxelise(direction=turn)):
+        call(rounded)
+        with pytest.raises(ValueError, match="direction: the columns are not orthonormal"):
+            call(sheared)
+
+
+def test_images_of_nibabel_are_in_ras(two_boxes, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    affine = np.diag([1.0, 2, 3, 1]) + np.pad([[10], [20], [30], [0]], ((0, 0), (3, 0)))
+    image = nibabel.Nifti1Image(np.ascontiguousarray(two_boxes.T), affine)
+    nibabel.save(image, tmp_path / "labels.nii.gz")
+    assert regionmesh.reconstruct(image).space == "RAS"
+    for source in (image, tmp_path / "labels.nii.gz"):
+        turned = regionmesh.reconstruct(source, space="lps", sweep="z")
+        assert turned.space == "LPS" and np.all(turned.bounds[:, :2] < 0)
+        turned.save(tmp_path / "turned.vtp")
+        for mesh in (turned, regionmesh.load(tmp_path / "turned.vtp")):
+            for labels in (image, nibabel.load(tmp_path / "labels.nii.gz"), tmp_path / "labels.nii.gz"):
+                assert mesh.check(labels)["samples_wrong"] == 0
+                np.testing.assert_array_equal(mesh.voxelise(labels), two_boxes)
+    assert regionmesh.reconstruct(two_boxes).space is None
+    assert regionmesh.reconstruct(two_boxes, space="lps").space == "LPS"
+
+
+def test_nibabel_may_have_axes_of_one_sample(two_boxes, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    samples = np.ascontiguousarray(two_boxes.T)[..., np.newaxis]
+    nibabel.save(nibabel.Nifti1Image(samples, np.eye(4)), tmp_path / "four.nii")
+    for image in (nibabel.Nifti1Image(samples, np.eye(4)), nibabel.load(tmp_path / "four.nii")):
+        same(regionmesh.reconstruct(image, sweep="z"), regionmesh.reconstruct(two_boxes, sweep="z"))
+    with pytest.raises(ValueError, match=r"an image of shape \(.*, 2\); give one of three axes"):
+        regionmesh.reconstruct(nibabel.Nifti1Image(np.repeat(samples, 2, axis=3), np.eye(4)))
+
+
+def test_compressed_images_are_read_at_once(two_boxes, tmp_path, monkeypatch):
+    """Not section by section, each of which reads the file from its beginning."""
+    nibabel = pytest.importorskip("nibabel")
+    nibabel.save(nibabel.Nifti1Image(np.ascontiguousarray(two_boxes.T), np.eye(4)), tmp_path / "labels.nii.gz")
+    monkeypatch.delattr(nibabel.arrayproxy.ArrayProxy, "__getitem__")
+    same(regionmesh.reconstruct(nibabel.load(tmp_path / "labels.nii.gz")), regionmesh.reconstruct(two_boxes))
 
 
 def test_an_image_of_simpleitk(two_boxes):
@@ -382,7 +435,9 @@ def test_an_image_of_simpleitk(two_boxes):
     image = simpleitk.GetImageFromArray(two_boxes)
     image.SetSpacing((1, 2, 4))
     image.SetOrigin((10, 20, 30))
-    same(regionmesh.reconstruct(image), regionmesh.reconstruct(two_boxes, spacing=(1, 2, 4), origin=(10, 20, 30)))
+    made = regionmesh.reconstruct(image)
+    same(made, regionmesh.reconstruct(two_boxes, spacing=(1, 2, 4), origin=(10, 20, 30)))
+    assert made.space == "LPS"
 
 
 def test_the_interface_of_simpleitk(two_boxes, monkeypatch):

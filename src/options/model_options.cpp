@@ -21,8 +21,9 @@ bool has_target(const Settings& settings) {
     return asked.target_faces || asked.reduce || asked.max_error;
 }
 
-Coordinates with_units(const Settings& settings, Coordinates known) {
+Coordinates with_units_and_space(const Settings& settings, Coordinates known) {
     if (settings.metres) known.metres = settings.metres;
+    if (known.space == Space::kUnknown) known.space = settings.volume.space;
     return known;
 }
 

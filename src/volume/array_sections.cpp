@@ -105,6 +105,7 @@ std::unique_ptr<SectionReader> open_array(const LabelArray& array, const ArrayOp
                     .format = "array",
                     .type = array.type,
                     .can_sweep = {true, true, true},
+                    .space = options.space,
                     .metres = options.metres,
                     .names = options.names};
     info.lattice = {array.size, options.spacing, options.origin, options.direction};
