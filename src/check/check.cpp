@@ -33,20 +33,23 @@ void list_regions(const CheckOptions& options, const std::vector<RegionReport>& 
 void check_volumes(const CheckOptions& options, const std::vector<RegionReport>& sums, const CheckReport& report,
                    Findings& findings) {
     constexpr double kRounding = 1e-9;
+    const auto is_negative = [](const RegionReport& region) {
+        return region.volume < -kRounding * std::pow(region.area, 1.5);
+    };
     const bool is_closed = findings.count(ViolationKind::kOpenEdge) + findings.count(ViolationKind::kOverfullEdge) +
                                findings.count(ViolationKind::kOrientation) ==
                            0;
     if (options.boundary_is_open || !is_closed) return;
     // Each face counts on both sides: where no face has an exterior, the volumes of all labels sum to zero, and one of
-    // them, which is outside, is negative.
+    // them, which is outside, is negative; it may be a region or background.
     double sum = 0, all = 0;
     for (const RegionReport& region : sums) {
         sum += region.volume;
         all += std::abs(region.volume);
     }
-    if (std::abs(sum) <= kRounding * all) return;
+    if (std::abs(sum) <= kRounding * all && std::ranges::count_if(sums, is_negative) <= 1) return;
     for (const RegionReport& region : report.regions)
-        if (region.volume < -kRounding * std::pow(region.area, 1.5))
+        if (is_negative(region))
             findings.add(ViolationKind::kOrientation, {}, {}, [&] {
                 return region_name(options, region.label) +
                        " is inside out: its volume is negative; --orient turns its faces";

@@ -164,6 +164,11 @@ TEST(Check, regions_that_are_inside_out) {
     Mesh outside;
     test::add_octahedron(outside, {}, {1, 1, -1});
     EXPECT_THAT(found_in(outside, kIslands), ElementsAre()) << "the region may be what is outside";
+    Mesh halves = test::halved_octahedron();
+    for (std::uint32_t v = 0; v < halves.vertex_end(); ++v)
+        halves[VertexId{v}].position = -1 * halves.position(VertexId{v});
+    EXPECT_THAT(found_in(halves, {.background = {2}}), ElementsAre("orientation"));
+    EXPECT_EQ(count(check(halves), ViolationKind::kOrientation), 2u) << "only one of two can be outside";
 }
 
 TEST(Check, crossing_faces) {

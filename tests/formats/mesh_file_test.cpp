@@ -178,6 +178,14 @@ TEST_F(MeshFileTest, large_labels_come_back_unsigned) {
     }
 }
 
+TEST_F(MeshFileTest, names_that_end_in_a_backslash_come_back) {
+    const LabelNames names{{3, "left\\"}, {5, "right"}};
+    for (const char* name : {"names.vtp", "names.ply", "names.obj"}) {
+        write_mesh(two_boxes(), test::labels_from({3, 5}), path(name), {.names = names});
+        EXPECT_EQ(read_mesh(path(name)).names, names) << name;
+    }
+}
+
 TEST_P(BothFormats, background_comes_second_even_where_it_is_smaller) {
     const LabelTable labels = test::labels_from({0, 5});
     const FileSurface surface = surface_of(tetrahedron(1, 0), labels, GetParam(), {.background = {0}});

@@ -97,7 +97,9 @@ void write_comments(const FileView& view, const FileRegions& regions, TextWriter
     if (background.empty()) text.line("# no_background 0");
     for (const InputLabel label : background) text.line("# background", view.labels().text(label));
     view.for_names([&](Label label, const std::string& name) {
-        if (regions.number(label) > 0) text.line("# region", view.label_text(label), name);
+        if (regions.number(label) == 0) return;
+        // A line that ends in a backslash goes on in the next one.
+        text.line("# region", view.label_text(label), name.ends_with('\\') ? name + ' ' : name);
     });
     view.for_given_colours(
         [&](Label label, std::uint32_t colour) { text.line("# colour", view.label_text(label), hex_of(colour)); });
