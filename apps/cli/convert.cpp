@@ -101,7 +101,6 @@ int run_convert(const Settings& given) {
         require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);
-    BoxAxes(file.mesh).restore(file.mesh);  // which finds the sides of an oblique box
     const CheckOptions options = check_options(settings, file.labels);
     convert_whole(settings, file, options);
     return kGood;

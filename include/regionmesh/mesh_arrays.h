@@ -36,8 +36,9 @@ struct LabelledMesh {
 
 /// Vertex and face ids are the rows of the arrays. A face with the exterior label lies on a side of the box if all such
 /// faces lie exactly in planes of the bounding box of all faces, and no more than four labels, sides included, meet on
-/// its edges and corners; vertices then get the sides of their exterior faces. Otherwise the exterior is one: side 0,
-/// or kHull if node_types say which points lie on the hull, or a label ends there that has no face with the exterior.
+/// its edges and corners; vertices then get the sides of their exterior faces. The same holds for an oblique box, to a
+/// millionth of its size (regionmesh/box_axes.h). Otherwise the exterior is one: side 0, or kHull if node_types say
+/// which points lie on the hull, or a label ends there that has no face with the exterior.
 /// Throws Error(kInput) for arrays of different length, a face that names no point, a point that is not finite, or
 /// sizes beyond the limits (limits.h).
 LabelledMesh import_arrays(const MeshArrays& arrays);

@@ -93,8 +93,8 @@ std::string readable_extensions();
 
 /// A model from a file. Labels are signed unless the file says otherwise (UInt64 in .vtp and .vtu). Faces with the
 /// exterior label of the file (-1 by default) become sides of the box where all of them lie exactly in planes of the
-/// bounding box of all faces; their vertices get these sides. Otherwise (an oblique volume, a box of another program)
-/// all exterior faces get one side, and no vertex is on a plane.
+/// bounding box of all faces, or in those of an oblique box (regionmesh/box_axes.h); their vertices get these sides.
+/// Otherwise (a body of another program) all exterior faces get one side, and no vertex is on a plane.
 struct MeshFile {
     Mesh mesh;
     LabelTable labels;

@@ -196,6 +196,16 @@ def test_simplify_warns_of_a_target_that_it_misses(filled, options, warning):
     assert fewer.report["stopped"] in ("topology", "max_error")
 
 
+def test_copies_of_oblique_meshes_have_the_same_lines_and_points():
+    turn = [[0.75**0.5, -0.5, 0], [0.5, 0.75**0.5, 0], [0, 0, 1]]
+    labels = np.ones((4, 5, 6), np.uint8)
+    labels[:2] = 2
+    mesh = regionmesh.reconstruct(labels, direction=turn, smooth="off")
+    again = pickle.loads(pickle.dumps(mesh))
+    np.testing.assert_array_equal(again.node_types, mesh.node_types)
+    assert mesh.triple_lines["angles"][0][:2] == again.triple_lines["angles"][0][:2] == [90, 90]
+
+
 def test_simplify_does_not_warn_without_a_target_or_at_it(filled):
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -179,6 +179,7 @@ bool BoxAxes::find_sides(const Mesh& mesh, const Box& box, double tolerance, boo
     std::array<bool, 3> has_face{};  // by axis
     std::vector<SideSet> of_vertex(mesh.vertex_end());
     for_outer_faces(mesh, [&](FaceId f) {
+        if (!is_box) return;
         std::array<Vec3, 3> corners;
         for (std::size_t n = 0; n < 3; ++n) corners[n] = after_[index(mesh[f].vertices[n])];
         const SideSet at = sides_at(corners, box, tolerance);

@@ -13,6 +13,7 @@
 #include "mesh/assemble.h"
 #include "mesh/box_sides.h"
 #include "mesh/file_view.h"
+#include "regionmesh/box_axes.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 
@@ -209,6 +210,7 @@ LabelledMesh assemble(const MeshArrays& arrays) {
     // A vertex without a face on a side of the box may lie on a side that is not capped, or on a hull of another shape.
     for (std::uint32_t v = 0; v < arrays.node_types.size(); ++v)
         if (arrays.node_types[v] >= kFirstHullType && mesh[VertexId{v}].sides == 0) mesh[VertexId{v}].sides = kOnHull;
+    if (!has_sides) BoxAxes(mesh).restore(mesh);  // which finds the sides of an oblique box
     return made;
 }
 
