@@ -25,10 +25,11 @@ SampleType channel_type(const ImageShape& shape) {
     return shape.bits <= 32 ? SampleType::kI32 : SampleType::kI64;
 }
 
-/// The shift of a channel in the label. Images of two or four channels have alpha last.
+bool has_alpha(const ImageShape& shape) { return shape.channels % 2 == 0; }
+
+/// The shift of a channel in the label. Alpha is the last of two or four channels.
 int channel_shift(const ImageShape& shape, int channel) {
-    const bool has_alpha = shape.channels % 2 == 0;
-    const int colours = shape.channels - (has_alpha ? 1 : 0);
+    const int colours = shape.channels - (has_alpha(shape) ? 1 : 0);
     return shape.bits * (channel < colours ? colours - 1 - channel : colours);
 }
 
@@ -63,6 +64,13 @@ void or_channels(std::span<const std::byte> row, const ImageShape& shape, RowFor
 
 SampleType label_type(const ImageShape& shape) {
     return shape.channels == 1 ? channel_type(shape) : unsigned_type(shape.channels * shape.bits);
+}
+
+std::string warning_of_alpha(const ImageShape& shape) {
+    if (!has_alpha(shape)) return {};
+    const std::uint64_t opaque = ((std::uint64_t{1} << shape.bits) - 1) << channel_shift(shape, shape.channels - 1);
+    return "pixels have alpha, which stands above their colour in the label: opaque black is " +
+           std::to_string(opaque) + ", not 0; --background names it";
 }
 
 std::string describe(const ImageShape& shape) {

@@ -38,6 +38,9 @@ inline ImageWindow window_of(const IndexBox& box) { return {{box.low[0], box.low
 /// The type of the labels.
 SampleType label_type(const ImageShape& shape);
 
+/// What VolumeInfo::warning says of images with alpha; empty for others.
+std::string warning_of_alpha(const ImageShape& shape);
+
 /// "640 x 480 uint8", "640 x 480 uint8 palette", "640 x 480 4 x uint16".
 std::string describe(const ImageShape& shape);
 

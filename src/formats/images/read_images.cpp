@@ -77,7 +77,7 @@ std::unique_ptr<SectionReader> open_files(std::vector<fs::path> files, const fs:
     VolumeInfo info = volume_info(source, lower(image_format(files.front(), 0).name), label_type(shape),
                                   checked_size(source, {shape.width, shape.height, files.size()}));
     apply_options(info, options);
-    info.warning = warning;
+    info.warning = warning.empty() ? warning_of_alpha(shape) : warning;
     return std::make_unique<ImageListReader>(std::move(files), std::move(info), shape);
 }
 

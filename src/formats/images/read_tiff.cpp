@@ -204,6 +204,9 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
     info.lattice = lattice;
     info.metres = metres;
     apply_options(info, options);
+    info.warning = warning_of_alpha(shape);
+    if (is_imagej && imagej_count(description, "frames") > 1)
+        info.warning = "its pages are frames, images of one section at several times; they are read as sections";
     return std::make_unique<TiffReader>(std::move(file), std::move(info), shape);
 }
 

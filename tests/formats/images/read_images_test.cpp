@@ -69,6 +69,15 @@ TEST_F(ReadImagesTest, png_folders_hold_the_values_as_stored_in_natural_order) {
     }
 }
 
+TEST_F(ReadImagesTest, alpha_is_worth_a_warning) {
+    const auto warning = [&](const char* folder) { return open_sections({data(folder)})->info().warning; };
+    EXPECT_THAT(warning("png/rgba8"), HasSubstr("opaque black is 4278190080, not 0"));
+    EXPECT_THAT(warning("png/rgba16"), HasSubstr("opaque black is 18446462598732840960, not 0"));
+    EXPECT_THAT(warning("png/gray_alpha8"), HasSubstr("opaque black is 65280, not 0"));
+    EXPECT_EQ(warning("png/rgb8"), "");
+    EXPECT_EQ(warning("png/gray8"), "");
+}
+
 TEST_F(ReadImagesTest, tiff_folders_are_read_like_png_folders) {
     EXPECT_EQ(read_volume({data("tiff/sections")}).labels, expected(SampleType::kU16));
     EXPECT_EQ(read_volume({data("tiff/palette8")}).labels, expected([](InputLabel v) { return v % 4; }));

@@ -61,6 +61,17 @@ TEST_F(ReadTiffTest, imagej_stack_measured_in_pixels_has_no_spacing) {
     }
 }
 
+TEST_F(ReadTiffTest, imagej_stack_of_frames_is_read_with_a_warning) {
+    std::string text = text_of(data("tiff/imagej_pages_uint8.tif"));
+    EXPECT_EQ(open_sections({data("tiff/imagej_pages_uint8.tif")})->info().warning, "");
+    const std::size_t slices = text.find("slices=");
+    ASSERT_NE(slices, std::string::npos);
+    text.replace(slices, 6, "frames");
+    put_text(path("times.tif"), text);
+    EXPECT_THAT(open_sections({path("times.tif")})->info().warning, HasSubstr("its pages are frames"));
+    EXPECT_EQ(read_volume({path("times.tif")}).labels, read_volume({data("tiff/imagej_pages_uint8.tif")}).labels);
+}
+
 TEST_F(ReadTiffTest, imagej_stack_cut_short_or_of_several_channels_is_refused) {
     const std::string whole = text_of(data("tiff/imagej_uint16.tif"));
     put_text(path("cut.tif"), whole.substr(0, whole.size() - 45));
