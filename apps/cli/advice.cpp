@@ -62,11 +62,15 @@ struct GreyCount {
 void require_regions(const Settings& settings, const CheckReport& report) {
     if (!report.regions.empty()) return;
     const ReconstructOptions& options = settings.reconstruct;
-    const std::string what = options.room > 0 ? "what --room left of it" : "it";
+    const bool has_smallest = settings.volume.select.min_region > 1;
+    const std::string what = options.room > 0 ? "what --room left of it"
+                             : has_smallest   ? "what --min-region left of it"
+                                              : "it";
     std::string why = what + " has one label only, which has no face with --boundary open; give --boundary cap";
     if (options.cap) {
         why = "all of " + what + " is background";
         why += given_text(settings, "labels") ? ": it has none of the --labels; regionmesh info lists those that it has"
+               : has_smallest                 ? "; give a smaller one"
                                               : "; give another --background, or --no-background";
     }
     throw Error(ErrorCode::kInput, settings.inputs.front() + ": there is no region to model: " + why);

@@ -18,6 +18,7 @@
 namespace regionmesh::formats {
 namespace {
 
+constexpr double kGoodOrder = 0.9;  // share of the logged length; below it is worth a warning
 constexpr double kColumnsOfSide = 100, kSamplesOfHeight = 200;  // without a spacing
 constexpr double kMostHeightBytes = 4e9, kMostSamplesOfAxis = 1e6, kMostNumber = 1e18;
 constexpr double kSolve = 1.0 / 64;  // time to solve for the weights, in evaluations per cube of the holes
@@ -225,6 +226,10 @@ std::unique_ptr<SectionReader> open_layer_sections(const std::filesystem::path& 
     info.sweep = *choose_sweep(info, layers.sweep);
     LayerSurfaces surfaces = interpolate(order, ground, std::move(heights), grid, layers.threads);
     std::vector<InputLabel> labels = labels_of(table.labels, order, info);
+    if (order.ordered_share < kGoodOrder)
+        add_warning(info.warning, fmt::format("only {:.0f} % of the logged length is in the order of the layers; "
+                                              "regionmesh info --layers prints the order",
+                                              100 * order.ordered_share));
     if (summary) {
         *summary = {};
         summary->ordered_share = order.ordered_share;

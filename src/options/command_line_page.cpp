@@ -30,8 +30,8 @@ constexpr std::string_view kConventions = R"(```
 - An option is given once; one marked with "..." takes several values, and may be repeated.
 - `--config run.toml` reads options from a file, such as `reduce = "90%"`, `background = [0, 7]`, `quiet = true` and
   `input = ["scan.nii.gz"]`; a table `[reconstruct]` holds those of that command. `--config report.json` takes the options of
-  the run that wrote the report. Options on the command line replace those of the file. Paths are relative to the current
-  folder.
+  the run that wrote the report; give `--report` another file. An option on the command line replaces the same one of the
+  file; one that contradicts another one of the file is refused. Paths are relative to the current folder.
 - The result depends on the input and the options only, not on the number of threads.
 )";
 

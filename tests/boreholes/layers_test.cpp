@@ -270,12 +270,13 @@ TEST_F(Layers, the_order_is_found_or_given) {
                              row(9, 9, 10, 20, "c");
     EXPECT_EQ(open(rows)->info().names, (LabelNames{{1, "b"}, {2, "a"}, {3, "c"}}));
     EXPECT_THAT(summary_.units, ElementsAre("b", "a", "c"));
-    open(rows, {.units = "a,auto"});
+    EXPECT_THAT(open(rows, {.units = "a,auto"})->info().warning, HasSubstr("only 86 % of the logged length"));
     EXPECT_THAT(summary_.units, ElementsAre("a", "b", "c"));
     EXPECT_LT(summary_.ordered_share, 1);
     open(rows, {.units = "auto,-c"});
     EXPECT_THAT(summary_.units, ElementsAre("b", "a"));
     EXPECT_EQ(summary_.ordered_share, 1);
+    EXPECT_EQ(open(rows, {.units = "auto,-c"})->info().warning, "");
     EXPECT_THAT(failure_of(rows, {.units = "auto,chalk"}),
                 HasSubstr("no interval has the unit 'chalk'; units are a, b, c"));
     EXPECT_THAT(failure_of(rows, {.units = "a,a"}, ErrorCode::kUsage), HasSubstr("'a' twice"));

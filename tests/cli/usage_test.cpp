@@ -133,6 +133,7 @@ TEST_F(Usage, an_input_without_a_region_is_refused) {
     expect_refusal("reconstruct " + of("empty") + to_model(), 1,
                    "there is no region to model: all of it is background");
     expect_refusal(reconstruct_ball("--labels 4"), 1, "none of the --labels");
+    expect_refusal(reconstruct_ball("--min-region 100000"), 1, "all of what --min-region left of it is background");
     expect_refusal("reconstruct " + of("empty", "--no-background --boundary open") + to_model(), 1,
                    "it has one label only");
 }
