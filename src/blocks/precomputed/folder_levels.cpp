@@ -164,7 +164,17 @@ Mesh mesh_of(const Part& part, std::uint32_t level) {
     return mesh;
 }
 
-/// Simplifies a part to a mesh with an eighth of its faces.
+/// Faces on seams, which stay: two of their vertices at least are in other parts, too.
+std::uint32_t faces_on_seams(const Part& part, std::uint32_t level) {
+    const auto is_on_seam = [&](const PieceFace& face) {
+        return std::ranges::count_if(face.vertices,
+                                     [&](std::uint32_t v) { return part.vertices[v].free_from > level; }) > 1;
+    };
+    return static_cast<std::uint32_t>(std::ranges::count_if(part.faces, is_on_seam));
+}
+
+/// Simplifies a part to a mesh with an eighth of its faces, those on seams not counted: else the regions within it
+/// would be as much coarser.
 Mesh simplified(Part& part, std::uint32_t level) {
     Mesh mesh = mesh_of(part, level);
     SharedVertices locked;
@@ -174,7 +184,10 @@ Mesh simplified(Part& part, std::uint32_t level) {
         locked.number(vertex.position, static_cast<std::uint32_t>(levels.size()));
         levels.push_back(vertex.free_from);
     }
-    simplify(mesh, next_level_options(mesh));
+    SimplifyOptions options = next_level_options(mesh);
+    const std::uint32_t on_seams = faces_on_seams(part, level);
+    options.target_faces = (mesh.face_count() - on_seams) / kFacesPerLevel + on_seams;
+    simplify(mesh, options);
     mesh.compact();
     part = {};
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {

@@ -37,8 +37,9 @@ public:
 };
 
 /// Of a complete folder: level 0 piece by piece. Level 1 is made of the pieces, level n + 1 of eight neighbouring parts
-/// of level n joined: the vertices that other parts use stay, everything else is simplified to an eighth, so parts fit
-/// together and so do regions. Holds as many faces as a piece has; the parts of the last level lie in a temporary file.
+/// of level n joined: the vertices that other parts use stay, and faces with two of them; everything else is simplified
+/// to an eighth, so parts fit together and so do regions. Holds as many faces as a piece has; the parts of the last
+/// level lie in a temporary file.
 std::unique_ptr<ModelLevels> levels_of_folder(const std::filesystem::path& folder, const Manifest& manifest);
 
 /// Of a model in memory, which can be visited once: a level is its only part. Violations stay as they are.
