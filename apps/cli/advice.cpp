@@ -70,7 +70,7 @@ void require_regions(const Settings& settings, const CheckReport& report) {
     if (options.cap) {
         why = "all of " + what + " is background";
         why += given_text(settings, "labels") ? ": it has none of the --labels; regionmesh info lists those that it has"
-               : has_smallest                 ? "; give a smaller one"
+               : has_smallest                 ? "; give a smaller --min-region"
                                               : "; give another --background, or --no-background";
     }
     throw Error(ErrorCode::kInput, settings.inputs.front() + ": there is no region to model: " + why);

@@ -405,7 +405,7 @@ class Mesh:
         if suffix is None and given[0] is None and place[0] is not None:  # made from an array
             given = (place[0], None, None)
         spacing = _options.pairs("reconstruct", {"spacing": given[0]})
-        spacing += [("space", self.space.lower())] if self.space else []
+        spacing += self._into_space()
         selection = [pair for pair in selection if pair[0] != "spacing" or given[0] is None] + spacing
         if suffix != _sources.suffix_of(paths):  # another kind of file is read in another way
             reading = []
@@ -417,6 +417,10 @@ class Mesh:
         keys = ("direction", "origin") if given[0] is not None else ("direction", "origin", "spacing")
         self._require_same_place(source.info, keys)
         return source
+
+    def _into_space(self):
+        """The option that turns a file into the space of the mesh."""
+        return [("space", self.space.lower())] if self.space else []
 
     def _array_source(self, labels, given):
         _sources.require_axes(given[2])
@@ -522,8 +526,7 @@ class Mesh:
         """Return the shape, the type and the place of a volume; the place is None where it says nothing."""
         if _sources.is_path(like):
             with _sources.missing_files(*_sources.paths_of(like)):
-                turn = [("space", self.space.lower())] if self.space else []
-                info = _core.file_source(_sources.paths_of(like), turn, None).info
+                info = _core.file_source(_sources.paths_of(like), self._into_space(), None).info
             shape, dtype, place = info["size"][::-1], info["type"], [info[key] for key in ("spacing", "origin", "direction")]
         else:
             own = _sources.placed(like).in_space(self.space)
