@@ -10,6 +10,11 @@ namespace {
 /// Normals count as of one sheet above this cosine; two sides of a thin region face away from each other.
 constexpr float kSameSheet = 0.2f;
 
+/// Other sheets that face the same way are told by the chord from the centre of a fit. On a circle it is square to the
+/// mean of the normals at its ends; between two sheets it rises along this mean by about their distance. The rise that
+/// is allowed: so many spacings along the normal, and this share of the chord, since normals on terraces are rough.
+constexpr float kRise = 2, kRisePerChord = 0.3f;
+
 /// A quadric may miss a simplex by this share of the spacing along its normal.
 constexpr float kTolerance = 0.3f;
 
@@ -57,6 +62,28 @@ struct Share {
         const Lanes3<Float4> scaled{per_radius.x * d.x, per_radius.y * d.y, per_radius.z * d.z};
         return 1 - dot(scaled, scaled);
     }
+};
+
+/// How surely sites lie on the sheet of a fit: 1 to 0, and below on another one that faces the same way. What lies near
+/// the quadric is on its sheet, whatever the normals say; a quadric that is not fitted yet is the tangent plane.
+class SameSheet {
+public:
+    SameSheet(const HeightQuadric& quadric, Float3 spacing) : quadric_(quadric), normal_(all_four(quadric.normal)) {
+        const Float3 &n = quadric.normal, along{n.x * spacing.x, n.y * spacing.y, n.z * spacing.z};
+        least2_ = kRise * kRise * dot(along, along);
+    }
+    /// `d` from the centre of the fit.
+    Float4 operator()(const Lanes3<Float4>& d, const Lanes3<Float4>& normal) const {
+        const Float4 rise = 0.5f * (dot(d, normal_) + dot(d, normal)), height = quadric_.at(d).height;
+        const Float4 most2 = least2_ + kRisePerChord * kRisePerChord * dot(d, d),
+                     part2 = least(rise * rise, height * height) / most2, part4 = part2 * part2;
+        return 1 - part4 * part4;
+    }
+
+private:
+    const HeightQuadric& quadric_;
+    Lanes3<Float4> normal_;
+    float least2_;
 };
 
 }  // namespace
@@ -175,15 +202,16 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearR
         const Gaps gaps(blocks_, own, quadric.centre, quadric.centre);
         const Corners corners(blocks_, own, quadric.centre);
         const float reach = kReach * static_cast<float>(options_.size);
+        quadric.gradient = quadric.normal;
+        HeightQuadric trial = quadric;
         if (!options_.takes_all) {
-            HeightQuadric trial = quadric;
             const HeightSamples& few = choose(quadric, frame, gaps, corners, near, kTrialStride);
             accepted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds)
                            ? acceptance(trial, gaps, near, kTrialTolerance)
                            : 1;
             if (accepted == 0) continue;
         }
-        const HeightSamples& chosen = choose(quadric, frame, gaps, corners, near, 1);
+        const HeightSamples& chosen = choose(trial, frame, gaps, corners, near, 1);
         if (!quadric.fit(chosen, frame, blocks_.spacing, reach, options_.takes_all ? kFinestRounds : kRounds))
             accepted = -1;
         else
@@ -200,16 +228,17 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
     thread_local HeightSamples chosen;
     const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
     const Share share_of{(1 / kReach) * blocks_.per_size};
+    const SameSheet on_sheet(quadric, blocks_.spacing);
     std::uint32_t count = 0, most = 0;
     for (const NearRun& other : near)
         most += other.next().samples - (*other).samples + (other.next().site - (*other).site + 3) / 4;
     if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
     HeightSamples::Four* const fours = chosen.fours.data();
-    const auto consider = [&](const Lanes3<Float4>& d, Float4 along, Float4 sites, const Kinds4& kind) {
-        const Float4 share = share_of(d);
-        const Mask4 counts = share > 0 && along > kSameSheet;
+    const auto consider = [&](const Lanes3<Float4>& d, const Lanes3<Float4>& facing, Float4 sites, const Kinds4& kind) {
+        const Float4 share = share_of(d), along = dot(facing, normal), on = on_sheet(d, facing);
+        const Mask4 counts = share > 0 && along > kSameSheet && on > 0;
         if (bits_of(counts) == 0) return;
-        const Float4 weight = share * share * along * sites;
+        const Float4 weight = share * share * along * on * sites;
         fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, kind};
     };
     for (const NearRun& other : near) {
@@ -219,17 +248,17 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
             const std::uint32_t end = other.next().site;
             for (std::uint32_t n = (*other).site; n < end; n += 4 * stride) {
                 const Sites4 sites = gather(&row.sites[n], end - n);
-                consider(offset(blocks_.steps, quadric.centre, sites.at), dot(sites.normal, normal), in_use(end - n),
-                         sites.kind);
+                consider(offset(blocks_.steps, quadric.centre, sites.at), sites.normal, in_use(end - n), sites.kind);
             }
             continue;
         }
         const LatticeSamples* const end = row.samples.data() + other.next().samples;
         const Float3 corner = corners.of(other), &unit = blocks_.unit;
         for (const LatticeSamples* s = row.samples.data() + (*other).samples; s < end; s += stride) {
-            const Lanes3<Float4> p = s->positions();
+            const Lanes3<Float4> p = s->positions(), m = s->normals();
+            constexpr float kUnit = LatticeSamples::kNormalUnit;
             consider({corner.x + unit.x * p.x, corner.y + unit.y * p.y, corner.z + unit.z * p.z},
-                     dot(s->normals(), normal) * all_four(LatticeSamples::kNormalUnit), s->counts(), s->kind);
+                     {kUnit * m.x, kUnit * m.y, kUnit * m.z}, s->counts(), s->kind);
         }
     }
     chosen.count = count;
@@ -245,6 +274,7 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
         most_missed * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
     const Share share{(1 / kBlend) * blocks_.per_size};
     const bool is_anisotropic = sites_.frame().is_anisotropic();
+    const SameSheet on_sheet(quadric, spacing);
     Float4 worst{}, offsets{}, halves{};
     // Every fourth four first: where a quadric misses one simplex it misses others beside it.
     for (std::uint32_t start = 0; start < 16; start += 4)
@@ -253,8 +283,9 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
             const std::uint32_t end = other.next().site;
             for (std::uint32_t n = (*other).site + start; n < end; n += 16) {
                 const Sites4 sites = gather(&other.row->sites[n], end - n);
-                const Mask4 counts = share(offset(blocks_.steps, quadric.centre, sites.at)) > 0 &&
-                                     dot(sites.normal, all_four(normal)) > kSameSheet;
+                const Lanes3<Float4> d = offset(blocks_.steps, quadric.centre, sites.at);
+                const Mask4 counts =
+                    share(d) > 0 && dot(sites.normal, all_four(normal)) > kSameSheet && on_sheet(d, sites.normal) > 0;
                 if (bits_of(counts) == 0) continue;
                 const Passage4 passes = passage(quadric, sites);
                 worst = greatest(worst, counts ? passes.missed : Float4{});
@@ -316,9 +347,12 @@ LatticeFits::Blend4 LatticeFits::blended(const Sites4& sites, const LatticeRow& 
         const auto& [quadric, accepted] = place.row->fits[place.fit];
         if (accepted < 0) continue;
         const Lanes3<Float4> d = offset(blocks_.steps, quadric.centre, sites.at);
-        const Float4 share = share_of(d), along = dot(sites.normal, all_four(quadric.normal)) - kSameSheet;
-        Float4 weight = share > 0 && along > 0 ? share * share * along : Float4{};
-        if (place.row == &row && place.run == run) weight += along > -kSameSheet ? all_four(kOwnWeight) : Float4{};
+        const SameSheet on_sheet(quadric, blocks_.spacing);
+        const Float4 share = share_of(d), along = dot(sites.normal, all_four(quadric.normal)) - kSameSheet,
+                     on = on_sheet(d, sites.normal);
+        Float4 weight = share > 0 && along > 0 && on > 0 ? share * share * along * on : Float4{};
+        if (place.row == &row && place.run == run)  // the finest scale decides all that is left
+            weight += along > -kSameSheet && (on > 0 || options_.takes_all) ? all_four(kOwnWeight) : Float4{};
         sums.all += weight;
         if (accepted == 0 || bits_of(weight > 0) == 0) continue;
         weight *= accepted;

@@ -63,8 +63,8 @@ struct Deviation {
     double rms = 0, degrees = 0;  // area-weighted; inside the box only
 };
 
-/// Requires a distance of gradient 1.
-Deviation error_of(const Mesh& mesh, const Distance& distance, double low, double high) {
+/// Requires a distance of gradient 1. Faces that are farther away than `farthest` are of other surfaces.
+Deviation error_of(const Mesh& mesh, const Distance& distance, double low, double high, double farthest = HUGE_VAL) {
     Deviation error;
     double areas = 0;
     for (std::uint32_t f = 0; f < mesh.face_end(); ++f) {
@@ -72,7 +72,7 @@ Deviation error_of(const Mesh& mesh, const Distance& distance, double low, doubl
         const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
         bool is_inside = true;
         for (int axis = 0; axis < 3; ++axis) is_inside &= middle[axis] > low && middle[axis] < high;
-        if (!is_inside || is_exterior(mesh[FaceId{f}].labels[1])) continue;
+        if (!is_inside || is_exterior(mesh[FaceId{f}].labels[1]) || std::abs(distance(middle)) > farthest) continue;
         const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
         const double area = length(normal), far = distance(middle);
         Vec3 slope;
@@ -121,6 +121,32 @@ TEST(LatticeFilter, makes_plane_what_is_plane) {
         const Deviation error = error_of(smoothed(volume), plane, 4, 27);
         EXPECT_LT(error.degrees, 0.6);
         EXPECT_LT(error.rms, 0.02);
+    }
+}
+
+/// Other surfaces between the same two regions that face the same way are no part of a plane.
+TEST(LatticeFilter, makes_plane_what_is_plane_beside_other_sheets) {
+    const auto expect_plane = [](const Distance& volume, const Distance& plane, double farthest) {
+        const Mesh mesh =
+            test::run(sampled({32, 32, 32}, {1, 1, 1}, volume), {.decimate = false, .background = {}}).mesh;
+        const Deviation error = error_of(mesh, plane, 4, 27, farthest);
+        EXPECT_LT(error.degrees, 0.4);
+        EXPECT_LT(error.rms, 0.02);
+    };
+    for (Vec3 normal : {Vec3{.31, .17, .93}, Vec3{.08, .03, 1}}) {
+        normal = normal / length(normal);
+        const Distance plane = [&](Vec3 p) { return dot(p - Vec3{15.3, 15.7, 10.6}, normal); };
+        for (const double upper : {9, 16}) {
+            const Distance layers = [&](Vec3 p) {
+                const double height = plane(p);
+                return height > upper - 3 ? height - upper : height;
+            };
+            expect_plane(layers, plane, (upper - 3) / 2);
+        }
+        for (const double z : {5, 17}) {  // a sample of the other region below the plane, and one above it
+            const Distance spotted = [&](Vec3 p) { return length(p - Vec3{15, 15, z}) < 0.5 ? -plane(p) : plane(p); };
+            expect_plane(spotted, plane, 2);
+        }
     }
 }
 
