@@ -91,7 +91,8 @@ MeshFile describe_block_folder(const std::filesystem::path& folder);
 
 /// Checks a complete folder piece by piece, with the faces of others round each: seams are checked as all else. Finds
 /// what check() finds in the whole. Holds one piece and its surroundings, and the faces on seams that later pieces
-/// need. Dense labels are those of describe_block_folder(). Throws like read_block_folder().
+/// need. Dense labels are those of describe_block_folder(), whose background belongs in the options. Throws like
+/// read_block_folder().
 CheckReport check_block_folder(const std::filesystem::path& folder, const CheckOptions& options = {});
 
 /// A complete folder as a model for compare(), one part for each block. Holds no faces; a part is read with the faces

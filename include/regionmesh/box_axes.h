@@ -13,8 +13,9 @@
 
 namespace regionmesh {
 
-/// simplify(), smooth() and improve() keep vertices on the sides of a box along the axes of coordinates. The volume of
-/// a scanner is often oblique, and so is the box of its model: this turns the mesh so that they can keep them there.
+/// simplify(), smooth() and improve() keep vertices on the sides of a box along the axes of coordinates, and refuse
+/// another one. The volume of a scanner is often oblique, and so is the box of its model: this turns the mesh so that
+/// they can keep them there.
 /// The box may be sheared, as that of a tilted gantry: lengths are then those along its edges.
 ///
 ///     const BoxAxes axes(mesh);
@@ -58,5 +59,11 @@ private:
     std::vector<Vec3> before_, after_;   // positions; the second ones in the axes of the box
     std::vector<std::uint32_t> sorted_;  // places in them, by the second position
 };
+
+/// Throws Error(kUsage) where the vertices on a side of the box do not lie in a plane along the axes of coordinates, to
+/// a millionth of the size of the mesh.
+void require_along_axes(const Mesh& mesh);
+/// The same where a lattice is oblique.
+void require_along_axes(const Lattice& samples);
 
 }  // namespace regionmesh

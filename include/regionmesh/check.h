@@ -74,7 +74,8 @@ struct LineReport {
 
 struct CheckOptions {
     bool boundary_is_open = false;           // the box was not capped: open edges on its sides are no violation
-    std::vector<Label> background = {};      // labels without faces to the exterior; not reported as regions
+    std::vector<Label> background = {};      // labels without faces to the exterior; not reported as regions. Dense:
+                                             // Reconstruction::background, without which faces seem to be missing
     std::optional<LabelOracle> oracle = {};  // compare with the labels of the volume
     bool crossing = true;                    // look for crossing faces
     std::uint32_t threads = 0;               // 0: one per core; the report does not depend on it

@@ -37,6 +37,7 @@ public:
 class ComparedMesh final : public ComparedModel {
 public:
     ComparedMesh(const Mesh& mesh, const LabelTable& labels) : mesh_(mesh), labels_(labels) {}
+    const Mesh& mesh() const { return mesh_; }
     const LabelTable& labels() const override { return labels_; }
     std::uint64_t face_count() const override { return mesh_.face_count(); }
     std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
@@ -100,7 +101,7 @@ struct CompareReport {
 /// Compares by sampling (src/compare/sample.h); labels correspond if they are equal in the input. Deterministic for any
 /// number of threads. Holds the samples and one part of each model. The nearest faces and lines are those of the whole
 /// model, however it is divided; the samples of a model differ from those of the same model in other parts. Cost:
-/// docs/compare.md. Throws what reading a part throws.
+/// docs/compare.md. Throws what reading a part throws, and Error(kInput) for a table that lacks a label of its mesh.
 CompareReport compare(const ComparedModel& a, const ComparedModel& b, const CompareOptions& options = {});
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options = {});
 

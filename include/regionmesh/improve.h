@@ -19,7 +19,7 @@ struct ImproveOptions {
                                // much round faces below min_quality
     double max_error = HUGE_VAL;             // limit of ImproveResult::error_bound, as of SimplifyOptions
     std::uint32_t sweeps = 12;               // at most, over all edges and vertices
-    std::optional<Lattice> samples = {};     // no sample of it changes its region; its direction is not looked at
+    std::optional<Lattice> samples = {};     // no sample of it changes its region; as of SimplifyOptions
     double scale_z = 1;                      // by which z of the mesh is multiplied: shapes are measured without it
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };

@@ -44,9 +44,12 @@ constexpr bool is_unit_of_length(double metres) { return metres >= kLeastUnit &&
 /// Bytes that work is planned for where nothing else is asked.
 inline constexpr std::uint64_t kDefaultMemory = std::uint64_t{2} << 30;
 
-/// Throws Error(kInput) where spacing, origin or extent lie outside these bounds, or are no numbers, and where there
-/// are no samples; `what` names the volume.
+/// Throws Error(kInput) where spacing, origin or extent lie outside these bounds, or are no numbers, where a direction
+/// is not of length 1, to a thousandth, and where there are no samples; `what` names the volume.
 void require_lattice(const std::string& what, const Lattice& lattice);
+
+/// Throws Error(kInput) if the axes are in none of the three orders of a sweep.
+void require_sweep(const std::string& what, const Sweep& sweep);
 
 /// The same for the bounding box of a model or of points that is not empty.
 void require_extent(const std::string& what, const Box& box);

@@ -27,6 +27,7 @@ struct MeshArrays {
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
 /// The living vertices and faces, in order of id. `background`: labels that are second in a pair, like the exterior.
+/// Throws Error(kInput) for a table that lacks a label of the mesh.
 MeshArrays export_arrays(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background = {});
 
 struct LabelledMesh {

@@ -18,7 +18,7 @@ namespace regionmesh {
 
 /// A number for each vertex, written with the model.
 struct PointArray {
-    std::string name;                // of letters, digits and '_'
+    std::string name;                // of letters, digits and '_'; not NodeType, and not that of another array
     std::span<const double> values;  // by vertex id
 };
 
@@ -60,7 +60,8 @@ struct WriteOptions {
 /// Doubles in text round-trip. The bytes depend only on the model, the labels and the options. Memory: a few megabytes;
 /// 4 bytes per vertex where ids are not dense; 8 bytes per face for .obj and .stl, some hundred for the formats of
 /// volume meshers and .dream3d. Throws Error(kOutput) for another extension and for options that the format does not
-/// support, before it writes anything, and where the file cannot be written; Error(kUsage) for coordinates.metres and
+/// support, before it writes anything, for vertices that are not finite, and where the file cannot be written;
+/// Error(kInput) for a table that lacks a label of the mesh; Error(kUsage) for coordinates.metres and
 /// coordinates.spacing out of range.
 ///
 /// .vtp, .vtu, .ply, .obj and .stl say the space, where it is known, as 3D Slicer reads it: SPACE=RAS. .vtp, .vtu, .ply

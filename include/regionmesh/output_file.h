@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,9 +40,9 @@ public:
     const OutputOptions& options() const { return options_; }
     /// Bytes written so far.
     std::uint64_t size() const { return size_; }
-    /// Closes the file under its temporary name. No writes may follow.
+    /// Closes the file under its temporary name. Writes that follow throw Error(kOutput).
     void close();
-    /// Closes the file if it is open, and renames it.
+    /// Closes the file if it is open, and renames it. Does nothing the second time.
     void commit();
 
 private:
@@ -51,6 +52,7 @@ private:
     void open_in_place();
     void open_temporary(mode_t mode);
     void keep_permissions(const struct stat& earlier);
+    void require_open() const;
     void put(std::string_view bytes);
     void take_name();
     void give_back_name();
@@ -73,7 +75,8 @@ private:
 class OutputFiles {
 public:
     explicit OutputFiles(const OutputOptions& options = {}) : options_(options) {}
-    /// Closes the previous file, so that the number of files is not limited by open descriptors.
+    /// Closes the previous file, so that the number of files is not limited by open descriptors. Throws Error(kOutput)
+    /// for a file that was added before.
     OutputFile& add(const std::filesystem::path& path);
     /// Renames all files.
     void commit();
@@ -81,6 +84,7 @@ public:
 private:
     OutputOptions options_;
     std::vector<std::unique_ptr<OutputFile>> files_;
+    std::set<std::filesystem::path> targets_;
 };
 
 /// Throws Error(kOutput) where no file can be written at `path`: for a check before long work. Removes temporary files

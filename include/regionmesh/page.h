@@ -43,7 +43,7 @@ struct PageOptions {
 /// for looking, not for measuring. The bytes depend on the arguments only, except `threads`. Names, titles and the
 /// report are data: no text in them can become markup or script. Memory: about 40 bytes per face; for a model that is
 /// simplified, 250 bytes per face more. The page is one of `files`, which the caller commits. Throws Error(kOutput),
-/// also for a report that is no JSON text and for too few distances.
+/// also for a report that is no JSON text, for too few distances, and for another number of models.
 void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options,
                 OutputFiles& files);
 /// The same, committed.

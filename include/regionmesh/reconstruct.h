@@ -67,6 +67,7 @@ struct Reconstruction {
     Report report;
 };
 
+/// Called on the calling thread. The last share may be a little below 1.
 using OnProgress = std::function<void(const Progress&)>;
 
 /// Receives the finished model and its dense background labels, to write it or show it. With more than one thread, and

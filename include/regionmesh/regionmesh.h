@@ -1,4 +1,5 @@
-// The public headers of regionmesh::core. Files and their formats: regionmesh/formats.h.
+// The public headers of regionmesh::core. Files and their formats: regionmesh/formats.h. Functions may be called from
+// several threads at a time, each with objects of its own; what is only read may be shared.
 #pragma once
 
 #include "regionmesh/array_sections.h"

@@ -31,8 +31,8 @@ struct SimplifyOptions {
     bool bounds_regions = false;  // asserts that each face has its first label behind it and its second in front of
                                   // it, everywhere; collapses are then tested faster, with the same result
     PlacementKind placement = PlacementKind::kQuadric;
-    std::optional<Lattice> samples = {};  // no sample of it changes its region, no merged vertex leaves its box; its
-                                          // direction is not looked at (box_axes.h turns a mesh into its axes)
+    std::optional<Lattice> samples = {};  // no sample of it changes its region, no merged vertex leaves its box; along
+                                          // the axes of coordinates, as BoxAxes::samples() is
     std::optional<Box> box = {};          // no merged vertex leaves it; for models that no faces close on its sides
     std::uint32_t threads = 0;            // at work at a time; 0: one per core. The result is the same
     /// Called now and then, on the calling thread, with the number of faces that are left; while tiles are simplified,
@@ -77,8 +77,8 @@ struct SimplifyResult {
 /// everything else may. A target below what topology and quality allow is not reached; `stopped` says why. Renumbers
 /// vertices and faces. Deterministic: the result depends on the mesh and the options, not on `threads`. `max_error`
 /// bounds the two-sided Hausdorff distance of each interface to the same interface of the mesh as it comes. Requires
-/// that every vertex that is not fixed has all its faces in the mesh. Throws Error(kUsage) for numbers out of range,
-/// and Error(kInput) for `samples` that are no lattice.
+/// that every vertex that is not fixed has all its faces in the mesh. Throws Error(kUsage) for numbers out of range
+/// and for a mesh or samples that are oblique (box_axes.h), and Error(kInput) for `samples` that are no lattice.
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options);
 
 }  // namespace regionmesh

@@ -64,7 +64,8 @@ struct SmoothReport {
 
 /// With kTaubin, kLaplacian or kNifpms. Moves the vertices in place, except fixed ones; ids stay the same. Runs the
 /// same passes and the same guard as the stream. Adds no violation; violations that came in may stay. Throws
-/// Error(kUsage) for kLattice, since a mesh has no lattice, and for numbers out of range. Deterministic.
+/// Error(kUsage) for kLattice, since a mesh has no lattice, for numbers out of range, and for a mesh in an oblique box
+/// (box_axes.h). Deterministic.
 SmoothReport smooth(Mesh& mesh, const SmoothOptions& options);
 
 /// Fixes all vertices on the sides of the box, or on another hull. For meshes that have no faces there: a filter could

@@ -44,11 +44,12 @@ class Voxeliser {
 public:
     /// Holds a reference to the mesh. Memory: 8 bytes a face, 8 bytes a vertex, and the crossings of the sections
     /// filled at a time. Faces are sorted on at most `threads` threads (0: one per core). Throws Error(kInput) for a
-    /// lattice that require_lattice() refuses.
+    /// lattice that require_lattice() refuses, and for what require_sweep() does.
     Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads = 1);
 
     /// Fills the labels of the next section, size[axes[0]] * size[axes[1]] samples with axes[0] fastest; kNoRegion
     /// outside all regions, or the first background label where there is one. False when all sections were handed out.
+    /// Throws Error(kUsage) for room of another size.
     bool next(std::span<Label> section);
     /// Fills the labels of the sections that come next, on at most `threads` threads (0: one per core), and returns how
     /// many: fewer than asked at the end.
@@ -146,8 +147,8 @@ void add_samples(SampleAgreement& counts, LabelTable& labels, const std::vector<
                  std::span<const InputLabel> given, std::span<const Label> found);
 
 /// Voxelises the mesh on the lattice of the reader, and compares sample by sample. `labels` is the table of the mesh;
-/// labels that only the sections have are added to it. Reads the reader to its end, on at most `threads` threads (0:
-/// one per core). Throws what the reader throws.
+/// labels that only the sections have are added to it. Rewinds the reader if it can, and reads it to its end, on at
+/// most `threads` threads (0: one per core). Throws what the reader throws.
 SampleAgreement compare_samples(const Mesh& mesh, LabelTable& labels, const std::vector<Label>& background,
                                 SectionReader& reader, std::uint32_t threads = 0);
 

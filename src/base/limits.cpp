@@ -34,6 +34,10 @@ void require_lattice(const std::string& what, const Lattice& lattice) {
         if (!is_length(lattice.spacing[axis], kMostLength))
             refuse(what, std::string("the spacing along ") + "xyz"[axis] + " is " + text_of(lattice.spacing[axis]) +
                              allowed(kMostLength) + "give the right one with --spacing X,Y,Z");
+    constexpr double kNearUnit = 1e-3;  // directions in files are rounded, to six digits and more
+    for (const Vec3 axis : lattice.axes())
+        if (!(std::abs(length(axis) - 1) <= kNearUnit))
+            refuse(what, "the columns of direction are not of length 1; give lengths as spacing");
     constexpr double kLeastVolume = 1e-6;
     if (!(std::abs(lattice.axes_volume()) >= kLeastVolume))
         refuse(what, "the directions of the axes lie in one plane; give those of x, y, z as unit columns");
@@ -52,6 +56,12 @@ void require_lattice(const std::string& what, const Lattice& lattice) {
                              ", more than 2^40 times the smallest spacing " + text_of(least) +
                              ", which double precision does not resolve; move the origin or mend the spacing");
     }
+}
+
+void require_sweep(const std::string& what, const Sweep& sweep) {
+    for (const Sweep& known : {kSweepX, kSweepY, kSweepZ})
+        if (sweep == known) return;
+    refuse(what, "its sweep is none of kSweepX, kSweepY, kSweepZ; give one of them");
 }
 
 void require_extent(const std::string& what, const Box& box) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/add_warning.h"
 #include "base/megabytes.h"
 #include "boreholes/layer_order.h"
 #include "boreholes/layer_surfaces.h"

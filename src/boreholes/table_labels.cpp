@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/add_warning.h"
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
 
@@ -50,11 +51,6 @@ std::vector<InputLabel> ranks_of(const TextTable& texts) {
 }
 
 }  // namespace
-
-void add_warning(std::string& warning, const std::string& line) {
-    if (!warning.empty() && !line.empty()) warning += "; ";
-    warning += line;
-}
 
 std::uint32_t TextTable::number_of(std::string_view text) {
     if (!texts_.empty() && *texts_[last_] == text) return last_;

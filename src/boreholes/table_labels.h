@@ -38,9 +38,6 @@ private:
     std::uint32_t last_ = 0;
 };
 
-/// Adds a line to the warning of a reader.
-void add_warning(std::string& warning, const std::string& line);
-
 /// Collects labels as text, since only after the last row it is known whether all are numbers.
 class TableLabels {
 public:

@@ -9,6 +9,7 @@
 #include "compare/model_side.h"
 #include "compare/nearest_search.h"
 #include "compare/statistics.h"
+#include "mesh/file_view.h"
 
 namespace regionmesh {
 namespace {
@@ -235,6 +236,7 @@ CompareReport compare(const ComparedModel& a, const ComparedModel& b, const Comp
 }
 
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options) {
+    for (const ComparedMesh* side : {&a, &b}) require_labels(side->mesh(), side->labels(), &a == side ? "a" : "b");
     const ComparedModel &first = a, &second = b;
     return compare(first, second, options);
 }

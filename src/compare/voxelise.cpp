@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "base/parallel_for.h"
 #include "base/parallel_invoke.h"
 #include "mesh/sample_lines.h"
+#include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 
 namespace regionmesh {
@@ -59,6 +61,7 @@ bool is_single(const Mesh& mesh) {
 Voxeliser::Voxeliser(const Mesh& mesh, const VoxeliseOptions& options, std::uint32_t threads)
     : mesh_(mesh), options_(options), into_axes_(options.lattice) {
     require_lattice("lattice", options.lattice);
+    require_sweep("lattice", options.sweep);
     const auto lines = std::make_shared<SampleLines>(lines_of(options));
     lines_ = lines;
     for (int n = 0; n < 3; ++n) size_[n] = lines_->size(n);
@@ -190,6 +193,11 @@ bool Voxeliser::next(std::span<Label> section) { return next(std::span(&section,
 std::uint32_t Voxeliser::next(std::span<const std::span<Label>> sections, std::uint32_t threads) {
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(sections.size(), size_[2] - section_));
     if (count == 0) return 0;
+    for (const std::span<Label> section : sections.first(count))
+        if (section.size() != std::size_t{size_[0]} * size_[1])
+            throw Error(ErrorCode::kUsage, "Voxeliser: room for " + std::to_string(section.size()) +
+                                               " labels of a section of " + std::to_string(size_[0]) + " x " +
+                                               std::to_string(size_[1]) + "; give as much as it has samples");
     activate(section_, section_, section_ + count);
     scratch_.resize(std::max<std::size_t>(scratch_.size(), count));
     parallel_for(count, threads, [&](std::uint32_t n) { label_section(section_ + n, sections[n], scratch_[n]); });

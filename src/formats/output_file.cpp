@@ -129,6 +129,7 @@ void OutputFile::write(std::string_view bytes) {
 }
 
 void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
+    require_open();
     if (::fseeko(file_, static_cast<off_t>(offset), SEEK_SET) != 0) {
         if (errno == ESPIPE)
             fail("is a pipe, and this format is not written in one go; name a file, or a .ply or .stl");
@@ -138,8 +139,13 @@ void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
     if (::fseeko(file_, 0, SEEK_END) != 0) fail(errno);
 }
 
+void OutputFile::require_open() const {
+    if (!file_) fail("is closed already; nothing can follow");
+}
+
 void OutputFile::put(std::string_view bytes) {
     if (bytes.empty()) return;  // data() may be null, which fwrite does not allow
+    require_open();
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
 }
 
@@ -156,6 +162,7 @@ void OutputFile::close() {
 }
 
 void OutputFile::commit() {
+    if (name_ == Name::kReplaced) return;
     close();
     const formats::PartsHeld held;
     take_name();
@@ -209,7 +216,10 @@ void OutputFile::fail(const std::string& reason) const {
 
 OutputFile& OutputFiles::add(const fs::path& path) {
     if (!files_.empty()) files_.back()->close();
-    return *files_.emplace_back(std::make_unique<OutputFile>(path, options_));
+    auto file = std::make_unique<OutputFile>(path, options_);
+    if (!file->temporary_.empty() && !targets_.insert(file->target_).second)
+        file->fail("is one of these files already; give another name");
+    return *files_.emplace_back(std::move(file));
 }
 
 void OutputFiles::commit() {

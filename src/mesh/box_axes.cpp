@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "mesh/box_sides.h"
 #include "mesh/extent.h"
 #include "mesh/label_set.h"
+#include "regionmesh/error.h"
 
 namespace regionmesh {
 namespace {
@@ -76,6 +78,11 @@ std::optional<std::array<Vec3, 3>> any_normals(const Mesh& mesh) {
     }
     if (std::abs(dot(cross(normals[0], normals[1]), normals[2])) < kParallel) return {};
     return normals;
+}
+
+[[noreturn]] void refuse_oblique(const char* what) {
+    throw Error(ErrorCode::kUsage,
+                std::string(what) + " oblique; turn the mesh into its axes with BoxAxes, and restore it afterwards");
 }
 
 auto coordinates(Vec3 p) { return std::tuple(p.x, p.y, p.z); }
@@ -242,6 +249,29 @@ void BoxAxes::restore(Mesh& mesh) const {
         p = same != sorted_.end() && after_[*same] == p ? before_[*same]
                                                         : origin_ + p.x * axes_[0] + p.y * axes_[1] + p.z * axes_[2];
     });
+}
+
+void require_along_axes(const Mesh& mesh) {
+    Box all;
+    std::array<Box, 6> of_side;
+    for_vertices(mesh, [&](VertexId v) {
+        const Vec3 p = mesh.position(v);
+        all.add(p);
+        for (unsigned sides = mesh[v].sides & kBoxSides; sides != 0; sides &= sides - 1)
+            of_side[static_cast<std::size_t>(std::countr_zero(sides))].add(p);
+    });
+    if (all.is_empty()) return;
+    const Vec3 size = all.high - all.low;
+    const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
+    for (int side = 0; side < 6; ++side) {
+        const Box& box = of_side[static_cast<std::size_t>(side)];
+        if (!box.is_empty() && box.high[side / 2] - box.low[side / 2] > tolerance)
+            refuse_oblique("the box of the mesh is");
+    }
+}
+
+void require_along_axes(const Lattice& samples) {
+    if (!samples.is_axis_aligned()) refuse_oblique("samples: the lattice is");
 }
 
 }  // namespace regionmesh

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "regionmesh/error.h"
+
 namespace regionmesh {
 namespace {
 
@@ -81,6 +83,16 @@ std::uint8_t FileView::node_type(VertexId v) const {
     const SideSet sides = mesh_[v].sides;
     for (int side = 0; side < 6; ++side) count += sides >> side & 1;
     return static_cast<std::uint8_t>(std::clamp(count, 2, kMost) + (sides != 0 ? 10 : 0));
+}
+
+void require_labels(const Mesh& mesh, const LabelTable& labels, const std::string& what) {
+    for_faces(mesh, [&](FaceId f) {
+        for (const Label label : mesh[f].labels)
+            if (!is_exterior(label) && label >= labels.size())
+                throw Error(ErrorCode::kInput, what + ": face " + std::to_string(index(f)) + " has the dense label " +
+                                                   std::to_string(label) + " of a table of " +
+                                                   std::to_string(labels.size()) + "; give the table of the mesh");
+    });
 }
 
 }  // namespace regionmesh

@@ -100,4 +100,7 @@ private:
     std::vector<std::uint32_t> numbers_;  // by vertex id: number in the file; empty if ids are the numbers
 };
 
+/// Throws Error(kInput) where a face has a label that the table has not; `what` names the model.
+void require_labels(const Mesh& mesh, const LabelTable& labels, const std::string& what);
+
 }  // namespace regionmesh

@@ -221,6 +221,7 @@ LabelledMesh import_arrays(const MeshArrays& arrays) {
 }
 
 MeshArrays export_arrays(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background) {
+    require_labels(mesh, labels, "mesh");
     const FileView view(mesh, labels, background);
     MeshArrays arrays{.exterior_label = view.exterior_label(), .is_unsigned = labels.is_unsigned()};
     arrays.points.reserve(mesh.vertex_count());

@@ -50,6 +50,13 @@ WantedVolumes volumes_of(const CheckReport& report) {
     return volumes;
 }
 
+/// Those of the samples, or of the box of the mesh where it is not theirs.
+BoxAxes axes_of(Mesh& mesh, const std::optional<Lattice>& samples) {
+    if (samples)
+        if (BoxAxes axes(mesh, *samples); axes.samples()) return axes;
+    return BoxAxes(mesh);
+}
+
 }  // namespace
 
 ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
@@ -58,7 +65,7 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
     const auto note = [&](const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all) {
         if (on_change) on_change(stage, gone, in_all);
     };
-    const BoxAxes axes = samples ? BoxAxes(mesh, *samples) : BoxAxes(mesh);
+    const BoxAxes axes = axes_of(mesh, samples);
     ModelChange change = begin(mesh, checks);
     Report& report = change.report;
     SimplifyOptions options = simplify_options(settings, mesh);

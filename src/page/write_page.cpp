@@ -13,6 +13,7 @@
 #include "mesh/region_colours.h"
 #include "page/page_geometry.h"
 #include "page/page_template.h"
+#include "regionmesh/box_axes.h"
 #include "regionmesh/check.h"
 #include "regionmesh/error.h"
 #include "regionmesh/mesh_arrays.h"
@@ -90,9 +91,11 @@ LabelledMesh preview_of(const PageModel& model, const PageOptions& options) {
     LabelledMesh copy = import_arrays(export_arrays(model.mesh, model.labels, model.background));
     std::vector<Label> background;
     for (const Label label : model.background) background.push_back(copy.labels.dense(model.labels.input(label)));
+    const BoxAxes axes(copy.mesh);
     lock_violations(copy.mesh, {.background = background, .threads = options.threads});
     simplify(copy.mesh,
              {.target_faces = options.preview_faces, .scale = typical_edge(copy.mesh), .threads = options.threads});
+    axes.restore(copy.mesh);
     return copy;
 }
 
@@ -182,6 +185,9 @@ std::string title_of(const std::vector<PageModel>& models) {
 
 void write_page(const std::filesystem::path& path, const std::vector<PageModel>& models, const PageOptions& options,
                 OutputFiles& files) {
+    if (models.empty() || models.size() > 2)
+        throw Error(ErrorCode::kOutput,
+                    fmt::format("{}: {} models; a page shows one, or two side by side", path.string(), models.size()));
     for (const PageModel& model : models)
         if (!model.distances.empty() && model.distances.size() < model.mesh.vertex_end())
             throw Error(ErrorCode::kOutput,

@@ -103,7 +103,7 @@ private:
     /// Samples on the sides of their box keep their regions only while the surface stays in it.
     static Box limits_of(const SimplifyOptions& options, const CollapseBounds& bounds) {
         const Box limits = options.box ? common(bounds.limits, *options.box) : bounds.limits;
-        return options.samples ? common(limits, options.samples->along_axes().extent()) : limits;
+        return options.samples ? common(limits, options.samples->extent()) : limits;
     }
 
     /// Returns the number of vertices that went.

@@ -8,6 +8,7 @@
 #include "base/option_range.h"
 #include "base/triangle.h"
 #include "mesh/strata.h"
+#include "regionmesh/box_axes.h"
 #include "regionmesh/limits.h"
 #include "simplify/edge_flips.h"
 #include "simplify/error_bound.h"
@@ -133,7 +134,10 @@ void require_in_range(const ImproveOptions& options) {
     require_number("tolerance", options.tolerance, kNotNegative);
     require_number("max_error", options.max_error, kNotNegativeOrInfinite);
     require_number("scale_z", options.scale_z, kPositive);
-    if (options.samples) require_lattice("samples", *options.samples);
+    if (options.samples) {
+        require_lattice("samples", *options.samples);
+        require_along_axes(*options.samples);
+    }
 }
 
 }  // namespace
@@ -147,6 +151,7 @@ ImproveOptions improve_options(const SimplifyOptions& simplified) {
 
 ImproveResult improve(Mesh& mesh, const ImproveOptions& given) {
     require_in_range(given);
+    require_along_axes(mesh);
     ImproveOptions options = given;
     options.max_error =
         std::min(given.max_error, largest_error_bound(mesh) + SurfaceDrift::kPoorShare * given.tolerance * given.scale);

@@ -7,6 +7,8 @@
 
 #include "base/option_range.h"
 #include "mesh/extent.h"
+#include "regionmesh/box_axes.h"
+#include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
@@ -80,7 +82,13 @@ void require_in_range(const SimplifyOptions& options) {
     require_number("perturbation", options.perturbation, kNotNegative);
     require_number("scale", options.scale, kPositive);
     require_choice("placement", options.placement, PlacementKind::kLindstromTurk);
-    if (options.samples) require_lattice("samples", *options.samples);
+    for (int axis = 0; options.box && axis < 3; ++axis)
+        if (!(options.box->low[axis] <= options.box->high[axis]))
+            throw Error(ErrorCode::kUsage, "box: it ends before it begins; give its lower corner as low");
+    if (options.samples) {
+        require_lattice("samples", *options.samples);
+        require_along_axes(*options.samples);
+    }
 }
 
 }  // namespace
@@ -92,6 +100,7 @@ double usual_quality_bound(const Vec3& spacing) {
 
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options) {
     require_in_range(options);
+    require_along_axes(mesh);
     SimplifyResult result;
     for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) mesh[VertexId{v}].set_error_bound(0);
     if (!simplify_by_tiles(mesh, options, result)) mesh.sort_spatially(options.threads);

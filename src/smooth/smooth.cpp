@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/option_range.h"
+#include "regionmesh/box_axes.h"
 #include "regionmesh/error.h"
 #include "smooth/chunk_smoother.h"
 #include "smooth/smoother.h"
@@ -42,6 +43,7 @@ SmoothReport smooth(Mesh& mesh, const SmoothOptions& options) {
     if (options.passes == 0) return {};
     require_in_range(options);
     require_no_lattice(options);
+    require_along_axes(mesh);
     SmoothOptions own = options;
     if (own.filter == SmoothFilter::kAuto) own.filter = SmoothFilter::kTaubin;
     Smoother smoother(own, {});

@@ -8,6 +8,7 @@
 
 #include "base/parallel_invoke.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "regionmesh/process.h"
 #include "stream/chunk_volumes.h"
 #include "stream/finish.h"

@@ -77,9 +77,12 @@ SimplifyOptions simplify_options(const ReconstructOptions& options, const Source
     own.intersect_check = options.intersect_check;
     // If the hull is open, a line may leave a domain that is not convex and come back in another region.
     own.bounds_regions = options.cap || shape.has_samples;
-    if (options.keep_samples && shape.has_samples) own.samples = shape.lattice;
+    if (shape.has_samples) {
+        const Lattice along_axes = shape.lattice.along_axes();  // meshes are turned at the end
+        if (options.keep_samples) own.samples = along_axes;
+        own.box = along_axes.extent();
+    }
     own.placement = options.placement;
-    if (shape.has_samples) own.box = shape.lattice.along_axes().extent();  // meshes are turned at the end
     return own;
 }
 

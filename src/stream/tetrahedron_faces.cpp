@@ -7,11 +7,11 @@
 #include "cells/tetrahedron_mesher.h"
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 #include "stream/footprint.h"
 #include "stream/place_in_space.h"
 #include "stream/star_watch.h"
 #include "stream/tuning.h"
-#include "volume/section_window.h"
 
 namespace regionmesh {
 namespace {

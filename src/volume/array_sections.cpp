@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
@@ -61,6 +62,10 @@ public:
 
     bool next(std::span<InputLabel> section) override {
         if (section_ == section_count()) return false;
+        if (section.size() != std::size_t{section_width()} * section_height())
+            throw Error(ErrorCode::kUsage, info_.source + ": room for " + std::to_string(section.size()) +
+                                               " labels of a section of " + std::to_string(section_width()) + " x " +
+                                               std::to_string(section_height()) + "; give as much as it has samples");
         const auto& [u, v, w] = info_.sweep.axes;
         const auto* first =
             static_cast<const std::byte*>(array_.data) + array_.strides[w] * static_cast<std::ptrdiff_t>(section_++);
@@ -77,9 +82,6 @@ private:
     std::uint32_t section_ = 0;
 };
 
-/// Directions in files are rounded, to six digits and more.
-constexpr double kNearUnit = 1e-3;
-
 void require_usable(const LabelArray& array, const ArrayOptions& options) {
     const auto refuse = [&](const std::string& text) { throw Error(ErrorCode::kInput, options.name + ": " + text); };
     const auto& [x, y, z] = array.size;
@@ -92,9 +94,6 @@ void require_usable(const LabelArray& array, const ArrayOptions& options) {
         refuse("metres are out of range; give 1e-15 to 1e6 for a unit of length");
     for (const double entry : options.direction)
         if (!std::isfinite(entry)) refuse("direction is not finite; give nine numbers");
-    for (const Vec3 axis : Lattice{.direction = options.direction}.axes())
-        if (std::abs(length(axis) - 1) > kNearUnit)
-            refuse("the columns of direction are not of length 1; give lengths as spacing");
 }
 
 }  // namespace

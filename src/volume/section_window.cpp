@@ -5,12 +5,6 @@
 
 namespace regionmesh {
 
-void require_sweep(const std::string& source, const Sweep& sweep) {
-    for (const Sweep& known : {kSweepX, kSweepY, kSweepZ})
-        if (sweep == known) return;
-    throw Error(ErrorCode::kInput, source + ": its sweep is none of kSweepX, kSweepY, kSweepZ; give one of them");
-}
-
 void require_cells(const VolumeInfo& info) {
     require_sweep(info.source, info.sweep);
     for (int axis = 0; axis < 3; ++axis)

@@ -12,9 +12,6 @@ namespace regionmesh {
 /// Throws Error(kInput) for a volume of one sample along an axis, and what require_sweep() throws.
 void require_cells(const VolumeInfo& info);
 
-/// Throws Error(kInput) if the axes are in none of the three orders of a sweep.
-void require_sweep(const std::string& source, const Sweep& sweep);
-
 /// Reads sections one by one and holds the last two, a strip, with labels numbered densely in order of appearance.
 class SectionWindow {
 public:

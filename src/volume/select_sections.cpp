@@ -117,6 +117,7 @@ ReaderPointer relabelled(ReaderPointer reader, const Selection& selection) {
 }  // namespace
 
 std::unique_ptr<SectionReader> select_sections(std::unique_ptr<SectionReader> reader, const Selection& selection) {
+    if (!reader) throw Error(ErrorCode::kUsage, "select_sections: no reader; give one");
     require_ranges(reader->info(), selection);
     reader = relabelled(cropped(std::move(reader), selection), selection);
     if (selection.downsample != std::array<std::uint32_t, 3>{1, 1, 1})

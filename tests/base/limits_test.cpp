@@ -78,6 +78,30 @@ TEST(Limits, of_origin_and_extent_follow_from_the_smallest_spacing) {
     EXPECT_THAT(lattice_refusal({1e-6, 1e7, 1}), HasSubstr("the coordinates along y reach"));
 }
 
+TEST(Limits, directions_are_of_length_1) {
+    Lattice lattice{.size = {5, 4, 3}};
+    const auto refusal = [&] {
+        try {
+            require_lattice("v.nrrd", lattice);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("not refused");
+    };
+    lattice.direction[4] = 1 + 1e-6;
+    EXPECT_EQ(refusal(), "not refused");
+    for (const double bad : {5.0, 0.9, HUGE_VAL, std::nan("")}) {
+        lattice.direction[4] = bad;
+        EXPECT_THAT(refusal(), HasSubstr("v.nrrd: the columns of direction are not of length 1"));
+    }
+}
+
+TEST(Limits, a_sweep_is_one_of_three) {
+    for (const Sweep& sweep : {kSweepX, kSweepY, kSweepZ}) EXPECT_NO_THROW(require_sweep("v.nrrd", sweep));
+    for (const Sweep& sweep : {Sweep{{0, 0, 0}}, Sweep{{5, 7, 9}}, Sweep{{1, 0, 2}}})
+        EXPECT_THROW(require_sweep("v.nrrd", sweep), Error);
+}
+
 TEST(Limits, of_models_refuse_what_is_too_large_or_too_small) {
     const auto refused = [](double size, double at) {
         Box box;

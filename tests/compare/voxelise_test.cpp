@@ -37,6 +37,17 @@ void expect_lossless(const ArrayVolume& volume, const ReconstructOptions& option
     EXPECT_EQ(found.dice(), 1);
 }
 
+TEST(Voxelise, refuses_other_sweeps_and_room_for_another_section) {
+    ArrayVolume volume = test::noise_volume({6, 5, 4}, 2, 1);
+    const Reconstruction made = reconstruct(volume, plain());
+    EXPECT_THROW(Voxeliser(made.mesh, {.lattice = volume.lattice(), .sweep = {{5, 7, 9}}}), Error);
+    Voxeliser voxeliser(made.mesh, {.lattice = volume.lattice()});
+    std::vector<Label> section(29);
+    EXPECT_THROW(voxeliser.next(section), Error);
+    section.resize(30);
+    EXPECT_TRUE(voxeliser.next(section));
+}
+
 TEST(Voxelise, plain_models_of_noise_are_lossless) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
         expect_lossless(test::noise_volume({6, 5, 4}, 2 + seed % 5, seed, seed % 3 == 0 ? 0 : -1), plain());

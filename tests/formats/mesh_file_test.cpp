@@ -316,6 +316,28 @@ TEST_F(MeshFileTest, point_arrays_stand_in_vtp_files_and_nowhere_else) {
     EXPECT_EQ(file_count(), 1);
 }
 
+TEST_F(MeshFileTest, what_no_reader_would_take_is_not_written) {
+    LabelTable labels;
+    labels.dense(5);
+    const auto refusal = [&](const Mesh& mesh, const WriteOptions& options = {}) {
+        try {
+            write_mesh(mesh, labels, path("m.vtp"), options);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("not refused");
+    };
+    EXPECT_THAT(refusal(tetrahedron(0, 7)), HasSubstr("m.vtp: face 0 has the dense label 7 of a table of 1"));
+    labels.dense(6);
+    Mesh mesh = tetrahedron(0, 1);
+    const std::vector<double> values(4);
+    EXPECT_THAT(refusal(mesh, {.point_arrays = {{"NodeType", values}}}), HasSubstr("'NodeType' already"));
+    EXPECT_THAT(refusal(mesh, {.point_arrays = {{"X", values}, {"X", values}}}), HasSubstr("'X' already"));
+    mesh[VertexId{2}].position.y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THAT(refusal(mesh), HasSubstr("m.vtp: vertex 2 lies at 0, nan, -0; give finite coordinates"));
+    EXPECT_TRUE(std::filesystem::is_empty(path("")));
+}
+
 TEST_F(MeshFileTest, missing_files_and_folders_are_input_errors) {
     for (const char* name : {"m.vtp", "m.vtu", "m.ply", "m.stl", "m.obj", "m.dream3d"}) {
         failure_of(path(name));

@@ -66,6 +66,26 @@ TEST_F(OutputFileTest, two_at_once_do_not_meet) {
     EXPECT_EQ(file_count(), 1);
 }
 
+TEST_F(OutputFileTest, what_is_complete_takes_no_more) {
+    OutputFile file(path("a.txt"));
+    file.write("one");
+    file.commit();
+    EXPECT_THAT(failure_of([&] { file.write("two"); }), testing::HasSubstr("is closed already"));
+    EXPECT_THAT(failure_of([&] { file.overwrite(0, "two"); }), testing::HasSubstr("is closed already"));
+    EXPECT_NO_THROW(file.commit());
+    EXPECT_EQ(text_of(path("a.txt")), "one");
+}
+
+TEST_F(OutputFileTest, files_that_belong_together_have_names_of_their_own) {
+    OutputFiles files;
+    files.add(path("a.txt")).write("one");
+    EXPECT_THAT(failure_of([&] { files.add(path("a.txt")); }), testing::HasSubstr("is one of these files already"));
+    files.add(path("b.txt")).write("two");
+    files.commit();
+    EXPECT_EQ(text_of(path("a.txt")), "one");
+    EXPECT_EQ(text_of(path("b.txt")), "two");
+}
+
 TEST_F(OutputFileTest, follows_a_link) {
     put_text(path("real.txt"), "before");
     std::filesystem::create_symlink("real.txt", path("link.txt"));

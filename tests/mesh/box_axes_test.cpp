@@ -6,8 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "regionmesh/check.h"
+#include "regionmesh/error.h"
+#include "regionmesh/improve.h"
 #include "regionmesh/mesh_arrays.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
@@ -118,6 +121,26 @@ TEST(BoxAxes, oblique_models_keep_their_box_when_they_are_simplified_or_smoothed
             for (const bool is_smoothed : {false, true})
                 for (const bool is_read : {false, true})
                     for (const int shears : {0, 1, 2}) expect_box_kept(cells, background, is_smoothed, is_read, shears);
+}
+
+TEST(BoxAxes, models_that_were_not_turned_are_refused_where_sides_would_be_lost) {
+    Reconstruction made = model(CellKind::kCompact, {});
+    const std::vector<Vec3> before = positions(made.mesh);
+    const auto expect_refused = [](auto&& change) {
+        try {
+            change();
+            ADD_FAILURE() << "not refused";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::kUsage);
+            EXPECT_NE(std::string(error.what()).find("with BoxAxes"), std::string::npos) << error.what();
+        }
+    };
+    expect_refused([&] { simplify(made.mesh, {.target_faces = 1}); });
+    expect_refused([&] { improve(made.mesh, {}); });
+    expect_refused([&] { smooth(made.mesh, {.filter = SmoothFilter::kTaubin}); });
+    EXPECT_EQ(positions(made.mesh), before);
+    Reconstruction straight = test::run(test::grain_volume(kSize, 5, 3));
+    expect_refused([&] { simplify(straight.mesh, {.samples = turned_lattice(0)}); });
 }
 
 TEST(BoxAxes, what_is_read_gets_its_sides_and_keeps_its_position_until_it_moves) {

@@ -51,6 +51,7 @@ TEST_F(Page, what_does_not_fit_the_model_is_refused_and_nothing_is_written) {
                             {{.mesh = made.mesh, .labels = made.labels, .title = "few", .distances = few}}, {}),
                  Error);
     EXPECT_THROW(written(made, {.report = "no JSON"}), Error);
+    EXPECT_THROW(write_page(path("page.html"), {}, {}), Error);
     EXPECT_TRUE(std::filesystem::is_empty(path("")));
 }
 
@@ -83,6 +84,19 @@ TEST_F(Page, large_models_get_a_preview) {
     const json whole = json::parse(data_of(written(made, {})));
     EXPECT_EQ(data["models"][0]["fingerprint"], whole["models"][0]["fingerprint"]);
     EXPECT_EQ(data["models"][0]["labels"], whole["models"][0]["labels"]);
+}
+
+TEST_F(Page, previews_of_oblique_models_keep_their_box) {
+    auto volume = test::grain_volume({14, 13, 12}, 9, 3, 1);
+    volume.lattice().direction = {0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1};
+    const Reconstruction made = reconstruct(volume, {});
+    const auto corner = [&](const char* name, std::uint32_t faces) {
+        const json page = json::parse(data_of(written(made, {.preview_faces = faces})));
+        return page["models"][0][name].get<std::vector<double>>();
+    };
+    for (const char* name : {"low", "high"})
+        EXPECT_THAT(corner(name, made.mesh.face_count() / 8),
+                    testing::Pointwise(testing::DoubleNear(1e-9), corner(name, made.mesh.face_count())));
 }
 
 TEST_F(Page, bytes_do_not_depend_on_threads) {

@@ -43,6 +43,13 @@ void expect_labels(SectionReader& reader) {
     }
 }
 
+TEST(ArraySections, refuse_room_for_another_section) {
+    const std::vector<std::uint8_t> samples(24);
+    const auto reader = open_array(label_array(samples.data(), kSize), {.sweep = SweepChoice::kZ});
+    std::vector<InputLabel> section(11);
+    EXPECT_THROW(reader->next(section), Error);
+}
+
 template <class T>
 class ArraySectionsOf : public testing::Test {};
 using SampleTypes = testing::Types<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/add_warning.h"
 #include "formats/input_file.h"
 #include "formats/text/header_text.h"
 
@@ -143,8 +144,8 @@ Placement common_placement(const ArrayAxes& axes, std::size_t axis_count, const 
         if (!numbers) return false;
         const bool is_whole = numbers->size() == axis_count;
         if (!is_whole && numbers->size() != 3) {
-            placement.warning += fmt::format("{}the attribute '{}' is not used: 3 numbers are needed, not {}",
-                                             placement.warning.empty() ? "" : "; ", name, numbers->size());
+            add_warning(placement.warning, fmt::format("the attribute '{}' is not used: 3 numbers are needed, not {}",
+                                                       name, numbers->size()));
             return false;
         }
         for (int i = 0; i < 3; ++i) {

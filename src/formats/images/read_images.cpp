@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/add_warning.h"
 #include "formats/array/numbered_sections.h"
 #include "formats/array/volume_formats.h"
 #include "formats/array/volume_size.h"
@@ -77,7 +78,8 @@ std::unique_ptr<SectionReader> open_files(std::vector<fs::path> files, const fs:
     VolumeInfo info = volume_info(source, lower(image_format(files.front(), 0).name), label_type(shape),
                                   checked_size(source, {shape.width, shape.height, files.size()}));
     apply_options(info, options);
-    info.warning = warning.empty() ? warning_of_alpha(shape) : warning;
+    info.warning = warning;
+    add_warning(info.warning, warning_of_alpha(shape));
     return std::make_unique<ImageListReader>(std::move(files), std::move(info), shape);
 }
 

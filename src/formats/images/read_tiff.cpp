@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/add_warning.h"
 #include "formats/array/array_file.h"
 #include "formats/array/numbered_sections.h"
 #include "formats/array/volume_formats.h"
@@ -206,7 +207,8 @@ std::unique_ptr<SectionReader> open_tiff(const std::filesystem::path& path, cons
     apply_options(info, options);
     info.warning = warning_of_alpha(shape);
     if (is_imagej && imagej_count(description, "frames") > 1)
-        info.warning = "its pages are frames, images of one section at several times; they are read as sections";
+        add_warning(info.warning,
+                    "its pages are frames, images of one section at several times; they are read as sections");
     return std::make_unique<TiffReader>(std::move(file), std::move(info), shape);
 }
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -134,7 +135,11 @@ LabelNames in_one_line(const LabelNames& names) {
 }
 
 void require_arrays(const Mesh& mesh, const Path& path, const WriteOptions& options) {
+    std::set<std::string_view> names{"NodeType"};
     for (const PointArray& array : options.point_arrays) {
+        if (!names.insert(array.name).second)
+            throw Error(ErrorCode::kOutput, fmt::format("{}: there is a point array '{}' already; give another name",
+                                                        path.string(), array.name));
         const bool is_word = !array.name.empty() && std::ranges::all_of(array.name, [](unsigned char c) {
             return std::isalnum(c) || c == '_';
         });
@@ -144,6 +149,17 @@ void require_arrays(const Mesh& mesh, const Path& path, const WriteOptions& opti
                                     "and '_', and a value for each vertex",
                                     path.string(), array.name, array.values.size(), mesh.vertex_end()));
     }
+}
+
+/// Faces with labels that `labels` has not, and vertices that no reader would take.
+void require_model(const Mesh& mesh, const LabelTable& labels, const Path& path) {
+    for_vertices(mesh, [&](VertexId v) {
+        const Vec3 p = mesh.position(v);
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw Error(ErrorCode::kOutput, fmt::format("{}: vertex {} lies at {}, {}, {}; give finite coordinates",
+                                                        path.string(), index(v), p.x, p.y, p.z));
+    });
+    require_labels(mesh, labels, path.string());
 }
 
 }  // namespace
@@ -162,6 +178,7 @@ std::vector<Path> write_mesh(const Mesh& mesh, const LabelTable& labels, const P
                              OutputFiles& files) {
     const Format& format = format_of(path, options, !options.point_arrays.empty());
     require_arrays(mesh, path, options);
+    require_model(mesh, labels, path);
     const LabelNames names = in_one_line(options.names);
     FileView view(mesh, labels, options.background, names);
     view.set_coordinates(options.coordinates);

@@ -78,6 +78,14 @@ TEST_F(ReadImagesTest, alpha_is_worth_a_warning) {
     EXPECT_EQ(warning("png/gray8"), "");
 }
 
+TEST_F(ReadImagesTest, a_gap_and_alpha_are_worth_one_warning) {
+    const fs::path image = *fs::directory_iterator(data("png/rgba8"));
+    for (const int number : {1, 2, 3, 5, 6}) fs::copy_file(image, path("s" + std::to_string(number) + ".png"));
+    const std::string warning = open_sections({path("")})->info().warning;
+    EXPECT_THAT(warning, HasSubstr("s5.png"));
+    EXPECT_THAT(warning, HasSubstr("; pixels have alpha"));
+}
+
 TEST_F(ReadImagesTest, tiff_folders_are_read_like_png_folders) {
     EXPECT_EQ(read_volume({data("tiff/sections")}).labels, expected(SampleType::kU16));
     EXPECT_EQ(read_volume({data("tiff/palette8")}).labels, expected([](InputLabel v) { return v % 4; }));
