@@ -60,8 +60,9 @@ private:
     std::vector<std::uint32_t> sorted_;  // places in them, by the second position
 };
 
-/// Throws Error(kUsage) where the vertices on a side of the box do not lie in a plane along the axes of coordinates, to
-/// a millionth of the size of the mesh.
+/// Throws Error(kUsage) where most vertices on a side of the box do not lie in one plane along the axes of coordinates,
+/// to a millionth of the size of the mesh. Single ones may lie beside it: in a damaged model, which is changed
+/// elsewhere.
 void require_along_axes(const Mesh& mesh);
 /// The same where a lattice is oblique.
 void require_along_axes(const Lattice& samples);

@@ -253,20 +253,23 @@ void BoxAxes::restore(Mesh& mesh) const {
 
 void require_along_axes(const Mesh& mesh) {
     Box all;
-    std::array<Box, 6> of_side;
+    std::array<std::vector<double>, 6> of_side;  // coordinates across the sides
     for_vertices(mesh, [&](VertexId v) {
         const Vec3 p = mesh.position(v);
         all.add(p);
-        for (unsigned sides = mesh[v].sides & kBoxSides; sides != 0; sides &= sides - 1)
-            of_side[static_cast<std::size_t>(std::countr_zero(sides))].add(p);
+        for (std::size_t side = 0; side < 6; ++side)
+            if (const double x = p[static_cast<int>(side / 2)]; mesh[v].sides >> side & 1 && std::isfinite(x))
+                of_side[side].push_back(x);
     });
-    if (all.is_empty()) return;
     const Vec3 size = all.high - all.low;
     const double tolerance = kTolerance * std::max({size.x, size.y, size.z});
-    for (int side = 0; side < 6; ++side) {
-        const Box& box = of_side[static_cast<std::size_t>(side)];
-        if (!box.is_empty() && box.high[side / 2] - box.low[side / 2] > tolerance)
-            refuse_oblique("the box of the mesh is");
+    for (std::vector<double>& across : of_side) {
+        if (across.empty()) continue;
+        const auto middle = across.begin() + static_cast<std::ptrdiff_t>(across.size() / 2);
+        std::nth_element(across.begin(), middle, across.end());
+        const auto near =
+            std::ranges::count_if(across, [&, at = *middle](double x) { return std::abs(x - at) <= tolerance; });
+        if (2 * static_cast<std::size_t>(near) < across.size()) refuse_oblique("the box of the mesh is");
     }
 }
 
