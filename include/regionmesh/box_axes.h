@@ -13,10 +13,10 @@
 
 namespace regionmesh {
 
-/// simplify(), smooth() and improve() keep vertices on the sides of a box along the axes of coordinates, and refuse
-/// another one. The volume of a scanner is often oblique, and so is the box of its model: this turns the mesh so that
-/// they can keep them there.
-/// The box may be sheared, as that of a tilted gantry: lengths are then those along its edges.
+/// simplify(), smooth() and improve() keep vertices on the sides of a box along the axes of coordinates, and refuse a
+/// mesh whose box is oblique. The volume of a scanner often is, and so is the box of its model: this turns the mesh so
+/// that they can keep vertices there. The box may be sheared, as that of a tilted gantry: lengths are then those along
+/// its edges.
 ///
 ///     const BoxAxes axes(mesh);
 ///     simplify(mesh, options);

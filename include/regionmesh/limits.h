@@ -48,11 +48,11 @@ inline constexpr std::uint64_t kDefaultMemory = std::uint64_t{2} << 30;
 /// is not of length 1, to a thousandth, and where there are no samples; `what` names the volume.
 void require_lattice(const std::string& what, const Lattice& lattice);
 
-/// Throws Error(kInput) if the axes are in none of the three orders of a sweep.
-void require_sweep(const std::string& what, const Sweep& sweep);
-
 /// The same for the bounding box of a model or of points that is not empty.
 void require_extent(const std::string& what, const Box& box);
+
+/// Throws Error(kInput) if the axes are in none of the three orders of a sweep; `what` names the volume.
+void require_sweep(const std::string& what, const Sweep& sweep);
 
 /// Throws Error(kInput) if a mesh of this size is beyond the limits; `what` names it, such as "model.ply".
 void require_mesh_size(const char* what, std::uint64_t vertices, std::uint64_t faces);
