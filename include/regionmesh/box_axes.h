@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "regionmesh/lattice.h"
@@ -64,7 +65,7 @@ private:
 /// to a millionth of the size of the mesh. Single ones may lie beside it: in a damaged model, which is changed
 /// elsewhere.
 void require_along_axes(const Mesh& mesh);
-/// The same where a lattice is oblique.
-void require_along_axes(const Lattice& samples);
+/// The same where a lattice is oblique; throws what require_lattice() throws, too.
+void require_along_axes(const std::string& what, const Lattice& samples);
 
 }  // namespace regionmesh

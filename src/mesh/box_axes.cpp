@@ -14,6 +14,7 @@
 #include "mesh/extent.h"
 #include "mesh/label_set.h"
 #include "regionmesh/error.h"
+#include "regionmesh/limits.h"
 
 namespace regionmesh {
 namespace {
@@ -80,9 +81,9 @@ std::optional<std::array<Vec3, 3>> any_normals(const Mesh& mesh) {
     return normals;
 }
 
-[[noreturn]] void refuse_oblique(const char* what) {
+[[noreturn]] void refuse_oblique(const std::string& what) {
     throw Error(ErrorCode::kUsage,
-                std::string(what) + " oblique; turn the mesh into its axes with BoxAxes, and restore it afterwards");
+                what + " oblique; turn the mesh into its axes with BoxAxes, and restore it afterwards");
 }
 
 auto coordinates(Vec3 p) { return std::tuple(p.x, p.y, p.z); }
@@ -273,8 +274,9 @@ void require_along_axes(const Mesh& mesh) {
     }
 }
 
-void require_along_axes(const Lattice& samples) {
-    if (!samples.is_axis_aligned()) refuse_oblique("samples: the lattice is");
+void require_along_axes(const std::string& what, const Lattice& samples) {
+    require_lattice(what, samples);
+    if (!samples.is_axis_aligned()) refuse_oblique(what + ": the lattice is");
 }
 
 }  // namespace regionmesh

@@ -9,7 +9,6 @@
 #include "base/triangle.h"
 #include "mesh/strata.h"
 #include "regionmesh/box_axes.h"
-#include "regionmesh/limits.h"
 #include "simplify/edge_flips.h"
 #include "simplify/error_bound.h"
 #include "simplify/short_edges.h"
@@ -134,10 +133,7 @@ void require_in_range(const ImproveOptions& options) {
     require_number("tolerance", options.tolerance, kNotNegative);
     require_number("max_error", options.max_error, kNotNegativeOrInfinite);
     require_number("scale_z", options.scale_z, kPositive);
-    if (options.samples) {
-        require_lattice("samples", *options.samples);
-        require_along_axes(*options.samples);
-    }
+    if (options.samples) require_along_axes("samples", *options.samples);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "mesh/extent.h"
 #include "regionmesh/box_axes.h"
 #include "regionmesh/error.h"
-#include "regionmesh/limits.h"
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
@@ -85,10 +84,7 @@ void require_in_range(const SimplifyOptions& options) {
     for (int axis = 0; options.box && axis < 3; ++axis)
         if (!(options.box->low[axis] <= options.box->high[axis]))
             throw Error(ErrorCode::kUsage, "box: it ends before it begins; give its lower corner as low");
-    if (options.samples) {
-        require_lattice("samples", *options.samples);
-        require_along_axes(*options.samples);
-    }
+    if (options.samples) require_along_axes("samples", *options.samples);
 }
 
 }  // namespace

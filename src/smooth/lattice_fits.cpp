@@ -202,7 +202,6 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearR
         const Gaps gaps(blocks_, own, quadric.centre, quadric.centre);
         const Corners corners(blocks_, own, quadric.centre);
         const float reach = kReach * static_cast<float>(options_.size);
-        quadric.gradient = quadric.normal;
         HeightQuadric trial = quadric;
         if (!options_.takes_all) {
             const HeightSamples& few = choose(quadric, frame, gaps, corners, near, kTrialStride);

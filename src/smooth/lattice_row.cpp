@@ -219,7 +219,7 @@ void LatticeRow::place_fits(const LatticeSites& of, const LatticeBlocks& blocks)
         for (const Group& group : groups_of(own)) {
             const Float3 centre = blocks.from_units(own[0].position_of(0) + (1 / group.count) * group.position);
             fits.emplace_back().quadric.centre = blocks.steps.moved(corner, centre);
-            fits.back().quadric.normal = unit_vector(group.normal);
+            fits.back().quadric.normal = fits.back().quadric.gradient = unit_vector(group.normal);
         }
     }
     runs.back().fit = static_cast<std::uint32_t>(fits.size());
