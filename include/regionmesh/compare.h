@@ -33,11 +33,10 @@ public:
     virtual CheckReport measure(const CheckOptions& options) const = 0;
 };
 
-/// A mesh in memory, one part. Holds references.
+/// A mesh in memory, one part. Holds references. Throws Error(kInput) for a table that lacks a label of the mesh.
 class ComparedMesh final : public ComparedModel {
 public:
-    ComparedMesh(const Mesh& mesh, const LabelTable& labels) : mesh_(mesh), labels_(labels) {}
-    const Mesh& mesh() const { return mesh_; }
+    ComparedMesh(const Mesh& mesh, const LabelTable& labels);
     const LabelTable& labels() const override { return labels_; }
     std::uint64_t face_count() const override { return mesh_.face_count(); }
     std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
@@ -101,7 +100,7 @@ struct CompareReport {
 /// Compares by sampling (src/compare/sample.h); labels correspond if they are equal in the input. Deterministic for any
 /// number of threads. Holds the samples and one part of each model. The nearest faces and lines are those of the whole
 /// model, however it is divided; the samples of a model differ from those of the same model in other parts. Cost:
-/// docs/compare.md. Throws what reading a part throws, and Error(kInput) for a table that lacks a label of its mesh.
+/// docs/compare.md. Throws what reading a part throws.
 CompareReport compare(const ComparedModel& a, const ComparedModel& b, const CompareOptions& options = {});
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options = {});
 

@@ -68,4 +68,8 @@ private:
 /// Throws Error(kInput) where a reader ends before its last section: `is_there` is what next() returned for `section`.
 void require_section(bool is_there, const VolumeInfo& info, std::uint32_t section);
 
+/// Throws Error(kUsage) unless a section of width x height samples is given room for as many labels; `what` names the
+/// source.
+void require_room(const std::string& what, std::size_t labels, std::uint32_t width, std::uint32_t height);
+
 }  // namespace regionmesh

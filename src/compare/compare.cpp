@@ -192,6 +192,10 @@ std::array<CheckReport, 2> measure(const std::array<const ComparedModel*, 2>& mo
 
 }  // namespace
 
+ComparedMesh::ComparedMesh(const Mesh& mesh, const LabelTable& labels) : mesh_(mesh), labels_(labels) {
+    require_labels(mesh, labels, "mesh");
+}
+
 bool ComparedMesh::has_sides() const {
     bool has_exterior = false;
     for (std::uint32_t f = 0; f < mesh_.face_end() && !has_exterior; ++f)
@@ -236,7 +240,6 @@ CompareReport compare(const ComparedModel& a, const ComparedModel& b, const Comp
 }
 
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options) {
-    for (const ComparedMesh* side : {&a, &b}) require_labels(side->mesh(), side->labels(), &a == side ? "a" : "b");
     const ComparedModel &first = a, &second = b;
     return compare(first, second, options);
 }

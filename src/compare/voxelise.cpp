@@ -10,7 +10,6 @@
 #include "base/parallel_for.h"
 #include "base/parallel_invoke.h"
 #include "mesh/sample_lines.h"
-#include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 
 namespace regionmesh {
@@ -194,10 +193,7 @@ std::uint32_t Voxeliser::next(std::span<const std::span<Label>> sections, std::u
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(sections.size(), size_[2] - section_));
     if (count == 0) return 0;
     for (const std::span<Label> section : sections.first(count))
-        if (section.size() != std::size_t{size_[0]} * size_[1])
-            throw Error(ErrorCode::kUsage, "Voxeliser: room for " + std::to_string(section.size()) +
-                                               " labels of a section of " + std::to_string(size_[0]) + " x " +
-                                               std::to_string(size_[1]) + "; give as much as it has samples");
+        require_room("Voxeliser", section.size(), size_[0], size_[1]);
     activate(section_, section_, section_ + count);
     scratch_.resize(std::max<std::size_t>(scratch_.size(), count));
     parallel_for(count, threads, [&](std::uint32_t n) { label_section(section_ + n, sections[n], scratch_[n]); });

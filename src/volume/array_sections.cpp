@@ -62,10 +62,7 @@ public:
 
     bool next(std::span<InputLabel> section) override {
         if (section_ == section_count()) return false;
-        if (section.size() != std::size_t{section_width()} * section_height())
-            throw Error(ErrorCode::kUsage, info_.source + ": room for " + std::to_string(section.size()) +
-                                               " labels of a section of " + std::to_string(section_width()) + " x " +
-                                               std::to_string(section_height()) + "; give as much as it has samples");
+        require_room(info_.source, section.size(), section_width(), section_height());
         const auto& [u, v, w] = info_.sweep.axes;
         const auto* first =
             static_cast<const std::byte*>(array_.data) + array_.strides[w] * static_cast<std::ptrdiff_t>(section_++);

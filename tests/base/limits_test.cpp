@@ -53,8 +53,7 @@ TEST(Limits, a_budget_expects_no_more_faces_than_a_mesh_can_hold) {
     EXPECT_EQ(plan_budget(std::uint64_t{1} << 50, demand).face_budget(0), kMostFaces);
 }
 
-std::string lattice_refusal(Vec3 spacing, Vec3 origin = {}) {
-    Lattice lattice{.size = {5, 4, 3}, .spacing = spacing, .origin = origin};
+std::string refusal(const Lattice& lattice) {
     try {
         require_lattice("v.nrrd", lattice);
     } catch (const Error& error) {
@@ -62,6 +61,10 @@ std::string lattice_refusal(Vec3 spacing, Vec3 origin = {}) {
         return error.what();
     }
     return "not refused";
+}
+
+std::string lattice_refusal(Vec3 spacing, Vec3 origin = {}) {
+    return refusal({.size = {5, 4, 3}, .spacing = spacing, .origin = origin});
 }
 
 TEST(Limits, of_spacing_hold_at_both_ends_and_refuse_no_number) {
@@ -80,19 +83,11 @@ TEST(Limits, of_origin_and_extent_follow_from_the_smallest_spacing) {
 
 TEST(Limits, directions_are_of_length_1) {
     Lattice lattice{.size = {5, 4, 3}};
-    const auto refusal = [&] {
-        try {
-            require_lattice("v.nrrd", lattice);
-        } catch (const Error& error) {
-            return std::string(error.what());
-        }
-        return std::string("not refused");
-    };
     lattice.direction[4] = 1 + 1e-6;
-    EXPECT_EQ(refusal(), "not refused");
+    EXPECT_EQ(refusal(lattice), "not refused");
     for (const double bad : {5.0, 0.9, HUGE_VAL, std::nan("")}) {
         lattice.direction[4] = bad;
-        EXPECT_THAT(refusal(), HasSubstr("v.nrrd: the columns of direction are not of length 1"));
+        EXPECT_THAT(refusal(lattice), HasSubstr("v.nrrd: the columns of direction are not of length 1"));
     }
 }
 

@@ -90,6 +90,15 @@ TEST(Compare, parallel_squares_are_one_distance_apart) {
     for (const double d : {1.0, 0.25, 1e-3}) expect_all(compared(square(0), square(d)).distance, d);
 }
 
+TEST(Compare, a_table_has_all_labels_of_the_mesh) {
+    const Mesh mesh = stack(1);  // labels 0 and 1
+    LabelTable labels;
+    labels.dense(5);
+    EXPECT_THROW(ComparedMesh(mesh, labels), Error);
+    labels.dense(6);
+    EXPECT_NO_THROW(ComparedMesh(mesh, labels));
+}
+
 TEST(Compare, a_model_is_at_no_distance_from_itself) {
     const Reconstruction made = test::run(test::grain_volume({9, 8, 7}, 6, 11));
     const ComparedMesh mesh{made.mesh, made.labels};
