@@ -120,6 +120,12 @@ std::string counted(std::uint64_t count, const std::string& noun) {
     return grouped(count) + ' ' + (count == 1 ? noun : plural_of(noun));
 }
 
+void print_smoothed_lines(const Report& report) {
+    if (!report.smoothed_lines) return;
+    say("lines: mean angle between edges {:.1f} -> {:.1f} degrees", report.smoothed_lines->turn_before,
+        report.smoothed_lines->turn_after);
+}
+
 void print_improved(const Report& report) {
     if (!report.improved) return;
     const FaceShapes &before = report.improved->before, &after = report.improved->after;

@@ -71,6 +71,8 @@ int exit_code(const CheckReport& report);
 /// The same, or kNotMet where the model is sound but regions are off the volumes asked for.
 int exit_code(const Report& report);
 
+/// Prints how much lines turned before and after they were smoothed, if they were.
+void print_smoothed_lines(const Report& report);
 /// Prints the shape of the faces before and after they were improved, if they were.
 void print_improved(const Report& report);
 

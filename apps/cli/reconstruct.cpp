@@ -80,6 +80,7 @@ std::string files_text(const Settings& settings) {
 void print_summary(const Settings& settings, const Report& report) {
     const CheckReport& check = report.check;
     print_details(report);
+    print_smoothed_lines(report);
     print_improved(report);
     print_stop(settings, report);
     print_volumes(report.preserved);

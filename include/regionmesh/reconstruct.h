@@ -37,6 +37,7 @@ struct ReconstructOptions {
     double perturbation = 1e-7;              // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool keep_samples = true;                           // of sections: decimation carries no sample into another region
+    bool smooth_lines = false;                          // a pass that smooths lines of three regions
     bool improve = false;                               // a last pass that makes faces better, for finite elements
     bool preserve_volume = false;  // finally give each region its volume before smoothing and decimation
     bool decimate = true;          // false: no decimation, even with a target

@@ -18,5 +18,6 @@
 #include "regionmesh/select_sections.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
+#include "regionmesh/smooth_lines.h"
 #include "regionmesh/stop.h"
 #include "regionmesh/voxelise.h"

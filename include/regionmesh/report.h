@@ -11,6 +11,7 @@
 #include "regionmesh/improve.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
+#include "regionmesh/smooth_lines.h"
 #include "regionmesh/verdict.h"
 #include "regionmesh/voxelise.h"
 
@@ -33,8 +34,9 @@ struct Report {
     VerdictCounts verdicts{};
     std::uint64_t refreshes = 0;
     StopReason stopped = StopReason::kNoneAsked;
-    std::optional<double> quality_bound;    // of faces that decimation changes, with z scaled; none without decimation
-    std::optional<ImproveResult> improved;  // where ReconstructOptions::improve asked for it
+    std::optional<double> quality_bound;  // of faces that decimation changes, with z scaled; none without decimation
+    std::optional<SmoothLinesResult> smoothed_lines;  // where ReconstructOptions::smooth_lines asked for it
+    std::optional<ImproveResult> improved;            // where ReconstructOptions::improve asked for it
     double error_bound = 0;  // no point of the surface before or after decimation is farther from the other
     CheckReport check;
     std::uint64_t samples_in_room = 0;       // changed by ReconstructOptions::room, before anything else

@@ -226,8 +226,10 @@ Model model_of(const GivenArrays& given, const GivenLabels& labels) {
 Model simplified(const Model& model, const OptionValues& options, const std::optional<Lattice>& samples, Watch& watch) {
     Settings settings = settings_from(options);
     settings.reconstruct.cap = !model.is_open;
-    if (!has_target(settings) && !settings.reconstruct.improve)
-        throw Error(ErrorCode::kUsage, "simplify: no target; give target_faces, reduce or max_error, or improve=True");
+    if (!has_target(settings) && !settings.reconstruct.improve && !settings.reconstruct.smooth_lines)
+        throw Error(
+            ErrorCode::kUsage,
+            "simplify: no target; give target_faces, reduce or max_error, or improve=True or smooth_lines=True");
     Model made;
     watch.run([&] {
         made = copy_of(model);

@@ -255,6 +255,14 @@ def test_improve_raises_quality(grains):
         mesh.improve(min_quality=5)
 
 
+def test_smooth_lines_turn_less(grains):
+    mesh = regionmesh.reconstruct(grains, background=None, reduce=0.8, smooth_lines=True)
+    lines = mesh.report["smoothed_lines"]
+    assert mesh.certified and lines["turn_after"] < lines["turn_before"]
+    later = regionmesh.reconstruct(grains, background=None, reduce=0.8).simplify(smooth_lines=True)
+    assert later.certified and later.report["smoothed_lines"]["moves"] > 0 and len(later) == len(mesh)
+
+
 def test_simplify_reports_progress(filled):
     calls = []
     filled.simplify(reduce=0.2, progress=lambda *call: calls.append(call))

@@ -7,6 +7,7 @@
 #include "regionmesh/process.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/smooth.h"
+#include "regionmesh/smooth_lines.h"
 
 namespace regionmesh {
 namespace {
@@ -79,6 +80,13 @@ ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOpti
         const Timer timer(report.seconds["decimate"]);
         note_simplified(simplify(mesh, options), report);
         if (has_target(settings)) report.quality_bound = options.min_quality;
+    }
+    if (settings.reconstruct.smooth_lines) {
+        const Timer timer(report.seconds["smooth lines"]);
+        SmoothLinesOptions smoothing = smooth_lines_options(options);
+        smoothing.on_progress = [&] { note("smooth lines", 0, std::nullopt); };
+        report.smoothed_lines = smooth_lines(mesh, smoothing);
+        report.error_bound = report.smoothed_lines->error_bound;
     }
     if (settings.reconstruct.improve) {
         const Timer timer(report.seconds["improve"]);

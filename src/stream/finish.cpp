@@ -10,6 +10,17 @@
 
 namespace regionmesh {
 
+void smooth_lines(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
+    if (!options.smooth_lines) return;
+    const StageTimer timer = log.time("smooth lines");
+    SmoothLinesOptions own = smooth_lines_options(simplify_options(options, shape));
+    own.scale_z = shape.scale_z;
+    own.min_quality = std::min(own.min_quality, kQualityRange.most);  // it may have a margin on it
+    own.on_progress = [&] { log.report_progress("smooth lines"); };
+    result.report.smoothed_lines = smooth_lines(result.mesh, own);
+    result.report.error_bound = result.report.smoothed_lines->error_bound;
+}
+
 void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.improve) return;
     const StageTimer timer = log.time("improve");

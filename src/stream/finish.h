@@ -1,4 +1,4 @@
-// The last stages, on the finished mesh: improve faces, preserve volumes, check.
+// The last stages, on the finished mesh: smooth lines, improve faces, preserve volumes, check.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,9 @@
 #include "stream/run_log.h"
 
 namespace regionmesh {
+
+/// Makes lines smoother, where the options ask for it.
+void smooth_lines(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);
 
 /// Makes faces better, where the options ask for it.
 void improve_faces(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log);

@@ -1,6 +1,6 @@
 // The whole story: from sections, or tetrahedra, to a checked mesh. Each stage has a header of its own.
 //
-//   read -> cells -> smooth -> tiles -> merge -> simplify -> (improve) -> check
+//   read -> cells -> smooth -> tiles -> merge -> simplify -> (smooth lines) -> (improve) -> check
 #include "stream/pipeline.h"
 
 #include <optional>
@@ -136,6 +136,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     simplify.bring_to_target();
     log.advance(WorkStage::kTrim, 1);
     if (plan.is_decimating) result.report.quality_bound = quality_bound(options, shape);
+    smooth_lines(result, options, shape, log);
     improve_faces(result, options, shape, log);
     log.advance(WorkStage::kImprove, 1);
     restore_volumes(result, options, shape, log);

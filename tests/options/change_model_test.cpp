@@ -33,8 +33,9 @@ TEST(ChangeModel, simplifies_improves_and_reports_what_it_did) {
     Reconstruction made = blocky(test::grain_volume({14, 12, 13}, 5, 3));
     const std::uint32_t faces = made.mesh.face_count();
     std::set<std::string> stages;
-    const ModelChange change = simplify_model(made.mesh, settings_of({{"reduce", "70%"}, {"improve", "true"}}), {}, {},
-                                              {}, [&](const char* stage, auto, const auto&) { stages.insert(stage); });
+    const ModelChange change =
+        simplify_model(made.mesh, settings_of({{"reduce", "70%"}, {"smooth-lines", "true"}, {"improve", "true"}}), {},
+                       {}, {}, [&](const char* stage, auto, const auto&) { stages.insert(stage); });
     const Report& report = change.report;
     EXPECT_EQ(report.initial_faces, faces);
     EXPECT_EQ(report.peak_faces, faces);
@@ -42,9 +43,10 @@ TEST(ChangeModel, simplifies_improves_and_reports_what_it_did) {
     EXPECT_LT(report.final_faces, faces / 3);
     EXPECT_EQ(report.stopped, StopReason::kTarget);
     EXPECT_TRUE(report.improved);
+    EXPECT_GT(report.smoothed_lines.value().moves, 0u);
     EXPECT_EQ(report.seconds.count("decimate") + report.seconds.count("improve"), 2u);
     EXPECT_EQ(report.check.violation_count() + change.before.violation_count() + change.locked.vertices, 0u);
-    EXPECT_TRUE(stages.contains("improve") && stages.contains("check"));
+    EXPECT_TRUE(stages.contains("improve") && stages.contains("smooth lines") && stages.contains("check"));
 }
 
 TEST(ChangeModel, the_bound_on_quality_is_that_of_the_spacing_where_it_is_known) {

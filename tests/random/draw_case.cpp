@@ -180,6 +180,7 @@ bool draw_decimation(Words& words, double finest, Draw& draw) {
     if (draw.one_in(6)) words.insert(words.end(), {"--perturbation", draw.one_in(2) ? "0" : "0.01"});
     if (draw.one_in(4)) words.insert(words.end(), {"--min-quality", text_of(draw.between(0, 0.26))});
     if (draw.one_in(4)) words.push_back("--improve");
+    if (draw.one_in(4)) words.push_back("--smooth-lines");
     return true;
 }
 

@@ -72,6 +72,7 @@ TEST(ErrorBound, is_never_below_the_distance) {
               {.reduce = 0.97},
               {.reduce = 0.9, .placement = PlacementKind::kLindstromTurk},
               {.reduce = 0.9, .improve = true},
+              {.reduce = 0.9, .smooth_lines = true},
               {.reduce = 0.8, .preserve_volume = true}},
              [](const Reconstruction& whole, const Reconstruction& made, const ReconstructOptions&) {
                  const double distance = sampled_distance(whole, made);
@@ -84,6 +85,7 @@ TEST(ErrorBound, max_error_is_kept) {
     for_runs({{.max_error = 0.05},
               {.max_error = 0.3},
               {.max_error = 0.3, .improve = true},
+              {.max_error = 0.3, .smooth_lines = true},
               {.max_error = 1, .placement = PlacementKind::kLindstromTurk}},
              [](const Reconstruction& whole, const Reconstruction& made, const ReconstructOptions& options) {
                  EXPECT_LT(made.mesh.face_count(), whole.mesh.face_count());

@@ -156,6 +156,11 @@ TEST(Reconstruct, options_of_its_steps_out_of_range_are_refused) {
         EXPECT_THROW(improve(mesh, {.max_error = bad}), Error);
         EXPECT_THROW(improve(mesh, {.scale_z = bad}), Error);
         EXPECT_THROW(improve(mesh, {.samples = lattice}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.min_quality = bad}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.scale = bad}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.max_error = bad}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.scale_z = bad}), Error);
+        EXPECT_THROW(smooth_lines(mesh, {.samples = lattice}), Error);
         EXPECT_THROW(smooth(mesh, {.nifpms_reach = bad}), Error);
         EXPECT_THROW(smooth(mesh, {.lambda = bad}), Error);
         EXPECT_THROW(preserve_volumes(mesh, {}, {.scale = bad}), Error);

@@ -66,6 +66,12 @@ Json shapes_json(const FaceShapes& shapes) {
             {"faces_below", shapes.faces_below}};
 }
 
+Json lines_json(const SmoothLinesResult& done) {
+    return {{"vertices", done.vertices},     {"moves", done.moves},
+            {"sweeps", done.sweeps},         {"turn_before", done.turn_before},
+            {"turn_after", done.turn_after}, {"largest_displacement", done.largest_displacement}};
+}
+
 Json improved_json(const ImproveResult& done) {
     return {{"flips", done.flips},
             {"moves", done.moves},
@@ -171,6 +177,7 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
                                  {"drift", report.preserved.drift},
                                  {"regions_off", report.preserved.regions_off},
                                  {"held_vertices", report.preserved.held_vertices}};
+    if (report.smoothed_lines) json["smoothed_lines"] = lines_json(*report.smoothed_lines);
     if (report.improved) json["improved"] = improved_json(*report.improved);
     put_check(json, report.check, labels, names, &report);
     if (report.samples) put_samples(json, *report.samples, labels);
