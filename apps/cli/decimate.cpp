@@ -21,9 +21,8 @@ void print_summary(const Settings& settings, const Report& report) {
 int run_decimate(const Settings& given) {
     const ReconstructOptions& asked = given.reconstruct;
     if (!has_target(given) && !asked.improve && !asked.smooth_lines)
-        throw Error(
-            ErrorCode::kUsage,
-            "decimate: no target; give --target-faces, --reduce or --max-error, or --improve or --smooth-lines");
+        throw Error(ErrorCode::kUsage,
+                    "decimate: no target; give --target-faces, --reduce, --max-error, --improve or --smooth-lines");
     require_outputs(given);
     MeshFile file = read_model(given.models.front(), given.surface);
     const Settings settings = settings_for(given, file);

@@ -227,9 +227,8 @@ Model simplified(const Model& model, const OptionValues& options, const std::opt
     Settings settings = settings_from(options);
     settings.reconstruct.cap = !model.is_open;
     if (!has_target(settings) && !settings.reconstruct.improve && !settings.reconstruct.smooth_lines)
-        throw Error(
-            ErrorCode::kUsage,
-            "simplify: no target; give target_faces, reduce or max_error, or improve=True or smooth_lines=True");
+        throw Error(ErrorCode::kUsage,
+                    "simplify: no target; give target_faces, reduce, max_error, improve or smooth_lines");
     Model made;
     watch.run([&] {
         made = copy_of(model);
