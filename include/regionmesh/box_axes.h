@@ -14,10 +14,10 @@
 
 namespace regionmesh {
 
-/// simplify(), smooth() and improve() keep vertices on the sides of a box along the axes of coordinates, and refuse a
-/// mesh whose box is oblique. The volume of a scanner often is, and so is the box of its model: this turns the mesh so
-/// that they can keep vertices there. The box may be sheared, as that of a tilted gantry: lengths are then those along
-/// its edges.
+/// simplify(), smooth(), smooth_lines() and improve() keep vertices on the sides of a box along the axes of
+/// coordinates, and refuse a mesh whose box is oblique. The volume of a scanner often is, and so is the box of its
+/// model: this turns the mesh so that they can keep vertices there. The box may be sheared, as that of a tilted gantry:
+/// lengths are then those along its edges.
 ///
 ///     const BoxAxes axes(mesh);
 ///     simplify(mesh, options);
@@ -30,7 +30,8 @@ public:
     /// in the order of before. Does nothing to other meshes.
     explicit BoxAxes(Mesh& mesh);
     /// Turns the mesh of these samples into their axes, whichever they are; the box is theirs. Then samples() are those
-    /// that simplify() and improve() keep in their regions. Does nothing where a face with the exterior is not on it.
+    /// that simplify(), smooth_lines() and improve() keep in their regions. Does nothing where a face with the exterior
+    /// is not on it.
     BoxAxes(Mesh& mesh, const Lattice& lattice);
     /// Turns the mesh back. Vertices that did not move get the positions of before.
     void restore(Mesh& mesh) const;

@@ -20,16 +20,16 @@ struct ModelChange {
     Report report;       // as reconstruct() gives it
 };
 
-/// Called with the faces that are gone in a stage ("decimate", "improve", "check"), and with how many will be in all,
-/// where that is known.
+/// Called with the faces that are gone in a stage ("decimate", "smooth lines", "improve", "check"), and with how many
+/// will be in all, where that is known.
 using OnModelChange =
     std::function<void(const char* stage, std::uint64_t gone, const std::optional<std::uint64_t>& in_all)>;
 
-/// Simplifies a mesh to the target of the settings, and improves it where they say so, in the axes of its box
-/// (BoxAxes) or of `samples`, none of which then changes its region. `checks` says what its boundary and its
-/// background are; the ids of the mesh are dense afterwards. Where the settings give no bound on quality, it is
+/// Simplifies a mesh to the target of the settings, and smooths its lines and improves it where they say so, in the
+/// axes of its box (BoxAxes) or of `samples`, none of which then changes its region. `checks` says what its boundary
+/// and its background are; the ids of the mesh are dense afterwards. Where the settings give no bound on quality, it is
 /// usual_quality_bound(spacing), and the usual one where the mesh is improved or `spacing`, that of the samples it was
-/// made of, is not known. Throws what simplify() and improve() throw.
+/// made of, is not known. Throws what simplify(), smooth_lines() and improve() throw.
 ModelChange simplify_model(Mesh& mesh, const Settings& settings, const CheckOptions& checks,
                            const std::optional<Vec3>& spacing = {}, const std::optional<Lattice>& samples = {},
                            const OnModelChange& on_change = {});

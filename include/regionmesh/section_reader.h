@@ -70,6 +70,6 @@ void require_section(bool is_there, const VolumeInfo& info, std::uint32_t sectio
 
 /// Throws Error(kUsage) unless a section of width x height samples is given room for as many labels; `what` names the
 /// source.
-void require_room(const std::string& what, std::size_t labels, std::uint32_t width, std::uint32_t height);
+void require_section_size(const std::string& what, std::size_t labels, std::uint32_t width, std::uint32_t height);
 
 }  // namespace regionmesh

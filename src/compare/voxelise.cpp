@@ -193,7 +193,7 @@ std::uint32_t Voxeliser::next(std::span<const std::span<Label>> sections, std::u
     const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(sections.size(), size_[2] - section_));
     if (count == 0) return 0;
     for (const std::span<Label> section : sections.first(count))
-        require_room("Voxeliser", section.size(), size_[0], size_[1]);
+        require_section_size("Voxeliser", section.size(), size_[0], size_[1]);
     activate(section_, section_, section_ + count);
     scratch_.resize(std::max<std::size_t>(scratch_.size(), count));
     parallel_for(count, threads, [&](std::uint32_t n) { label_section(section_ + n, sections[n], scratch_[n]); });

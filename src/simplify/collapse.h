@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/box.h"
 #include "mesh/face_tree.h"
 #include "regionmesh/lattice.h"
 #include "simplify/collapse_log.h"
@@ -16,6 +17,13 @@ namespace regionmesh {
 
 /// The box that holds everything.
 inline constexpr Box kUnbounded{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+
+/// Where merged vertices may be: samples on the sides of their box keep their regions only while the surface stays in
+/// it.
+inline Box limits_of(const std::optional<Box>& box, const std::optional<Lattice>& samples) {
+    const Box limits = box.value_or(kUnbounded);
+    return samples ? common(limits, samples->extent()) : limits;
+}
 
 /// Places for the merged vertex; of two, the one that leaves the better worst face is taken.
 struct Places {
@@ -48,6 +56,13 @@ inline void set_boxes(FaceTree& tree, const EdgeStar& star, Vec3 position) {
         tree.set(star.faces[n].face, boxes[0]);
         if (n + 1 < star.face_count()) tree.set(star.faces[n + 1].face, boxes[1]);
     }
+}
+
+/// Makes the move that was accepted (gather_move), of which the error was tested.
+inline void move_vertex(Mesh& mesh, Collapse& collapse) {
+    collapse.error.apply(mesh, collapse.star.goes);
+    mesh[collapse.star.goes].position = collapse.position;
+    set_boxes(*collapse.tree, collapse.star, collapse.position);
 }
 
 /// Makes the collapse that was accepted: `stays` moves to the position of the merged vertex.

@@ -64,7 +64,7 @@ public:
                     .tree = tree_ ? &*tree_ : nullptr,
                     .rising = rising_ ? &*rising_ : nullptr,
                     .bounds = {.min_quality = options.min_quality},
-                    .limits = limits_of(options, bounds),
+                    .limits = common(bounds.limits, limits_of(options.box, options.samples)),
                     .samples = options.samples ? &*options.samples : nullptr,
                     .max_error = options.max_error,
                     .log = bounds.log} {}
@@ -100,12 +100,6 @@ public:
     }
 
 private:
-    /// Samples on the sides of their box keep their regions only while the surface stays in it.
-    static Box limits_of(const SimplifyOptions& options, const CollapseBounds& bounds) {
-        const Box limits = options.box ? common(bounds.limits, *options.box) : bounds.limits;
-        return options.samples ? common(limits, options.samples->extent()) : limits;
-    }
-
     /// Returns the number of vertices that went.
     static std::uint32_t remove_flat(Mesh& mesh, const SimplifyOptions& options, const CollapseBounds& bounds) {
         count_labels(mesh, bounds.threads);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/strata.h"
+
 namespace regionmesh {
 namespace {
 
@@ -164,6 +166,12 @@ void gather_flip(const Mesh& mesh, const Flip& flip, EdgeStar& star) {
     star.faces = {{flip.g, flip.u, flip.d, flip.c}, {flip.g, flip.d, flip.v, flip.c}};
     star.link = {flip.u, flip.d, flip.v};
     measure(mesh, star);
+}
+
+void gather_line_ends(const Mesh& mesh, const EdgeStar& star, std::vector<VertexId>& ends) {
+    ends.clear();
+    for (const VertexId w : star.link)
+        if (mesh[w].label_count > 2 && edge_labels(mesh, star.goes, w).size() > 2) ends.push_back(w);
 }
 
 void set_normals(EdgeStar& star, Vec3 position) {

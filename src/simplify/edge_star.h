@@ -76,6 +76,9 @@ void gather_half(const Mesh& mesh, VertexId goes, VertexId stays, EdgeStar& star
 /// Collects all faces of a vertex that may move: a collapse of the vertex onto itself, without dead faces.
 void gather_move(const Mesh& mesh, VertexId v, EdgeStar& star);
 
+/// The vertices of the link to which lines lead from the one that may move (gather_move).
+void gather_line_ends(const Mesh& mesh, const EdgeStar& star, std::vector<VertexId>& ends);
+
 /// An edge u-v with two faces of one interface, f = (c, u, v) and g = (d, v, u) up to rotation.
 struct Flip {
     FaceId f, g;

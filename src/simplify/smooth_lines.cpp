@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -31,7 +32,7 @@ constexpr std::size_t kMostEnds = 4;
 
 constexpr std::uint32_t kNoNumber = ~0u;
 
-/// Do the faces of the star together get larger? A vertex that leaves the surfaces round it makes folds.
+/// Do the faces of the star together get larger? They do where a vertex leaves the surfaces round it and makes folds.
 bool area_grows(const EdgeStar& star) {
     double before = 0, after = 0;
     for (int n = 0; n < star.face_count(); ++n) {
@@ -63,6 +64,7 @@ public:
           collapse_{.mesh = mesh,
                     .tree = &tree_,
                     .bounds = {.min_quality = options.min_quality},
+                    .limits = limits_of(options.box, options.samples),
                     .samples = options.samples ? &*options.samples : nullptr,
                     .max_error = options.max_error} {
         for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
@@ -99,18 +101,17 @@ private:
         if (options_.on_progress && (n & 0xFFF) == 0) options_.on_progress();
     }
 
+    /// Vertices on edges of the box stay: they have three labels, too, those of a region and of two sides.
     void find_ends(VertexId v) {
         const Vertex& vertex = mesh_[v];
-        const bool may_move = vertex.is_alive && !vertex.is_fixed && (vertex.sides & kOnHull) == 0;
-        if (!may_move || vertex.star == kNoCorner || vertex.label_count < 3 || vertex.label_count > 4) return;
-        LineVertex own{.v = v, .origin = vertex.position};
+        if (!vertex.is_alive || vertex.is_fixed || vertex.star == kNoCorner) return;
+        if ((vertex.sides & kOnHull) != 0 || std::popcount(static_cast<unsigned>(vertex.sides & kBoxSides)) > 1) return;
+        if (vertex.label_count < 3 || vertex.label_count > 4) return;
         gather_move(mesh_, v, collapse_.star);
-        for (const VertexId w : collapse_.star.link) {
-            if (mesh_[w].label_count < 3 || edge_labels(mesh_, v, w).size() < 3) continue;
-            if (own.count == kMostEnds) return;
-            own.ends[own.count++] = w;
-        }
-        if (own.count != (vertex.label_count == 3 ? 2 : 4)) return;
+        gather_line_ends(mesh_, collapse_.star, ends_);
+        if (ends_.size() != (vertex.label_count == 3 ? 2 : 4)) return;
+        LineVertex own{.v = v, .count = static_cast<std::uint32_t>(ends_.size()), .origin = vertex.position};
+        std::copy(ends_.begin(), ends_.end(), own.ends.begin());
         number_[index(v)] = static_cast<std::uint32_t>(vertices_.size());
         vertices_.push_back(own);
     }
@@ -180,9 +181,7 @@ private:
             const Vec3 to = star.kept_level(share == 1 ? goal : at + share * (goal - at));
             set_normals(collapse_.star, to);
             if (area_grows(star) || verdict_at(collapse_, {to}) != Verdict::kAccepted) continue;
-            collapse_.error.apply(mesh_, own.v);
-            mesh_[own.v].position = to;
-            set_boxes(tree_, star, to);
+            move_vertex(mesh_, collapse_);
             return true;
         }
         own.refused = goal;
@@ -212,6 +211,7 @@ private:
     std::vector<std::uint32_t> number_;  // by vertex: place in vertices_
     std::vector<LineVertex> vertices_;
     Collapse collapse_;
+    std::vector<VertexId> ends_;
 };
 
 void require_in_range(const SmoothLinesOptions& options) {
@@ -228,7 +228,8 @@ SmoothLinesOptions smooth_lines_options(const SimplifyOptions& simplified) {
     return {.scale = simplified.scale,
             .min_quality = simplified.min_quality,
             .max_error = simplified.max_error,
-            .samples = simplified.samples};
+            .samples = simplified.samples,
+            .box = simplified.box};
 }
 
 SmoothLinesResult smooth_lines(Mesh& mesh, const SmoothLinesOptions& given) {

@@ -65,7 +65,7 @@ bool VertexMoves::try_move(VertexId v) {
     for (VertexId w : star.link) drift_now_ = std::max(drift_now_, drift_.of(w));
     candidates_.clear();
     if (vertex.label_count == 3)
-        gather_line(v);
+        gather_line();
     else if (star.is_interface)
         gather_interface();
     std::sort(candidates_.begin(), candidates_.end(),
@@ -73,9 +73,7 @@ bool VertexMoves::try_move(VertexId v) {
     for (std::size_t n = 0; n < std::min(candidates_.size(), kAttempts); ++n) {
         const Candidate& best = candidates_[n];
         if (verdict_at(collapse_, {best.at}) != Verdict::kAccepted) continue;
-        collapse_.error.apply(mesh_, v);
-        mesh_[v].position = best.at;
-        set_boxes(tree_, star, best.at);
+        move_vertex(mesh_, collapse_);
         drift_.set(v, drift_now_, best.step);
         return true;
     }
@@ -95,15 +93,10 @@ void VertexMoves::add_candidate(Vec3 p, double step) {
 }
 
 /// Along the two edges of the line that passes through the vertex.
-void VertexMoves::gather_line(VertexId v) {
-    std::array<Vec3, 2> ends;
-    std::size_t count = 0;
-    for (VertexId w : collapse_.star.link) {
-        if (edge_labels(mesh_, v, w).size() < 3) continue;
-        if (count == 2) return;
-        ends[count++] = mesh_.position(w);
-    }
-    if (count != 2) return;
+void VertexMoves::gather_line() {
+    gather_line_ends(mesh_, collapse_.star, line_ends_);
+    if (line_ends_.size() != 2) return;
+    const std::array<Vec3, 2> ends{mesh_.position(line_ends_[0]), mesh_.position(line_ends_[1])};
     const Vec3 at = collapse_.star.at_goes;
     for (int n = 0; n < 2; ++n)
         for (double share : kLineSteps) {

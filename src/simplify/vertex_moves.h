@@ -27,7 +27,7 @@ private:
     };
 
     FanShape shape_at(Vec3 p) const;
-    void gather_line(VertexId v);
+    void gather_line();
     void gather_interface();
     void add_steps_to(Vec3 target, Vec3 up);
     void add_candidate(Vec3 p, double step);
@@ -40,6 +40,7 @@ private:
     FanShape now_;
     float drift_now_ = 0;
     std::vector<Candidate> candidates_;
+    std::vector<VertexId> line_ends_;
 };
 
 }  // namespace regionmesh

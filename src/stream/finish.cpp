@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/option_range.h"
 #include "regionmesh/smooth.h"
@@ -10,13 +11,26 @@
 
 namespace regionmesh {
 
+namespace {
+
+/// Called now and then by a stage of an unknown number of sweeps, so many calls each: the share nears 1 ever more
+/// slowly.
+std::function<void()> progress_of(RunLog& log, WorkStage stage, const char* name, double calls_a_sweep) {
+    return [&log, stage, name, calls_a_sweep, calls = 0.0]() mutable {
+        log.advance(stage, 1 - std::exp2(-++calls / (2 * calls_a_sweep)));
+        log.report_progress(name);
+    };
+}
+
+}  // namespace
+
 void smooth_lines(Reconstruction& result, const ReconstructOptions& options, const SourceShape& shape, RunLog& log) {
     if (!options.smooth_lines) return;
     const StageTimer timer = log.time("smooth lines");
     SmoothLinesOptions own = smooth_lines_options(simplify_options(options, shape));
     own.scale_z = shape.scale_z;
     own.min_quality = std::min(own.min_quality, kQualityRange.most);  // it may have a margin on it
-    own.on_progress = [&] { log.report_progress("smooth lines"); };
+    own.on_progress = progress_of(log, WorkStage::kLines, "smooth lines", 1 + result.mesh.vertex_end() / 4096.0);
     result.report.smoothed_lines = smooth_lines(result.mesh, own);
     result.report.error_bound = result.report.smoothed_lines->error_bound;
 }
@@ -27,13 +41,8 @@ void improve_faces(Reconstruction& result, const ReconstructOptions& options, co
     ImproveOptions own = improve_options(simplify_options(options, shape));
     own.scale_z = shape.scale_z;
     own.min_quality = std::min(own.min_quality, kQualityRange.most);  // it may have a margin on it
-    // The number of sweeps is not known: the share nears 1 ever more slowly.
-    double calls = 0;
-    const double calls_a_sweep = 1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0;
-    own.on_progress = [&] {
-        log.advance(WorkStage::kImprove, 1 - std::exp2(-++calls / (2 * calls_a_sweep)));
-        log.report_progress("improve");
-    };
+    own.on_progress = progress_of(log, WorkStage::kImprove, "improve",
+                                  1 + (result.mesh.face_end() + result.mesh.vertex_end()) / 16384.0);
     result.report.improved = improve(result.mesh, own);
     result.report.error_bound = result.report.improved->error_bound;
 }

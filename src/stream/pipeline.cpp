@@ -82,6 +82,7 @@ void plan_progress(RunLog& log, const Plan& plan, const ReconstructOptions& opti
     if (options.smooth.passes == 0) log.leave_out(WorkStage::kSmooth);
     if (!plan.is_decimating)
         for (const WorkStage stage : {WorkStage::kTiles, WorkStage::kPasses, WorkStage::kTrim}) log.leave_out(stage);
+    if (!options.smooth_lines) log.leave_out(WorkStage::kLines);
     if (!options.improve) log.leave_out(WorkStage::kImprove);
     if (!options.preserve_volume) log.leave_out(WorkStage::kVolumes);
     if (!can_compare) log.leave_out(WorkStage::kSamples);
@@ -137,6 +138,7 @@ Attempt attempt(FaceSource& source, const ReconstructOptions& options, std::uint
     log.advance(WorkStage::kTrim, 1);
     if (plan.is_decimating) result.report.quality_bound = quality_bound(options, shape);
     smooth_lines(result, options, shape, log);
+    log.advance(WorkStage::kLines, 1);
     improve_faces(result, options, shape, log);
     log.advance(WorkStage::kImprove, 1);
     restore_volumes(result, options, shape, log);

@@ -62,7 +62,7 @@ public:
 
     bool next(std::span<InputLabel> section) override {
         if (section_ == section_count()) return false;
-        require_room(info_.source, section.size(), section_width(), section_height());
+        require_section_size(info_.source, section.size(), section_width(), section_height());
         const auto& [u, v, w] = info_.sweep.axes;
         const auto* first =
             static_cast<const std::byte*>(array_.data) + array_.strides[w] * static_cast<std::ptrdiff_t>(section_++);

@@ -22,7 +22,7 @@ void require_section(bool is_there, const VolumeInfo& info, std::uint32_t sectio
                                        " sections were announced, give as many");
 }
 
-void require_room(const std::string& what, std::size_t labels, std::uint32_t width, std::uint32_t height) {
+void require_section_size(const std::string& what, std::size_t labels, std::uint32_t width, std::uint32_t height) {
     if (labels == std::size_t{width} * height) return;
     throw Error(ErrorCode::kUsage, what + ": room for " + std::to_string(labels) + " labels of a section of " +
                                        std::to_string(width) + " x " + std::to_string(height) +

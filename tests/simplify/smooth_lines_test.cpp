@@ -122,6 +122,27 @@ TEST(SmoothLines, keeps_all_strata_and_the_sides_of_the_box) {
     });
 }
 
+TEST(SmoothLines, does_not_leave_an_open_box) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+        for (const bool keep_samples : {true, false}) {
+            ReconstructOptions options = with_smooth_lines(0.8);
+            options.cap = false;
+            options.keep_samples = keep_samples;
+            const Mesh mesh = run(test::noise_volume({9, 7, 8}, 4, seed), options).mesh;
+            test::for_vertices(mesh, [&](VertexId v) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    EXPECT_GE(mesh.position(v)[axis], 0);
+                    EXPECT_LE(mesh.position(v)[axis], axis == 0 ? 8 : axis == 1 ? 6 : 7);
+                }
+            });
+        }
+}
+
+TEST(SmoothLines, counts_no_edges_of_the_box) {
+    const Reconstruction made = run(test::solid_volume({9, 8, 7}), with_smooth_lines(0.5));
+    EXPECT_EQ(made.report.smoothed_lines.value().vertices, 0u);
+}
+
 TEST(SmoothLines, leaves_fixed_vertices_and_what_is_on_no_line) {
     Mesh mesh = run(test::grain_volume({16, 16, 16}, 6, 3), {.background = {}}).mesh;
     simplify(mesh, {.target_faces = mesh.face_count() / 3});
