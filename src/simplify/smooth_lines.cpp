@@ -16,12 +16,14 @@
 namespace regionmesh {
 namespace {
 
-/// Weight of the squared distance from where a vertex was, for the length of line that it stands for and over the
-/// fourth power of the scale: turns over less than about ten spacings are evened out, wider bends stay.
+/// Weight of the squared distance from where a vertex was (docs/smooth-lines.md): waves shorter than 2 pi over its
+/// fourth root, eleven times the scale, go. Foams hardly change from 0.01 to 0.2.
 constexpr double kKeep = 0.1;
 
-/// Of the scale. Shorter steps are not made, nor tried again where the goal has moved by less since it was refused.
+/// Of the scale. Shorter steps are not made, nor is a goal that was refused tried again before it has moved by this.
 constexpr double kLeastStep = 0.02;
+
+/// Of the scale: how far from where it was a vertex may get.
 constexpr double kMostMove = 1;
 
 /// Shares of the way to the goal that are tried.
