@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "regionmesh/lattice.h"
 #include "regionmesh/smooth.h"
 #include "smooth/chunk_stars.h"
 #include "smooth/lattice_simplex.h"
@@ -19,10 +20,10 @@ namespace regionmesh {
 struct ChunkOrder {
     int axis = 2;
     double thickness = std::numeric_limits<double>::infinity();
-    std::uint32_t overlap = 0;  // chunks that follow and begin before the end of one, at most
-    std::uint32_t extra = 0;    // chunks held beyond those that the reach of the filter calls for
-    LatticeFrame frame = {};    // of the vertices; for SmoothFilter::kLattice
-    double inner_margin = 0;    // least weight in triangles on the main diagonal of a cell, for the same
+    std::uint32_t overlap = 0;               // chunks that follow and begin before the end of one, at most
+    std::uint32_t extra = 0;                 // chunks held beyond those that the reach of the filter calls for
+    LatticeFrame frame = {};                 // of the vertices; for SmoothFilter::kLattice
+    CellKind cells = CellKind::kTetrahedra;  // that the surface is made of, for the same
     Box wanted{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};  // for the same: positions of
                                                                                     // vertices outside are not needed
 

@@ -4,16 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "smooth/lattice_sheet.h"
+
 namespace regionmesh {
 namespace {
-
-/// Normals count as of one sheet above this cosine; two sides of a thin region face away from each other.
-constexpr float kSameSheet = 0.2f;
-
-/// Other sheets that face the same way are told by the chord from the centre of a fit. On a circle it is square to the
-/// mean of the normals at its ends; between two sheets it rises along this mean by about their distance. The rise that
-/// is allowed: so many spacings along the normal, and this share of the chord, since normals on terraces are rough.
-constexpr float kRise = 2, kRisePerChord = 0.3f;
 
 /// A quadric may miss a simplex by this share of the spacing along its normal.
 constexpr float kTolerance = 0.3f;
@@ -62,28 +56,6 @@ struct Share {
         const Lanes3<Float4> scaled{per_radius.x * d.x, per_radius.y * d.y, per_radius.z * d.z};
         return 1 - dot(scaled, scaled);
     }
-};
-
-/// How surely sites lie on the sheet of a fit: 1 to 0, and below on another one that faces the same way. What lies near
-/// the quadric is on its sheet, whatever the normals say; a quadric that is not fitted yet is the tangent plane.
-class SameSheet {
-public:
-    SameSheet(const HeightQuadric& quadric, Float3 spacing) : quadric_(quadric), normal_(all_four(quadric.normal)) {
-        const Float3 &n = quadric.normal, along{n.x * spacing.x, n.y * spacing.y, n.z * spacing.z};
-        least2_ = kRise * kRise * dot(along, along);
-    }
-    /// `d` from the centre of the fit.
-    Float4 operator()(const Lanes3<Float4>& d, const Lanes3<Float4>& normal) const {
-        const Float4 rise = 0.5f * (dot(d, normal_) + dot(d, normal)), height = quadric_.at(d).height;
-        const Float4 most2 = least2_ + kRisePerChord * kRisePerChord * dot(d, d),
-                     part2 = least(rise * rise, height * height) / most2, part4 = part2 * part2;
-        return 1 - part4 * part4;
-    }
-
-private:
-    const HeightQuadric& quadric_;
-    Lanes3<Float4> normal_;
-    float least2_;
 };
 
 }  // namespace
@@ -160,7 +132,12 @@ private:
 };
 
 LatticeFits::LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options)
-    : sites_(sites), blocks_(blocks), options_(options), steps_(blocks.spacing) {}
+    : sites_(sites),
+      blocks_(blocks),
+      options_(options),
+      steps_(blocks.spacing),
+      is_anisotropic_(sites.frame().is_anisotropic()),
+      agreement_(LatticeSheet::agreement_of(options.cells, is_anisotropic_)) {}
 
 LatticeFits::Sites4 LatticeFits::gather(const std::uint32_t* numbers, std::uint32_t count) const {
     const auto site = [&](std::uint32_t lane) -> const LatticeSite& {
@@ -203,14 +180,14 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearR
         const Corners corners(blocks_, own, quadric.centre);
         const float reach = kReach * static_cast<float>(options_.size);
         HeightQuadric trial = quadric;
+        bool is_fitted = false;
         if (!options_.takes_all) {
-            const HeightSamples& few = choose(quadric, frame, gaps, corners, near, kTrialStride);
-            accepted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds)
-                           ? acceptance(trial, gaps, near, kTrialTolerance)
-                           : 1;
+            const HeightSamples& few = choose(quadric, false, frame, gaps, corners, near, kTrialStride);
+            is_fitted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds);
+            accepted = is_fitted ? acceptance(trial, gaps, near, kTrialTolerance) : 1;
             if (accepted == 0) continue;
         }
-        const HeightSamples& chosen = choose(trial, frame, gaps, corners, near, 1);
+        const HeightSamples& chosen = choose(trial, is_fitted, frame, gaps, corners, near, 1);
         if (!quadric.fit(chosen, frame, blocks_.spacing, reach, options_.takes_all ? kFinestRounds : kRounds))
             accepted = -1;
         else
@@ -218,24 +195,26 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearR
     }
 }
 
-/// The samples of the sheet within kReach, with a weight that falls with distance. Of four samples side by side either
-/// all are taken, some perhaps with weight 0, or none; of the fours of a run every `stride`th. Valid until the next
-/// call on the same thread.
-const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                                         const Corners& corners, std::span<const NearRun> near,
+/// The samples of the sheet of a quadric, which may not be fitted yet, within kReach, with a weight that falls with
+/// distance. Of four samples side by side either all are taken, some perhaps with weight 0, or none; of the fours of a
+/// run every `stride`th. Valid until the next call on the same thread.
+const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, bool is_fitted, const TangentFrame& frame,
+                                         const Gaps& gaps, const Corners& corners, std::span<const NearRun> near,
                                          std::uint32_t stride) const {
     thread_local HeightSamples chosen;
     const Lanes3<Float4> normal = all_four(frame.normal), u = all_four(frame.u), v = all_four(frame.v);
     const Share share_of{(1 / kReach) * blocks_.per_size};
-    const SameSheet on_sheet(quadric, blocks_.spacing);
+    const LatticeSheet sheet(quadric, blocks_.spacing, agreement_);
     std::uint32_t count = 0, most = 0;
     for (const NearRun& other : near)
         most += other.next().samples - (*other).samples + (other.next().site - (*other).site + 3) / 4;
     if (chosen.fours.size() < most) chosen.fours.resize(2 * most);
     HeightSamples::Four* const fours = chosen.fours.data();
     const auto consider = [&](const Lanes3<Float4>& d, const Lanes3<Float4>& facing, Float4 sites, const Kinds4& kind) {
-        const Float4 share = share_of(d), along = dot(facing, normal), on = on_sheet(d, facing);
-        const Mask4 counts = share > 0 && along > kSameSheet && on > 0;
+        const HeightQuadric::At at = quadric.at(d);
+        const Float4 share = share_of(d), along = dot(facing, normal), on = sheet.share(d, facing, at.height);
+        Mask4 counts = share > 0 && along > LatticeSheet::kFacing && on > 0;
+        if (is_fitted) counts = counts && sheet.agrees(at.gradient, facing);
         if (bits_of(counts) == 0) return;
         const Float4 weight = share * share * along * on * sites;
         fours[count++] = {dot(d, u), dot(d, v), dot(d, normal), counts ? weight : Float4{}, kind};
@@ -264,17 +243,17 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, const Tan
     return chosen;
 }
 
-/// 1 where the quadric passes through all simplices within kBlend, 0 where it misses one by the tolerance, or passes
-/// through long ones on one side.
+/// 1 where the quadric passes through all simplices of its sheet within kBlend, 0 where it misses one by the tolerance,
+/// or passes through long ones on one side.
 float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                               float most_missed) const {
     const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
     const float tolerance =
         most_missed * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
     const Share share{(1 / kBlend) * blocks_.per_size};
-    const bool is_anisotropic = sites_.frame().is_anisotropic();
-    const SameSheet on_sheet(quadric, spacing);
+    const LatticeSheet sheet(quadric, spacing, agreement_);
     Float4 worst{}, offsets{}, halves{};
+    Float4 facing{}, agreeing{};  // numbers of sites
     // Every fourth four first: where a quadric misses one simplex it misses others beside it.
     for (std::uint32_t start = 0; start < 16; start += 4)
         for (const NearRun& other : near) {
@@ -283,32 +262,47 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
             for (std::uint32_t n = (*other).site + start; n < end; n += 16) {
                 const Sites4 sites = gather(&other.row->sites[n], end - n);
                 const Lanes3<Float4> d = offset(blocks_.steps, quadric.centre, sites.at);
-                const Mask4 counts =
-                    share(d) > 0 && dot(sites.normal, all_four(normal)) > kSameSheet && on_sheet(d, sites.normal) > 0;
-                if (bits_of(counts) == 0) continue;
-                const Passage4 passes = passage(quadric, sites);
+                const HeightQuadric::At at = quadric.at(d);
+                const Mask4 faces = share(d) > 0 && dot(sites.normal, all_four(normal)) > LatticeSheet::kFacing &&
+                                    sheet.share(d, sites.normal, at.height) > 0;
+                if (bits_of(faces) == 0) continue;
+                const Mask4 counts = faces && sheet.agrees(at.gradient, sites.normal);
+                const Float4 once = in_use(end - n);
+                facing += faces ? once : Float4{};
+                agreeing += counts ? once : Float4{};
+                const Passage4 passes = passage(at, sites.kind);
                 worst = greatest(worst, counts ? passes.missed : Float4{});
                 if (bits_of(worst >= tolerance) != 0) return 0;
-                if (!is_anisotropic) continue;
-                const Float4 once = counts ? in_use(end - n) : Float4{};
-                offsets += once * passes.offset;
-                halves += once * passes.half;
+                if (!is_anisotropic_) continue;
+                offsets += counts ? once * passes.offset : Float4{};
+                halves += counts ? once * passes.half : Float4{};
             }
         }
     const float most = std::max({worst[0], worst[1], worst[2], worst[3]});
     const float accepted = std::min(1.0f, 2 - 2 * most / tolerance);
     const auto total = [](Float4 lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
+    if (total(agreeing) < agreement_.share * total(facing)) return 0;
     const float half = total(halves);
     if (!(half > 0)) return accepted;
     return std::clamp(2 - 2 * std::abs(total(offsets)) / (kMostOneSided * half), 0.0f, accepted);
 }
 
+/// Do sites that face the same way lie on the surface that the quadric stands for? It passes through their simplices,
+/// or has their normals.
+Mask4 LatticeFits::belong(const LatticeSheet& sheet, const HeightQuadric::At& at, const Lanes3<Float4>& normal,
+                          const Kinds4& kind) const {
+    const Mask4 agrees = sheet.agrees(at.gradient, normal);
+    if (bits_of(agrees) == 15) return agrees;
+    const Mask4 passes = passage(at, kind).missed <= 0;
+    return agrees || passes;
+}
+
 /// How a quadric passes through simplices, or by them.
-LatticeFits::Passage4 LatticeFits::passage(const HeightQuadric& quadric, const Sites4& sites) const {
-    const auto [height, slope] = quadric.at(offset(blocks_.steps, quadric.centre, sites.at));
-    const Extent4 extent =
-        extent_of(sites.kind, [&, slope = slope](int n) { return dot(slope, steps_.to_node(sites.kind, n)); });
-    const auto share = [&](int lane) { return 1 / static_cast<float>(kKinds[sites.kind[lane]].node_count); };
+LatticeFits::Passage4 LatticeFits::passage(const HeightQuadric::At& at, const Kinds4& kind) const {
+    const Float4 height = at.height;
+    const Lanes3<Float4>& slope = at.gradient;
+    const Extent4 extent = extent_of(kind, [&](int n) { return dot(slope, steps_.to_node(kind, n)); });
+    const auto share = [&](int lane) { return 1 / static_cast<float>(kKinds[kind[lane]].node_count); };
     const Float4 middle = extent.sum * Float4{share(0), share(1), share(2), share(3)};
     const Float4 steepness = square_root(dot(slope, slope));
     return {greatest(height + extent.low - middle, middle - extent.high - height) / steepness, height / steepness,
@@ -346,17 +340,20 @@ LatticeFits::Blend4 LatticeFits::blended(const Sites4& sites, const LatticeRow& 
         const auto& [quadric, accepted] = place.row->fits[place.fit];
         if (accepted < 0) continue;
         const Lanes3<Float4> d = offset(blocks_.steps, quadric.centre, sites.at);
-        const SameSheet on_sheet(quadric, blocks_.spacing);
-        const Float4 share = share_of(d), along = dot(sites.normal, all_four(quadric.normal)) - kSameSheet,
-                     on = on_sheet(d, sites.normal);
+        const HeightQuadric::At at = quadric.at(d);
+        const LatticeSheet sheet(quadric, blocks_.spacing, agreement_);
+        const Float4 share = share_of(d), along = dot(sites.normal, all_four(quadric.normal)) - LatticeSheet::kFacing,
+                     on = sheet.share(d, sites.normal, at.height);
         Float4 weight = share > 0 && along > 0 && on > 0 ? share * share * along * on : Float4{};
         if (place.row == &row && place.run == run)  // the finest scale decides all that is left
-            weight += along > -kSameSheet && (on > 0 || options_.takes_all) ? all_four(kOwnWeight) : Float4{};
+            weight +=
+                along > -LatticeSheet::kFacing && (on > 0 || options_.takes_all) ? all_four(kOwnWeight) : Float4{};
+        if (bits_of(weight > 0) == 0) continue;
+        if (!options_.takes_all) weight = belong(sheet, at, sites.normal, sites.kind) ? weight : Float4{};
         sums.all += weight;
-        if (accepted == 0 || bits_of(weight > 0) == 0) continue;
+        if (accepted == 0) continue;
         weight *= accepted;
         sums.accepted += weight;
-        const HeightQuadric::At at = quadric.at(d);
         sums.height += weight * at.height;
         sums.slope = {sums.slope.x + weight * at.gradient.x, sums.slope.y + weight * at.gradient.y,
                       sums.slope.z + weight * at.gradient.z};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "smooth/lattice_row.h"
+#include "smooth/lattice_sheet.h"
 
 namespace regionmesh {
 
@@ -33,6 +34,7 @@ public:
     struct Options {
         double size;             // of blocks in finest spacings
         bool takes_all = false;  // accept every quadric
+        CellKind cells = CellKind::kTetrahedra;
     };
 
     LatticeFits(const LatticeSites& sites, const LatticeBlocks& blocks, const Options& options);
@@ -54,11 +56,14 @@ private:
     class Corners;
 
     Sites4 gather(const std::uint32_t* numbers, std::uint32_t count) const;
-    const HeightSamples& choose(const HeightQuadric& quadric, const TangentFrame& frame, const Gaps& gaps,
-                                const Corners& corners, std::span<const NearRun> near, std::uint32_t stride) const;
+    const HeightSamples& choose(const HeightQuadric& quadric, bool is_fitted, const TangentFrame& frame,
+                                const Gaps& gaps, const Corners& corners, std::span<const NearRun> near,
+                                std::uint32_t stride) const;
     float acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                      float most_missed) const;
-    Passage4 passage(const HeightQuadric& quadric, const Sites4& sites) const;
+    Mask4 belong(const LatticeSheet& sheet, const HeightQuadric::At& at, const Lanes3<Float4>& normal,
+                 const Kinds4& kind) const;
+    Passage4 passage(const HeightQuadric::At& at, const Kinds4& kind) const;
     Blend4 blended(const Sites4& sites, const LatticeRow& row, std::uint32_t run, std::span<const FitPlace> fits) const;
     void make_linear(Blend4& sums, const Kinds4& kind) const;
 
@@ -66,6 +71,8 @@ private:
     LatticeBlocks blocks_;
     Options options_;
     StepVectors steps_;
+    bool is_anisotropic_;
+    LatticeSheet::Agreement agreement_;
 };
 
 }  // namespace regionmesh

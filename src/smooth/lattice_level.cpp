@@ -12,7 +12,7 @@ LatticeLevel::LatticeLevel(const LatticeSites& sites, SlidingPages<SiteEstimate>
       estimates_(estimates),
       options_(options),
       blocks_(sites.frame(), options.size, options.sweep_axis),
-      fits_(sites, blocks_, {.size = options.size, .takes_all = options.takes_all}) {}
+      fits_(sites, blocks_, {.size = options.size, .takes_all = options.takes_all, .cells = options.cells}) {}
 
 void LatticeLevel::add(NumberRange sites, double coordinate) {
     if (sites.size() == 0) return;

@@ -18,6 +18,7 @@ public:
     struct Options {
         double size;             // of blocks in finest spacings; along an axis with wider spacing that spacing
         bool takes_all = false;  // accept every quadric: the finest scale
+        CellKind cells = CellKind::kTetrahedra;
         const LatticeLevel* before = nullptr;  // the level that refines the same sites first
         int sweep_axis = 2;
         std::uint32_t threads = 0;

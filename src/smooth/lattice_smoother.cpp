@@ -7,6 +7,7 @@
 #include "base/parallel_for.h"
 #include "base/parallel_invoke.h"
 #include "base/reused_vector.h"
+#include "cells/compact_cells.h"
 #include "regionmesh/process.h"
 #include "smooth/tuning.h"
 
@@ -14,6 +15,9 @@ namespace regionmesh {
 namespace {
 
 using smoothing::kLatticeMargin;
+
+/// Weights are rounded: they stay above the margin for which the faces are proved to be embedded.
+constexpr double kRoundedMargin = CompactCells::kInnerMargin + 1e-6;
 
 double largest_block(const LatticeFrame& frame, double reach) {
     if (reach > 0) return reach;
@@ -52,7 +56,7 @@ LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder&
     : options_(options),
       order_(order),
       spacing_(order.frame.spacing / order.frame.finest()),
-      margins_{kLatticeMargin, order.inner_margin},
+      margins_{kLatticeMargin, order.cells == CellKind::kCompact ? kRoundedMargin : 0},
       sites_(order.frame),
       lines_(order.frame, margins_) {
     first_weight_.push_back(0);
@@ -60,6 +64,7 @@ LatticeSmoother::LatticeSmoother(const SmoothOptions& options, const ChunkOrder&
         levels_.emplace_back(sites_, estimates_,
                              LatticeLevel::Options{.size = size,
                                                    .takes_all = size / 2 < smoothing::kSmallestBlock,
+                                                   .cells = order.cells,
                                                    .before = levels_.empty() ? nullptr : &levels_.back(),
                                                    .sweep_axis = order.axis,
                                                    .threads = options.threads,

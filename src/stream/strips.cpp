@@ -4,16 +4,8 @@
 
 #include "base/parallel_invoke.h"
 #include "base/stop.h"
-#include "cells/compact_cells.h"
 
 namespace regionmesh {
-
-namespace {
-
-/// Weights are rounded: they stay above the margin for which the faces are proved to be embedded.
-constexpr double kRoundedMargin = CompactCells::kInnerMargin + 1e-6;
-
-}  // namespace
 
 ChunkOrder strip_order(const SourceShape& shape, std::uint32_t extra) {
     return {.axis = shape.axis(),
@@ -21,7 +13,7 @@ ChunkOrder strip_order(const SourceShape& shape, std::uint32_t extra) {
             .overlap = shape.strip_overlap,
             .extra = extra,
             .frame = {shape.lattice.origin, shape.lattice.spacing},
-            .inner_margin = shape.cells == CellKind::kCompact ? kRoundedMargin : 0};
+            .cells = shape.cells};
 }
 
 std::uint32_t window_strips(const SmoothOptions& options, const ChunkOrder& order) {

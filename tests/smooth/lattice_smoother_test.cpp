@@ -124,6 +124,46 @@ TEST(LatticeFilter, makes_plane_what_is_plane) {
     }
 }
 
+Distance cube(Vec3 centre, double half, const std::array<Vec3, 3>& axes) {
+    return [=](Vec3 p) {
+        double farthest = 0;
+        for (const Vec3& axis : axes) farthest = std::max(farthest, std::abs(dot(p - centre, axis)));
+        return farthest - half;
+    };
+}
+
+/// What lies beside an edge is no part of the surface on the other side of it.
+TEST(LatticeFilter, leaves_the_faces_of_a_cube_plane) {
+    const Vec3 centre{23.5, 23.5, 23.5};
+    auto volume = sampled({48, 48, 48}, {1, 1, 1}, cube(centre, 16, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}));
+    const Mesh mesh = test::run(volume, {.decimate = false, .background = {}}).mesh;
+    int inner = 0;
+    for (const Vec3& at : positions_of(mesh)) {
+        const Vec3 d{std::abs(at.x - centre.x), std::abs(at.y - centre.y), std::abs(at.z - centre.z)};
+        if (d.z > 17 || d.z < 15 || std::max(d.x, d.y) > 10) continue;
+        EXPECT_NEAR(d.z, 16, 0.01) << "at " << at.x << ' ' << at.y;
+        ++inner;
+    }
+    EXPECT_GT(inner, 500);
+}
+
+TEST(LatticeFilter, keeps_edges) {
+    const Distance turned = cube({15.6, 15.6, 15.6}, 10.2,
+                                 {{{2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3}, {1. / 3, 2. / 3, -2. / 3}}});
+    const Distance rod = [](Vec3 p) {
+        return std::max(std::hypot(p.x - 15.3, p.y - 15.6) - 9.2, std::abs(p.z - 15.5) - 10);
+    };
+    for (const CellKind cells : {CellKind::kCompact, CellKind::kTetrahedra}) {
+        const auto error = [&](const Distance& shape) {
+            auto volume = sampled({32, 32, 32}, {1, 1, 1}, shape);
+            return error_of(test::run(volume, {.cells = cells, .decimate = false, .background = {}}).mesh, shape, 0.5,
+                            31);
+        };
+        EXPECT_LT(error(turned).degrees, 4.8);
+        EXPECT_LT(error(rod).degrees, 5);
+    }
+}
+
 /// Other surfaces between the same two regions that face the same way are no part of a plane.
 TEST(LatticeFilter, makes_plane_what_is_plane_beside_other_sheets) {
     const auto expect_plane = [](const Distance& volume, const Distance& plane, double farthest) {
