@@ -30,6 +30,8 @@ struct SimplifyOptions {
     bool intersect_check = true;
     bool bounds_regions = false;  // asserts that each face has its first label behind it and its second in front of
                                   // it, everywhere; collapses are then tested faster, with the same result
+    bool removes_folds = false;   // faces beside lines that are turned over, as smoothing inside the lattice leaves
+                                  // them, go early, at a cost of up to scale^4
     PlacementKind placement = PlacementKind::kQuadric;
     std::optional<Lattice> samples = {};  // no sample of it changes its region, no merged vertex leaves its box; along
                                           // the axes of coordinates, as BoxAxes::samples() is

@@ -137,8 +137,11 @@ private:
             pack();
             return prepass.sweep(result_.verdicts);
         });
-        prepass.find_slivers(threads_);
-        for (int n = 0; n < kMostSliverSweeps && prepass.remove_slivers(result_.verdicts) > 0; ++n) {
+        for (const Prepass::Fault fault : {Prepass::Fault::kSliver, Prepass::Fault::kFold}) {
+            if (fault == Prepass::Fault::kFold && !options_.removes_folds) continue;
+            prepass.find(fault, threads_);
+            for (int n = 0; n < kMostFaultSweeps && prepass.remove(fault, result_.verdicts) > 0; ++n) {
+            }
         }
         pack();
     }

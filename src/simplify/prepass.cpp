@@ -41,19 +41,20 @@ bool Prepass::may_go(VertexId v) const {
     return vertex.is_alive && !vertex.is_fixed && vertex.label_count <= 3;
 }
 
-void Prepass::find_slivers(std::uint32_t threads) {
+void Prepass::find(Fault fault, std::uint32_t threads) {
     constexpr std::uint32_t kFaces = 4096;  // of a task
-    slivers_.clear();
+    faulty_.clear();
     const auto find = [&](std::uint32_t first, std::uint32_t end) {
-        std::vector<FaceId> slivers;
+        std::vector<FaceId> faulty;
         for (std::uint32_t f = first; f < end; ++f)
-            if (mesh_.is_alive(FaceId{f}) && is_sliver(FaceId{f})) slivers.push_back(FaceId{f});
-        return slivers;
+            if (mesh_.is_alive(FaceId{f}) && has_fault(fault, FaceId{f})) faulty.push_back(FaceId{f});
+        return faulty;
     };
-    for_chunks(mesh_.face_end(), kFaces, threads, find, [&](const std::vector<FaceId>& slivers) {
-        slivers_.insert(slivers_.end(), slivers.begin(), slivers.end());
-    });
+    for_chunks(mesh_.face_end(), kFaces, threads, find,
+               [&](const std::vector<FaceId>& faulty) { faulty_.insert(faulty_.end(), faulty.begin(), faulty.end()); });
 }
+
+bool Prepass::has_fault(Fault fault, FaceId f) const { return fault == Fault::kSliver ? is_sliver(f) : is_fold(f); }
 
 bool Prepass::is_sliver(FaceId f) const {
     const double bound = collapse_.bounds.min_quality;
@@ -61,13 +62,37 @@ bool Prepass::is_sliver(FaceId f) const {
     return quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
 }
 
-std::uint32_t Prepass::remove_slivers(VerdictCounts& verdicts) {
+bool Prepass::is_fold(FaceId f) const {
+    const Face& face = mesh_[f];
+    const auto is_on_line = [&](VertexId v) { return mesh_[v].label_count > 2; };
+    if (std::none_of(face.vertices.begin(), face.vertices.end(), is_on_line)) return false;
+    const auto p = mesh_.corners(f);
+    const Vec3 normal = area_vector(p[0], p[1], p[2]);
+    const double size2 = length2(normal);
+    bool is_fold = false;
+    for (int place = 0; place < 3; ++place) {
+        const VertexId next = face.vertices[place_after(place)];
+        mesh_.for_star(face.vertices[place], [&](FaceId g, int at) {
+            const Face& other = mesh_[g];
+            if (other.vertices[place_before(at)] != next || !other.has_labels(face.labels)) return;
+            const auto q = mesh_.corners(g);
+            const Vec3 across = area_vector(q[0], q[1], q[2]);
+            const double product = dot(normal, across), across2 = length2(across);
+            is_fold |=
+                product < 0 && product * product > kFoldCosine * kFoldCosine * size2 * across2 && size2 <= across2;
+        });
+    }
+    return is_fold;
+}
+
+std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts) {
     marks_.begin_sweep();
-    const double max_cost = std::exchange(max_cost_, std::min(options_.max_cost, kSliverShare * max_cost_));
+    const double share = fault == Fault::kSliver ? kSliverShare : kFoldShare;
+    const double max_cost = std::exchange(max_cost_, std::min(options_.max_cost, share * max_cost_));
     std::uint32_t removed = 0;
-    for (const FaceId f : slivers_) {
+    for (const FaceId f : faulty_) {
         if (mesh_.face_count() <= options_.target_faces) break;
-        if (!mesh_.is_alive(f) || !is_sliver(f)) continue;
+        if (!mesh_.is_alive(f) || !has_fault(fault, f)) continue;
         for (VertexId v : mesh_[f].vertices) {
             if (!may_go(v)) continue;
             if (try_to_remove(v, verdicts)) {

@@ -23,11 +23,15 @@ public:
 
     /// Returns the number of collapses, and adds the verdicts of all that were tried.
     std::uint32_t sweep(VerdictCounts& verdicts);
-    /// Finds the faces below the quality bound.
-    void find_slivers(std::uint32_t threads);
-    /// Removes vertices of the faces that find_slivers() found and that are still below the bound, up to a larger cost,
-    /// as long as there are more faces than the target. Returns the number of collapses. Ids must be as they were.
-    std::uint32_t remove_slivers(VerdictCounts& verdicts);
+    enum class Fault {
+        kSliver,  // below the quality bound
+        kFold,    // beside a line, and turned over against a face of the same interface that is no smaller
+    };
+    /// Finds the faces with a fault.
+    void find(Fault fault, std::uint32_t threads);
+    /// Removes vertices of the faces that find() found and that still have the fault, up to a larger cost, as long as
+    /// there are more faces than the target. Returns the number of collapses. Ids must be as they were.
+    std::uint32_t remove(Fault fault, VerdictCounts& verdicts);
 
 private:
     struct Target {
@@ -35,7 +39,9 @@ private:
         double worst_quality3;
     };
 
+    bool has_fault(Fault fault, FaceId f) const;
     bool is_sliver(FaceId f) const;
+    bool is_fold(FaceId f) const;
     bool may_go(VertexId v) const;
     bool try_to_remove(VertexId v, VerdictCounts& verdicts);
     void find_targets(VertexId v);
@@ -55,7 +61,7 @@ private:
     std::size_t end_count_ = 0;
     std::vector<HalfCost> costs_;  // of these
     std::vector<Target> targets_;
-    std::vector<FaceId> slivers_;
+    std::vector<FaceId> faulty_;
     SweepMarks marks_;
 };
 

@@ -24,7 +24,7 @@ public:
 
 private:
     static constexpr std::uint8_t kSettled = 255;
-    static_assert(kMostSweeps + kMostSliverSweeps < kSettled);
+    static_assert(kMostSweeps + 2 * kMostFaultSweeps < kSettled);
 
     std::vector<std::uint8_t> seen_;  // by vertex: the sweep in which its star changed, or kSettled
     std::uint8_t sweep_ = 0;

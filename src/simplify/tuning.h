@@ -83,7 +83,13 @@ inline constexpr int kMostSweeps = 16;
 /// Faces below the quality bound, as smoothing leaves them, go after the sweeps and before ranking: up to this multiple
 /// of the cost of the prepass.
 inline constexpr double kSliverShare = 10;
-inline constexpr int kMostSliverSweeps = 3;
+
+/// Then faces that smoothing has turned over beside lines go (SimplifyOptions::removes_folds), by more than a right
+/// angle (and one degree, which right edges do not reach), at up to this multiple. A foam of 60 cells to a tenth:
+/// turned over 0.15 % of the area without, 0.07 with 1000; rms of the smoothed atlas 0.0219 and 0.0258. With 100 and
+/// 300 less is gained.
+inline constexpr double kFoldShare = 1000, kFoldCosine = 0.02;
+inline constexpr int kMostFaultSweeps = 3;
 
 /// Vertices with more faces are left to ranking. Of the neighbours that a vertex may go to, the best ones are tried.
 inline constexpr int kMostPrepassFaces = 16;

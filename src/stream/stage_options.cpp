@@ -77,6 +77,7 @@ SimplifyOptions simplify_options(const ReconstructOptions& options, const Source
     own.intersect_check = options.intersect_check;
     // If the hull is open, a line may leave a domain that is not convex and come back in another region.
     own.bounds_regions = options.cap || shape.has_samples;
+    own.removes_folds = options.smooth.passes > 0;
     if (shape.has_samples) {
         const Lattice along_axes = shape.lattice.along_axes();  // meshes are turned at the end
         if (options.keep_samples) own.samples = along_axes;

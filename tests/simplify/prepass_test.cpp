@@ -141,16 +141,53 @@ TEST(Prepass, removes_slivers_and_tries_no_vertex_twice_in_vain) {
     constexpr double kBound = 0.1;
     const std::uint32_t before = faces_below(mesh, kBound);
     with_prepass(mesh, 1e-2, {.min_quality = kBound}, [&](Prepass& prepass) {
-        prepass.find_slivers(2);
+        prepass.find(Prepass::Fault::kSliver, 2);
         VerdictCounts verdicts{};
         std::uint32_t removed = 0;
-        while (const std::uint32_t now = prepass.remove_slivers(verdicts)) removed += now;
+        while (const std::uint32_t now = prepass.remove(Prepass::Fault::kSliver, verdicts)) removed += now;
         EXPECT_GT(removed, 0u);
         EXPECT_LT(faces_below(mesh, kBound), before);
         const VerdictCounts tried = verdicts;
-        EXPECT_EQ(prepass.remove_slivers(verdicts), 0u);
+        EXPECT_EQ(prepass.remove(Prepass::Fault::kSliver, verdicts), 0u);
         EXPECT_EQ(verdicts, tried);
         EXPECT_GT(faces_below(mesh, kBound), 0u) << "nothing was left to try";
+    });
+    test::expect_sound(check(mesh));
+}
+
+/// Edges of two faces of one interface that make less than a right angle, beside lines.
+int folds_of(const Mesh& mesh) {
+    const auto normal_of = [&](FaceId f) {
+        const auto [a, b, c] = mesh.corners(f);
+        return area_vector(a, b, c);
+    };
+    int count = 0;
+    for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
+        if (!mesh.is_alive(VertexId{v}) || mesh[VertexId{v}].label_count < 3) continue;
+        mesh.for_star(VertexId{v}, [&](FaceId f, int at) {
+            mesh.for_star(VertexId{v}, [&](FaceId g, int other_at) {
+                const bool is_beside = mesh[f].vertices[place_after(at)] == mesh[g].vertices[place_before(other_at)] &&
+                                       mesh[f].has_labels(mesh[g].labels);
+                count += is_beside && dot(normal_of(f), normal_of(g)) < 0;
+            });
+        });
+    }
+    return count;
+}
+
+TEST(Prepass, removes_folds_beside_lines) {
+    ReconstructOptions smoothed = test::plain();
+    smoothed.smooth = {.filter = SmoothFilter::kLattice, .passes = 20};
+    Mesh mesh = run(test::grain_volume({24, 24, 24}, 12, 5), smoothed).mesh;
+    with_prepass(mesh, 1e-3, {}, [&](Prepass& prepass) {
+        count_labels(mesh);
+        const int before = folds_of(mesh);
+        ASSERT_GT(before, 20);
+        prepass.find(Prepass::Fault::kFold, 2);
+        VerdictCounts verdicts{};
+        while (prepass.remove(Prepass::Fault::kFold, verdicts) > 0) {
+        }
+        EXPECT_LT(folds_of(mesh), before * 2 / 3);
     });
     test::expect_sound(check(mesh));
 }
