@@ -18,15 +18,16 @@ namespace regionmesh {
 /// faces of one vertex change, and vertices near in space are near in time. The tests are the same.
 class Prepass {
 public:
+    enum class Fault {
+        kSliver,  // below the quality bound
+        kFold,    // beside a line, and turned over against a face of the same interface that is no smaller
+    };
+
     /// `max_cost` is the threshold, squared length times area. Tests have their bounds in `collapse`.
     Prepass(Mesh& mesh, Placement& placement, Collapse& collapse, const SimplifyOptions& options, double max_cost);
 
     /// Returns the number of collapses, and adds the verdicts of all that were tried.
     std::uint32_t sweep(VerdictCounts& verdicts);
-    enum class Fault {
-        kSliver,  // below the quality bound
-        kFold,    // beside a line, and turned over against a face of the same interface that is no smaller
-    };
     /// Finds the faces with a fault.
     void find(Fault fault, std::uint32_t threads);
     /// Removes vertices of the faces that find() found and that still have the fault, up to a larger cost, as long as

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "smooth/lattice_sheet.h"
-
 namespace regionmesh {
 namespace {
 
