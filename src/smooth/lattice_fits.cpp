@@ -242,7 +242,7 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, bool is_f
 }
 
 /// 1 where the quadric passes through all simplices of its sheet within kBlend, 0 where it misses one by the tolerance,
-/// or passes through long ones on one side.
+/// passes through long ones on one side, or has the normals of too few sites.
 float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
                               float most_missed) const {
     const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
@@ -251,7 +251,7 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
     const Share share{(1 / kBlend) * blocks_.per_size};
     const LatticeSheet sheet(quadric, spacing, agreement_);
     Float4 worst{}, offsets{}, halves{};
-    Float4 facing{}, agreeing{};  // numbers of sites
+    Float4 facing_sites{}, agreeing_sites{};
     // Every fourth four first: where a quadric misses one simplex it misses others beside it.
     for (std::uint32_t start = 0; start < 16; start += 4)
         for (const NearRun& other : near) {
@@ -261,13 +261,13 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
                 const Sites4 sites = gather(&other.row->sites[n], end - n);
                 const Lanes3<Float4> d = offset(blocks_.steps, quadric.centre, sites.at);
                 const HeightQuadric::At at = quadric.at(d);
-                const Mask4 faces = share(d) > 0 && dot(sites.normal, all_four(normal)) > LatticeSheet::kFacing &&
-                                    sheet.share(d, sites.normal, at.height) > 0;
-                if (bits_of(faces) == 0) continue;
-                const Mask4 counts = faces && sheet.agrees(at.gradient, sites.normal);
+                const Mask4 facing = share(d) > 0 && dot(sites.normal, all_four(normal)) > LatticeSheet::kFacing &&
+                                     sheet.share(d, sites.normal, at.height) > 0;
+                if (bits_of(facing) == 0) continue;
+                const Mask4 counts = facing && sheet.agrees(at.gradient, sites.normal);
                 const Float4 once = in_use(end - n);
-                facing += faces ? once : Float4{};
-                agreeing += counts ? once : Float4{};
+                facing_sites += facing ? once : Float4{};
+                agreeing_sites += counts ? once : Float4{};
                 const Passage4 passes = passage(at, sites.kind);
                 worst = greatest(worst, counts ? passes.missed : Float4{});
                 if (bits_of(worst >= tolerance) != 0) return 0;
@@ -279,7 +279,7 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
     const float most = std::max({worst[0], worst[1], worst[2], worst[3]});
     const float accepted = std::min(1.0f, 2 - 2 * most / tolerance);
     const auto total = [](Float4 lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
-    if (total(agreeing) < agreement_.share * total(facing)) return 0;
+    if (total(agreeing_sites) < agreement_.share * total(facing_sites)) return 0;
     const float half = total(halves);
     if (!(half > 0)) return accepted;
     return std::clamp(2 - 2 * std::abs(total(offsets)) / (kMostOneSided * half), 0.0f, accepted);

@@ -13,6 +13,12 @@
 #include "volume/room_reader.h"
 
 namespace regionmesh {
+namespace {
+
+/// The filter of sections, unless they are not smoothed.
+bool is_lattice(SmoothFilter filter) { return filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice; }
+
+}  // namespace
 
 void require_in_range(const ReconstructOptions& options) {
     if (options.reduce) require_number("reduce", *options.reduce, {0, 1, "0 to 1"});
@@ -34,9 +40,7 @@ ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter a
 
 CellKind cell_kind(const ReconstructOptions& options) {
     if (options.cells != CellKind::kAuto) return options.cells;
-    const SmoothFilter filter = options.smooth.filter;
-    const bool keeps_samples =
-        options.smooth.passes == 0 || filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice;
+    const bool keeps_samples = options.smooth.passes == 0 || is_lattice(options.smooth.filter);
     return keeps_samples && !options.preserve_volume ? CellKind::kCompact : CellKind::kTetrahedra;
 }
 
@@ -77,7 +81,7 @@ SimplifyOptions simplify_options(const ReconstructOptions& options, const Source
     own.intersect_check = options.intersect_check;
     // If the hull is open, a line may leave a domain that is not convex and come back in another region.
     own.bounds_regions = options.cap || shape.has_samples;
-    own.removes_folds = options.smooth.passes > 0;
+    own.removes_folds = shape.has_samples && options.smooth.passes > 0 && is_lattice(options.smooth.filter);
     if (shape.has_samples) {
         const Lattice along_axes = shape.lattice.along_axes();  // meshes are turned at the end
         if (options.keep_samples) own.samples = along_axes;

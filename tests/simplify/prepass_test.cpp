@@ -192,5 +192,16 @@ TEST(Prepass, removes_folds_beside_lines) {
     test::expect_sound(check(mesh));
 }
 
+TEST(Prepass, leaves_folds_of_models_that_may_have_them) {
+    ReconstructOptions smoothed = test::plain();
+    smoothed.smooth = {.filter = SmoothFilter::kLattice, .passes = 20};
+    const auto left = [&](bool removes_folds) {
+        Mesh mesh = run(test::grain_volume({24, 24, 24}, 12, 5), smoothed).mesh;
+        simplify(mesh, {.target_faces = mesh.face_count() * 3 / 4, .removes_folds = removes_folds});
+        return folds_of(mesh);
+    };
+    EXPECT_LT(left(true), left(false));
+}
+
 }  // namespace
 }  // namespace regionmesh
