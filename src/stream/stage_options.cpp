@@ -15,7 +15,7 @@
 namespace regionmesh {
 namespace {
 
-/// The filter of sections, unless they are not smoothed.
+/// Does the filter keep every sample? Sections get this one, unless another is asked for.
 bool is_lattice(SmoothFilter filter) { return filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice; }
 
 }  // namespace
