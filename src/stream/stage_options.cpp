@@ -15,7 +15,7 @@
 namespace regionmesh {
 namespace {
 
-/// Does the filter keep every sample? Sections get this one, unless another is asked for.
+/// Are sections smoothed inside the lattice, which keeps every sample? kAuto is this filter, too.
 bool is_lattice(SmoothFilter filter) { return filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice; }
 
 }  // namespace

@@ -39,6 +39,11 @@ Swept sweep(Mesh& mesh, int sweeps, double max_cost = 1e-3, const SimplifyOption
     return done;
 }
 
+Mesh smoothed(test::ArrayVolume volume) {
+    ReconstructOptions options = test::plain();
+    options.smooth = {.filter = SmoothFilter::kLattice, .passes = 20};
+    return run(volume, options).mesh;
+}
 Mesh many_grains() { return run(test::grain_volume({14, 14, 14}, 9, 5)).mesh; }
 Mesh ball() { return run(test::ball_volume({16, 16, 16}, 6)).mesh; }
 
@@ -135,9 +140,7 @@ std::uint32_t faces_below(const Mesh& mesh, double quality) {
 }
 
 TEST(Prepass, removes_slivers_and_tries_no_vertex_twice_in_vain) {
-    ReconstructOptions smoothed = test::plain();
-    smoothed.smooth = {.filter = SmoothFilter::kLattice, .passes = 20};
-    Mesh mesh = run(test::noise_volume({14, 14, 14}, 3, 6), smoothed).mesh;
+    Mesh mesh = smoothed(test::noise_volume({14, 14, 14}, 3, 6));
     constexpr double kBound = 0.1;
     const std::uint32_t before = faces_below(mesh, kBound);
     with_prepass(mesh, 1e-2, {.min_quality = kBound}, [&](Prepass& prepass) {
@@ -176,11 +179,8 @@ int folds_of(const Mesh& mesh) {
 }
 
 TEST(Prepass, removes_folds_beside_lines) {
-    ReconstructOptions smoothed = test::plain();
-    smoothed.smooth = {.filter = SmoothFilter::kLattice, .passes = 20};
-    Mesh mesh = run(test::grain_volume({24, 24, 24}, 12, 5), smoothed).mesh;
+    Mesh mesh = smoothed(test::grain_volume({24, 24, 24}, 12, 5));
     with_prepass(mesh, 1e-3, {}, [&](Prepass& prepass) {
-        count_labels(mesh);
         const int before = folds_of(mesh);
         ASSERT_GT(before, 20);
         prepass.find(Prepass::Fault::kFold, 2);
@@ -193,10 +193,8 @@ TEST(Prepass, removes_folds_beside_lines) {
 }
 
 TEST(Prepass, leaves_folds_of_models_that_may_have_them) {
-    ReconstructOptions smoothed = test::plain();
-    smoothed.smooth = {.filter = SmoothFilter::kLattice, .passes = 20};
     const auto left = [&](bool removes_folds) {
-        Mesh mesh = run(test::grain_volume({24, 24, 24}, 12, 5), smoothed).mesh;
+        Mesh mesh = smoothed(test::grain_volume({24, 24, 24}, 12, 5));
         simplify(mesh, {.target_faces = mesh.face_count() * 3 / 4, .removes_folds = removes_folds});
         return folds_of(mesh);
     };
