@@ -256,8 +256,7 @@ void require_block_options(const ReconstructOptions& options) {
                         fmt::format("--{}: needs the whole surface at once, which a folder of pieces has not; leave it "
                                     "out, or name a file in --output",
                                     name));
-    const SmoothFilter filter = options.smooth.filter;
-    if (options.smooth.passes > 0 && filter != SmoothFilter::kAuto && filter != SmoothFilter::kLattice)
+    if (options.smooth.passes > 0 && !is_lattice(options.smooth.filter))
         throw Error(
             ErrorCode::kUsage,
             "--smooth-filter: blocks are smoothed inside the lattice or not at all; leave it out, or give none");

@@ -13,12 +13,6 @@
 #include "volume/room_reader.h"
 
 namespace regionmesh {
-namespace {
-
-/// Are sections smoothed inside the lattice, which keeps every sample? kAuto is this filter, too.
-bool is_lattice(SmoothFilter filter) { return filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice; }
-
-}  // namespace
 
 void require_in_range(const ReconstructOptions& options) {
     if (options.reduce) require_number("reduce", *options.reduce, {0, 1, "0 to 1"});
@@ -37,6 +31,8 @@ ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter a
     if (own.smooth.filter == SmoothFilter::kAuto) own.smooth.filter = automatic;
     return own;
 }
+
+bool is_lattice(SmoothFilter filter) { return filter == SmoothFilter::kAuto || filter == SmoothFilter::kLattice; }
 
 CellKind cell_kind(const ReconstructOptions& options) {
     if (options.cells != CellKind::kAuto) return options.cells;

@@ -13,6 +13,9 @@ void require_in_range(const ReconstructOptions& options);
 /// The options with the filter that kAuto stands for.
 ReconstructOptions with_filter(const ReconstructOptions& options, SmoothFilter automatic);
 
+/// Are sections smoothed inside the lattice, which keeps every sample? kAuto is this filter, too.
+bool is_lattice(SmoothFilter filter);
+
 SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 
 /// The factor of z of sections that the options ask for: a power of two, so that scaling is exact. Throws Error(kUsage)
