@@ -64,7 +64,8 @@ def at(rows, share):
 def write(page, results):
     page.paragraph("Each model is smoothed (20 passes of taubin) and then decimated, and compared with the smoothed model of all faces. Distances are\n"
                    "both ways, in samples. Change of volume: the sum of what regions win or lose, over all volume; and the worst region\n"
-                   f"of more than {SMALL} samples. The last point of each curve is the limit: nothing more can be collapsed.")
+                   f"of more than {SMALL} samples. Every sample stays in its region, as by default. The last point of each curve is the limit:\n"
+                   "nothing more can be collapsed.")
     for name, (_, words) in VOLUMES.items():
         plot(page, name, results[name])
         page.picture(f"Distance, quality and volume against faces: {words}", f"curve-{name}.png", f"{words[0].upper()}{words[1:]}.")

@@ -2,7 +2,7 @@
 import numpy
 
 import draw
-from lab import ALL_REGIONS, SMOOTH_OFF, TAUBIN, median, race
+from lab import ALL_REGIONS, AS_IN_PAPER, TAUBIN, median, race
 
 TITLE = "MRI head phantom (P 4.6, Fig. 10)"
 VOLUME = "zubal_head.npy"
@@ -62,7 +62,7 @@ def picture(lab, model, lone):
 
 def measure(lab):
     volume = lab.volume(VOLUME)
-    lanes = {str(target): (lambda t=target: lab.reconstruct(volume, *ALL_REGIONS, *SMOOTH_OFF, "--target-faces", t)) for target in TARGETS}
+    lanes = {str(target): (lambda t=target: lab.reconstruct(volume, *ALL_REGIONS, *AS_IN_PAPER, "--target-faces", t)) for target in TARGETS}
     runs = race(lanes, ROUNDS)
     smooth = lab.reconstruct(volume, *ALL_REGIONS, *TAUBIN, "--target-faces", TARGETS[0], model="smooth.vtp")
     model = draw.read(lab.at("smooth.vtp"))

@@ -6,7 +6,7 @@ import subprocess
 import numpy
 
 import plots
-from lab import ALL_REGIONS, SMOOTH_OFF, median, race, seconds
+from lab import ALL_REGIONS, AS_IN_PAPER, median, race, seconds
 
 TITLE = "Equal costs: the heap with and without perturbation (P 4.5, Fig. 9)"
 SIDES = (20, 40, 80, 160, 320, 640, 1280)
@@ -23,10 +23,10 @@ def measure_slabs(lab):
     for side in SIDES:
         volume = lab.at("slab.npy")
         numpy.save(volume, numpy.ones((3, side, side), numpy.uint8))
-        full = lab.reconstruct(volume, "--no-decimate", *SMOOTH_OFF, model="full.ply")
+        full = lab.reconstruct(volume, "--no-decimate", *AS_IN_PAPER, model="full.ply")
         lanes = {f"{where} {p}": (lambda p=p: lab.decimate("full.ply", "--reduce", "90%", "--perturbation", p, to="tenth.ply"))
                  if where == "in core" else
-                 (lambda p=p: lab.reconstruct(volume, "--reduce", "90%", "--perturbation", p, *SMOOTH_OFF, model="tenth.ply"))
+                 (lambda p=p: lab.reconstruct(volume, "--reduce", "90%", "--perturbation", p, *AS_IN_PAPER, model="tenth.ply"))
                  for where in ("in core", "on the fly") for p in PERTURBATIONS}
         runs = race(lanes, ROUNDS)
         rows.append({"faces": full["initial_faces"], **{name: median(reports, seconds) for name, reports in runs.items()},
@@ -36,10 +36,10 @@ def measure_slabs(lab):
 
 def measure_heap(lab):
     """Nanoseconds an edge through the heap itself."""
-    source = pathlib.Path(__file__).parent
+    root = pathlib.Path(__file__).parents[2]
     program = lab.at("heap")
-    subprocess.run([os.environ.get("CXX", "c++"), "-std=c++20", "-O3", "-DNDEBUG", f"-I{source.parent.parent / 'src'}",
-                    source / "heap.cpp", "-o", program], check=True)
+    subprocess.run([os.environ.get("CXX", "c++"), "-std=c++20", "-O3", "-DNDEBUG", f"-I{root / 'src'}", f"-I{root / 'include'}",
+                    root / "bench/paper/heap.cpp", root / "src/base/process.cpp", "-o", program], check=True)
 
     def through(count, kind):
         return float(subprocess.run([program, str(count), kind], capture_output=True, text=True, check=True).stdout)

@@ -4,7 +4,7 @@ import pathlib
 import statistics
 import subprocess
 
-SMOOTH_OFF = ("--smooth", "0")
+AS_IN_PAPER = ("--smooth", "0", "--no-keep-samples")  # it has no test that samples stay in their regions
 TAUBIN = ("--smooth-filter", "taubin")  # 20 passes: the paper smooths with filters of this kind
 ALL_REGIONS = ("--no-background",)
 DECIMATION = ("decimate tiles", "raise level", "decimate")  # stages of a report

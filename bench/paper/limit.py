@@ -1,6 +1,6 @@
 """P 4.8 and 3.7, Fig. 13: how far decimation goes, and what stops it."""
 import plots
-from lab import ALL_REGIONS, SMOOTH_OFF, median, refused, seconds, total
+from lab import ALL_REGIONS, AS_IN_PAPER, median, refused, seconds, total
 
 TITLE = "The limit of decimation (P 4.8, Fig. 13)"
 VOLUME = "mgo_50x1000.npy"
@@ -12,11 +12,11 @@ VERDICTS = ("fold", "quality", "link", "pinch", "intersect")
 
 
 def run(lab, share, model="model.ply"):
-    return lab.reconstruct(lab.volume(VOLUME), "--reduce", f"{100 - share}%", *SMOOTH_OFF, *ALL_REGIONS, *ONE_THREAD, model=model)
+    return lab.reconstruct(lab.volume(VOLUME), "--reduce", f"{100 - share}%", *AS_IN_PAPER, *ALL_REGIONS, *ONE_THREAD, model=model)
 
 
 def stretch(lab, begin, end):
-    """Verdicts on the way from one share of the faces to another, in one heap."""
+    """Verdicts on the way from one share of the faces to another."""
     faces = run(lab, begin, "begin.ply")["initial_faces"]
     done = lab.decimate("begin.ply", "--target-faces", round(faces * end / 100), *ALL_REGIONS, to="end.ply")
     return {"begin": begin, "end": 100 * done["final_faces"] / faces, "verdicts": done["verdicts"], "refreshes": done["refreshes"],
@@ -56,7 +56,7 @@ def write(page, results):
     plots.save(figure, page.pictures / "limit.png")
 
     page.picture("Seconds against what remains, and why edges were refused", "limit.png",
-                 "One thread. The dotted line is the paper's limit. Right: each stretch in one heap from where the one before ended.")
+                 "One thread. The dotted line is the paper's limit. Right: each stretch from where the one before ended.")
     table = [("asked, %", "faces", "remain, %", "seconds", "refreshes", "accepted", *VERDICTS, "Stopped by")]
     for row in rows:
         if row["asked"] in (75, 50, 25, 12, 10, 5, 2, 1, 0):

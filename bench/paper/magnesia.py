@@ -2,7 +2,7 @@
 import numpy
 
 import draw
-from lab import ALL_REGIONS, SMOOTH_OFF, TAUBIN, median, race, seconds, total
+from lab import ALL_REGIONS, AS_IN_PAPER, TAUBIN, median, race, seconds, total
 
 TITLE = "Magnesia-like slab (P 4.4, Fig. 8)"
 VOLUME = "mgo_like.npy"
@@ -39,12 +39,12 @@ def picture(lab):
 
 def measure(lab):
     volume = lab.volume(VOLUME)
-    plain = (*ALL_REGIONS, *SMOOTH_OFF, *TARGET)
+    plain = (*ALL_REGIONS, *AS_IN_PAPER, *TARGET)
     runs = race({perturbation: lambda p=perturbation: lab.reconstruct(volume, *plain, "--perturbation", p)
                      for perturbation in ("1e-7", "0")}, ROUNDS)
     one_thread = lab.reconstruct(volume, *plain, "--threads", "1")
-    full = lab.reconstruct(volume, "--no-decimate", *ALL_REGIONS, *SMOOTH_OFF, "--threads", "1", model="full.ply")
-    heap = lab.decimate("full.ply", *TARGET, *ALL_REGIONS, to="less.ply")
+    full = lab.reconstruct(volume, "--no-decimate", *ALL_REGIONS, *AS_IN_PAPER, "--threads", "1", model="full.ply")
+    whole = lab.decimate("full.ply", *TARGET, *ALL_REGIONS, "--threads", "1", to="less.ply")
     lab.at("full.ply").unlink()
     smooth = lab.reconstruct(volume, *ALL_REGIONS, *TAUBIN, *TARGET, model="smooth.vtp")
     picture(lab)
@@ -55,7 +55,7 @@ def measure(lab):
             "decimation": {name: median(reports, seconds) for name, reports in runs.items()},
             "violations": sum(first["violation_counts"].values()),
             "one_thread": {"seconds": total(one_thread), "peak_bytes": one_thread["peak_bytes"]},
-            "in_core": {"seconds": total(full) + seconds(heap), "peak_bytes": heap["peak_bytes"]},
+            "in_core": {"seconds": total(full) + seconds(whole), "peak_bytes": whole["peak_bytes"]},
             "smooth": {"seconds": total(smooth), "peak_bytes": smooth["peak_bytes"],
                        "violations": sum(smooth["violation_counts"].values()), "quality": smooth["quality"]["min"]}}
 
@@ -75,17 +75,18 @@ def write(page, results):
             ("faces a second", str(PAPER["rate"]), f"{rate:.0f}", f"{results['initial_faces'] / smooth['seconds']:.0f}"),
             ("memory, MB", "below 1000", f"{results['peak_bytes'] / 1e6:.0f}", f"{smooth['peak_bytes'] / 1e6:.0f}"),
             ("on one thread, seconds and MB", "-", f"{alone['seconds']:.1f}, {alone['peak_bytes'] / 1e6:.0f}", "-"),
-            ("in core, one heap, seconds and MB", "4240 to 5760 MB", f"{whole['seconds']:.1f}, {whole['peak_bytes'] / 1e6:.0f}", "-"),
+            ("in core, on one thread, seconds and MB", "4240 to 5760 MB", f"{whole['seconds']:.1f}, {whole['peak_bytes'] / 1e6:.0f}", "-"),
             ("violations", "none", str(results["violations"] or "none"), str(smooth["violations"] or "none"))]
     page.table(rows)
     page.paragraph("The paper's volume is not public; this one was made like it: as many sections, samples and grains, so that the\n"
                    f"count of faces agrees within {100 * abs(results['initial_faces'] / PAPER['faces'] - 1):.1f} %. Seconds run from the first\n"
                    "section to the decimated model. Twenty years lie between the computers: of the ratio the larger part is the\n"
                    f"machine's. The perturbation makes {100 * abs(ours / plain - 1):.1f} % of difference, where the paper gains 20 %: see the\n"
-                   "next section. In core, with all faces in one heap, it takes "
+                   "next section. In core, tile by tile as well, it takes "
                    f"{whole['seconds'] / alone['seconds']:.1f} times as long as on the fly on one thread, and "
                    f"{whole['peak_bytes'] / alone['peak_bytes']:.0f} times the memory.")
     page.summary("4.4", "faces a second, to a tenth", str(PAPER["rate"]), f"{rate:.0f}", "beaten, on another computer")
-    page.summary("4.7", "in core, seconds against on the fly, that slab", "more", f"{whole['seconds'] / alone['seconds']:.1f} times",
-                 "agrees")
+    ratio = whole["seconds"] / alone["seconds"]
+    page.summary("4.7", "in core, seconds against on the fly, that slab", "more", f"{ratio:.1f} times",
+                 "agrees" if ratio > 1.1 else "contradicted: it has tiles, too")
     page.summary("4.5", "time saved by perturbation, on that slab", "20 %", f"{100 * (1 - ours / plain):.0f} %", "contradicted")

@@ -2,7 +2,7 @@
 import numpy
 
 import draw
-from lab import ALL_REGIONS, SMOOTH_OFF
+from lab import ALL_REGIONS, AS_IN_PAPER
 
 TITLE = "Memory, and what stands round a vertex (P 4.1)"
 VOLUMES = {"head phantom": "zubal_head.npy", "AAL atlas": "aal.npy", "IN100": "in100_60x80x100.npy",
@@ -24,8 +24,8 @@ def measure(lab):
     results = {}
     for name, file in VOLUMES.items():
         volume = lab.volume(file)
-        lab.reconstruct(volume, "--no-decimate", *SMOOTH_OFF, *ALL_REGIONS, model="full.vtp")
-        report = lab.reconstruct(volume, "--reduce", "90%", *SMOOTH_OFF, *ALL_REGIONS)
+        lab.reconstruct(volume, "--no-decimate", *AS_IN_PAPER, *ALL_REGIONS, model="full.vtp")
+        report = lab.reconstruct(volume, "--reduce", "90%", *AS_IN_PAPER, *ALL_REGIONS)
         results[name] = {"initial_faces": report["initial_faces"], "final_faces": report["final_faces"],
                          "peak_bytes": report["peak_bytes"], "bytes_per_face": report["bytes_per_face"],
                          "full": round_vertex(lab.at("full.vtp")), "tenth": round_vertex(lab.at("model.vtp"))}
