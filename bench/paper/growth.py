@@ -1,6 +1,6 @@
 """P 4.7, Fig. 11 and 12: sections of 50 x 50 to 50 x 1000 samples, and how much is taken away."""
 import plots
-from lab import ALL_REGIONS, AS_IN_PAPER, median, race, seconds, total
+from lab import ALL_REGIONS, AS_IN_PAPER, in_core_verdict, median, race, seconds, total
 
 TITLE = "Linear growth, and how much is taken away (P 4.7, Fig. 11 and 12)"
 LENGTHS = (50, 100, *range(200, 1001, 100))
@@ -80,5 +80,5 @@ def write(page, rows):
                        verdict, "a half takes longer than a tenth. This falls short."))
     page.summary("4.7", "growth, 50 x 50 to 50 x 1000", "nearly linear", f"N^{slope['on the fly']:.2f}", "agrees")
     page.summary("4.7", "in core, seconds against on the fly", "more", f"{min(ratios):.2f} to {max(ratios):.2f} times",
-                 "agrees" if min(ratios) > 1 else "contradicted: it has tiles, too" if max(ratios) < 1 else "agrees in part")
+                 in_core_verdict(ratios))
     page.summary("4.7", "10, 25, 50 % on the fly", "little difference", f"{tenth:.2f}, {quarter:.2f}, {half:.2f} s", verdict)

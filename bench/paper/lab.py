@@ -69,6 +69,11 @@ def total(report):
     return report["seconds"]["total"] - seconds(report, ("check", "write"))
 
 
+def in_core_verdict(ratios):
+    """Of the paper's claim that decimation in core takes longer than on the fly: `ratios` of their seconds."""
+    return "agrees" if min(ratios) > 1 else "contradicted: it has tiles, too" if max(ratios) < 1 else "agrees in part"
+
+
 def median(reports, value=total):
     return statistics.median(value(report) for report in reports)
 

@@ -56,7 +56,7 @@ def write(page, results):
     plots.save(figure, page.pictures / "limit.png")
 
     page.picture("Seconds against what remains, and why edges were refused", "limit.png",
-                 "One thread. The dotted line is the paper's limit. Right: each stretch from where the one before ended.")
+                 "Left: one thread; the dotted line is the paper's limit. Right: each stretch from where the one before ended.")
     table = [("asked, %", "faces", "remain, %", "seconds", "refreshes", "accepted", *VERDICTS, "Stopped by")]
     for row in rows:
         if row["asked"] in (75, 50, 25, 12, 10, 5, 2, 1, 0):

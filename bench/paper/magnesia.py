@@ -2,7 +2,7 @@
 import numpy
 
 import draw
-from lab import ALL_REGIONS, AS_IN_PAPER, TAUBIN, median, race, seconds, total
+from lab import ALL_REGIONS, AS_IN_PAPER, TAUBIN, in_core_verdict, median, race, seconds, total
 
 TITLE = "Magnesia-like slab (P 4.4, Fig. 8)"
 VOLUME = "mgo_like.npy"
@@ -66,6 +66,7 @@ def write(page, results):
                  f"{results['regions']} grains in five sections of 1740 x 1303 samples, smoothed, {results['final_faces']} faces.")
     rate = results["initial_faces"] / ours
     smooth, alone, whole = results["smooth"], results["one_thread"], results["in_core"]
+    ratio = whole["seconds"] / alone["seconds"]
     rows = [("What", "paper", "here", "here, with 20 passes of taubin"),
             ("faces before", str(PAPER["faces"]), str(results["initial_faces"]), "the same"),
             ("vertices before", str(PAPER["vertices"]), str(results["initial_vertices"]), "the same"),
@@ -83,10 +84,8 @@ def write(page, results):
                    "section to the decimated model. Twenty years lie between the computers: of the ratio the larger part is the\n"
                    f"machine's. The perturbation makes {100 * abs(ours / plain - 1):.1f} % of difference, where the paper gains 20 %: see the\n"
                    "next section. In core, tile by tile as well, it takes "
-                   f"{whole['seconds'] / alone['seconds']:.1f} times as long as on the fly on one thread, and "
+                   f"{ratio:.1f} times as long as on the fly on one thread, and "
                    f"{whole['peak_bytes'] / alone['peak_bytes']:.0f} times the memory.")
     page.summary("4.4", "faces a second, to a tenth", str(PAPER["rate"]), f"{rate:.0f}", "beaten, on another computer")
-    ratio = whole["seconds"] / alone["seconds"]
-    page.summary("4.7", "in core, seconds against on the fly, that slab", "more", f"{ratio:.1f} times",
-                 "agrees" if ratio > 1.1 else "contradicted: it has tiles, too")
+    page.summary("4.7", "in core, seconds against on the fly, that slab", "more", f"{ratio:.1f} times", in_core_verdict([ratio]))
     page.summary("4.5", "time saved by perturbation, on that slab", "20 %", f"{100 * (1 - ours / plain):.0f} %", "contradicted")
