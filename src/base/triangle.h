@@ -44,6 +44,14 @@ inline QualityTerms quality_terms(Vec3 a, Vec3 b, Vec3 c) {
     return quality_terms(0.5 * length(area_vector(a, b, c)), length2(b - a), length2(c - b), length2(a - c));
 }
 
+/// True only if the quality is above the bound, as of most faces; without roots. With r < l_min / 2 the product is less
+/// than 3 l_max l_med l_min.
+inline bool is_surely_above(double bound, Vec3 a, Vec3 b, Vec3 c) {
+    const double area2 = 0.25 * length2(area_vector(a, b, c)), most = 9.01 * bound * bound * bound;
+    const double lengths2 = length2(b - a) * length2(c - b) * length2(a - c);
+    return area2 * area2 * area2 > most * most * (lengths2 * lengths2);
+}
+
 /// Shewchuk's scale-invariant quality Q = area / (l_max l_med (l_min + 4 r))^(2/3). P eq. 3 prints l_min for l_max, but
 /// the three values it gives need l_max. Equilateral 0.26, right isosceles 0.24, degenerate 0.
 inline double face_quality(Vec3 a, Vec3 b, Vec3 c) { return quality_terms(a, b, c).value(); }

@@ -59,7 +59,7 @@ bool Prepass::has_fault(Fault fault, FaceId f) const { return fault == Fault::kS
 bool Prepass::is_sliver(FaceId f) const {
     const double bound = collapse_.bounds.min_quality;
     const auto p = mesh_.corners(f);
-    return quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
+    return !is_surely_above(bound, p[0], p[1], p[2]) && quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
 }
 
 bool Prepass::is_fold(FaceId f) const {
@@ -69,19 +69,22 @@ bool Prepass::is_fold(FaceId f) const {
     const auto p = mesh_.corners(f);
     const Vec3 normal = area_vector(p[0], p[1], p[2]);
     const double size2 = length2(normal);
+    const auto is_turned_against = [&](FaceId g) {
+        if (!mesh_[g].has_labels(face.labels)) return false;
+        const auto q = mesh_.corners(g);
+        const Vec3 across = area_vector(q[0], q[1], q[2]);
+        const double product = dot(normal, across), across2 = length2(across);
+        return product < 0 && product * product > kFoldCosine * kFoldCosine * size2 * across2 && size2 <= across2;
+    };
+    const auto& [a, b, c] = face.vertices;
     bool is_fold = false;
-    for (int place = 0; place < 3; ++place) {
-        const VertexId next = face.vertices[place_after(place)];
-        mesh_.for_star(face.vertices[place], [&](FaceId g, int at) {
-            const Face& other = mesh_[g];
-            if (other.vertices[place_before(at)] != next || !other.has_labels(face.labels)) return;
-            const auto q = mesh_.corners(g);
-            const Vec3 across = area_vector(q[0], q[1], q[2]);
-            const double product = dot(normal, across), across2 = length2(across);
-            is_fold |=
-                product < 0 && product * product > kFoldCosine * kFoldCosine * size2 * across2 && size2 <= across2;
-        });
-    }
+    mesh_.for_star(a, [&](FaceId g, int at) {
+        const auto& other = mesh_[g].vertices;
+        const bool shares_edge = (other[place_before(at)] == b) | (other[place_after(at)] == c);
+        is_fold |= shares_edge && is_turned_against(g);
+    });
+    mesh_.for_star(
+        b, [&](FaceId g, int at) { is_fold |= mesh_[g].vertices[place_before(at)] == c && is_turned_against(g); });
     return is_fold;
 }
 
