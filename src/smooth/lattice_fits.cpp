@@ -10,10 +10,20 @@ namespace {
 /// A quadric may miss a simplex by this share of the spacing along its normal.
 constexpr float kTolerance = 0.3f;
 
-/// A fit to every fourth four of samples, in one round, that misses a simplex by more than this is not worth a better
-/// fit: most fits to noisy labels end here.
+/// A trial fit, in one round, to every fourth four of samples: if it misses simplices of every fourth four by more than
+/// this, a better fit is not worth making. Most fits to noisy labels end here. The few samples must not hang on those
+/// of short extent, so its weights differ less.
 constexpr float kTrialTolerance = 0.6f;
 constexpr std::uint32_t kTrialStride = 4;
+constexpr float kTrialExtent = 0.3f;
+
+/// Least extent of a simplex in the weights of other fits, in finest spacings.
+constexpr float kLeastExtent = 0.1f;
+
+/// Sites may be missed (LatticeSheet::Agreement) only where the quadric turns by less than this within kBlend
+/// (radians): what misses sites beside a small ball is not its surface. With any turn, balls of radius 10 get 1.7
+/// instead of 1.5 degrees.
+constexpr float kMostTurn = 0.8f;
 
 /// Where sections are far apart, the crossings of a quadric may lie on one side of the middles of the edges by this
 /// share of half of the edges, on the whole. True surfaces cross edges anywhere; but the rim of a cap, whose edges are
@@ -181,15 +191,16 @@ void LatticeFits::make(LatticeRow& row, std::uint32_t run, std::span<const NearR
         bool is_fitted = false;
         if (!options_.takes_all) {
             const HeightSamples& few = choose(quadric, false, frame, gaps, corners, near, kTrialStride);
-            is_fitted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds);
-            accepted = is_fitted ? acceptance(trial, gaps, near, kTrialTolerance) : 1;
+            is_fitted = trial.fit(few, frame, blocks_.spacing, reach, kFinestRounds, kTrialExtent);
+            accepted = is_fitted ? acceptance(trial, gaps, near, true) : 1;
             if (accepted == 0) continue;
         }
         const HeightSamples& chosen = choose(trial, is_fitted, frame, gaps, corners, near, 1);
-        if (!quadric.fit(chosen, frame, blocks_.spacing, reach, options_.takes_all ? kFinestRounds : kRounds))
+        const int rounds = options_.takes_all ? kFinestRounds : kRounds;
+        if (!quadric.fit(chosen, frame, blocks_.spacing, reach, rounds, kLeastExtent))
             accepted = -1;
         else
-            accepted = options_.takes_all ? 1 : acceptance(quadric, gaps, near, kTolerance);
+            accepted = options_.takes_all ? 1 : acceptance(quadric, gaps, near, false);
     }
 }
 
@@ -241,19 +252,23 @@ const HeightSamples& LatticeFits::choose(const HeightQuadric& quadric, bool is_f
     return chosen;
 }
 
-/// 1 where the quadric passes through all simplices of its sheet within kBlend, 0 where it misses one by the tolerance,
-/// passes through long ones on one side, or has the normals of too few sites.
+/// 1 where the quadric passes through the simplices of its sheet within kBlend, 0 where it misses too many by the
+/// tolerance, passes through long ones on one side, or has the normals of too few sites. A trial is judged by every
+/// fourth four of sites, and by normals only where sections are far apart.
 float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
-                              float most_missed) const {
+                              bool is_trial) const {
     const Float3 &normal = quadric.normal, &spacing = blocks_.spacing;
-    const float tolerance =
-        most_missed * length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
+    const float tolerance = (is_trial ? kTrialTolerance : kTolerance) *
+                            length(Float3{normal.x * spacing.x, normal.y * spacing.y, normal.z * spacing.z});
+    const float turn = kBlend * static_cast<float>(options_.size) * quadric.curvedness();
+    const float most_missed = turn < kMostTurn ? agreement_.missed : 0;
     const Share share{(1 / kBlend) * blocks_.per_size};
     const LatticeSheet sheet(quadric, spacing, agreement_);
+    const auto total = [](Float4 lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
     Float4 worst{}, offsets{}, halves{};
-    Float4 facing_sites{}, agreeing_sites{};
+    Float4 facing_sites{}, agreeing_sites{}, missed_sites{};
     // Every fourth four first: where a quadric misses one simplex it misses others beside it.
-    for (std::uint32_t start = 0; start < 16; start += 4)
+    for (std::uint32_t start = 0; start < (is_trial ? 4 : 16); start += 4) {
         for (const NearRun& other : near) {
             if (!gaps.is_within(kBlend, other)) continue;
             const std::uint32_t end = other.next().site;
@@ -269,17 +284,21 @@ float LatticeFits::acceptance(const HeightQuadric& quadric, const Gaps& gaps, st
                 facing_sites += facing ? once : Float4{};
                 agreeing_sites += counts ? once : Float4{};
                 const Passage4 passes = passage(at, sites.kind);
-                worst = greatest(worst, counts ? passes.missed : Float4{});
-                if (bits_of(worst >= tolerance) != 0) return 0;
+                const Mask4 misses = counts && passes.missed >= tolerance;
+                if (most_missed == 0 && bits_of(misses) != 0) return 0;
+                missed_sites += misses ? once : Float4{};
+                worst = greatest(worst, counts && passes.missed < tolerance ? passes.missed : Float4{});
                 if (!is_anisotropic_) continue;
                 offsets += counts ? once * passes.offset : Float4{};
                 halves += counts ? once * passes.half : Float4{};
             }
         }
+        if (total(missed_sites) > most_missed * total(agreeing_sites)) return 0;
+    }
+    const bool needs_normals = !is_trial || is_anisotropic_;
+    if (needs_normals && total(agreeing_sites) < agreement_.share * total(facing_sites)) return 0;
     const float most = std::max({worst[0], worst[1], worst[2], worst[3]});
     const float accepted = std::min(1.0f, 2 - 2 * most / tolerance);
-    const auto total = [](Float4 lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
-    if (total(agreeing_sites) < agreement_.share * total(facing_sites)) return 0;
     const float half = total(halves);
     if (!(half > 0)) return accepted;
     return std::clamp(2 - 2 * std::abs(total(offsets)) / (kMostOneSided * half), 0.0f, accepted);

@@ -25,8 +25,8 @@ struct FitPlace {
 };
 
 /// A quadric is fitted to the samples within kReach blocks. It is accepted if it passes through (nearly) every simplex
-/// within kBlend blocks, and, between sections far apart, not on one side of the middles of its edges: then it is a
-/// surface that explains the labels there.
+/// within kBlend blocks, but for those of stray labels, and, between sections far apart, not on one side of the middles
+/// of its edges: then it is a surface that explains the labels there.
 class LatticeFits {
 public:
     static constexpr float kReach = 2.2f, kBlend = 1.3f;  // radii in blocks
@@ -60,7 +60,7 @@ private:
                                 const Gaps& gaps, const Corners& corners, std::span<const NearRun> near,
                                 std::uint32_t stride) const;
     float acceptance(const HeightQuadric& quadric, const Gaps& gaps, std::span<const NearRun> near,
-                     float most_missed) const;
+                     bool is_trial) const;
     Mask4 belong(const LatticeSheet& sheet, const HeightQuadric::At& at, const Lanes3<Float4>& normal,
                  const Kinds4& kind) const;
     Passage4 passage(const HeightQuadric::At& at, const Kinds4& kind) const;

@@ -7,9 +7,6 @@
 namespace regionmesh {
 namespace {
 
-/// Least extent of a simplex in weights, in finest spacings.
-constexpr float kFinestExtent = 0.1f;
-
 /// Added to the diagonal, as a share of the sum of weights, so that few samples give a plane, and one or two a level
 /// one. Above the rounding of sums in single precision.
 constexpr double kPlaneRidge = 1e-6, kCurvedRidge = 1e-5;
@@ -46,7 +43,7 @@ bool solve(Matrix& a, std::array<double, 6>& b) {
 /// the normal.
 class PlaneWeights {
 public:
-    explicit PlaneWeights(const StepVectors& steps) {
+    PlaneWeights(const StepVectors& steps, float least_extent) {
         for (int kind = 1; kind < kKindCount; ++kind) {
             float low = 0, high = 0;
             for (int n = 1; n < kKinds[kind].node_count; ++n) {
@@ -54,7 +51,7 @@ public:
                 low = std::min(low, at);
                 high = std::max(high, at);
             }
-            shares_[kind] = 1 / ((high - low) * (high - low) + kFinestExtent * kFinestExtent);
+            shares_[kind] = 1 / ((high - low) * (high - low) + least_extent * least_extent);
         }
     }
     Float4 operator()(const HeightSamples::Four& four) const {
@@ -69,7 +66,8 @@ private:
 /// The same along the gradient of a quadric at each sample.
 class QuadricWeights {
 public:
-    QuadricWeights(const StepVectors& steps, const std::array<double, 6>& q) : steps_(steps) {
+    QuadricWeights(const StepVectors& steps, const std::array<double, 6>& q, float least_extent)
+        : steps_(steps), least_extent2_(least_extent * least_extent) {
         for (int n = 0; n < 6; ++n) q_[n] = static_cast<float>(q[n]);
     }
     Float4 operator()(const HeightSamples::Four& four) const {
@@ -79,11 +77,12 @@ public:
             return step.z - a * step.x - b * step.y;
         });
         const Float4 size = extent.high - extent.low, slope2 = 1 + a * a + b * b;
-        return four.weight * slope2 / (size * size + kFinestExtent * kFinestExtent * slope2);
+        return four.weight * slope2 / (size * size + least_extent2_ * slope2);
     }
 
 private:
     const StepVectors& steps_;
+    float least_extent2_;
     std::array<float, 6> q_;
 };
 
@@ -130,7 +129,7 @@ TangentFrame::TangentFrame(Float3 unit_normal) : normal(unit_normal) {
 }
 
 bool HeightQuadric::fit(const HeightSamples& samples, const TangentFrame& frame, Float3 spacing, float reach,
-                        int rounds) {
+                        int rounds, float least_extent) {
     double count = 0;
     for (std::uint32_t n = 0; n < samples.count; ++n) count += std::popcount(bits_of(samples.fours[n].weight > 0));
     const double few = kFewSamples / count;
@@ -142,9 +141,9 @@ bool HeightQuadric::fit(const HeightSamples& samples, const TangentFrame& frame,
         Matrix a{};
         std::array<double, 6> b{};
         if (round == 0)  // still a plane
-            add_up(samples, PlaneWeights(steps), 1 / reach, a, b);
+            add_up(samples, PlaneWeights(steps, least_extent), 1 / reach, a, b);
         else
-            add_up(samples, QuadricWeights(steps, q), 1 / reach, a, b);
+            add_up(samples, QuadricWeights(steps, q, least_extent), 1 / reach, a, b);
         const double all = a[0][0];
         for (int i = 0; i < 6; ++i) a[i][i] += all * (i < 3 ? kPlaneRidge : curved_ridge);
         if (!solve(a, b)) return false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -100,10 +101,16 @@ struct HeightQuadric {
 
     /// Weighted least squares of a height over the plane through the centre square to the normal: q0 + q1 u + q2 v + q3
     /// u^2 + q4 u v + q5 v^2. The true surface may cross a sample's simplex anywhere, so a sample counts by the inverse
-    /// square of the extent of its simplex along the normal, at least `finest_extent`: the steps of a terrace say where
-    /// the surface is, its plain does not. Repeated `rounds` times with the slopes found before. `reach` scales u and
-    /// v. False if the sums are degenerate.
-    bool fit(const HeightSamples& samples, const TangentFrame& frame, Float3 spacing, float reach, int rounds);
+    /// square of the extent of its simplex along the normal, at least `least_extent` finest spacings: the steps of a
+    /// terrace say where the surface is, its plain does not. Repeated `rounds` times with the slopes found before.
+    /// `reach` scales u and v. False if the sums are degenerate.
+    bool fit(const HeightSamples& samples, const TangentFrame& frame, Float3 spacing, float reach, int rounds,
+             float least_extent);
+    /// Root of the sum of the squares of the second derivatives.
+    float curvedness() const {
+        const auto& k = curvature;
+        return std::sqrt((k[0] * k[0] + k[1] * k[1] + k[2] * k[2]) + 2 * (k[3] * k[3] + k[4] * k[4] + k[5] * k[5]));
+    }
 
 private:
     void set_heights(const std::array<double, 6>& q, const TangentFrame& frame);
