@@ -46,7 +46,7 @@ inline QualityTerms quality_terms(Vec3 a, Vec3 b, Vec3 c) {
 
 /// True only if the quality is above the bound, as of most faces; without roots. With r < l_min / 2 the product is less
 /// than 3 l_max l_med l_min.
-inline bool is_surely_above(double bound, Vec3 a, Vec3 b, Vec3 c) {
+inline bool quality_is_surely_above(double bound, Vec3 a, Vec3 b, Vec3 c) {
     const double area2 = 0.25 * length2(area_vector(a, b, c)), most = 9.01 * bound * bound * bound;
     const double lengths2 = length2(b - a) * length2(c - b) * length2(a - c);
     return area2 * area2 * area2 > most * most * (lengths2 * lengths2);

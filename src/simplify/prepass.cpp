@@ -59,7 +59,8 @@ bool Prepass::has_fault(Fault fault, FaceId f) const { return fault == Fault::kS
 bool Prepass::is_sliver(FaceId f) const {
     const double bound = collapse_.bounds.min_quality;
     const auto p = mesh_.corners(f);
-    return !is_surely_above(bound, p[0], p[1], p[2]) && quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
+    return !quality_is_surely_above(bound, p[0], p[1], p[2]) &&
+           quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
 }
 
 bool Prepass::is_fold(FaceId f) const {

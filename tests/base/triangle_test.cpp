@@ -35,6 +35,24 @@ TEST(QualityTerms, comparison_without_roots_agrees_with_the_value) {
     }
 }
 
+TEST(FaceQuality, that_is_surely_above_a_bound_is_above_it) {
+    int sure = 0, above = 0;
+    for (double along = -2; along < 3; along += 0.1)
+        for (double height = 1e-3; height < 30; height *= 1.1)
+            for (double bound : {0.02, 0.1, 0.2, 0.25}) {
+                const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{along, height, 0};
+                const bool is_above = face_quality(a, b, c) > bound;
+                if (quality_is_surely_above(bound, a, b, c)) {
+                    EXPECT_TRUE(is_above) << along << ' ' << height << ' ' << bound;
+                    ++sure;
+                }
+                above += is_above;
+            }
+    EXPECT_GT(sure, 0.7 * above);
+    EXPECT_FALSE(quality_is_surely_above(0.1, {0, 0, 0}, {1, 1, 1}, {2, 2, 2}));
+    EXPECT_FALSE(quality_is_surely_above(0.1, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}));
+}
+
 TEST(AreaVector, is_twice_the_area_along_the_normal) {
     EXPECT_EQ(area_vector({0, 0, 0}, {2, 0, 0}, {0, 3, 0}), (Vec3{0, 0, 6}));
 }

@@ -139,7 +139,7 @@ TEST(LatticeFilter, finds_the_surface_behind_stray_labels) {
     const Distance plane = [&](Vec3 p) { return dot(p - Vec3{23.3, 23.7, 23.1}, normal); };
     const Distance noisy = [&](Vec3 p) {
         const double d = plane(p);
-        const auto sample = static_cast<std::uint64_t>(p.x + 48 * (p.y + 48 * p.z));
+        const auto sample = static_cast<std::uint32_t>(p.x + 48 * (p.y + 48 * p.z));
         return std::abs(d) < 1.5 && hash_unit(sample, 1) < 0.01 ? -d : d;
     };
     auto volume = sampled({48, 48, 48}, {1, 1, 1}, noisy);
