@@ -10,9 +10,9 @@ namespace {
 /// A quadric may miss a simplex by this share of the spacing along its normal.
 constexpr float kTolerance = 0.3f;
 
-/// A trial fit, in one round, to every fourth four of samples: if it misses simplices of every fourth four by more than
-/// this, a better fit is not worth making. Most fits to noisy labels end here. The few samples must not hang on those
-/// of short extent, so its weights differ less.
+/// A trial fit comes first, in one round, to every fourth four of samples. If it misses too many simplices by this
+/// share of the spacing, of every fourth four of sites, the full fit is not made: most fits to noisy labels end here.
+/// Simplices of short extent count less in it, since with few samples one of them would decide the fit.
 constexpr float kTrialTolerance = 0.6f;
 constexpr std::uint32_t kTrialStride = 4;
 constexpr float kTrialExtent = 0.3f;
