@@ -17,13 +17,14 @@ struct SmoothLinesOptions {
     double min_quality = 0.1;     // of the faces that are changed; a star with faces below may keep as many
     double max_error = HUGE_VAL;  // limit of SmoothLinesResult::error_bound, as of SimplifyOptions
     std::uint32_t sweeps = 8;     // at most, over all vertices of lines
+    std::uint32_t threads = 0;    // at work at a time; 0: one per core. The result is the same
     std::optional<Lattice> samples = {};     // no sample of it changes its region; as of SimplifyOptions
     std::optional<Box> box = {};             // no vertex leaves it; as of SimplifyOptions
     double scale_z = 1;                      // by which z of the mesh is multiplied: turns are measured without it
     std::function<void()> on_progress = {};  // called now and then, on the calling thread
 };
 
-/// To smooth the lines of what was simplified: the same scale, samples and bounds.
+/// To smooth the lines of what was simplified: the same scale, samples, bounds and threads.
 SmoothLinesOptions smooth_lines_options(const SimplifyOptions& simplified);
 
 struct SmoothLinesResult {

@@ -43,16 +43,17 @@ std::uint64_t Candidates::refresh(std::uint32_t threads) {
         return part;
     };
     std::uint32_t v = 0;
-    Notes& notes = scratch_.notes = {};
+    std::uint64_t forbidden = 0;
+    has_edges_over_error_ = false;
     for_chunks(mesh_.vertex_end(), kVertices, placement_.ranks_in_parallel() ? threads : 1, find, [&](Part part) {
         for (const Best& best : part.best) {
             floor_[v] = kNoFloor;
             enqueue(VertexId{v++}, best);
         }
-        notes.forbidden += part.notes.forbidden;
-        notes.has_edges_over_error |= part.notes.has_edges_over_error;
+        forbidden += part.notes.forbidden;
+        note(part.notes);
     });
-    return notes.forbidden;
+    return forbidden;
 }
 
 /// The number of labels of an edge: two where an end has no more.
@@ -137,40 +138,46 @@ void Candidates::enqueue(VertexId v, Best best) {
         queue_.set(v, best.key);
 }
 
-void Candidates::refuse() {
-    const VertexId v = queue_.top();
-    const Best refused{partner_[index(v)], queue_.top_key()};
-    floor_[index(v)] = std::max(floor_[index(v)], refused.key);
-    enqueue(v, best(v, refused, kNoVertex, scratch_));
+void Candidates::refuse(VertexId goes, Best after) {
+    float& floor = floor_[index(goes)];
+    floor = std::max(floor, queue_.key(goes));
+    enqueue(goes, after);
 }
 
-void Candidates::update(VertexId goes, VertexId stays) {
-    queue_.remove(goes);
-    partner_[index(goes)] = kNoVertex;
-    round_merged_.clear();
-    for_neighbours(stays, scratch_.seen, [&](VertexId w) { round_merged_.push_back(w); });
-    placement_.rank(mesh_, stays, round_merged_, costs_round_merged_);
+void Candidates::rank_around(VertexId goes, VertexId stays, Scratch& scratch, std::vector<Ranked>& ranked) const {
+    ranked.clear();
+    std::vector<VertexId>& around = scratch.around;
+    around.clear();
+    for_neighbours(stays, scratch.seen, [&](VertexId w) { around.push_back(w); });
+    placement_.rank(mesh_, stays, around, scratch.costs_around);
     Best own{kNoVertex, std::numeric_limits<float>::infinity()};
-    for (std::size_t n = 0; n < round_merged_.size(); ++n) {
-        const VertexId w = round_merged_[n];
+    for (std::size_t n = 0; n < around.size(); ++n) {
+        const VertexId w = around[n];
         if (mesh_[w].is_fixed) continue;
+        const EdgeCost cost = scratch.costs_around[n];
         const VertexId owner_of_edge = owner(stays, w, edge_label_count(stays, w));
         if (owner_of_edge == stays) {
-            const Best candidate{w, key(stays, w, costs_round_merged_[n], scratch_)};
+            const Best candidate{w, key(stays, w, cost, scratch)};
             if (candidate.is_before(own)) own = candidate;
         }
         const VertexId held = partner_[index(w)];
         if (held == goes || held == stays) {
-            enqueue(w, best(w, {kNoVertex, floor_[index(w)]}, stays, scratch_));
+            ranked.push_back({w, best(w, {kNoVertex, floor_[index(w)]}, stays, scratch)});
         } else if (owner_of_edge == w) {
-            const Best fresh{stays, key(w, stays, costs_round_merged_[n], scratch_)};
+            const Best fresh{stays, key(w, stays, cost, scratch)};
             if (std::isfinite(fresh.key) && (held == kNoVertex || fresh.is_before({held, queue_.key(w)})))
-                enqueue(w, fresh);
+                ranked.push_back({w, fresh});
         }
     }
-    floor_[index(stays)] = kNoFloor;
     if (std::isinf(own.key)) own.stays = kNoVertex;
-    enqueue(stays, own);
+    ranked.push_back({stays, own});
+}
+
+void Candidates::update(VertexId goes, VertexId stays, std::span<const Ranked> ranked) {
+    queue_.remove(goes);
+    partner_[index(goes)] = kNoVertex;
+    floor_[index(stays)] = kNoFloor;
+    for (const Ranked& own : ranked) enqueue(own.goes, own.best);
 }
 
 }  // namespace regionmesh

@@ -65,7 +65,13 @@ inline void move_vertex(Mesh& mesh, Collapse& collapse) {
     set_boxes(*collapse.tree, collapse.star, collapse.position);
 }
 
-/// Makes the collapse that was accepted: `stays` moves to the position of the merged vertex.
+/// Finds the error bound of the merged vertex, where no largest one made test_error find it.
+inline void find_error(Collapse& collapse) {
+    if (collapse.max_error == HUGE_VAL) collapse.error.merged(collapse.mesh, collapse.star, collapse.position);
+}
+
+/// Makes the collapse that was accepted, of which the error is known (find_error): `stays` moves to the position of the
+/// merged vertex.
 inline void collapse_edge(Mesh& mesh, Collapse& collapse) {
     const EdgeStar& star = collapse.star;
     const Vec3 position = collapse.position;
@@ -77,7 +83,6 @@ inline void collapse_edge(Mesh& mesh, Collapse& collapse) {
                                            .stays_bound = mesh[star.stays].error_bound(),
                                            .level = collapse.log->level,
                                            .faces = static_cast<std::uint32_t>(star.dead.size())});
-    if (collapse.max_error == HUGE_VAL) collapse.error.merged(mesh, star, position);  // else test_error did
     collapse.error.apply(mesh, star.stays);
     for (FaceId f : star.dead) {
         mesh.remove_face(f);

@@ -11,6 +11,7 @@
 #include "simplify/half_candidates.h"
 #include "simplify/prepass.h"
 #include "simplify/sweep_marks.h"
+#include "simplify/try_together.h"
 #include "simplify/tuning.h"
 #include "simplify/verdict/quality.h"
 #include "simplify/verdict/verdicts.h"
@@ -51,6 +52,7 @@ public:
         : mesh_(mesh),
           options_(options),
           is_refreshing_(bounds.refresh),
+          is_large_(bounds.is_large),
           threads_(bounds.threads),
           histogram_(bounds.histogram),
           outside_(mesh, bounds.limits),
@@ -60,14 +62,14 @@ public:
           placement_(make_placement(mesh, options, bounds.threads)),
           candidates_(mesh, *placement_, options, bounds.is_large ? EdgeOrder::kInSweeps : EdgeOrder::kByCost),
           halves_(mesh.vertex_count() / 2),
-          collapse_{.mesh = mesh,
-                    .tree = tree_ ? &*tree_ : nullptr,
-                    .rising = rising_ ? &*rising_ : nullptr,
-                    .bounds = {.min_quality = options.min_quality},
-                    .limits = common(bounds.limits, limits_of(options.box, options.samples)),
-                    .samples = options.samples ? &*options.samples : nullptr,
-                    .max_error = options.max_error,
-                    .log = bounds.log} {}
+          trials_(1, {{.mesh = mesh,
+                       .tree = tree_ ? &*tree_ : nullptr,
+                       .rising = rising_ ? &*rising_ : nullptr,
+                       .bounds = {.min_quality = options.min_quality},
+                       .limits = common(bounds.limits, limits_of(options.box, options.samples)),
+                       .samples = options.samples ? &*options.samples : nullptr,
+                       .max_error = options.max_error,
+                       .log = bounds.log}}) {}
 
     CollapseResult run() {
         const std::uint32_t faces = mesh_.face_count() + 2 * flat_, vertices = mesh_.vertex_count() + flat_;
@@ -132,7 +134,7 @@ private:
         const double scale2 = options_.scale * options_.scale;
         double most = std::min(options_.max_cost, placement_->prepass_cost() * scale2 * scale2);
         if (histogram_) most = std::min(most, histogram_->costs.front());
-        Prepass prepass(mesh_, *placement_, collapse_, options_, most);
+        Prepass prepass(mesh_, *placement_, trials_.front().collapse, options_, most);
         sweep_above(options_.target_faces, mesh_, [&] {
             pack();
             return prepass.sweep(result_.verdicts);
@@ -140,7 +142,11 @@ private:
         for (const Prepass::Fault fault : {Prepass::Fault::kSliver, Prepass::Fault::kFold}) {
             if (fault == Prepass::Fault::kFold && !options_.removes_folds) continue;
             prepass.find(fault, threads_);
-            for (int n = 0; n < kMostFaultSweeps && prepass.remove(fault, result_.verdicts) > 0; ++n) {
+            const auto remove = [&] {
+                return is_large_ ? prepass.remove_in_stripes(fault, threads_, result_.verdicts)
+                                 : prepass.remove(fault, result_.verdicts);
+            };
+            for (int n = 0; n < kMostFaultSweeps && remove() > 0; ++n) {
             }
         }
         pack();
@@ -159,7 +165,7 @@ private:
         if (!candidates_.empty()) candidates_.find_next((mesh_.face_count() - options_.target_faces + 1) / 2);
         if (halves_.empty() || (!candidates_.empty() && candidates_.rank() <= halves_.least_rank())) {
             note_level(candidates_.rank());
-            try_best();
+            try_next();
         } else {
             note_level(halves_.least_rank());
             try_half(halves_.take());
@@ -168,21 +174,67 @@ private:
     }
 
     void note_level(double rank) {
-        if (collapse_.log) collapse_.log->level = std::max(collapse_.log->level, rank);
+        CollapseLog* log = trials_.front().collapse.log;
+        if (log) log->level = std::max(log->level, rank);
     }
 
-    /// Tests the cheapest candidate where it costs least: collapses it, or puts it aside.
-    void try_best() {
-        const EdgeStar& star = collapse_.star;
-        gather(mesh_, candidates_.goes(), candidates_.stays(), collapse_.star);
-        const Verdict verdict = examine(collapse_, [&] { return placement_->place(mesh_, star); });
-        ++result_.verdicts[static_cast<int>(verdict)];
-        if (verdict == Verdict::kAccepted) {
-            apply(histogram_ ? cost_of_best() : 0);
+    /// Tests the next candidates where they cost least, at the same time, and in their order collapses them or puts
+    /// them aside. One that lies near an earlier one which was collapsed comes once more: its test may no longer hold.
+    void try_next() {
+        const std::span<const VertexId> next = candidates_.next();
+        while (trials_.size() < next.size()) trials_.push_back({trials_.front().collapse});
+        const std::uint32_t threads = placement_->ranks_in_parallel() ? threads_ : 1;
+        made_.clear();
+        try_together(
+            std::span(trials_).first(next.size()), threads, [&](std::uint32_t n) { test(trials_[n], next[n]); },
+            [&](std::uint32_t n) { return !is_at_target() && settle(trials_[n]); });
+        parallel_for(static_cast<std::uint32_t>(made_.size()), threads, [&](std::uint32_t n) {
+            Trial& made = *made_[n];
+            candidates_.rank_around(made.collapse.star.goes, made.collapse.star.stays, made.scratch, made.ranked);
+        });
+        for (const Trial* made : made_)
+            candidates_.update(made->collapse.star.goes, made->collapse.star.stays, made->ranked);
+    }
+
+    /// What is found out about a candidate while others are tested, too.
+    struct Trial {
+        Collapse collapse;
+        Verdict verdict = Verdict::kAccepted;
+        Box box = {};                     // see try_together
+        Candidates::Best after = {};      // the next edge of the end that goes, where this one is refused
+        std::optional<double> half = {};  // rank of the half collapse, where this is a second choice
+        std::vector<Candidates::Ranked> ranked = {};
+        Candidates::Scratch scratch = {};
+        std::vector<HalfCost> half_costs = {};
+    };
+
+    void test(Trial& trial, VertexId goes) {
+        Collapse& collapse = trial.collapse;
+        const EdgeStar& star = collapse.star;
+        gather(mesh_, goes, candidates_.stays(goes), collapse.star);
+        collapse.position = star.at_stays;
+        trial.verdict = examine(collapse, [&] { return placement_->place(mesh_, star); });
+        trial.box = star.link_box;
+        for (Vec3 p : {star.at_goes, star.at_stays, collapse.position}) trial.box.add(p);
+        for (VertexId apex : star.apexes) trial.box.add(mesh_.position(apex));
+        if (trial.verdict == Verdict::kAccepted) return;
+        trial.half = depends_on_place(trial.verdict) ? rank_of_second_choice(trial) : std::nullopt;
+        trial.after = candidates_.after_refusal(goes, trial.scratch);
+    }
+
+    /// Returns whether it is collapsed.
+    bool settle(Trial& trial) {
+        const EdgeStar& star = trial.collapse.star;
+        ++result_.verdicts[static_cast<int>(trial.verdict)];
+        if (trial.verdict == Verdict::kAccepted) {
+            made_.push_back(&trial);
+            apply(trial.collapse, histogram_ ? cost_of(star) : 0);
         } else {
-            if (depends_on_place(verdict)) add_half();
-            candidates_.refuse();
+            if (trial.half) halves_.add({*trial.half, star.goes, star.stays});
+            candidates_.refuse(star.goes, trial.after);
         }
+        candidates_.note(trial.scratch.notes);
+        return trial.verdict == Verdict::kAccepted;
     }
 
     static bool depends_on_place(Verdict verdict) {
@@ -190,18 +242,18 @@ private:
                verdict == Verdict::kSamples;
     }
 
-    /// Adds the half collapse as a second choice, unless `fold` or `quality` would refuse it on the mesh as it is now:
+    /// The half collapse is a second choice, unless `fold` or `quality` would refuse it on the mesh as it is now:
     /// nearly all such edges are refused when their turn comes, too.
-    void add_half() {
-        const EdgeStar& star = collapse_.star;
-        if (fan_quality3(mesh_, star, star.stays, star.at_stays, collapse_.bounds) == 0) return;
-        if (const auto rank = rank_of_half(star.goes, star.stays)) halves_.add({*rank, star.goes, star.stays});
+    std::optional<double> rank_of_second_choice(Trial& trial) const {
+        const EdgeStar& star = trial.collapse.star;
+        if (fan_quality3(mesh_, star, star.stays, star.at_stays, trial.collapse.bounds) == 0) return {};
+        return rank_of_half(star.goes, star.stays, trial.half_costs);
     }
 
     /// None above the largest cost or error.
-    std::optional<double> rank_of_half(VertexId goes, VertexId stays) {
-        placement_->rank_halves(mesh_, goes, {&stays, 1}, half_costs_);
-        const HalfCost& half = half_costs_.front();
+    std::optional<double> rank_of_half(VertexId goes, VertexId stays, std::vector<HalfCost>& costs) const {
+        placement_->rank_halves(mesh_, goes, {&stays, 1}, costs);
+        const HalfCost& half = costs.front();
         if (!half.is_within(options_.max_cost, options_.max_error)) return {};
         // Rounding may leave less than 0.
         return std::max(half.cost, 0.0) +
@@ -212,34 +264,37 @@ private:
     void try_half(HalfCandidates::Edge edge) {
         const auto [rank, goes, stays] = edge;
         if (!mesh_.is_alive(goes) || !mesh_.is_alive(stays) || !candidates_.may_go(goes, stays)) return;
-        const auto now = rank_of_half(goes, stays);
+        Trial& trial = trials_.front();
+        const auto now = rank_of_half(goes, stays, trial.half_costs);
         if (!now) return;
         if (*now > rank * kSameRank) return halves_.add({*now, goes, stays});
-        gather_half(mesh_, goes, stays, collapse_.star);
-        const Verdict verdict = examine(collapse_, [&] { return Places{collapse_.star.at_stays}; });
+        EdgeStar& star = trial.collapse.star;
+        gather_half(mesh_, goes, stays, star);
+        const Verdict verdict = examine(trial.collapse, [&] { return Places{star.at_stays}; });
         ++result_.verdicts[static_cast<int>(verdict)];
-        if (verdict == Verdict::kAccepted) apply(half_costs_.front().cost);
+        if (verdict != Verdict::kAccepted) return;
+        apply(trial.collapse, trial.half_costs.front().cost);
+        candidates_.rank_around(goes, stays, trial.scratch, trial.ranked);
+        candidates_.note(trial.scratch.notes);
+        candidates_.update(goes, stays, trial.ranked);
     }
 
     /// Without the share of the length, which its rank has.
-    double cost_of_best() {
-        const EdgeStar& star = collapse_.star;
+    double cost_of(const EdgeStar& star) {
         placement_->rank(mesh_, star.goes, {&star.stays, 1}, edge_costs_);
         return edge_costs_.front().cost;
     }
 
-    void apply(double cost) {
-        const EdgeStar& star = collapse_.star;
+    void apply(Collapse& collapse, double cost) {
         const std::uint32_t before = mesh_.face_count();
-        placement_->collapse(mesh_, star, collapse_.position);
-        collapse_edge(mesh_, collapse_);
-        candidates_.update(star.goes, star.stays);
+        placement_->collapse(mesh_, collapse.star, collapse.position);
+        collapse_edge(mesh_, collapse);
         if (histogram_) histogram_->add(cost, before - mesh_.face_count());
     }
 
     Mesh& mesh_;
     const SimplifyOptions& options_;
-    bool is_refreshing_;
+    bool is_refreshing_, is_large_;
     std::uint32_t threads_;
     CostHistogram* histogram_;
     FixedOutside outside_;
@@ -249,9 +304,9 @@ private:
     std::unique_ptr<Placement> placement_;
     Candidates candidates_;
     HalfCandidates halves_;
-    Collapse collapse_;
+    std::vector<Trial> trials_;         // one, or one for each stripe of a sweep
+    std::vector<Trial*> made_;          // of these, those that were collapsed
     std::vector<EdgeCost> edge_costs_;  // of one edge
-    std::vector<HalfCost> half_costs_;
     CollapseResult result_;
     std::uint64_t steps_ = 0;
 };

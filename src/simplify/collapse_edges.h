@@ -41,8 +41,9 @@ struct CollapseBounds {
     CostHistogram* histogram = nullptr;  // filled; the prepass then ends at its first cost
     CollapseLog* log = nullptr;          // filled; those of the prepass have level 0
     std::uint32_t threads = 1;           // 0: one per core. Collapses are made on one, the tree and first ranks on all
-    bool is_large = false;  // the mesh is far larger than the caches and near its target: collapses go along the curve
-                            // of the vertices (EdgeSweeps), boxes hold two faces, memory is 11 bytes a face less
+    bool is_large = false;  // the mesh is far larger than the caches and near its target: collapses go along stripes of
+                            // the curve of the vertices (EdgeSweeps), and are tested on all threads; boxes hold two
+                            // faces, memory is 11 bytes a face less
 };
 
 struct CollapseResult {

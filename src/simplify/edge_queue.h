@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "simplify/edge_heap.h"
 #include "simplify/edge_sweeps.h"
@@ -11,7 +12,7 @@ namespace regionmesh {
 
 enum class EdgeOrder : std::uint8_t {
     kByCost,    // the cheapest first (EdgeHeap)
-    kInSweeps,  // the cheapest ones along the curve of the vertices, then the next ones (EdgeSweeps)
+    kInSweeps,  // the cheapest ones along stripes of the curve of the vertices, then the next ones (EdgeSweeps)
 };
 
 /// Vertices with the key of the cheapest edge that each owns, in one of two orders.
@@ -25,18 +26,24 @@ public:
     void set(VertexId v, float key) { is_heap_ ? heap_.set(v, key) : sweeps_.set(v, key); }
     void remove(VertexId v) { is_heap_ ? heap_.remove(v) : sweeps_.remove(v); }
 
-    /// Finds the next vertex. Call it before top() after each change. About `wanted` more vertices have to go. Requires
-    /// !empty().
+    /// Finds the next vertices. Call it before next() and limit() after each change. About `wanted` more vertices have
+    /// to go. Requires !empty().
     void find_next(std::uint64_t wanted) {
-        if (!is_heap_) sweeps_.find_next(wanted);
+        if (is_heap_)
+            top_ = heap_.top();
+        else
+            sweeps_.find_next(wanted);
     }
-    VertexId top() const { return is_heap_ ? heap_.top() : sweeps_.top(); }
-    float top_key() const { return is_heap_ ? heap_.top_key() : sweeps_.key(sweeps_.top()); }
+    /// One in kByCost.
+    std::span<const VertexId> next() const { return is_heap_ ? std::span(&top_, 1) : sweeps_.next(); }
+    /// The largest key that they may have.
+    float limit() const { return is_heap_ ? heap_.top_key() : sweeps_.limit(); }
 
     std::size_t bytes() const { return heap_.bytes() + sweeps_.bytes(); }
 
 private:
     bool is_heap_;
+    VertexId top_ = kNoVertex;
     EdgeHeap heap_;
     EdgeSweeps sweeps_;
 };

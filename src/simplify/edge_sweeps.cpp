@@ -22,14 +22,31 @@ float key_of(std::uint32_t number) {
 }  // namespace
 
 void EdgeSweeps::find_next(std::uint64_t wanted) {
-    for (;; ++at_) {
-        if (at_ == keys_.size()) {
-            at_ = 0;
-            const std::uint64_t least = size_ / kLeastSweepPart + 1, most = size_ / kMostSweepPart + 1;
-            limit_ = least_key(std::clamp(wanted, least, most));
+    for (;;) {
+        next_.clear();
+        for (Stripe& stripe : stripes_) {
+            while (stripe.at < stripe.end && keys_[stripe.at] > limit_) ++stripe.at;
+            if (stripe.at < stripe.end) next_.push_back(VertexId{stripe.at});
         }
-        if (keys_[at_] <= limit_) return;
+        if (!next_.empty()) return;
+        begin_sweep(wanted);
     }
+}
+
+void EdgeSweeps::begin_sweep(std::uint64_t wanted) {
+    const std::uint64_t least = size_ / kLeastSweepPart + 1, most = size_ / kMostSweepPart + 1;
+    limit_ = least_key(std::clamp(wanted, least, most));
+    const std::uint32_t count = std::ranges::count_if(keys_, [&](float key) { return key <= limit_; });
+    const std::uint32_t stripes = std::clamp(count / kLeastOfStripe, 1u, kMostStripes);
+    stripes_.clear();
+    std::uint32_t first = 0, passed = 0;
+    for (std::uint32_t v = 0; v < keys_.size(); ++v) {
+        if (!(keys_[v] <= limit_)) continue;
+        if (++passed * std::uint64_t{stripes} < count * (stripes_.size() + 1)) continue;
+        stripes_.push_back({first, v + 1});
+        first = v + 1;
+    }
+    stripes_.back().end = keys_.size();
 }
 
 /// The key in this place by cost, counted from 1. Counts the digits of 16 bits twice, without a copy of the keys.

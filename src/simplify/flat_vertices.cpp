@@ -58,6 +58,7 @@ private:
         set_normals(star, star.at_stays);
         note_flat(star, star.at_stays);
         if (test_error(collapse_) != Verdict::kAccepted) return false;
+        find_error(collapse_);
         collapse_edge(mesh_, collapse_);
         marks_.touch(target);
         for (VertexId w : star.link) marks_.touch(w);

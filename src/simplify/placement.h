@@ -34,7 +34,7 @@ public:
 
     /// Costs of the edges from v to each of `to`, in floats: to rank by. `costs` gets a multiple of four.
     virtual void rank(const Mesh& mesh, VertexId v, std::span<const VertexId> to, std::vector<EdgeCost>& costs) = 0;
-    /// True if several threads may call rank() at a time.
+    /// True if several threads may call rank(), rank_halves() and place() at a time.
     virtual bool ranks_in_parallel() const { return false; }
 
     /// Costs where v goes to each of `to`.

@@ -7,31 +7,38 @@
 #include "base/parallel_for.h"
 #include "base/triangle.h"
 #include "mesh/strata.h"
+#include "simplify/try_together.h"
 #include "simplify/tuning.h"
 #include "simplify/verdict/quality.h"
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {
 
-Prepass::Prepass(Mesh& mesh, Placement& placement, Collapse& collapse, const SimplifyOptions& options, double max_cost)
+Prepass::Prepass(Mesh& mesh, Placement& placement, const Collapse& collapse, const SimplifyOptions& options,
+                 double max_cost)
     : mesh_(mesh),
       placement_(placement),
-      collapse_(collapse),
       options_(options),
       max_cost_(max_cost),
+      attempt_{collapse},
       marks_(mesh.vertex_end()) {}
 
 std::uint32_t Prepass::sweep(VerdictCounts& verdicts) {
     marks_.begin_sweep();
+    attempt_.verdicts = {};
     std::uint32_t removed = 0;
     for (std::uint32_t v = 0; v < mesh_.vertex_end(); ++v) {
         if (options_.on_progress && (v & 0x3FFF) == 0) options_.on_progress(mesh_.face_count());
         if (!may_go(VertexId{v})) continue;
-        if (try_to_remove(VertexId{v}, verdicts))
+        test_vertex(VertexId{v}, attempt_);
+        if (attempt_.is_accepted) {
+            make(attempt_);
             ++removed;
-        else
+        } else {
             marks_.settle(VertexId{v});
+        }
     }
+    add(verdicts, attempt_.verdicts);
     return removed;
 }
 
@@ -57,7 +64,7 @@ void Prepass::find(Fault fault, std::uint32_t threads) {
 bool Prepass::has_fault(Fault fault, FaceId f) const { return fault == Fault::kSliver ? is_sliver(f) : is_fold(f); }
 
 bool Prepass::is_sliver(FaceId f) const {
-    const double bound = collapse_.bounds.min_quality;
+    const double bound = attempt_.collapse.bounds.min_quality;
     const auto p = mesh_.corners(f);
     return !quality_is_surely_above(bound, p[0], p[1], p[2]) &&
            quality_terms(p[0], p[1], p[2]).cube() < bound * bound * bound;
@@ -89,95 +96,128 @@ bool Prepass::is_fold(FaceId f) const {
     return is_fold;
 }
 
-std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts) {
+/// each(count, first, test, settle) goes through the faces.
+template <class Each>
+std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts, Each&& each) {
     marks_.begin_sweep();
     const double share = fault == Fault::kSliver ? kSliverShare : kFoldShare;
     const double max_cost = std::exchange(max_cost_, std::min(options_.max_cost, share * max_cost_));
     std::uint32_t removed = 0;
-    for (const FaceId f : faulty_) {
-        if (mesh_.face_count() <= options_.target_faces) break;
-        if (!mesh_.is_alive(f) || !has_fault(fault, f)) continue;
-        for (VertexId v : mesh_[f].vertices) {
-            if (!may_go(v)) continue;
-            if (try_to_remove(v, verdicts)) {
-                ++removed;
-                break;
-            }
-            marks_.settle(v);
-        }
-    }
+    const auto test = [&](std::uint32_t n, Attempt& attempt) { test_face(fault, faulty_[n], attempt); };
+    const auto settle = [&](std::uint32_t, Attempt& attempt) {
+        if (is_at_target()) return false;
+        add(verdicts, attempt.verdicts);
+        for (const VertexId v : attempt.kept) marks_.settle(v);
+        if (attempt.is_accepted) make(attempt);
+        removed += attempt.is_accepted;
+        return attempt.is_accepted;
+    };
+    each(static_cast<std::uint32_t>(faulty_.size()), test, settle);
     max_cost_ = max_cost;
     return removed;
 }
 
-bool Prepass::try_to_remove(VertexId v, VerdictCounts& verdicts) {
-    find_targets(v);
-    std::sort(targets_.begin(), targets_.end(), [](const Target& a, const Target& b) {
+std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts) {
+    return remove(fault, verdicts, [&](std::uint32_t size, auto&& test, auto&& settle) {
+        for (std::uint32_t n = 0; n < size; ++n) {
+            test(n, attempt_);
+            settle(n, attempt_);
+        }
+    });
+}
+
+std::uint32_t Prepass::remove_in_stripes(Fault fault, std::uint32_t threads, VerdictCounts& verdicts) {
+    return remove(fault, verdicts, [&](std::uint32_t size, auto&& test, auto&& settle) {
+        try_in_stripes(size, placement_.ranks_in_parallel() ? threads : 1, attempt_, test, settle);
+    });
+}
+
+/// Its vertices one by one, until one may go.
+void Prepass::test_face(Fault fault, FaceId f, Attempt& attempt) const {
+    attempt.is_accepted = false;
+    attempt.verdicts = {};
+    attempt.kept.clear();
+    attempt.box = {};
+    if (is_at_target() || !mesh_.is_alive(f)) return;
+    for (Vec3 p : mesh_.corners(f)) attempt.box.add(p);
+    if (!has_fault(fault, f)) return;
+    for (VertexId v : mesh_[f].vertices) {
+        if (!may_go(v)) continue;
+        test_vertex(v, attempt);
+        if (attempt.is_accepted) return;
+        attempt.kept.push_back(v);
+    }
+}
+
+void Prepass::test_vertex(VertexId v, Attempt& attempt) const {
+    attempt.is_accepted = false;
+    auto& targets = attempt.targets;
+    find_targets(v, attempt);
+    std::sort(targets.begin(), targets.end(), [](const Target& a, const Target& b) {
         return a.worst_quality3 != b.worst_quality3 ? a.worst_quality3 > b.worst_quality3 : a.vertex < b.vertex;
     });
-    for (std::size_t n = 0; n < std::min(targets_.size(), kPrepassAttempts); ++n) {
-        const Verdict verdict = test(targets_[n].vertex);
-        ++verdicts[static_cast<int>(verdict)];
-        if (verdict != Verdict::kAccepted) continue;
-        apply(targets_[n].vertex);
-        return true;
+    for (std::size_t n = 0; n < std::min(targets.size(), kPrepassAttempts); ++n) {
+        EdgeStar& star = attempt.collapse.star;
+        gather_half(mesh_, v, targets[n].vertex, star);
+        const Verdict verdict = examine(attempt.collapse, [&] { return Places{star.at_stays}; });
+        ++attempt.verdicts[static_cast<int>(verdict)];
+        attempt.is_accepted = verdict == Verdict::kAccepted;
+        if (attempt.is_accepted) return;
     }
-    return false;
 }
 
 /// Neighbours that pass the cheap tests: strata, cost, fold and quality.
-void Prepass::find_targets(VertexId v) {
-    targets_.clear();
-    if (!gather_ends(v)) return;
-    const std::span<const VertexId> ends(ends_.data(), end_count_);
-    placement_.rank_halves(mesh_, v, ends, costs_);
+void Prepass::find_targets(VertexId v, Attempt& attempt) const {
+    attempt.targets.clear();
+    if (!gather_ends(v, attempt)) return;
+    const std::span<const VertexId> ends(attempt.ends.data(), attempt.end_count);
+    placement_.rank_halves(mesh_, v, ends, attempt.costs);
     const auto is_cheap = [&](const HalfCost& cost) { return cost.is_within(max_cost_, options_.max_error); };
-    if (std::none_of(costs_.begin(), costs_.end(), is_cheap)) return;
-    gather_vertex(mesh_, v, around_);
+    if (std::none_of(attempt.costs.begin(), attempt.costs.end(), is_cheap)) return;
+    gather_vertex(mesh_, v, attempt.around);
+    attempt.box.add(attempt.around.link_box.low);
+    attempt.box.add(attempt.around.link_box.high);
     for (std::size_t n = 0; n < ends.size(); ++n) {
-        if (!is_cheap(costs_[n])) continue;
-        const double quality3 = fan_quality3(mesh_, around_, ends[n], mesh_.position(ends[n]), collapse_.bounds);
-        if (quality3 > 0) targets_.push_back({ends[n], quality3});
+        if (!is_cheap(attempt.costs[n])) continue;
+        const double quality3 =
+            fan_quality3(mesh_, attempt.around, ends[n], mesh_.position(ends[n]), attempt.collapse.bounds);
+        if (quality3 > 0) attempt.targets.push_back({ends[n], quality3});
     }
 }
 
 /// False where the vertex has more faces than the prepass looks at.
-bool Prepass::gather_ends(VertexId v) {
-    end_count_ = 0;
-    line_ends_.clear();
+bool Prepass::gather_ends(VertexId v, Attempt& attempt) const {
+    std::vector<VertexId>& line_ends = attempt.line_ends;
+    attempt.end_count = 0;
+    line_ends.clear();
     int faces = 0;
     mesh_.for_star(v, [&](FaceId f, int place) {
         ++faces;
         const auto& corners = mesh_[f].vertices;
         const VertexId after = corners[place_after(place)], before = corners[place_before(place)];
-        if (mesh_[v].label_count == 2) return add_end(after);  // each neighbour comes first in one face
+        if (mesh_[v].label_count == 2) return add_end(after, attempt);  // each neighbour comes first in one face
         for (VertexId end : {after, before}) {
-            if (mesh_[end].label_count < 3 || std::find(line_ends_.begin(), line_ends_.end(), end) != line_ends_.end())
+            if (mesh_[end].label_count < 3 || std::find(line_ends.begin(), line_ends.end(), end) != line_ends.end())
                 continue;
-            line_ends_.push_back(end);
-            if (edge_labels(mesh_, v, end).size() == mesh_[v].label_count) add_end(end);
+            line_ends.push_back(end);
+            if (edge_labels(mesh_, v, end).size() == mesh_[v].label_count) add_end(end, attempt);
         }
     });
     return faces <= kMostPrepassFaces;
 }
 
 /// Without a branch, which would be mispredicted.
-void Prepass::add_end(VertexId end) {
+void Prepass::add_end(VertexId end, Attempt& attempt) const {
     const bool may_stay = !mesh_[end].is_fixed & !marks_.is_touched(end);
-    ends_[end_count_] = end;
-    end_count_ += may_stay & (end_count_ < kMostPrepassFaces);
+    attempt.ends[attempt.end_count] = end;
+    attempt.end_count += may_stay & (attempt.end_count < kMostPrepassFaces);
 }
 
-Verdict Prepass::test(VertexId target) {
-    gather_half(mesh_, around_.goes, target, collapse_.star);
-    return examine(collapse_, [&] { return Places{collapse_.star.at_stays}; });
-}
-
-void Prepass::apply(VertexId target) {
-    const EdgeStar& star = collapse_.star;
+void Prepass::make(Attempt& attempt) {
+    const EdgeStar& star = attempt.collapse.star;
     placement_.collapse(mesh_, star, star.at_stays);
-    collapse_edge(mesh_, collapse_);
-    marks_.touch(target);
+    collapse_edge(mesh_, attempt.collapse);
+    marks_.touch(star.stays);
     for (VertexId v : star.link) marks_.touch(v);
 }
 

@@ -24,15 +24,18 @@ public:
     };
 
     /// `max_cost` is the threshold, squared length times area. Tests have their bounds in `collapse`.
-    Prepass(Mesh& mesh, Placement& placement, Collapse& collapse, const SimplifyOptions& options, double max_cost);
+    Prepass(Mesh& mesh, Placement& placement, const Collapse& collapse, const SimplifyOptions& options,
+            double max_cost);
 
     /// Returns the number of collapses, and adds the verdicts of all that were tried.
     std::uint32_t sweep(VerdictCounts& verdicts);
     /// Finds the faces with a fault.
     void find(Fault fault, std::uint32_t threads);
     /// Removes vertices of the faces that find() found and that still have the fault, up to a larger cost, as long as
-    /// there are more faces than the target. Returns the number of collapses. Ids must be as they were.
+    /// there are more faces than the target: in order, or in stripes on at most `threads` threads (try_in_stripes),
+    /// which gives another result. Returns the number of collapses. Ids must be as they were.
     std::uint32_t remove(Fault fault, VerdictCounts& verdicts);
+    std::uint32_t remove_in_stripes(Fault fault, std::uint32_t threads, VerdictCounts& verdicts);
 
 private:
     struct Target {
@@ -40,28 +43,40 @@ private:
         double worst_quality3;
     };
 
+    /// To remove a vertex, or one of a face.
+    struct Attempt {
+        Collapse collapse;
+        Box box = {};                                           // see try_together
+        VerdictCounts verdicts = {};                            // of all collapses tested
+        std::vector<VertexId> kept = {};                        // vertices that cannot be removed
+        bool is_accepted = false;                               // `collapse`
+        EdgeStar around = {};                                   // all faces of the current vertex
+        std::vector<VertexId> line_ends = {};                   // of edges between lines, at the current vertex
+        std::array<VertexId, kMostPrepassFaces + 1> ends = {};  // neighbours in its stratum that may take it; room for
+        std::size_t end_count = 0;                              // one more
+        std::vector<HalfCost> costs = {};                       // of these
+        std::vector<Target> targets = {};
+    };
+
+    bool is_at_target() const { return mesh_.face_count() <= options_.target_faces; }
     bool has_fault(Fault fault, FaceId f) const;
     bool is_sliver(FaceId f) const;
     bool is_fold(FaceId f) const;
     bool may_go(VertexId v) const;
-    bool try_to_remove(VertexId v, VerdictCounts& verdicts);
-    void find_targets(VertexId v);
-    bool gather_ends(VertexId v);
-    void add_end(VertexId end);
-    Verdict test(VertexId target);
-    void apply(VertexId target);
+    template <class Each>
+    std::uint32_t remove(Fault fault, VerdictCounts& verdicts, Each&& each);
+    void test_face(Fault fault, FaceId f, Attempt& attempt) const;
+    void test_vertex(VertexId v, Attempt& attempt) const;
+    void find_targets(VertexId v, Attempt& attempt) const;
+    bool gather_ends(VertexId v, Attempt& attempt) const;
+    void add_end(VertexId end, Attempt& attempt) const;
+    void make(Attempt& attempt);
 
     Mesh& mesh_;
     Placement& placement_;
-    Collapse& collapse_;
     const SimplifyOptions& options_;
     double max_cost_;
-    EdgeStar around_;                                   // all faces of the current vertex
-    std::vector<VertexId> line_ends_;                   // of edges between lines, at the current vertex
-    std::array<VertexId, kMostPrepassFaces + 1> ends_;  // neighbours in its stratum that may take it; room for one more
-    std::size_t end_count_ = 0;
-    std::vector<HalfCost> costs_;  // of these
-    std::vector<Target> targets_;
+    Attempt attempt_;
     std::vector<FaceId> faulty_;
     SweepMarks marks_;
 };

@@ -63,6 +63,7 @@ bool ShortEdges::try_place(Vec3 p) {
     if (!drift_.may_move(drift, step, true) || verdict_at(collapse_, {p}) != Verdict::kAccepted) return false;
     changed_ = star.link;
     changed_.push_back(star.stays);
+    find_error(collapse_);
     collapse_edge(mesh_, collapse_);
     drift_.set(star.stays, drift, step);
     return true;

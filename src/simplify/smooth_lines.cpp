@@ -11,6 +11,7 @@
 #include "mesh/strata.h"
 #include "regionmesh/box_axes.h"
 #include "simplify/error_bound.h"
+#include "simplify/try_together.h"
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {
@@ -61,14 +62,14 @@ public:
     LineSmoother(Mesh& mesh, const SmoothLinesOptions& options)
         : mesh_(mesh),
           options_(options),
-          tree_(mesh),
+          tree_(mesh, options.threads),
           number_(mesh.vertex_end(), kNoNumber),
-          collapse_{.mesh = mesh,
-                    .tree = &tree_,
-                    .bounds = {.min_quality = options.min_quality},
-                    .limits = limits_of(options.box, options.samples),
-                    .samples = options.samples ? &*options.samples : nullptr,
-                    .max_error = options.max_error} {
+          trial_{{.mesh = mesh,
+                  .tree = &tree_,
+                  .bounds = {.min_quality = options.min_quality},
+                  .limits = limits_of(options.box, options.samples),
+                  .samples = options.samples ? &*options.samples : nullptr,
+                  .max_error = options.max_error}} {
         for (std::uint32_t v = 0; v < mesh.vertex_end(); ++v) {
             report_progress(v);
             find_ends(VertexId{v});
@@ -97,6 +98,15 @@ private:
         std::array<VertexId, kMostEnds> ends{};  // the next vertices along its lines
         Vec3 origin;
         Vec3 refused{HUGE_VAL, 0, 0};  // goal that could not be approached
+        bool is_due = true;            // something that its goal depends on has moved
+    };
+
+    /// A step of one of them.
+    struct Trial {
+        Collapse collapse;
+        Box box = {};  // see try_together
+        Vec3 goal = {};
+        enum class Outcome : std::uint8_t { kNone, kAccepted, kRefused } outcome = Outcome::kNone;
     };
 
     void report_progress(std::uint32_t n) {
@@ -109,8 +119,8 @@ private:
         if (!vertex.is_alive || vertex.is_fixed || vertex.star == kNoCorner) return;
         if ((vertex.sides & kOnHull) != 0 || std::popcount(static_cast<unsigned>(vertex.sides & kBoxSides)) > 1) return;
         if (vertex.label_count < 3 || vertex.label_count > 4) return;
-        gather_move(mesh_, v, collapse_.star);
-        gather_line_ends(mesh_, collapse_.star, ends_);
+        gather_move(mesh_, v, trial_.collapse.star);
+        gather_line_ends(mesh_, trial_.collapse.star, ends_);
         if (ends_.size() != (vertex.label_count == 3 ? 2 : 4)) return;
         LineVertex own{.v = v, .count = static_cast<std::uint32_t>(ends_.size()), .origin = vertex.position};
         std::copy(ends_.begin(), ends_.end(), own.ends.begin());
@@ -119,12 +129,32 @@ private:
     }
 
     std::uint64_t sweep() {
+        std::vector<std::uint32_t> due;
+        for (std::uint32_t n = 0; n < vertices_.size(); ++n)
+            if (vertices_[n].is_due) due.push_back(n);
         std::uint64_t moves = 0;
-        for (std::uint32_t n = 0; n < vertices_.size(); ++n) {
-            report_progress(n);
-            moves += try_move(vertices_[n]);
-        }
+        try_in_stripes(
+            static_cast<std::uint32_t>(due.size()), options_.threads, trial_,
+            [&](std::uint32_t n, Trial& trial) { test(vertices_[due[n]], trial); },
+            [&](std::uint32_t n, Trial& trial) {
+                report_progress(n);
+                LineVertex& own = vertices_[due[n]];
+                if (trial.outcome == Trial::Outcome::kRefused) own.refused = trial.goal;
+                if (trial.outcome != Trial::Outcome::kAccepted) return false;
+                move_vertex(mesh_, trial.collapse);
+                note_moved(own);
+                ++moves;
+                return true;
+            });
         return moves;
+    }
+
+    /// The goals of the vertex and of the next two along its lines change.
+    void note_moved(LineVertex& own) {
+        own.is_due = true;
+        for (std::uint32_t n = 0; n < own.count; ++n)
+            for (const VertexId v : {own.ends[n], beyond(own.ends[n], own.v)})
+                if (v != kNoVertex && number_[index(v)] != kNoNumber) vertices_[number_[index(v)]].is_due = true;
     }
 
     /// The vertex after `from` and `at` on their line, if the line goes on.
@@ -173,21 +203,26 @@ private:
         return goal;
     }
 
-    bool try_move(LineVertex& own) {
+    void test(LineVertex& own, Trial& trial) const {
         const double least = kLeastStep * options_.scale;
         const Vec3 at = mesh_.position(own.v), goal = goal_of(own);
-        if (length(goal - at) < least || length(goal - own.refused) < least) return false;
-        const EdgeStar& star = collapse_.star;
-        gather_move(mesh_, own.v, collapse_.star);
+        own.is_due = false;
+        trial.outcome = Trial::Outcome::kNone;
+        trial.box = {at, at};
+        if (length(goal - at) < least || length(goal - own.refused) < least) return;
+        EdgeStar& star = trial.collapse.star;
+        gather_move(mesh_, own.v, star);
+        trial.box.add(star.link_box.low);
+        trial.box.add(star.link_box.high);
+        trial.box.add(goal);
+        trial.goal = goal;
+        trial.outcome = Trial::Outcome::kAccepted;
         for (const double share : kShares) {
             const Vec3 to = star.kept_level(share == 1 ? goal : at + share * (goal - at));
-            set_normals(collapse_.star, to);
-            if (area_grows(star) || verdict_at(collapse_, {to}) != Verdict::kAccepted) continue;
-            move_vertex(mesh_, collapse_);
-            return true;
+            set_normals(star, to);
+            if (!area_grows(star) && verdict_at(trial.collapse, {to}) == Verdict::kAccepted) return;
         }
-        own.refused = goal;
-        return false;
+        trial.outcome = Trial::Outcome::kRefused;
     }
 
     double mean_turn() const {
@@ -212,7 +247,7 @@ private:
     FaceTree tree_;
     std::vector<std::uint32_t> number_;  // by vertex: place in vertices_
     std::vector<LineVertex> vertices_;
-    Collapse collapse_;
+    Trial trial_;
     std::vector<VertexId> ends_;
 };
 
@@ -230,6 +265,7 @@ SmoothLinesOptions smooth_lines_options(const SimplifyOptions& simplified) {
     return {.scale = simplified.scale,
             .min_quality = simplified.min_quality,
             .max_error = simplified.max_error,
+            .threads = simplified.threads,
             .samples = simplified.samples,
             .box = simplified.box};
 }
@@ -240,7 +276,7 @@ SmoothLinesResult smooth_lines(Mesh& mesh, const SmoothLinesOptions& given) {
     SmoothLinesOptions options = given;
     options.max_error = std::min(given.max_error, largest_error_bound(mesh) + kMostMove * given.scale);
     SmoothLinesResult result;
-    count_labels(mesh);
+    count_labels(mesh, options.threads);
     LineSmoother(mesh, options).run(result);
     result.error_bound = largest_error_bound(mesh);
     return result;

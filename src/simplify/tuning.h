@@ -66,6 +66,10 @@ inline constexpr double kSameRank = 1.0001;
 /// 1.5 times as many as have to go; rms 0.00058 in exact order and in sweeps of 0.5 to 1 times as many.
 inline constexpr std::uint32_t kLeastSweepPart = 1024, kMostSweepPart = 8;
 
+/// Candidates of such a sweep that are tested at the same time, at most, and that each stripe of the sweep has at
+/// least.
+inline constexpr std::uint32_t kMostStripes = 32, kLeastOfStripe = 32;
+
 // --- Prepass ---------------------------------------------------------------------------------------------------------
 
 /// Cost up to which the prepass collapses. 78 of 100 collapses are made by it, at 2.3 microseconds instead of 8.5 (3.3

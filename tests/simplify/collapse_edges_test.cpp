@@ -11,6 +11,7 @@
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"
+#include "support/strata_list.h"
 
 namespace regionmesh {
 namespace {
@@ -61,6 +62,26 @@ TEST(CollapseEdges, stops_at_the_target) {
     EXPECT_EQ(collapse_edges(mesh, {.target_faces = target}).stopped, StopReason::kTarget);
     EXPECT_LE(mesh.face_count(), target);
     EXPECT_GE(mesh.face_count(), target - 6) << "one collapse takes a few faces";
+}
+
+TEST(CollapseEdges, a_large_mesh_is_simplified_in_stripes_alike_on_any_number_of_threads) {
+    for (const PlacementKind placement : {PlacementKind::kQuadric, PlacementKind::kLindstromTurk}) {
+        std::set<std::uint64_t> digests;
+        for (const std::uint32_t threads : {1u, 2u, 5u}) {
+            Mesh mesh = run(test::grain_volume({24, 24, 24}, 9, 5)).mesh;
+            mesh.sort_spatially();
+            const test::StrataList strata = test::list_strata(mesh);
+            const std::uint32_t target = mesh.face_count() / 3;
+            const SimplifyOptions options{.target_faces = target, .placement = placement};
+            collapse_edges(mesh, options, {.threads = threads, .is_large = true});
+            EXPECT_LE(mesh.face_count(), target);
+            EXPECT_GE(mesh.face_count(), target - 6);
+            test::expect_same_strata(test::list_strata(mesh), strata);
+            test::expect_sound(check(mesh));
+            digests.insert(test::digest(mesh));
+        }
+        EXPECT_EQ(digests.size(), 1u);
+    }
 }
 
 TEST(CollapseEdges, one_free_edge_is_collapsed_once) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "base/triangle.h"
 #include "mesh/strata.h"
 #include "support/digest.h"
@@ -140,22 +142,32 @@ std::uint32_t faces_below(const Mesh& mesh, double quality) {
 }
 
 TEST(Prepass, removes_slivers_and_tries_no_vertex_twice_in_vain) {
-    Mesh mesh = smoothed(test::noise_volume({14, 14, 14}, 3, 6));
-    constexpr double kBound = 0.1;
-    const std::uint32_t before = faces_below(mesh, kBound);
-    with_prepass(mesh, 1e-2, {.min_quality = kBound}, [&](Prepass& prepass) {
-        prepass.find(Prepass::Fault::kSliver, 2);
-        VerdictCounts verdicts{};
-        std::uint32_t removed = 0;
-        while (const std::uint32_t now = prepass.remove(Prepass::Fault::kSliver, verdicts)) removed += now;
-        EXPECT_GT(removed, 0u);
-        EXPECT_LT(faces_below(mesh, kBound), before);
-        const VerdictCounts tried = verdicts;
-        EXPECT_EQ(prepass.remove(Prepass::Fault::kSliver, verdicts), 0u);
-        EXPECT_EQ(verdicts, tried);
-        EXPECT_GT(faces_below(mesh, kBound), 0u) << "nothing was left to try";
-    });
-    test::expect_sound(check(mesh));
+    constexpr std::uint32_t kInOrder = 0;
+    std::set<std::uint64_t> in_stripes;
+    for (const std::uint32_t threads : {kInOrder, 1u, 2u, 5u}) {
+        Mesh mesh = smoothed(test::noise_volume({14, 14, 14}, 3, 6));
+        constexpr double kBound = 0.1;
+        const std::uint32_t before = faces_below(mesh, kBound);
+        with_prepass(mesh, 1e-2, {.min_quality = kBound}, [&](Prepass& prepass) {
+            prepass.find(Prepass::Fault::kSliver, 2);
+            VerdictCounts verdicts{};
+            const auto remove = [&] {
+                return threads == kInOrder ? prepass.remove(Prepass::Fault::kSliver, verdicts)
+                                           : prepass.remove_in_stripes(Prepass::Fault::kSliver, threads, verdicts);
+            };
+            std::uint32_t removed = 0;
+            while (const std::uint32_t now = remove()) removed += now;
+            EXPECT_GT(removed, 0u);
+            EXPECT_LT(faces_below(mesh, kBound), before);
+            const VerdictCounts tried = verdicts;
+            EXPECT_EQ(remove(), 0u);
+            EXPECT_EQ(verdicts, tried);
+            EXPECT_GT(faces_below(mesh, kBound), 0u) << "nothing was left to try";
+        });
+        test::expect_sound(check(mesh));
+        if (threads != kInOrder) in_stripes.insert(test::digest(mesh));
+    }
+    EXPECT_EQ(in_stripes.size(), 1u);
 }
 
 /// Edges of two faces of one interface that make less than a right angle, beside lines.

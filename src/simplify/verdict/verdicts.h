@@ -39,11 +39,14 @@ Verdict shape_verdict(Collapse& collapse, Vec3 position);
 /// All tests from shape on, at the better of the places.
 Verdict verdict_at(Collapse& collapse, const Places& places);
 
-/// All tests in their order. `place()` gives the places, and is called where topology allows the collapse.
+/// All tests in their order. `place()` gives the places, and is called where topology allows the collapse. Where it is
+/// accepted, collapse_edge may follow.
 template <class Place>
 Verdict examine(Collapse& collapse, Place&& place) {
-    const Verdict topology = topology_verdict(collapse);
-    return topology == Verdict::kAccepted ? verdict_at(collapse, place()) : topology;
+    Verdict verdict = topology_verdict(collapse);
+    if (verdict == Verdict::kAccepted) verdict = verdict_at(collapse, place());
+    if (verdict == Verdict::kAccepted) find_error(collapse);
+    return verdict;
 }
 
 }  // namespace regionmesh
