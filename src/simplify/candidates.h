@@ -71,8 +71,9 @@ public:
     void refuse(VertexId goes, Best after);
     /// The edges that a collapse of any edge changes: `goes` has left, and those round `stays` are ranked again.
     void rank_around(VertexId goes, VertexId stays, Scratch& scratch, std::vector<Ranked>& ranked) const;
-    /// Notes these.
+    /// Puts these into the queue.
     void update(VertexId goes, VertexId stays, std::span<const Ranked> ranked);
+    /// Takes over what was seen of the edges meanwhile, and empties `notes`.
     void note(Notes& notes) { has_edges_over_error_ |= std::exchange(notes, {}).has_edges_over_error; }
 
     std::size_t bytes() const;

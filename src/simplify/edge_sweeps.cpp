@@ -4,6 +4,7 @@
 #include <bit>
 #include <vector>
 
+#include "simplify/try_together.h"
 #include "simplify/tuning.h"
 
 namespace regionmesh {
@@ -37,7 +38,7 @@ void EdgeSweeps::begin_sweep(std::uint64_t wanted) {
     const std::uint64_t least = size_ / kLeastSweepPart + 1, most = size_ / kMostSweepPart + 1;
     limit_ = least_key(std::clamp(wanted, least, most));
     const std::uint32_t count = std::ranges::count_if(keys_, [&](float key) { return key <= limit_; });
-    const std::uint32_t stripes = std::clamp(count / kLeastOfStripe, 1u, kMostStripes);
+    const std::uint32_t stripes = stripe_count(count);
     stripes_.clear();
     std::uint32_t first = 0, passed = 0;
     for (std::uint32_t v = 0; v < keys_.size(); ++v) {

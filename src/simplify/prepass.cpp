@@ -96,9 +96,7 @@ bool Prepass::is_fold(FaceId f) const {
     return is_fold;
 }
 
-/// each(count, first, test, settle) goes through the faces.
-template <class Each>
-std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts, Each&& each) {
+std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts, bool in_stripes, std::uint32_t threads) {
     marks_.begin_sweep();
     const double share = fault == Fault::kSliver ? kSliverShare : kFoldShare;
     const double max_cost = std::exchange(max_cost_, std::min(options_.max_cost, share * max_cost_));
@@ -112,24 +110,17 @@ std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts, Each&& each)
         removed += attempt.is_accepted;
         return attempt.is_accepted;
     };
-    each(static_cast<std::uint32_t>(faulty_.size()), test, settle);
-    max_cost_ = max_cost;
-    return removed;
-}
-
-std::uint32_t Prepass::remove(Fault fault, VerdictCounts& verdicts) {
-    return remove(fault, verdicts, [&](std::uint32_t size, auto&& test, auto&& settle) {
+    const auto size = static_cast<std::uint32_t>(faulty_.size());
+    if (in_stripes) {
+        try_in_stripes(size, placement_.ranks_in_parallel() ? threads : 1, attempt_, test, settle);
+    } else {
         for (std::uint32_t n = 0; n < size; ++n) {
             test(n, attempt_);
             settle(n, attempt_);
         }
-    });
-}
-
-std::uint32_t Prepass::remove_in_stripes(Fault fault, std::uint32_t threads, VerdictCounts& verdicts) {
-    return remove(fault, verdicts, [&](std::uint32_t size, auto&& test, auto&& settle) {
-        try_in_stripes(size, placement_.ranks_in_parallel() ? threads : 1, attempt_, test, settle);
-    });
+    }
+    max_cost_ = max_cost;
+    return removed;
 }
 
 /// Its vertices one by one, until one may go.

@@ -32,10 +32,9 @@ public:
     /// Finds the faces with a fault.
     void find(Fault fault, std::uint32_t threads);
     /// Removes vertices of the faces that find() found and that still have the fault, up to a larger cost, as long as
-    /// there are more faces than the target: in order, or in stripes on at most `threads` threads (try_in_stripes),
-    /// which gives another result. Returns the number of collapses. Ids must be as they were.
-    std::uint32_t remove(Fault fault, VerdictCounts& verdicts);
-    std::uint32_t remove_in_stripes(Fault fault, std::uint32_t threads, VerdictCounts& verdicts);
+    /// there are more faces than the target. Goes through them in order, or in stripes (try_in_stripes) on at most
+    /// `threads` threads, which gives another result. Returns the number of collapses. Ids must be as they were.
+    std::uint32_t remove(Fault fault, VerdictCounts& verdicts, bool in_stripes = false, std::uint32_t threads = 1);
 
 private:
     struct Target {
@@ -63,8 +62,6 @@ private:
     bool is_sliver(FaceId f) const;
     bool is_fold(FaceId f) const;
     bool may_go(VertexId v) const;
-    template <class Each>
-    std::uint32_t remove(Fault fault, VerdictCounts& verdicts, Each&& each);
     void test_face(Fault fault, FaceId f, Attempt& attempt) const;
     void test_vertex(VertexId v, Attempt& attempt) const;
     void find_targets(VertexId v, Attempt& attempt) const;

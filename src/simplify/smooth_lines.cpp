@@ -203,6 +203,8 @@ private:
         return goal;
     }
 
+    /// If the vertex after the next one along a line moves at the same time, the goal is that of before: then the
+    /// vertex is due again.
     void test(LineVertex& own, Trial& trial) const {
         const double least = kLeastStep * options_.scale;
         const Vec3 at = mesh_.position(own.v), goal = goal_of(own);

@@ -13,10 +13,10 @@
 namespace regionmesh {
 
 /// Calls test(n) for all trials, on at most `threads` threads at a time (0: one per core), and then settle(n), in order
-/// and on this thread. A test looks at the mesh as it is, writes to its own trial only, and sets its `box`, in which is
-/// all that could change the outcome of the test, and all that settle() changes: the vertices of the faces that change,
-/// before and after. settle(n) returns whether it changed the mesh. Trials whose boxes meet that of an earlier one that
-/// did are left out, since their tests may no longer hold. The outcome does not depend on the threads.
+/// and on this thread, which returns whether it changed the mesh. A test does not change the mesh. It sets `box` of its
+/// trial, round all that a change must not touch if the test is to hold, and round all that settle(n) would change: the
+/// vertices of the faces, before and after. Trials whose boxes meet that of an earlier one that changed the mesh are
+/// left out: settle() is not called for them. The outcome does not depend on the threads.
 template <class Trial, class Test, class Settle>
 void try_together(std::span<Trial> trials, std::uint32_t threads, Test&& test, Settle&& settle) {
     const auto count = static_cast<std::uint32_t>(trials.size());
@@ -34,15 +34,18 @@ void try_together(std::span<Trial> trials, std::uint32_t threads, Test&& test, S
     }
 }
 
-/// The same for the numbers below `size`, in stripes side by side: at the same time are the next numbers of at most
-/// kMostStripes stripes, which lie far apart where the numbers follow a curve. What is left out comes once more. Calls
-/// test(number, trial) and settle(number, trial); `trial` begins as a copy of `first`.
+/// Stripes into which so many trials are parted.
+inline std::uint32_t stripe_count(std::uint32_t size) { return std::clamp(size / kLeastOfStripe, 1u, kMostStripes); }
+
+/// The same for the numbers below `size`, which are parted into stripes (stripe_count). The next numbers of all
+/// stripes are tried together: they lie far apart where the numbers follow a curve. A number that is left out is tried
+/// again with the next ones. Calls test(number, trial) and settle(number, trial); trials begin as copies of `first`.
 template <class Trial, class Test, class Settle>
 void try_in_stripes(std::uint32_t size, std::uint32_t threads, const Trial& first, Test&& test, Settle&& settle) {
     struct Stripe {
         std::uint32_t at, end;
     };
-    const std::uint32_t count = std::clamp(size / kLeastOfStripe, 1u, kMostStripes);
+    const std::uint32_t count = stripe_count(size);
     const auto begin_of = [&](std::uint64_t n) { return static_cast<std::uint32_t>(n * size / count); };
     std::vector<Stripe> stripes;
     for (std::uint32_t n = 0; n < count; ++n) stripes.push_back({begin_of(n), begin_of(n + 1)});

@@ -152,8 +152,7 @@ TEST(Prepass, removes_slivers_and_tries_no_vertex_twice_in_vain) {
             prepass.find(Prepass::Fault::kSliver, 2);
             VerdictCounts verdicts{};
             const auto remove = [&] {
-                return threads == kInOrder ? prepass.remove(Prepass::Fault::kSliver, verdicts)
-                                           : prepass.remove_in_stripes(Prepass::Fault::kSliver, threads, verdicts);
+                return prepass.remove(Prepass::Fault::kSliver, verdicts, threads != kInOrder, threads);
             };
             std::uint32_t removed = 0;
             while (const std::uint32_t now = remove()) removed += now;
