@@ -18,7 +18,7 @@ def run(lab, share, model="model.ply"):
 def stretch(lab, begin, end):
     """Verdicts on the way from one share of the faces to another."""
     faces = run(lab, begin, "begin.ply")["initial_faces"]
-    done = lab.decimate("begin.ply", "--target-faces", round(faces * end / 100), *ALL_REGIONS, to="end.ply")
+    done = lab.decimate("begin.ply", "--target-faces", round(faces * end / 100), *ALL_REGIONS, *ONE_THREAD, to="end.ply")
     return {"begin": begin, "end": 100 * done["final_faces"] / faces, "verdicts": done["verdicts"], "refreshes": done["refreshes"],
             "seconds": seconds(done), "faces_removed": done["initial_faces"] - done["final_faces"]}
 
