@@ -142,9 +142,8 @@ private:
         for (const Prepass::Fault fault : {Prepass::Fault::kSliver, Prepass::Fault::kFold}) {
             if (fault == Prepass::Fault::kFold && !options_.removes_folds) continue;
             prepass.find(fault, threads_);
-            const auto remove = [&] { return prepass.remove(fault, result_.verdicts, is_large_, threads_); };
-            for (int n = 0; n < kMostFaultSweeps && remove() > 0; ++n) {
-            }
+            for (int n = 0; n < kMostFaultSweeps; ++n)
+                if (prepass.remove(fault, result_.verdicts, is_large_, threads_) == 0) break;
         }
         pack();
     }

@@ -45,15 +45,17 @@ private:
     /// To remove a vertex, or one of a face.
     struct Attempt {
         Collapse collapse;
-        Box box = {};                                           // see try_together
-        VerdictCounts verdicts = {};                            // of all collapses tested
-        std::vector<VertexId> kept = {};                        // vertices that cannot be removed
-        bool is_accepted = false;                               // `collapse`
-        EdgeStar around = {};                                   // all faces of the current vertex
-        std::vector<VertexId> line_ends = {};                   // of edges between lines, at the current vertex
-        std::array<VertexId, kMostPrepassFaces + 1> ends = {};  // neighbours in its stratum that may take it; room for
-        std::size_t end_count = 0;                              // one more
-        std::vector<HalfCost> costs = {};                       // of these
+        Box box = {};                     // see try_together
+        VerdictCounts verdicts = {};      // of all collapses tested
+        std::vector<VertexId> kept = {};  // vertices that cannot be removed
+        bool is_accepted = false;         // `collapse`
+        // Of the current vertex:
+        EdgeStar around = {};                  // all its faces
+        std::vector<VertexId> line_ends = {};  // its neighbours by edges between lines
+        // Neighbours in its stratum that may take it, with room for one more, and what that costs.
+        std::array<VertexId, kMostPrepassFaces + 1> ends = {};
+        std::size_t end_count = 0;
+        std::vector<HalfCost> costs = {};
         std::vector<Target> targets = {};
     };
 
