@@ -48,6 +48,8 @@ set(CPACK_DEBIAN_DOC_DESCRIPTION "checked surface models of labelled volumes (do
 The pages of regionmesh as Markdown, with pictures, and examples in C++.")
 
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc/docs COMPONENT doc)
+install(DIRECTORY bench/results DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc/bench COMPONENT doc
+        FILES_MATCHING PATTERN "*.md" PATTERN "paper" EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/regionmesh-doc COMPONENT doc)
 # Debian's policy wants a changelog in its own form, compressed without a time stamp.
 file(WRITE ${PROJECT_BINARY_DIR}/changelog "regionmesh (${PROJECT_VERSION}) unstable; urgency=medium

@@ -1,4 +1,4 @@
-"""The tables of docs/boreholes.md, from what was measured."""
+"""The tables of docs/how-to/boreholes.md, from what was measured."""
 import io
 import pathlib
 import sys

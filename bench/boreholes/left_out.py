@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How much of a drill hole the others predict: by layers as docs/boreholes.md describes them, and by the nearest hole.
+"""How much of a drill hole the others predict: by layers as docs/how-to/boreholes.md describes them, and by the nearest hole.
 
 bench/boreholes/left_out.py --data FOLDER    prints a table; FOLDER holds the tables of bench/boreholes/run
 

@@ -92,7 +92,7 @@ def write(page, results):
                    "  is a structure that passes over equal entries one by one, as the list in the plot does. The paper does not say what\n"
                    "  its heap was made of.\n"
                    "- What costs nothing never enters the heap: sweeps collapse half-edges below a thousandth of a sample's cost first\n"
-                   "  ([decimate](decimate.md)). The paper names this way and leaves it.")
+                   "  ([decimate](../../docs/explanation/decimate.md)). The paper names this way and leaves it.")
     shape = slabs[-1]["quality"]
     page.paragraph(f"Nor does it change shapes: the mean quality on the largest slab is {shape['1e-7']:.3f} with and {shape['0']:.3f} without. It is\n"
                    "kept, hashed from the edge and never drawn, for those who want it; the result is the same in every run either way.")

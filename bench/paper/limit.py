@@ -86,7 +86,7 @@ def write(page, results):
                    "counts under the first that fails. Edges between strata that do not fit are never tried, and not counted here.")
     page.paragraph("Time grows with what is taken away"
                    + (f", but for a bump: {slowest['asked']:g} % takes longest. What goes first costs nothing, so that cost levels tell nothing\n"
-                      "([why](performance.md))." if slowest["asked"] > 15 else "; beyond the paper's 45 % it stays nearly level, as there."))
+                      "([why](../../docs/explanation/performance.md))." if slowest["asked"] > 15 else "; beyond the paper's 45 % it stays nearly level, as there."))
     page.summary("4.8", "limit of decimation", f"about {PAPER_LIMIT} %", f"{last['remain']:.2f} %", "beaten")
     page.summary("3.7", "share of folds in refusals", f"{PAPER_FOLDS} %", f"{folds:.0f} % below {PAPER_LIMIT} %",
                  "agrees roughly" if abs(folds - PAPER_FOLDS) < 15 else f"contradicted: {most} leads" if most != "fold" else "less")

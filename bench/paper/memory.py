@@ -48,7 +48,7 @@ def write(page, results):
                  "agrees")
     page.table(rows)
     page.paragraph("All labels are regions, none smoothed, decimated to a tenth on the fly. Bytes a face are those of the model and of all\n"
-                   "that decimation holds, when most is held ([where each byte goes](memory.md)); the peak is that of the process, sections\n"
+                   "that decimation holds, when most is held ([where each byte goes](../../docs/explanation/memory.md)); the peak is that of the process, sections\n"
                    "and program included. Each edge of a vertex leads to one neighbour. A closed surface has six faces and six edges a\n"
                    "vertex, less a little; lines, where three interfaces meet, have more of both. In a tenth of the faces more of the\n"
                    "vertices lie on lines.")

@@ -25,7 +25,7 @@ class Page(Printer):
                                           break_long_words=False, break_on_hyphens=False) for block in blocks if block) + "\n")
 
     def picture(self, alt, name, caption=""):
-        self.line(f"![{alt}](pictures/{name})\n")
+        self.line(f"![{alt}](../../docs/pictures/{name})\n")
         if caption:
             self.paragraph(f"*{caption}*")
 

@@ -10,7 +10,7 @@
 
 namespace {
 
-// The binary PLY that regionmesh writes (docs/files.md), no other.
+// The binary PLY that regionmesh writes (docs/reference/files.md), no other.
 peers::Mesh read_ply(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     peers::Mesh mesh;

@@ -1,4 +1,4 @@
-"""Tables of docs/explanation/smoothing-presets.md, from the results."""
+"""Tables of docs/how-to/smooth.md, from the results."""
 import io
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 // The invariant test of a labelled surface: violations as data, and the measures of its regions, faces and lines.
-// docs/check.md describes the method.
+// docs/reference/check.md describes the method.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +57,7 @@ struct RegionReport {
     double area = 0;
 };
 
-/// Quality Q of faces (docs/decimate.md): 0.26 for an equilateral face, 0 for a degenerate one. Angles in degrees.
+/// Quality Q of faces (docs/explanation/decimate.md): 0.26 is equilateral, 0 degenerate. Angles in degrees.
 struct QualityReport {
     double min = 0, mean = 0;
     std::array<std::uint64_t, 28> histogram{};  // bins of width 0.01 from 0

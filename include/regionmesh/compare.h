@@ -100,7 +100,7 @@ struct CompareReport {
 /// Compares by sampling (src/compare/sample.h); labels correspond if they are equal in the input. Deterministic for any
 /// number of threads. Holds the samples and one part of each model. The nearest faces and lines are those of the whole
 /// model, however it is divided; the samples of a model differ from those of the same model in other parts. Cost:
-/// docs/compare.md. Throws what reading a part throws.
+/// docs/how-to/compare.md. Throws what reading a part throws.
 CompareReport compare(const ComparedModel& a, const ComparedModel& b, const CompareOptions& options = {});
 CompareReport compare(const ComparedMesh& a, const ComparedMesh& b, const CompareOptions& options = {});
 

@@ -8,7 +8,7 @@
 
 namespace regionmesh {
 
-/// docs/check.md, "Against the labels". All three hold before and after smoothing and simplification.
+/// docs/reference/check.md, "Against the labels". All three hold before and after smoothing and simplification.
 struct LabelOracle {
     std::vector<std::int64_t> euler;            // by dense label: Euler characteristic of the region's boundary
     std::uint64_t quadruple_points_inside = 0;  // lattice tetrahedra with four labels

@@ -58,7 +58,7 @@ struct Vertex {
     std::uint32_t bound_bits : 17 = 0;
 
     /// How far the faces round it may be from the surface that decimation was given, and that from them: a length at
-    /// this corner of each face, linear in between (docs/decimate.md).
+    /// this corner of each face, linear in between (docs/explanation/decimate.md).
     float error_bound() const { return std::bit_cast<float>(std::uint32_t{bound_bits} << kBoundShift); }
     /// Stores the least number with 9 bits of mantissa that is not below `bound`, which is at least 0.
     void set_error_bound(double bound) {

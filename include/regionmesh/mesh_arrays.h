@@ -12,7 +12,7 @@
 
 namespace regionmesh {
 
-/// n points and m faces, with the conventions of .vtp files (docs/files.md).
+/// n points and m faces, with the conventions of .vtp files (docs/reference/files.md).
 struct MeshArrays {
     std::vector<Vec3> points = {};                         // (n, 3) double
     std::vector<std::array<std::uint32_t, 3>> faces = {};  // (m, 3) rows of `points`; the normal of a face points from

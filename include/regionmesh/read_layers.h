@@ -37,7 +37,7 @@ struct LayerSummary {
 
 /// Samples of a model of layers on a lattice. The base of each unit is interpolated between the holes by kriging, and
 /// lies nowhere above the base of the next younger unit; above the ground samples have the label 0. Units that are
-/// words get labels 1, 2, ... from young to old. docs/boreholes.md describes the method.
+/// words get labels 1, 2, ... from young to old. docs/how-to/boreholes.md describes the method.
 ///
 /// Reads `columns` of `table`. Throws Error(kInput) that names file and row, and what to do; also where units are not
 /// in the order for half of the logged length, for more than 3000 holes, and where `memory` or `max_work` do not

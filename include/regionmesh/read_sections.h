@@ -34,12 +34,12 @@ struct ReadOptions {
 /// ".npy .nii .nii.gz ...": the extensions that this build reads.
 std::string volume_extensions();
 
-/// Opens one volume file, one directory of sections, or a list of section files in the order given. docs/files.md lists
-/// the formats. A dataset of an HDF5 file is named as `file.h5:/path`; HDF5 files are read by the program
-/// regionmesh-hdf5, DICOM segmentations by regionmesh-dicom. A directory is a Zarr or N5 store, or its images are
-/// sections in natural order (s2 before s10). Throws Error(kInput) for a missing or unreadable file, an unknown format
-/// or one that this build leaves out, float or complex samples, an empty volume, sections of different size, or a sweep
-/// that the format does not allow.
+/// Opens one volume file, one directory of sections, or a list of section files in the order given.
+/// docs/reference/files.md lists the formats. A dataset of an HDF5 file is named as `file.h5:/path`; HDF5 files are
+/// read by the program regionmesh-hdf5, DICOM segmentations by regionmesh-dicom. A directory is a Zarr or N5 store, or
+/// its images are sections in natural order (s2 before s10). Throws Error(kInput) for a missing or unreadable file, an
+/// unknown format or one that this build leaves out, float or complex samples, an empty volume, sections of different
+/// size, or a sweep that the format does not allow.
 std::unique_ptr<SectionReader> open_sections(const std::vector<std::filesystem::path>& inputs,
                                              const ReadOptions& options = {});
 

@@ -12,7 +12,7 @@ namespace regionmesh {
 
 /// How to read points or a mesh; all optional.
 struct TetrahedraOptions {
-    std::string columns = {};             // the meaning of the columns of a table (docs/files.md)
+    std::string columns = {};             // the meaning of the columns of a table (docs/reference/files.md)
     std::optional<double> step = {};      // drill holes: largest distance of two points of an interval
     std::filesystem::path collars = {};   // table of the places of holes; then the table of intervals has none
     std::filesystem::path surveys = {};   // table of the directions of holes; none: vertical

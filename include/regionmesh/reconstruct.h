@@ -26,14 +26,14 @@ struct ReconstructOptions {
     std::optional<double> max_error = {};  // or no point farther than this from the surface before, nor the other way
                                            // round, in the unit of the spacing
     double room = 0;  // of sections: samples nearer than this to the boundary of their region, in finest spacings, may
-                      // change their label first, for noisy labels (docs/smoothing.md); at most 8; 0: none
+                      // change their label first, for noisy labels (docs/explanation/smoothing.md); at most 8; 0: none
     CellKind cells = CellKind::kAuto;  // of sections: how they are meshed
     double scale_z = 1;  // of sections: z is multiplied by the nearest power of two while positions, costs, qualities
                          // and errors are computed; the model is not scaled. Tetrahedra have their own
     SmoothOptions smooth = {};               // its scale, quality, tests and threads are set from the run
     std::optional<double> min_quality = {};  // of every face that smoothing or decimation changes; 0.1 if not given,
                                              // and for decimation of sections, unless with improve or preserve_volume,
-                                             // 0.1 times the smallest spacing over the largest (docs/decimate.md)
+                                             // 0.1 x smallest spacing / largest (docs/explanation/decimate.md)
     double perturbation = 1e-7;              // of costs: share of scale^4, hashed from the edge (P 4.5)
     PlacementKind placement = PlacementKind::kQuadric;  // where collapses put merged vertices
     bool keep_samples = true;                           // of sections: decimation carries no sample into another region
@@ -44,7 +44,7 @@ struct ReconstructOptions {
     bool intersect_check = true;
     bool cap = true;                                // --boundary cap; false: open
     std::vector<InputLabel> background{0};          // empty space: its faces with the exterior are not made
-    std::uint64_t memory = kDefaultMemory;          // bytes that the work is planned for (docs/memory.md)
+    std::uint64_t memory = kDefaultMemory;          // bytes that the work is planned for (docs/explanation/memory.md)
     std::optional<std::uint64_t> face_budget = {};  // most faces held at once, instead of deriving it from memory
     std::uint32_t threads = 0;                      // 0: one per core. The result does not depend on it
     std::uint32_t strips_per_chunk = 1;  // strips meshed before they are merged; decimation in tiles sets its own

@@ -74,13 +74,13 @@ struct SimplifyResult {
 };
 
 /// Simplifies in place: large meshes tile by tile on all threads, up to a threshold that leaves a little more than the
-/// target; then the whole mesh on one thread, cheapest edge first, down to the target (docs/decimate.md,
-/// docs/tiles.md). Fixed vertices (Vertex::is_fixed) neither move nor go, and no edge that ends in one is collapsed;
-/// everything else may. A target below what topology and quality allow is not reached; `stopped` says why. Renumbers
-/// vertices and faces. Deterministic: the result depends on the mesh and the options, not on `threads`. `max_error`
-/// bounds the two-sided Hausdorff distance of each interface to the same interface of the mesh as it comes. Requires
-/// that every vertex that is not fixed has all its faces in the mesh. Throws Error(kUsage) for numbers out of range
-/// and for a mesh or samples that are oblique (box_axes.h), and Error(kInput) for `samples` that are no lattice.
+/// target; then the whole mesh on one thread, cheapest edge first, down to the target (docs/explanation/decimate.md,
+/// docs/explanation/tiles.md). Fixed vertices (Vertex::is_fixed) neither move nor go, and no edge that ends in one is
+/// collapsed; everything else may. A target below what topology and quality allow is not reached; `stopped` says why.
+/// Renumbers vertices and faces. Deterministic: the result depends on the mesh and the options, not on `threads`.
+/// `max_error` bounds the two-sided Hausdorff distance of each interface to the same interface of the mesh as it comes.
+/// Requires that every vertex that is not fixed has all its faces in the mesh. Throws Error(kUsage) for numbers out of
+/// range and for a mesh or samples that are oblique (box_axes.h), and Error(kInput) for `samples` that are no lattice.
 SimplifyResult simplify(Mesh& mesh, const SimplifyOptions& options);
 
 }  // namespace regionmesh

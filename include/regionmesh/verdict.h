@@ -7,7 +7,7 @@
 
 namespace regionmesh {
 
-/// In the order of the tests, cheap ones first; a collapse is refused with the first that fails (docs/decimate.md).
+/// In the order of the tests, cheap ones first; the first that fails refuses (docs/explanation/decimate.md).
 enum class Verdict { kAccepted, kStrata, kLink, kFold, kQuality, kPinch, kError, kSamples, kIntersect };
 
 inline constexpr std::array kVerdictNames{"accepted", "strata", "link",    "fold",     "quality",

@@ -39,7 +39,7 @@ struct VoxeliseOptions {
 /// vertices within 1e-9 spacings of samples on a side of the box of the model are moved to where these lie, and also
 /// where a side of the model and samples of another lattice differ by rounding alone. If all coordinates are numbers of
 /// single precision, as in .dream3d and binary .stl files, so are vertices that its rounding may have moved away from
-/// such samples (docs/voxelise.md says how far).
+/// such samples (docs/how-to/voxelise.md says how far).
 class Voxeliser {
 public:
     /// Holds a reference to the mesh. Memory: 8 bytes a face, 8 bytes a vertex, and the crossings of the sections

@@ -32,8 +32,9 @@ struct MadeBy {
 };
 
 /// The report of a run: JSON text, indented by two spaces, with a newline at the end; a number that is not finite is
-/// null. docs/report.md lists the keys. `regions[]` are in order of `label`, a number with the signedness of the input;
-/// regions with a name have `name`. `metres` are those of the model's unit of length, which is written as `unit`.
+/// null. docs/reference/report.md lists the keys. `regions[]` are in order of `label`, a number with the signedness of
+/// the input; regions with a name have `name`. `metres` are those of the model's unit of length, which is written as
+/// `unit`.
 std::string report_json(const Report& report, const LabelTable& labels, const LabelNames& names = {},
                         const MadeBy& made_by = {}, std::optional<double> metres = {});
 
@@ -43,9 +44,9 @@ std::string report_json(const Report& report, const LabelTable& labels, const La
 std::string check_json(const CheckReport& report, const LabelTable& labels, const LabelNames& names = {},
                        const SampleAgreement* samples = nullptr, std::optional<double> metres = {});
 
-/// The report of a comparison, as JSON text like report_json; docs/compare.md lists the keys. Regions, interfaces and
-/// lines are in order of label; the exterior is labels.exterior_label() and last in a list. Measures that only one mesh
-/// has are null for the other, and so are the distances; `only_in_a` and `only_in_b` name them.
+/// The report of a comparison, as JSON text like report_json; docs/how-to/compare.md lists the keys. Regions,
+/// interfaces and lines are in order of label; the exterior is labels.exterior_label() and last in a list. Measures
+/// that only one mesh has are null for the other, and so are the distances; `only_in_a` and `only_in_b` name them.
 /// Regions with a name have `name`.
 std::string compare_json(const CompareReport& report, const LabelNames& names = {});
 
@@ -57,8 +58,8 @@ struct ModelSize {
 ModelSize size_of(const Mesh& mesh);
 
 /// What `info --json` writes about a volume, about points or tetrahedra, and about a surface model: JSON text like
-/// report_json(); docs/report.md lists the keys. The mesh of `file` is not looked at. `report` is the check of the
-/// model; its violations are not written.
+/// report_json(); docs/reference/report.md lists the keys. The mesh of `file` is not looked at. `report` is the check
+/// of the model; its violations are not written.
 std::string info_json(const VolumeInfo& info, const Census& census);
 std::string info_json(const TetrahedraInfo& info, const TetrahedronCensus& census);
 std::string info_json(const std::string& source, const MeshFile& file, const ModelSize& size,
@@ -81,7 +82,7 @@ std::string interfaces_csv(const Mesh& mesh, const LabelTable& labels, const std
 
 /// A table of the lines, which are edges with three labels or more; the exterior counts as one: labels (separated by
 /// blanks), names (by semicolons), label_count, edges, length and angles, the mean dihedral angle of each label in
-/// degrees (docs/files.md); "-" for the exterior, and where a label has not two faces at any of the edges.
+/// degrees (docs/reference/files.md); "-" for the exterior, and where a label has not two faces at any of the edges.
 std::string lines_csv(const Mesh& mesh, const LabelTable& labels, const std::vector<Label>& background,
                       const LabelNames& names = {});
 

@@ -27,7 +27,7 @@ def load(path, *, background="file", weld=None, orient=False, boundary="cap"):
     Parameters
     ----------
     path : path
-        .vtp .vtu .ply .stl .obj .dream3d, or a folder with a file for each region (docs/files.md).
+        .vtp .vtu .ply .stl .obj .dream3d, or a folder with a file for each region (docs/reference/files.md).
     background : int or sequence of int, or None
         Labels of empty space; None: every label is a region. "file": what the file says, or else 0.
     weld : float, optional

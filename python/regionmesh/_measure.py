@@ -15,7 +15,7 @@ def _normals(points, faces):
 
 
 def quality(points, faces):
-    """Return the quality of each face: 0.26 is equilateral, 0 degenerate (docs/decimate.md)."""
+    """Return the quality of each face: 0.26 is equilateral, 0 degenerate (docs/explanation/decimate.md)."""
     area = np.linalg.norm(_normals(points, faces), axis=1) / 2
     sides = np.stack([np.linalg.norm(points[faces[:, n]] - points[faces[:, n - 1]], axis=1) for n in range(3)], axis=1)
     shortest, middle, longest = np.sort(sides, axis=1).T

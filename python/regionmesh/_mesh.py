@@ -129,7 +129,7 @@ class Mesh:
 
     @property
     def report(self):
-        """The report of the last step as a dict; docs/report.md lists the keys. A loaded model is checked first."""
+        """The report of the last step as a dict (keys: docs/reference/report.md). A loaded model is checked first."""
         if self._report is None:
             self._report = json.loads(self._model.report or _core.check(self._model, 0, None, 0))
         return self._report
@@ -153,7 +153,7 @@ class Mesh:
         characteristic of the boundary); components (of the boundary); mean_quality (of faces; 0.26 is equilateral);
         centroid_x, centroid_y, centroid_z (of the volume); box_low_x to box_high_z; neighbours (list of labels,
         background included); mean_curvature (1 / length, positive where the region is convex; nan where it has none)
-        and triple_line_length, both without the sides of the box (docs/files.md).
+        and triple_line_length, both without the sides of the box (docs/reference/files.md).
         """
         return self._table("regions")
 
@@ -162,7 +162,7 @@ class Mesh:
         """A dict of columns, one row a pair of labels.
 
         first, second; faces; area (length^2); mean_curvature (1 / length, positive where `first` is convex; nan on the
-        exterior, between two labels of background, and where all is near lines: docs/files.md); line_length (of the
+        exterior, between two labels of background, and where all is near lines: docs/reference/files.md); line_length (the
         lines that bound it).
         """
         return self._table("interfaces")
@@ -172,7 +172,7 @@ class Mesh:
         """A dict of columns, one row a set of three labels or more that meet at edges; the outside counts as one.
 
         labels (list); edges; length; angles (list: the mean dihedral angle of each label in degrees, nan for the
-        outside and where it has none: docs/files.md).
+        outside and where it has none: docs/reference/files.md).
         """
         return self._table("triple_lines")
 
@@ -257,8 +257,8 @@ class Mesh:
         """Return a mesh with better shaped faces, for finite elements: edges are flipped, vertices moved.
 
         The worst faces get better first. Regions, interfaces and lines stay. Steps near a vertex add up to no more than a
-        tenth of a typical edge, three tenths round faces below `min_quality` (docs/improve.md: the surface may move
-        farther in places).
+        tenth of a typical edge, three tenths round faces below `min_quality` (docs/explanation/improve.md: the surface may
+        move farther in places).
 
         Parameters
         ----------
@@ -340,7 +340,7 @@ class Mesh:
         -------
         dict
             quality, regions, region_pairs, quadruple_points_inside, violations, violation_counts; with labels also
-            samples, samples_wrong and dice (docs/report.md).
+            samples, samples_wrong and dice (docs/reference/report.md).
 
         Raises
         ------
@@ -453,7 +453,7 @@ class Mesh:
         Returns
         -------
         dict
-            docs/compare.md lists the keys.
+            docs/how-to/compare.md lists the keys.
         """
         if not isinstance(other, Mesh):
             raise TypeError(f"compare: {type(other).__name__}; give a Mesh")
@@ -535,13 +535,13 @@ class Mesh:
         return shape, "uint8" if dtype == "bool" else dtype, place
 
     def save(self, path, *, per_region=False, units=None, precomputed=None, levels=None, sharded=False):
-        """Write the model; the extension selects the format (docs/files.md).
+        """Write the model; the extension selects the format (docs/reference/files.md).
 
         Parameters
         ----------
         path : path
             .vtp .vtu .ply .obj .stl .msh .smesh .poly .inp .glb .3mf .dream3d, or a folder .precomputed for
-            Neuroglancer (docs/neuroglancer.md), whose parent exists.
+            Neuroglancer (docs/how-to/neuroglancer.md), whose parent exists.
         per_region : bool
             .stl, .obj and .ply: a file for each region, MODEL-NAME.EXTENSION, or MODEL-LABEL.EXTENSION where it has no
             name.

@@ -138,7 +138,7 @@ def test_an_archive_of_sources_holds_what_a_build_needs(backend, tmp_path):
     listed = run("tar", "-tzf", tmp_path / name).stdout.split()
     base = name.removesuffix(".tar.gz")
     for path in ("CMakeLists.txt", "pyproject.toml", "python/CMakeLists.txt", "src/base/stop.cpp", "PKG-INFO",
-                 "viewer/dist/page.html", "docs/files.md", "examples/CMakeLists.txt"):
+                 "viewer/dist/page.html", "docs/reference/files.md", "examples/CMakeLists.txt"):
         assert f"{base}/{path}" in listed
     assert not [path for path in listed if "__pycache__" in path]
     run("tar", "-xzf", tmp_path / name, "-C", tmp_path)

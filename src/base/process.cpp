@@ -16,8 +16,8 @@
 namespace regionmesh {
 namespace {
 
-/// What memory is spent on to have fewer page faults. Chosen for the AAL atlas to a tenth (docs/memory.md, "Page
-/// faults").
+/// What memory is spent on to have fewer page faults. Chosen for the AAL atlas to a tenth (docs/explanation/memory.md,
+/// "Page faults").
 struct Spending {
     std::size_t least_huge;    // bytes of a block on huge pages, which have 2 MiB
     std::uint64_t parts_kept;  // freed memory is given back where the process became larger by one part in so many

@@ -1,5 +1,5 @@
 // Kuhn's triangulation of the lattice: six tetrahedra per cell round the diagonal (0,0,0)-(1,1,1), which match inside
-// the cell and across cells (docs/reconstruct.md).
+// the cell and across cells (docs/explanation/reconstruct.md).
 #pragma once
 
 #include <array>

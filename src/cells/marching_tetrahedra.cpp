@@ -56,7 +56,7 @@ void cut(const std::vector<CasePatch>& patches, const std::array<Vec3, N>& corne
     }
 }
 
-/// The patches for labels given as small numbers; docs/reconstruct.md has the rule in words.
+/// The patches for labels given as small numbers; docs/explanation/reconstruct.md has the rule in words.
 std::vector<CasePatch> patches_of(const std::array<int, 4>& label) {
     std::vector<CasePatch> patches;
     std::array<std::vector<int>, 4> groups;  // corners by label

@@ -9,7 +9,7 @@
 
 namespace regionmesh::cells {
 
-// Tetrahedra (docs/unstructured.md).
+// Tetrahedra (docs/explanation/unstructured.md).
 
 /// Tetrahedra read at a time. Any value gives the same result.
 inline constexpr std::size_t kPiece = 1 << 14;

@@ -1,4 +1,4 @@
-// Joins squares of the sides of the box that lie deep inside one region (docs/tiles.md, "Caps").
+// Joins squares of the sides of the box that lie deep inside one region (docs/explanation/tiles.md, "Caps").
 #pragma once
 
 #include <cstdint>

@@ -17,8 +17,8 @@
 namespace regionmesh {
 namespace {
 
-/// Weight of the squared distance from where a vertex was (docs/smooth-lines.md): waves shorter than 2 pi over its
-/// fourth root, eleven times the scale, go. Foams hardly change from 0.01 to 0.2.
+/// Weight of the squared distance from where a vertex was (docs/explanation/smooth-lines.md): waves shorter than 2 pi
+/// over its fourth root, eleven times the scale, go. Foams hardly change from 0.01 to 0.2.
 constexpr double kKeep = 0.1;
 
 /// Of the scale. Shorter steps are not made, nor is a goal that was refused tried again before it has moved by this.

@@ -1,8 +1,8 @@
 // The tuned constants of simplify, each with the measurement that chose it.
 //
 // Unless stated otherwise the measure is the AAL crop of 96 x 96 x 96 samples (1,521,108 faces) to a tenth, not
-// smoothed; rms is the distance to the unsimplified surface, both ways, in samples (docs/performance.md,
-// docs/tiles.md). Costs are in units of scale^4: a squared length times an area.
+// smoothed; rms is the distance to the unsimplified surface, both ways, in samples (docs/explanation/performance.md,
+// docs/explanation/tiles.md). Costs are in units of scale^4: a squared length times an area.
 #pragma once
 
 #include <cstddef>
@@ -76,7 +76,7 @@ inline constexpr std::uint32_t kMostStripes = 32, kLeastOfStripe = 32;
 /// s became 2.75 s, rms 0.034 became 0.035). 0.003 and 0.01 are no faster, since more is refused, and rms is 0.035.
 inline constexpr double kPrepassCost = 1e-3;
 
-/// The same for Lindstrom-Turk: its costs are of the same order in the models of docs/decimate.md; not tuned apart.
+/// The same for Lindstrom-Turk: of the same order in the models of docs/explanation/decimate.md; not tuned apart.
 inline constexpr double kPrepassVolumeCost = 1e-3;
 
 /// A sweep of the prepass is made while this share of the faces is above the target, so that ranking makes the last

@@ -1,4 +1,4 @@
-// Backtracking: smoothed vertices go less far where a face would turn over or lose its quality (docs/smoothing.md).
+// Backtracking: smoothed vertices go less far where a face would turn or lose quality (docs/explanation/smoothing.md).
 #pragma once
 
 #include <cstdint>

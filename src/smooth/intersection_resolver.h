@@ -1,4 +1,4 @@
-// Resolves the intersections of smoothed faces, exactly, by backtracking (docs/smoothing.md, "The guard").
+// Resolves the intersections of smoothed faces, exactly, by backtracking (docs/explanation/smoothing.md, "The guard").
 #pragma once
 
 #include <deque>

@@ -1,5 +1,5 @@
-// Smoothing by filters in passes, with a guard, in a window that moves with the chunks (docs/smoothing.md, "The
-// stream").
+// Smoothing by filters in passes, with a guard, in a window that moves with the chunks (docs/explanation/smoothing.md,
+// "The stream").
 #pragma once
 
 #include <memory>

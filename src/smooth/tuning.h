@@ -5,7 +5,7 @@
 
 namespace regionmesh::smoothing {
 
-// Backtracking (smooth/backtrack.h, docs/smoothing.md, "The guard").
+// Backtracking (smooth/backtrack.h, docs/explanation/smoothing.md, "The guard").
 
 /// The way from a vertex's smoothed position back to its origin is divided into this number of steps.
 inline constexpr std::uint8_t kFullBacktrack = 8;
@@ -18,8 +18,8 @@ inline constexpr std::uint8_t kResolveStep = 2;
 /// Without --min-quality, faces still may not become needles whose normal is lost in rounding.
 inline constexpr double kLeastQuality = 1e-4;
 
-// Reach along the sweep, in units of the larger of scale and chunk thickness (docs/smoothing.md, "Holding"). A vertex
-// that would go farther is stopped and counted; no run of docs/smoothing.md has one.
+// Reach along the sweep, in units of the larger of scale and chunk thickness (docs/explanation/smoothing.md,
+// "Holding"). A vertex that would go farther is stopped and counted; no run of docs/explanation/smoothing.md has one.
 
 /// One unit, and one more per this number of passes.
 inline constexpr double kTaubinPassesPerUnit = 20, kLaplacianPassesPerUnit = 10;
@@ -41,7 +41,8 @@ inline constexpr double kSmallestBlock = 2, kLargestBlock = 8, kLargestBlockAnis
 /// From this ratio of coarsest to finest spacing: less than 2, which many volumes have up to the rounding of a header.
 inline constexpr double kAnisotropic = 1.9;
 
-// Volumes (smooth/preserve_volume.cpp; docs/smoothing.md, "Volumes": IN100 needs 8 rounds, decimated to a tenth 5).
+// Volumes (smooth/preserve_volume.cpp; docs/explanation/smoothing.md, "Volumes": IN100 needs 8 rounds, decimated to a
+// tenth 5).
 
 inline constexpr std::uint32_t kMostVolumeRounds = 30;
 /// Relative drift at which another round gains nothing.

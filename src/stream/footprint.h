@@ -1,4 +1,4 @@
-// Bytes that each stage takes, derived from the sizes of the items that it holds (docs/memory.md).
+// Bytes that each stage takes, derived from the sizes of the items that it holds (docs/explanation/memory.md).
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ static_assert(kMeshBytesPerFace == 48);
 inline constexpr std::uint64_t kDecimationBytesPerFace =
     per_face(kPairedTreeBytesPerFace, 10 * sizeof(float) + 3 * sizeof(std::uint32_t)) + 4;
 inline constexpr std::uint64_t kBytesPerFace = kMeshBytesPerFace + kDecimationBytesPerFace;
-static_assert(kBytesPerFace == 85, "docs/memory.md has this number");
+static_assert(kBytesPerFace == 85, "docs/explanation/memory.md has this number");
 
 /// The mesh while it is sorted or decimated, as a whole or in tiles (93 bytes a face), with free places in between.
 inline constexpr std::uint64_t kWorkBytesPerFace = 100;

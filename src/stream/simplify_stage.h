@@ -1,5 +1,5 @@
-// Merges the chunks into the model, keeps it within the budget and brings it to the target (docs/tiles.md, "The second
-// stage").
+// Merges the chunks into the model, keeps it within the budget and brings it to the target (docs/explanation/tiles.md,
+// "The second stage").
 #pragma once
 
 #include "regionmesh/simplify.h"

@@ -22,7 +22,7 @@ SmoothOptions smooth_options(const ReconstructOptions& options, double scale);
 /// for one out of bounds.
 double section_scale(const VolumeInfo& volume, const ReconstructOptions& options);
 
-/// The lowest quality of the faces that decimation changes (docs/decimate.md, "Sections far apart").
+/// The lowest quality of the faces that decimation changes (docs/explanation/decimate.md, "Sections far apart").
 double quality_bound(const ReconstructOptions& options, const SourceShape& shape);
 
 /// Without a target.

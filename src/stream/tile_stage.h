@@ -1,4 +1,4 @@
-// Decimates each chunk in tiles, before it is merged (docs/tiles.md, "The first stage").
+// Decimates each chunk in tiles, before it is merged (docs/explanation/tiles.md, "The first stage").
 #pragma once
 
 #include "stream/gatherer.h"

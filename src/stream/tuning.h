@@ -13,7 +13,7 @@ namespace regionmesh::stream {
 /// 2.3 million samples a section there is no difference.
 inline constexpr std::uint64_t kFewestReadAhead = 1u << 18;
 
-// The budget (docs/memory.md, "The plan").
+// The budget (docs/explanation/memory.md, "The plan").
 
 /// Chunks are not shortened below this number of strips: nearly all vertices of their tiles would be locked.
 inline constexpr std::uint32_t kFewestStrips = 4;
@@ -41,7 +41,7 @@ inline constexpr std::uint32_t kExtraStrips = 8;
 /// --preserve-volume moves vertices after decimation: decimation keeps faces above --min-quality by this factor.
 inline constexpr double kQualityMargin = 1.1;
 
-// Tetrahedra (docs/unstructured.md).
+// Tetrahedra (docs/explanation/unstructured.md).
 
 /// Share of --memory for each external sort, and the most that makes it faster.
 inline constexpr std::uint64_t kSortShare = 8, kMostSortBytes = std::uint64_t{256} << 20;

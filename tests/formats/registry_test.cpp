@@ -21,7 +21,7 @@ Words words_of(const std::string& text) {
 }
 
 std::string text_of_docs() {
-    std::ifstream stream(test::source_folder() + "/docs/files.md");
+    std::ifstream stream(test::source_folder() + "/docs/reference/files.md");
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 

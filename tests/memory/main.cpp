@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-/// The promise of a plan (docs/memory.md).
+/// The promise of a plan (docs/explanation/memory.md).
 constexpr double kTolerance = 0.10;
 constexpr double kBudgets[] = {1, 1.1, 1.3, 1.7, 2.5};  // times the least
 const Words kOptions[] = {

@@ -1,7 +1,7 @@
 // Measures of regions, faces and vertices of a loaded model, in the unit of the file.
 import { areaVector } from "./geometry.js";
 
-/** Quality Q of a face (docs/decimate.md): 0.26 for an equilateral face, 0 for a degenerate one. */
+/** Quality Q of a face (docs/explanation/decimate.md): 0.26 for an equilateral face, 0 for a degenerate one. */
 export function faceQuality(positions, a, b, c) {
     const area = Math.hypot(...areaVector(positions, a, b, c)) / 2;
     const distance = (i, j) =>

@@ -1,4 +1,4 @@
-// The openers of volume formats, each in its own file; registry.cpp has their rows, docs/files.md what they read.
+// The openers of volume formats, each in its own file; rows: registry.cpp; what they read: docs/reference/files.md.
 #pragma once
 
 #include <filesystem>

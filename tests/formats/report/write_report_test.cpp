@@ -50,7 +50,7 @@ TEST(ReportJson, has_all_keys_and_no_others) {
     EXPECT_THAT(keys_of(json["verdicts"]), testing::ElementsAre("accepted", "strata", "link", "fold", "quality",
                                                                 "pinch", "error", "samples", "intersect"));
     EXPECT_EQ(json["violation_counts"].size(), std::size_t{kViolationKindCount});
-    std::ifstream page(test::source_folder() + "/docs/report.md");
+    std::ifstream page(test::source_folder() + "/docs/reference/report.md");
     const std::string docs(std::istreambuf_iterator<char>(page), {});
     for (const Json& part :
          {json, json["quality"], json["regions"][0], json["verdicts"], json["smoothing"], json["smoothed_lines"]})
