@@ -193,7 +193,7 @@ def write(page, results):
     page.paragraph("*Volume*: change in percent. *Steps left*: spread of the vertices about 45-degree slopes against that before. *Edges\n"
                    "lost*: what edges beside the chamfers lose, in samples. *Turning*: mean angle between consecutive edges of triple\n"
                    "lines, in degrees. *Turned, low, crossing*: faces or pairs that the filter alone would have spoilt, and the guard took\n"
-                   "back. [Smooth](../../docs/explanation/smoothing.md) says how and discusses each figure.")
+                   "back. [Smoothing](../../docs/explanation/smoothing.md) says how.")
     for name, one in results.items():
         page.picture(f"{WORDS[name]}: five ways of smoothing", f"smoothing-{name}.png", f"{WORDS[name]}; {one['faces']} faces.")
         page.table(one["table"])

@@ -1,4 +1,4 @@
-"""Tables of docs/how-to/smooth.md, from the results."""
+"""The page bench/results/presets.md, from the results."""
 import io
 import pathlib
 import sys
@@ -47,5 +47,28 @@ def of_samples(results):
     return table(rows)
 
 
-def of(results):
-    return {"presets": of_presets(results), "rooms": of_rooms(results), "samples": of_samples(results)}
+PAGE = """\
+# Presets of smoothing, measured
+
+Written by `bench/pictures/run --data FOLDER`; [which to choose](../../docs/how-to/smooth.md) has the pictures.
+
+{presets}
+*One run each. Processor seconds are those of the whole process, summed over both cores of a shared machine. Samples wrong:
+samples that do not lie in the region of their label; drill holes have no lattice. Quality: 0.26 is equilateral. Turning is the
+mean angle between consecutive edges of triple lines. AAL is decimated, the others are not.*
+
+## Room
+
+{rooms}
+*AAL, `--reduce 90%`. Of all: share of the samples. Area: of all interfaces together.*
+
+## What keeping samples costs
+
+{samples}
+*Smoothed by default, then decimated. "Faces kept" is the share of faces that is left: where it is above the target, every
+further collapse is refused. Dice: mean overlap of the regions with their labels, with `--no-keep-samples`.*
+"""
+
+
+def page_of(results):
+    return PAGE.format(presets=of_presets(results), rooms=of_rooms(results), samples=of_samples(results))

@@ -14,7 +14,7 @@ namespace regionmesh {
 enum class SmoothFilter {
     kAuto,       // kLattice for sections, kTaubin for all else
     kLattice,    // of sections: inside the simplices of the lattice, keeps every sample
-                 // (docs/explanation/lattice-smoothing.md)
+                 // (docs/explanation/smoothing.md)
     kTaubin,     // passes with lambda and mu in turn (Taubin 1995; P 2.3): roughly preserves volumes
     kLaplacian,  // passes with lambda (P eq. 2): shrinks
     kNifpms,     // one pass onto the tangent planes nearby (Jones, Durand, Desbrun 2003): keeps features

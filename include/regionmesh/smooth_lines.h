@@ -38,7 +38,7 @@ struct SmoothLinesResult {
 
 /// Moves the vertices of lines (edges between three regions, or between two on a side of the box), and of points where
 /// four meet, to where the lines turn least: each toward the least sum of squared turns over lengths, a discrete
-/// bending energy, and of a small share of its squared distance from where it was (docs/explanation/smooth-lines.md).
+/// bending energy, and of a small share of its squared distance from where it was (docs/explanation/smoothing.md).
 /// Each step passes the tests of a collapse (fold, quality, pinch, intersect, and samples where a lattice is given): no
 /// violation is added, strata stay, and vertices stay on their sides of the box; those on its edges do not move.
 /// Deterministic. Requires that every vertex that is not fixed has all its faces in the mesh. Throws like simplify().

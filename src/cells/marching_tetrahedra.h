@@ -37,7 +37,7 @@ struct CasePatch {
 enum class QuadCuts {
     kBestQuality,  // the better worst quality at unit spacing
     kCones,  // all faces of a tetrahedron or triangle share one vertex: they stay embedded wherever vertices go in
-             // their simplices (docs/explanation/lattice-smoothing.md)
+             // their simplices (docs/explanation/smoothing.md)
 };
 
 /// The vertex of a quad, 0 or 1, whose diagonal gives the higher minimum quality; 0 in a draw.

@@ -17,7 +17,7 @@
 namespace regionmesh {
 namespace {
 
-/// Weight of the squared distance from where a vertex was (docs/explanation/smooth-lines.md): waves shorter than 2 pi
+/// Weight of the squared distance from where a vertex was (docs/explanation/smoothing.md): waves shorter than 2 pi
 /// over its fourth root, eleven times the scale, go. Foams hardly change from 0.01 to 0.2.
 constexpr double kKeep = 0.1;
 

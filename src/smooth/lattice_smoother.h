@@ -15,7 +15,7 @@ namespace regionmesh {
 std::array<std::uint32_t, 3> lattice_reach(const SmoothOptions& options, const LatticeFrame& frame);
 
 /// New positions of the vertices of a reconstruction, each strictly inside its lattice simplex: see
-/// docs/explanation/lattice-smoothing.md. Requires a surface made by StripMesher with QuadCuts::kCones: other cuts can
+/// docs/explanation/smoothing.md. Requires a surface made by StripMesher with QuadCuts::kCones: other cuts can
 /// cross. The sites of a chunk are made, their normals averaged, the levels refined, the vertices placed and the lines
 /// swept, each as soon as the chunks that follow have come as far as it reads. Whether the surface comes in chunks or
 /// as one gives the same positions, bit for bit. Each array holds the chunks between the first stage that writes it and

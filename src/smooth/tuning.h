@@ -18,13 +18,13 @@ inline constexpr std::uint8_t kResolveStep = 2;
 /// Without --min-quality, faces still may not become needles whose normal is lost in rounding.
 inline constexpr double kLeastQuality = 1e-4;
 
-// Reach along the sweep, in units of the larger of scale and chunk thickness (docs/explanation/smoothing.md,
-// "Holding"). A vertex that would go farther is stopped and counted; no run of docs/explanation/smoothing.md has one.
+// Reach along the sweep, in units of the larger of scale and chunk thickness (docs/explanation/smoothing.md, "The
+// window of strips"). A vertex that would go farther is stopped and counted; no measured run has one.
 
 /// One unit, and one more per this number of passes.
 inline constexpr double kTaubinPassesPerUnit = 20, kLaplacianPassesPerUnit = 10;
 
-// The lattice filter (smooth/lattice_smoother.h; docs/explanation/lattice-smoothing.md, "Measured").
+// The lattice filter (smooth/lattice_smoother.h; docs/explanation/smoothing.md, "Which positions").
 
 /// Least weight of a node of a vertex's simplex: below 1/4.
 inline constexpr double kLatticeMargin = 0.01;
@@ -41,8 +41,8 @@ inline constexpr double kSmallestBlock = 2, kLargestBlock = 8, kLargestBlockAnis
 /// From this ratio of coarsest to finest spacing: less than 2, which many volumes have up to the rounding of a header.
 inline constexpr double kAnisotropic = 1.9;
 
-// Volumes (smooth/preserve_volume.cpp; docs/explanation/smoothing.md, "Volumes": IN100 needs 8 rounds, decimated to a
-// tenth 5).
+// Volumes (smooth/preserve_volume.cpp; docs/explanation/smoothing.md, "Volumes"): IN100 needs
+// 8 rounds, decimated to a tenth 5.
 
 inline constexpr std::uint32_t kMostVolumeRounds = 30;
 /// Relative drift at which another round gains nothing.
