@@ -1,4 +1,4 @@
-"""The tables of docs/how-to/boreholes.md, from what was measured."""
+"""The page bench/results/boreholes.md, from what was measured."""
 import io
 import pathlib
 import sys
@@ -57,15 +57,60 @@ def memory(results):
     return rows
 
 
-def of(results):
-    """Each with the name that the page marks it by."""
-    texts = {}
-    for name, rows in (("spacing", spacing(results["spacing"])), ("choices", choices(results["choices"])),
-                       ("models", models(results["sites"] | results["worlds"])), ("memory", memory(results["memory"]))):
-        page = Page(io.StringIO(), None)
-        page.table(rows)
-        texts[name] = page.file.getvalue().rstrip() + "\n"
+PAGE = """\
+# Drill holes and scattered points, measured
+
+Written by `bench/boreholes/run --data FOLDER`; [drill holes](../../docs/how-to/boreholes.md) says how to choose options.
+
+## How far apart points are
+
+{spacing}
+## Options
+
+{choices}
+*Kim's wells, neither smoothed nor decimated unless stated. After: the faces that `--reduce 90%` or the given share leaves. As logged:
+the share of the length of all holes that lies in the region given by the table, sampled each 10 m.*
+
+## Models
+
+{models}
+{machine}
+*Utrecht and Kim with half of the faces, the others, of a million points, with a tenth; 20 passes of smoothing unless stated. Strata:
+eight folded layers, a fault, lenses and an intrusion. As logged: of scattered points, the share that lies in the region of its label.
+Peaks are largest resident sizes, of regionmesh and of regionmesh-delaunay, which ends before faces are made.*
+
+![Formations below Utrecht as layers, cut open](../../docs/pictures/boreholes-formations.png)
+
+*The formations below Utrecht as layers (`--layers auto --box :,:,-150:`), heights exaggerated 4 times.*
+
+![The top of the Vedder, with all faces and with fewer](../../docs/pictures/boreholes-decimated.png)
+
+*The top of Kim's Vedder formation (`--step 100 --scale-z 22`), with all faces and with 30 % of them.*
+
+![Utrecht, all of it and the uppermost metres, cut open](../../docs/pictures/boreholes-utrecht.png)
+
+*67 holes on 1.8 by 1.2 km, three quarters of them shallower than 10 m, three deeper than 260 m; half of the faces.*
+
+![A million points: at random, and with some on the sides of the box](../../docs/pictures/boreholes-strata.png)
+
+*The strata with a tenth of the faces: points at random, and with a tenth of them on the sides of the box.*
+
+## Memory
+
+{memory}
+*The strata, `--smooth 0`.*
+"""
+
+
+def text_of(rows):
+    page = Page(io.StringIO(), None)
+    page.table(rows)
+    return page.file.getvalue().rstrip() + "\n"
+
+
+def page_of(results):
     page = Page(io.StringIO(), None)
     page.paragraph(f"Rough figures: seconds of the whole run, medians of three, on {results['machine']} that others used, too.")
-    texts["machine"] = page.file.getvalue().rstrip() + "\n"
-    return texts
+    return PAGE.format(spacing=text_of(spacing(results["spacing"])), choices=text_of(choices(results["choices"])),
+                       models=text_of(models(results["sites"] | results["worlds"])), memory=text_of(memory(results["memory"])),
+                       machine=page.file.getvalue().rstrip() + "\n")
