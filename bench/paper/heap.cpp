@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "simplify/edge_heap.h"
+#include "simplify/rank/edge_heap.h"
 
 using namespace regionmesh;
 

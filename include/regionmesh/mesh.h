@@ -54,7 +54,7 @@ struct Vertex {
     bool is_fixed : 1 =
         false;  // locked: neither moved nor removed, because some of its faces are elsewhere (rim, front)
     bool is_alive : 1 = true;
-    std::uint8_t label_count : 5 = 0;  // of its stratum; valid while simplifying (src/simplify/candidates.h)
+    std::uint8_t label_count : 5 = 0;  // of its stratum; valid while simplifying (src/simplify/rank/candidates.h)
     std::uint32_t bound_bits : 17 = 0;
 
     /// How far the faces round it may be from the surface that decimation was given, and that from them: a length at

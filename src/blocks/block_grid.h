@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "regionmesh/lattice.h"
-#include "simplify/tile_grid.h"
+#include "simplify/tiles/tile_grid.h"
 
 namespace regionmesh {
 

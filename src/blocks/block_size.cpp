@@ -10,7 +10,7 @@
 #include "blocks/own_faces.h"
 #include "cells/strip_mesher.h"
 #include "regionmesh/error.h"
-#include "smooth/filter.h"
+#include "smooth/filters/filter.h"
 #include "stream/footprint.h"
 
 namespace regionmesh {

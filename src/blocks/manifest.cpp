@@ -10,10 +10,10 @@
 #include "formats/report/json_parts.h"
 #include "formats/text/header_text.h"
 #include "formats/text/json_text.h"
-#include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "stream/section_faces.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "blocks/gather.h"
 #include "regionmesh/error.h"
-#include "smooth/lattice_smoother.h"
+#include "smooth/lattice/lattice_smoother.h"
 #include "stream/stage_options.h"
 
 namespace regionmesh {

@@ -6,9 +6,9 @@
 
 #include "regionmesh/limits.h"
 #include "simplify/collapse_edges.h"
-#include "simplify/mesh_chunk.h"
-#include "simplify/simplify_tiles.h"
-#include "simplify/threshold_passes.h"
+#include "simplify/tiles/mesh_chunk.h"
+#include "simplify/tiles/simplify_tiles.h"
+#include "simplify/tiles/threshold_passes.h"
 
 namespace regionmesh {
 namespace {

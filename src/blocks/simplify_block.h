@@ -6,11 +6,11 @@
 
 #include "blocks/block_grid.h"
 #include "blocks/piece.h"
-#include "mesh/chunk.h"
 #include "regionmesh/simplify.h"
 #include "simplify/collapse_log.h"
 #include "simplify/tuning.h"
 #include "stream/target.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

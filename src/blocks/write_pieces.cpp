@@ -6,10 +6,10 @@
 #include "blocks/piece_mesh.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/xml_text.h"
-#include "mesh/region_colours.h"
 #include "regionmesh/blocks.h"
 #include "regionmesh/census.h"
 #include "regionmesh/write_report.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 

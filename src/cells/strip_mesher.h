@@ -10,9 +10,9 @@
 #include "cells/compact_cells.h"
 #include "cells/marching_tetrahedra.h"
 #include "cells/mixed_cells.h"
-#include "mesh/chunk.h"
 #include "regionmesh/label.h"
 #include "regionmesh/lattice.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

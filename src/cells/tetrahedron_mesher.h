@@ -11,8 +11,8 @@
 #include "cells/marching_tetrahedra.h"
 #include "cells/ranked_tetrahedra.h"
 #include "cells/strip_mesher.h"
-#include "mesh/chunk.h"
 #include "regionmesh/label_oracle.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

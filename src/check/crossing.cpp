@@ -1,9 +1,8 @@
 // Faces that meet outside shared vertices and edges, exactly (P test 6, for the whole mesh).
-#include "mesh/crossing.h"
-
 #include <algorithm>
 
 #include "check/check_steps.h"
+#include "check/crossing_faces.h"
 
 namespace regionmesh {
 

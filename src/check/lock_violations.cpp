@@ -3,8 +3,8 @@
 #include "base/exact_predicates.h"
 #include "base/parallel_for.h"
 #include "check/check_steps.h"
+#include "check/crossing_faces.h"
 #include "check/generic_star.h"
-#include "mesh/crossing.h"
 #include "regionmesh/check.h"
 
 namespace regionmesh {

@@ -9,7 +9,7 @@
 #include "compare/model_side.h"
 #include "compare/nearest_search.h"
 #include "compare/statistics.h"
-#include "mesh/file_view.h"
+#include "surface/file_view.h"
 
 namespace regionmesh {
 namespace {

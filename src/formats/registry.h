@@ -12,12 +12,12 @@
 #include "formats/images/image_formats.h"
 #include "formats/surface/file_surface.h"
 #include "formats/surface/mesh_formats.h"
-#include "mesh/file_view.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/read_layers.h"
 #include "regionmesh/read_sections.h"
 #include "regionmesh/read_tetrahedra.h"
+#include "surface/file_view.h"
 
 namespace regionmesh::formats {
 

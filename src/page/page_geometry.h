@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/file_view.h"
+#include "surface/file_view.h"
 
 namespace regionmesh {
 

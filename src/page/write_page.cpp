@@ -10,7 +10,6 @@
 
 #include "formats/codec/base64.h"
 #include "formats/report/json_parts.h"
-#include "mesh/region_colours.h"
 #include "page/page_geometry.h"
 #include "page/page_template.h"
 #include "regionmesh/box_axes.h"
@@ -21,6 +20,7 @@
 #include "regionmesh/page.h"
 #include "regionmesh/simplify.h"
 #include "regionmesh/write_report.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

@@ -12,8 +12,8 @@
 #include "regionmesh/mesh.h"
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
-#include "simplify/mesh_chunk.h"
-#include "simplify/threshold_passes.h"
+#include "simplify/tiles/mesh_chunk.h"
+#include "simplify/tiles/threshold_passes.h"
 
 namespace regionmesh {
 namespace {

@@ -11,7 +11,7 @@
 #include "mesh/strata.h"
 #include "regionmesh/box_axes.h"
 #include "simplify/error_bound.h"
-#include "simplify/try_together.h"
+#include "simplify/rank/try_together.h"
 #include "simplify/verdict/verdicts.h"
 
 namespace regionmesh {

@@ -66,8 +66,9 @@ inline constexpr double kSameRank = 1.0001;
 /// 1.5 times as many as have to go; rms 0.00058 in exact order and in sweeps of 0.5 to 1 times as many.
 inline constexpr std::uint32_t kLeastSweepPart = 1024, kMostSweepPart = 8;
 
-/// Such a sweep has at most so many stripes, and at least so many candidates in each (src/simplify/try_together.h).
-/// With 128 stripes the trim of that head takes half as long again on one thread, and is no faster on two.
+/// Such a sweep has at most so many stripes, and at least so many candidates in each
+/// (src/simplify/rank/try_together.h). With 128 stripes the trim of that head takes half as long again on one thread,
+/// and is no faster on two.
 inline constexpr std::uint32_t kMostStripes = 32, kLeastOfStripe = 32;
 
 // --- Prepass ---------------------------------------------------------------------------------------------------------

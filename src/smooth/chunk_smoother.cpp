@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/region_volumes.h"
-#include "smooth/lattice_smoother.h"
+#include "smooth/lattice/lattice_smoother.h"
 #include "smooth/smoother.h"
 
 namespace regionmesh {

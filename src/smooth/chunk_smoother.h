@@ -6,7 +6,7 @@
 #include <span>
 
 #include "regionmesh/smooth.h"
-#include "smooth/filter.h"
+#include "smooth/filters/filter.h"
 #include "smooth/surface_window.h"
 
 namespace regionmesh {

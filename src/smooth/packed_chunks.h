@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/packed_numbers.h"
-#include "mesh/chunk.h"
-#include "smooth/lattice_simplex.h"
+#include "smooth/lattice/lattice_simplex.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

@@ -11,9 +11,9 @@
 #include "regionmesh/mesh.h"
 #include "regionmesh/smooth.h"
 #include "smooth/chunk_smoother.h"
-#include "smooth/guarded_move.h"
+#include "smooth/filters/guarded_move.h"
+#include "smooth/filters/relax.h"
 #include "smooth/region_matrix.h"
-#include "smooth/relax.h"
 #include "smooth/tuning.h"
 
 namespace regionmesh {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "regionmesh/smooth.h"
-#include "smooth/backtrack.h"
 #include "smooth/chunk_smoother.h"
-#include "smooth/filter.h"
-#include "smooth/intersection_resolver.h"
-#include "smooth/neighbours.h"
+#include "smooth/filters/backtrack.h"
+#include "smooth/filters/filter.h"
+#include "smooth/filters/intersection_resolver.h"
+#include "smooth/filters/neighbours.h"
 
 namespace regionmesh {
 

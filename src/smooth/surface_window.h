@@ -6,8 +6,8 @@
 
 #include "base/sliding_array.h"
 #include "base/sliding_lists.h"
-#include "mesh/chunk.h"
 #include "regionmesh/mesh.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

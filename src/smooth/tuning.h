@@ -5,7 +5,7 @@
 
 namespace regionmesh::smoothing {
 
-// Backtracking (smooth/backtrack.h, docs/explanation/smoothing.md, "The guard").
+// Backtracking (smooth/filters/backtrack.h, docs/explanation/smoothing.md, "The guard").
 
 /// The way from a vertex's smoothed position back to its origin is divided into this number of steps.
 inline constexpr std::uint8_t kFullBacktrack = 8;
@@ -24,7 +24,7 @@ inline constexpr double kLeastQuality = 1e-4;
 /// One unit, and one more per this number of passes.
 inline constexpr double kTaubinPassesPerUnit = 20, kLaplacianPassesPerUnit = 10;
 
-// The lattice filter (smooth/lattice_smoother.h; docs/explanation/smoothing.md, "Which positions").
+// The lattice filter (smooth/lattice/lattice_smoother.h; docs/explanation/smoothing.md, "Which positions").
 
 /// Least weight of a node of a vertex's simplex: below 1/4.
 inline constexpr double kLatticeMargin = 0.01;

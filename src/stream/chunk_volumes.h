@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "mesh/chunk.h"
 #include "mesh/region_volumes.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "mesh/chunk.h"
 #include "regionmesh/label_oracle.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/lattice.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/voxelise.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "mesh/chunk.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/section_reader.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "mesh/chunk.h"
 #include "mesh/safe_interval.h"
 #include "stream/run_log.h"
 #include "stream/strips.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/chunk.h"
 #include "regionmesh/mesh.h"
-#include "simplify/mesh_chunk.h"
+#include "simplify/tiles/mesh_chunk.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

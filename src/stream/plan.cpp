@@ -5,8 +5,8 @@
 
 #include "base/megabytes.h"
 #include "regionmesh/error.h"
-#include "simplify/simplify_tiles.h"
-#include "smooth/filter.h"
+#include "simplify/tiles/simplify_tiles.h"
+#include "smooth/filters/filter.h"
 #include "stream/footprint.h"
 #include "stream/tuning.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "regionmesh/reconstruct.h"
-#include "simplify/tiles.h"
+#include "simplify/tiles/tiles.h"
 #include "stream/budget.h"
 #include "stream/face_source.h"
 #include "stream/target.h"

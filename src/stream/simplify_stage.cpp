@@ -6,7 +6,7 @@
 
 #include "simplify/collapse_edges.h"
 #include "simplify/error_bound.h"
-#include "simplify/threshold_passes.h"
+#include "simplify/tiles/threshold_passes.h"
 #include "stream/footprint.h"
 #include "stream/stage_options.h"
 #include "stream/tuning.h"

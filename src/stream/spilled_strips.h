@@ -7,7 +7,7 @@
 #include "base/external_sort.h"
 #include "base/temporary_file.h"
 #include "cells/tetrahedron_mesher.h"
-#include "mesh/chunk.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

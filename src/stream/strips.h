@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
-#include "mesh/chunk.h"
 #include "smooth/chunk_smoother.h"
 #include "stream/face_source.h"
 #include "stream/run_log.h"
+#include "surface/chunk.h"
 
 namespace regionmesh {
 

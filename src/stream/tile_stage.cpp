@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "simplify/coarsen_caps.h"
+#include "simplify/tiles/coarsen_caps.h"
 #include "simplify/tuning.h"
 #include "stream/stage_options.h"
 

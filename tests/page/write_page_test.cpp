@@ -9,11 +9,11 @@
 #include <string>
 
 #include "formats/temporary_folder.h"
-#include "mesh/region_colours.h"
 #include "page/page_geometry.h"
 #include "regionmesh/formats.h"
 #include "regionmesh/regionmesh.h"
 #include "support/volumes.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

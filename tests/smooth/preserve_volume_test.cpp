@@ -9,7 +9,7 @@
 #include "mesh/alive.h"
 #include "mesh/region_volumes.h"
 #include "regionmesh/smooth.h"
-#include "smooth/guarded_move.h"
+#include "smooth/filters/guarded_move.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"

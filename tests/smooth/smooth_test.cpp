@@ -7,7 +7,7 @@
 
 #include "mesh/strata.h"
 #include "regionmesh/simplify.h"
-#include "smooth/relax.h"
+#include "smooth/filters/relax.h"
 #include "support/digest.h"
 #include "support/runs.h"
 #include "support/shapes.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simplify/coarsen_caps.h"
+#include "simplify/tiles/coarsen_caps.h"
 #include "stream/section_faces.h"
 #include "support/runs.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exact_predicates.h"
-#include "mesh/crossing.h"
+#include "check/crossing_faces.h"
 #include "regionmesh/check.h"
 
 namespace regionmesh::test {

@@ -7,7 +7,7 @@
 
 #include "base/hash.h"
 #include "regionmesh/mesh.h"
-#include "smooth/neighbours.h"
+#include "smooth/filters/neighbours.h"
 #include "smooth/surface_window.h"
 
 namespace regionmesh::test {

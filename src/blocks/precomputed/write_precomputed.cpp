@@ -7,10 +7,10 @@
 #include <string>
 
 #include "blocks/precomputed/precomputed.h"
-#include "mesh/region_colours.h"
 #include "regionmesh/census.h"
 #include "regionmesh/error.h"
 #include "regionmesh/write_report.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

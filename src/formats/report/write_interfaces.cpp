@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "formats/report/csv_cell.h"
-#include "formats/report/edge_measures.h"
 #include "regionmesh/write_report.h"
+#include "surface/edge_measures.h"
 
 namespace regionmesh {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "formats/report/csv_cell.h"
-#include "formats/report/edge_measures.h"
-#include "mesh/file_view.h"
 #include "regionmesh/write_report.h"
+#include "surface/edge_measures.h"
+#include "surface/file_view.h"
 
 namespace regionmesh {
 namespace {

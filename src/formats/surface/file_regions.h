@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/file_view.h"
+#include "surface/file_view.h"
 
 namespace regionmesh {
 

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "formats/codec/byte_reader.h"
-#include "mesh/assemble.h"
 #include "regionmesh/label.h"
 #include "regionmesh/label_names.h"
 #include "regionmesh/lattice.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/vec3.h"
+#include "surface/assemble.h"
 
 namespace regionmesh {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "formats/surface/file_surface.h"
-#include "mesh/file_view.h"
 #include "regionmesh/label.h"
 #include "regionmesh/label_table.h"
 #include "regionmesh/mesh.h"
 #include "regionmesh/mesh_file.h"
 #include "regionmesh/output_file.h"
 #include "regionmesh/vec3.h"
+#include "surface/file_view.h"
 
 namespace regionmesh {
 

@@ -12,10 +12,10 @@
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
 #include "formats/text/natural_order.h"
-#include "mesh/assemble.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/write_report.h"
+#include "surface/assemble.h"
 
 namespace regionmesh {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "formats/surface/file_regions.h"
-#include "mesh/bodies.h"
-#include "mesh/file_view.h"
+#include "surface/bodies.h"
+#include "surface/file_view.h"
 
 namespace regionmesh {
 

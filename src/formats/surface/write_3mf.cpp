@@ -14,9 +14,9 @@
 #include "formats/surface/mesh_formats.h"
 #include "formats/surface/zip_file_3mf.h"
 #include "formats/text/xml_text.h"
-#include "mesh/region_colours.h"
-#include "mesh/shells.h"
 #include "regionmesh/error.h"
+#include "surface/region_colours.h"
+#include "surface/shells.h"
 
 namespace regionmesh {
 namespace {

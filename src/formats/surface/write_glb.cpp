@@ -13,8 +13,8 @@
 #include "formats/surface/file_regions.h"
 #include "formats/surface/mesh_formats.h"
 #include "mesh/extent.h"
-#include "mesh/region_colours.h"
 #include "regionmesh/error.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

@@ -17,10 +17,10 @@
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/header_text.h"
 #include "mesh/edge_rounding.h"
-#include "mesh/region_colours.h"
 #include "regionmesh/error.h"
 #include "regionmesh/limits.h"
 #include "regionmesh/mesh_file.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

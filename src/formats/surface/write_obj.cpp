@@ -13,7 +13,7 @@
 #include "formats/surface/file_surface.h"
 #include "formats/surface/mesh_formats.h"
 #include "formats/text/text_writer.h"
-#include "mesh/region_colours.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

@@ -6,7 +6,7 @@
 #include "formats/codec/number_writer.h"
 #include "formats/surface/file_surface.h"
 #include "formats/surface/mesh_formats.h"
-#include "mesh/region_colours.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

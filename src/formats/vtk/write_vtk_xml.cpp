@@ -18,8 +18,8 @@
 #include "base/parallel_for.h"
 #include "formats/codec/base64.h"
 #include "formats/surface/mesh_formats.h"
-#include "mesh/region_colours.h"
 #include "regionmesh/output_file.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

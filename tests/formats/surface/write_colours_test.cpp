@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/surface/written_meshes.h"
-#include "mesh/region_colours.h"
+#include "surface/region_colours.h"
 
 namespace regionmesh {
 namespace {

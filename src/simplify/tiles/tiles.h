@@ -1,0 +1,32 @@
+// The first stage: the tiles of a chunk, before they join the mesh.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "mesh/safe_interval.h"
+#include "regionmesh/lattice.h"
+#include "simplify/tiles/simplify_tiles.h"
+#include "surface/chunk.h"
+
+namespace regionmesh {
+
+/// How a volume is cut into tiles: from its size only, so that nothing else changes the result.
+struct TilePlan {
+    Lattice lattice;  // whose origin and spacing made the positions
+    Sweep sweep;
+    std::uint32_t chunk_strips;                        // strips of a chunk, and length of its tiles along the sweep
+    std::uint32_t tile_cells;                          // width of a tile along the other two axes
+    bool is_bounded = true;                            // false: vertices may move beyond the lattice
+    std::array<std::uint32_t, 3> first_cell{0, 0, 0};  // of a block; the origin is that of the whole volume
+};
+TilePlan plan_tiles(const Lattice& lattice, Sweep sweep);
+
+/// Simplifies a chunk tile by tile, up to the threshold of the options. Locked vertices and faces
+/// outside the safe interval stay as they are (TiledFaces); a tile's merged vertices stay strictly inside it, so
+/// that the changes of two tiles cannot meet. `carried` are the chunk's carried vertices. The order of tiles, vertices
+/// and faces depends on the chunk only.
+TileResult simplify_chunk(const Chunk& chunk, std::span<const ChunkVertex> carried, SafeInterval safe,
+                          const TilePlan& plan, const TileOptions& options);
+
+}  // namespace regionmesh
