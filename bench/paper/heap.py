@@ -85,7 +85,7 @@ def write(page, results):
                    f"less for its largest slab. Here it is N^{slope['0']:.2f} without and N^{slope['1e-7']:.2f} with (above 20,000 faces, in\n"
                    f"core), and without takes {worst:.2f} times as long at most: the pathology is gone, and the perturbation is of no use to\n"
                    "speed. Two things make it so.")
-    page.paragraph("- The heap is an array with four children a place ([edge_heap.h](../src/simplify/edge_heap.h)). An entry goes up\n"
+    page.paragraph("- The heap is an array with four children an entry ([edge_heap.h](../../src/simplify/rank/edge_heap.h)). An entry goes up\n"
                    "  or down along one path, at most log4(N) places, whatever the costs are; equal ones stop it sooner. And no two\n"
                    "  entries are equal: ties go to the lower vertex. The right plot sends edges through the heap alone: of 16 million, an\n"
                    f"  equal cost takes {of('equal', COUNTS[-1]):.0f} ns an edge, a random one {of('random', COUNTS[-1]):.0f}. What grows with N^2\n"

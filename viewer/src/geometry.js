@@ -1,4 +1,4 @@
-// The geometry of a page: bytes to arrays (docs/how-to/page.md gives the layout), and the surfaces of regions.
+// The geometry of a page: bytes to arrays (viewer/README.md gives the layout), and the surfaces of regions.
 import { unpack } from "./unpack.js";
 
 /** Successive differences, low bytes then high bytes, into every `stride`th place of `numbers`. */
